@@ -1,0 +1,254 @@
+"""The free-standing block: its critical angle, pole distance, inertia and rigid-body restitution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import atan2, cos, hypot, pi, sin, sqrt
+
+STANDARD_GRAVITY = 9.81
+"""Default gravity of a campaign, m/s²; a laboratory's own value may be given."""
+
+Sided = float | tuple[float, float]
+"""One value for both sides, or a pair (for θ < 0, for θ > 0)."""
+
+
+@dataclass(frozen=True)
+class Side:
+    """
+    The block as it rocks about one edge of its base.
+
+    Attributes
+    ----------
+    critical_angle : float
+        α, rad: the rotation that brings the centre of mass above the pole.
+    pole_distance : float
+        R, m, from the pole to the centre of mass.
+    inertia : float
+        I₀, kg m², about the pole.
+    """
+
+    critical_angle: float
+    pole_distance: float
+    inertia: float
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if not value > 0.0:
+                raise ValueError(f"{name} is {value}; a positive number was expected")
+        if not self.critical_angle < pi / 2:
+            raise ValueError(f"critical_angle is {self.critical_angle} rad; an angle below π/2 was expected")
+
+    @property
+    def half_width(self) -> float:
+        """Distance b = R sin α of the pole from the vertical through the centre of mass, m."""
+        return self.pole_distance * sin(self.critical_angle)
+
+
+@dataclass(frozen=True)
+class Block:
+    """
+    A rigid block that rocks in the plane x–z about the two edges of its base.
+
+    Attributes
+    ----------
+    mass : float
+        kg.
+    gravity : float
+        m/s².
+    negative, positive : Side
+        Rocking at θ < 0 (about the pole at −x) and at θ > 0 (about the pole at +x). Equal for a symmetric block.
+
+    Notes
+    -----
+    `critical_angle`, `pole_distance`, `inertia`, `p` and `restitution` are those of the governing side, the one with
+    the smaller critical angle; for a symmetric block both are the same.
+    """
+
+    mass: float
+    gravity: float
+    negative: Side
+    positive: Side
+
+    def __post_init__(self) -> None:
+        for name, value in (("mass", self.mass), ("gravity", self.gravity)):
+            if not value > 0.0:
+                raise ValueError(f"{name} is {value}; a positive number was expected")
+
+    @classmethod
+    def prism(cls, *, width: float, depth: float, height: float, mass: float, gravity: float = STANDARD_GRAVITY) -> Block:
+        """
+        Build a solid rectangular block of uniform density.
+
+        Parameters
+        ----------
+        width, depth, height : float
+            Along x, y, z, m. The depth does not enter plane rocking, but has to be a length.
+        mass : float
+            kg.
+        gravity : float, optional
+            m/s².
+
+        Raises
+        ------
+        ValueError
+            If a dimension, the mass or gravity is not positive.
+        """
+        _positive(width=width, depth=depth, height=height)
+        half_width, centre_height = width / 2, height / 2
+        inertia = mass * (width**2 + height**2) / 12 + mass * (half_width**2 + centre_height**2)
+        return cls._symmetric(half_width, centre_height, inertia, mass, gravity)
+
+    @classmethod
+    def cylinder(cls, *, diameter: float, height: float, mass: float, gravity: float = STANDARD_GRAVITY) -> Block:
+        """
+        Build a solid upright cylinder that rocks about its base circle; lengths in m, mass in kg.
+
+        Raises
+        ------
+        ValueError
+            If a dimension, the mass or gravity is not positive.
+        """
+        return cls.cone(base_diameter=diameter, top_diameter=diameter, height=height, mass=mass, gravity=gravity)
+
+    @classmethod
+    def cone(
+        cls, *, base_diameter: float, top_diameter: float, height: float, mass: float, gravity: float = STANDARD_GRAVITY
+    ) -> Block:
+        """
+        Build a solid truncated cone, standing on the circle of `base_diameter`; lengths in m, mass in kg.
+
+        Raises
+        ------
+        ValueError
+            If a dimension, the mass or gravity is not positive.
+
+        Notes
+        -----
+        Moments of the cross-sections are integrated over the height, where the radius changes linearly:
+        centre of mass ∫z r² / ∫r², transverse inertia about the base ∫(r⁴/4 + z² r²) / ∫r².
+        """
+        _positive(base_diameter=base_diameter, top_diameter=top_diameter, height=height)
+        base, top = base_diameter / 2, top_diameter / 2
+        area = (base**2 + base * top + top**2) / 3
+        first = height * (base**2 + 2 * base * top + 3 * top**2) / 12
+        second = height**2 * (base**2 + 3 * base * top + 6 * top**2) / 30
+        fourth = (base**4 + base**3 * top + base**2 * top**2 + base * top**3 + top**4) / 20
+        inertia = mass * ((fourth + second) / area + base**2)
+        return cls._symmetric(base, first / area, inertia, mass, gravity)
+
+    @classmethod
+    def measured(
+        cls,
+        *,
+        mass: float,
+        pole_distance: Sided,
+        critical_angle: Sided,
+        inertia: Sided,
+        gravity: float = STANDARD_GRAVITY,
+    ) -> Block:
+        """
+        Build a block of any shape from measured properties.
+
+        Parameters
+        ----------
+        mass : float
+            kg.
+        pole_distance, critical_angle, inertia : float or pair of float
+            R in m, α in rad, I₀ in kg m² about the pole; a pair is (for θ < 0, for θ > 0).
+        gravity : float, optional
+            m/s².
+
+        Raises
+        ------
+        ValueError
+            If a value is not positive or an angle is not below π/2.
+        """
+        angles, distances, inertias = pair(critical_angle), pair(pole_distance), pair(inertia)
+        sides = [Side(*values) for values in zip(angles, distances, inertias, strict=True)]
+        return cls(mass, gravity, *sides)
+
+    @classmethod
+    def _symmetric(cls, half_width: float, centre_height: float, inertia: float, mass: float, gravity: float) -> Block:
+        side = Side(atan2(half_width, centre_height), hypot(half_width, centre_height), inertia)
+        return cls(mass, gravity, side, side)
+
+    def override(
+        self,
+        *,
+        critical_angle: Sided | None = None,
+        pole_distance: Sided | None = None,
+        inertia: Sided | None = None,
+    ) -> Block:
+        """Return a block in which measured values, where given, replace the ones computed from dimensions."""
+        sides = []
+        for index, side in enumerate((self.negative, self.positive)):
+            given = {"critical_angle": critical_angle, "pole_distance": pole_distance, "inertia": inertia}
+            sides.append(replace(side, **{name: pair(value)[index] for name, value in given.items() if value is not None}))
+        return replace(self, negative=sides[0], positive=sides[1])
+
+    @property
+    def governing(self) -> Side:
+        """The side with the smaller critical angle."""
+        return min(self.negative, self.positive, key=lambda side: side.critical_angle)
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether both sides are the same."""
+        return self.negative == self.positive
+
+    @property
+    def critical_angle(self) -> float:
+        """Critical angle α of the governing side, rad."""
+        return self.governing.critical_angle
+
+    @property
+    def pole_distance(self) -> float:
+        """Pole distance R of the governing side, m."""
+        return self.governing.pole_distance
+
+    @property
+    def inertia(self) -> float:
+        """Inertia I₀ about the pole of the governing side, kg m²."""
+        return self.governing.inertia
+
+    @property
+    def p(self) -> float:
+        """Frequency parameter p = sqrt(m g R / I₀) of the governing side, rad/s."""
+        return self.side_p(self.governing)
+
+    def side_p(self, side: Side) -> float:
+        """Frequency parameter of one side, rad/s."""
+        return sqrt(self.mass * self.gravity * side.pole_distance / side.inertia)
+
+    @property
+    def restitution(self) -> float:
+        """Rigid-body coefficient of restitution without bounce, e = 1 − (2 m R b / I₀) sin α (Housner 1963)."""
+        side = self.governing
+        return 1 - 2 * self.mass * side.pole_distance * side.half_width / side.inertia * sin(side.critical_angle)
+
+    @property
+    def uplift_acceleration(self) -> float:
+        """Base acceleration g tan α above which the block starts to rock, m/s²."""
+        return self.gravity * sin(self.critical_angle) / cos(self.critical_angle)
+
+
+def pair(value: Sided) -> tuple[float, float]:
+    """
+    Spread one value to both sides, or pass a pair through.
+
+    Examples
+    --------
+    >>> pair(0.2), pair((0.2, 0.3))
+    ((0.2, 0.2), (0.2, 0.3))
+    """
+    if isinstance(value, (int, float)):
+        return float(value), float(value)
+    negative, positive = value
+    return float(negative), float(positive)
+
+
+
+def _positive(**lengths: float) -> None:
+    for name, value in lengths.items():
+        if not value > 0.0:
+            raise ValueError(f"{name} is {value} m; a positive length was expected")

@@ -1,0 +1,59 @@
+"""
+What colonnade says when it cannot go on.
+
+Every message is written for the person in the laboratory: what was found, what was expected, where, what to do.
+Each class takes the finished message as its one argument, so that it crosses process borders unchanged.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class ColonnadeError(Exception):
+    """Something that the user can mend; its text is shown without a traceback."""
+
+
+class UnitError(ColonnadeError):
+    """A quantity or unit in text that cannot be understood."""
+
+
+class CampaignError(ColonnadeError):
+    """The campaign file or the test log is not usable; one paragraph a problem."""
+
+
+class ReadError(ColonnadeError):
+    """A raw file cannot be read."""
+
+
+class StageError(ColonnadeError):
+    """A stage refuses a test; the others go on."""
+
+
+class StoreError(ColonnadeError):
+    """A result cannot be written or read back."""
+
+
+def nearest(name: str, valid: Iterable[str]) -> str:
+    """
+    Hint at the valid name closest to a mistyped one.
+
+    Returns
+    -------
+    hint : str
+        ``' Did you mean "top"?'``, or a list of what exists, or an empty string where nothing does.
+
+    Examples
+    --------
+    >>> nearest("tpo", ["top", "bottom"])
+    ' Did you mean "top"?'
+    """
+    names = [str(candidate) for candidate in valid]
+    folded = {candidate.casefold(): candidate for candidate in names}
+    close = difflib.get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.6)
+    if close:
+        return f' Did you mean "{folded[close[0]]}"?'
+    if names:
+        return " There is: " + ", ".join(f'"{candidate}"' for candidate in names[:12]) + ("…" if len(names) > 12 else "") + "."
+    return ""
