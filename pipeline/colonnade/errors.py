@@ -55,5 +55,6 @@ def nearest(name: str, valid: Iterable[str]) -> str:
     if close:
         return f' Did you mean "{folded[close[0]]}"?'
     if names:
-        return " There is: " + ", ".join(f'"{candidate}"' for candidate in names[:12]) + ("…" if len(names) > 12 else "") + "."
+        listed = ", ".join(f'"{candidate}"' for candidate in names[:12])
+        return f" There is: {listed}{'…' if len(names) > 12 else ''}."
     return ""

@@ -32,9 +32,7 @@ class Side:
     inertia: float
 
     def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            if not value > 0.0:
-                raise ValueError(f"{name} is {value}; a positive number was expected")
+        _positive(**vars(self))
         if not self.critical_angle < pi / 2:
             raise ValueError(f"critical_angle is {self.critical_angle} rad; an angle below π/2 was expected")
 
@@ -70,12 +68,12 @@ class Block:
     positive: Side
 
     def __post_init__(self) -> None:
-        for name, value in (("mass", self.mass), ("gravity", self.gravity)):
-            if not value > 0.0:
-                raise ValueError(f"{name} is {value}; a positive number was expected")
+        _positive(mass=self.mass, gravity=self.gravity)
 
     @classmethod
-    def prism(cls, *, width: float, depth: float, height: float, mass: float, gravity: float = STANDARD_GRAVITY) -> Block:
+    def prism(
+        cls, *, width: float, depth: float, height: float, mass: float, gravity: float = STANDARD_GRAVITY
+    ) -> Block:
         """
         Build a solid rectangular block of uniform density.
 
@@ -93,7 +91,7 @@ class Block:
         ValueError
             If a dimension, the mass or gravity is not positive.
         """
-        _positive(width=width, depth=depth, height=height)
+        _positive(width=width, depth=depth, height=height, mass=mass)
         half_width, centre_height = width / 2, height / 2
         inertia = mass * (width**2 + height**2) / 12 + mass * (half_width**2 + centre_height**2)
         return cls._symmetric(half_width, centre_height, inertia, mass, gravity)
@@ -127,7 +125,7 @@ class Block:
         Moments of the cross-sections are integrated over the height, where the radius changes linearly:
         centre of mass ∫z r² / ∫r², transverse inertia about the base ∫(r⁴/4 + z² r²) / ∫r².
         """
-        _positive(base_diameter=base_diameter, top_diameter=top_diameter, height=height)
+        _positive(base_diameter=base_diameter, top_diameter=top_diameter, height=height, mass=mass)
         base, top = base_diameter / 2, top_diameter / 2
         area = (base**2 + base * top + top**2) / 3
         first = height * (base**2 + 2 * base * top + 3 * top**2) / 12
@@ -183,7 +181,9 @@ class Block:
         sides = []
         for index, side in enumerate((self.negative, self.positive)):
             given = {"critical_angle": critical_angle, "pole_distance": pole_distance, "inertia": inertia}
-            sides.append(replace(side, **{name: pair(value)[index] for name, value in given.items() if value is not None}))
+            sides.append(
+                replace(side, **{name: pair(value)[index] for name, value in given.items() if value is not None})
+            )
         return replace(self, negative=sides[0], positive=sides[1])
 
     @property
@@ -247,8 +247,7 @@ def pair(value: Sided) -> tuple[float, float]:
     return float(negative), float(positive)
 
 
-
-def _positive(**lengths: float) -> None:
-    for name, value in lengths.items():
+def _positive(**values: float) -> None:
+    for name, value in values.items():
         if not value > 0.0:
-            raise ValueError(f"{name} is {value} m; a positive length was expected")
+            raise ValueError(f"{name} is {value}; a positive number was expected")

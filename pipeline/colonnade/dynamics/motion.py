@@ -24,7 +24,7 @@ class Motion:
     Raises
     ------
     ValueError
-        If there is no sample, a sample is not finite, the lengths differ or `dt` is not positive; the message says where.
+        If there is no sample, a sample is not finite, the lengths differ or `dt` is not positive.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class Motion:
     @property
     def time(self) -> Array:
         """Times of the samples, s, from 0."""
-        return np.arange(self.acceleration.size) * self.dt
+        return np.arange(self.acceleration.size, dtype=np.float64) * self.dt
 
     @property
     def duration(self) -> float:
@@ -60,9 +60,13 @@ class Motion:
 def _samples(name: str, values: ArrayLike, size: int | None = None) -> Array:
     samples = np.ascontiguousarray(values, dtype=np.float64)
     if samples.ndim != 1 or samples.size == 0:
-        raise ValueError(f"{name} has shape {samples.shape}; a one-dimensional array with at least one sample was expected")
+        raise ValueError(
+            f"{name} has shape {samples.shape}; a one-dimensional array with at least one sample was expected"
+        )
     if size is not None and samples.size != size:
-        raise ValueError(f"{name} has {samples.size} samples; {size} were expected, as many as the acceleration along x")
+        raise ValueError(
+            f"{name} has {samples.size} samples; {size} were expected, as many as the acceleration along x"
+        )
     finite = np.isfinite(samples)
     if not finite.all():
         raise ValueError(f"{name} is not finite at sample {int(np.argmin(finite))}; fill or cut the gap first")

@@ -1,0 +1,97 @@
+"""What an engine gives back: a rocking history and its outcome."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.dynamics.block import Block
+
+Array = NDArray[np.float64]
+Outcome = Literal["no-rocking", "rocking", "overturned"]
+
+NO_ROCKING_RATIO = 1e-3
+"""A block whose largest |θ|/α stays at or below this has not rocked; the same for measured and predicted histories."""
+
+
+@dataclass(frozen=True)
+class History:
+    """
+    A rocking history.
+
+    Attributes
+    ----------
+    block : Block
+    time, angle, angular_velocity : ndarray, shape (n,)
+        s, rad, rad/s, at the samples of the base motion. A block past return lies at ±π/2.
+    impact_times, impact_velocities : ndarray, shape (m,)
+        s; rad/s just before each impact.
+    overturning_time : float
+        s, when |θ| passed α for good; NaN where the block stands in the end.
+    """
+
+    block: Block
+    time: Array
+    angle: Array
+    angular_velocity: Array
+    impact_times: Array
+    impact_velocities: Array
+    overturning_time: float
+
+    @property
+    def amplitude(self) -> Array:
+        """|θ|/α with the critical angle of the side rocked on, shape (n,)."""
+        return amplitude(self.angle, self.block)
+
+    @property
+    def outcome(self) -> Outcome:
+        """no-rocking, rocking or overturned."""
+        if np.isfinite(self.overturning_time):
+            return "overturned"
+        return "rocking" if self.amplitude.max() > NO_ROCKING_RATIO else "no-rocking"
+
+    @property
+    def peak_ratio(self) -> float | None:
+        """Largest |θ|/α; None where the block overturned."""
+        return None if self.outcome == "overturned" else float(self.amplitude.max())
+
+    @property
+    def peak_time(self) -> float:
+        """Time of the largest |θ|/α up to overturning, s."""
+        standing = self.time <= self.overturning_time if np.isfinite(self.overturning_time) else slice(None)
+        return float(self.time[standing][np.argmax(self.amplitude[standing])])
+
+    @property
+    def impacts(self) -> int:
+        """Number of impacts that are followed by a peak above `NO_ROCKING_RATIO` α."""
+        return count_impacts(self.time, self.amplitude, self.impact_times, NO_ROCKING_RATIO)
+
+
+def amplitude(angle: Array, block: Block) -> Array:
+    """Return |θ|/α, shape of `angle`, with the critical angle of the side that each sample is on."""
+    critical = np.where(angle < 0, block.negative.critical_angle, block.positive.critical_angle)
+    return np.asarray(np.abs(angle) / critical, dtype=np.float64)
+
+
+def count_impacts(time: Array, amplitude: Array, impact_times: Array, threshold: float) -> int:
+    """
+    Count the impacts that are followed, before the next one, by an amplitude above a threshold.
+
+    Parameters
+    ----------
+    time, amplitude : ndarray, shape (n,)
+        s; |θ|/α.
+    impact_times : ndarray, shape (m,)
+        s, in order.
+    threshold : float
+        As a fraction of α.
+    """
+    edges = np.searchsorted(time, impact_times)
+    ends = np.append(edges[1:], time.size)
+    return sum(
+        bool(end > start and np.nanmax(amplitude[start:end]) > threshold)
+        for start, end in zip(edges, ends, strict=True)
+    )

@@ -1,0 +1,73 @@
+"""One restitution for a specimen from several free vibrations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy import optimize, stats
+
+
+@dataclass(frozen=True)
+class Pooled:
+    """Pooled value with its interval at `level`, the standard error, and the scatter between tests (all of e)."""
+
+    value: float
+    low: float
+    high: float
+    standard_error: float
+    between: float
+    level: float
+
+
+def pool(values: ArrayLike, standard_errors: ArrayLike, *, level: float = 0.95) -> Pooled:
+    """
+    Pool the results of repeated tests.
+
+    Parameters
+    ----------
+    values, standard_errors : array_like, shape (k,)
+        e of each test and its standard error.
+    level : float, optional
+        Of the interval of confidence.
+
+    Returns
+    -------
+    pooled : Pooled
+
+    Raises
+    ------
+    ValueError
+        If there is no value or an error is not positive.
+
+    Notes
+    -----
+    Random effects: each test has its own error and all share a scatter τ between tests (Paule and Mandel 1982: τ² is
+    where the weighted sum of squares equals its degrees of freedom). The interval takes the larger of the standard
+    error from the weights and the one from the observed scatter (Hartung and Knapp 2001), with Student's t of k − 1;
+    a single test keeps its normal interval.
+    """
+    e, error = np.asarray(values, dtype=np.float64), np.asarray(standard_errors, dtype=np.float64)
+    if e.size == 0 or e.shape != error.shape or not (error > 0).all():
+        raise ValueError(
+            "values and positive standard errors of at least one test, in arrays of one length, were expected"
+        )
+    freedom = e.size - 1
+    if freedom == 0:
+        half = float(stats.norm.ppf((1 + level) / 2)) * float(error[0])
+        return Pooled(float(e[0]), float(e[0]) - half, float(e[0]) + half, float(error[0]), 0.0, level)
+
+    def excess(variance: float) -> float:
+        weights = 1 / (error**2 + variance)
+        return float((weights * (e - np.average(e, weights=weights)) ** 2).sum()) - freedom
+
+    widest = float(np.ptp(e)) ** 2 * e.size
+    between = float(optimize.brentq(excess, 0.0, widest, xtol=1e-18)) if excess(0.0) > 0 else 0.0
+    weights = 1 / (error**2 + between)
+    value = float(np.average(e, weights=weights))
+    by_weights = float(1 / np.sqrt(weights.sum()))
+    by_scatter = float(np.sqrt((weights * (e - value) ** 2).sum() / (freedom * weights.sum())))
+    standard_error = max(by_weights, by_scatter)
+    half = float(stats.t.ppf((1 + level) / 2, freedom)) * standard_error
+    return Pooled(value, value - half, value + half, standard_error, float(np.sqrt(between)), level)

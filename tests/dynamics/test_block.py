@@ -1,0 +1,70 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from colonnade.dynamics.block import Block, pair
+
+LENGTHS = st.floats(1e-2, 10.0)
+
+
+def test_prism_has_the_closed_form_of_a_rectangle():
+    block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    radius = math.hypot(0.043, 0.228)
+    assert block.critical_angle == pytest.approx(math.atan(86 / 456), rel=1e-14)
+    assert block.inertia == pytest.approx(4 / 3 * 26.10 * radius**2, rel=1e-14)
+    assert block.p == pytest.approx(math.sqrt(3 * 9.81 / (4 * radius)), rel=1e-14)
+    assert block.restitution == pytest.approx(1 - 1.5 * math.sin(block.critical_angle) ** 2, rel=1e-14)
+    assert block.uplift_acceleration == pytest.approx(9.81 * 86 / 456, rel=1e-14)
+
+
+@given(width=LENGTHS, height=LENGTHS)
+def test_cylinder_is_a_cone_of_equal_diameters_with_its_textbook_inertia(width, height):
+    block = Block.cylinder(diameter=width, height=height, mass=3.0)
+    transverse = 3.0 * (3 * (width / 2) ** 2 + height**2) / 12
+    assert block.inertia == pytest.approx(transverse + 3.0 * block.pole_distance**2, rel=1e-12)
+
+
+def test_cone_agrees_with_a_sum_over_thin_discs():
+    block = Block.cone(base_diameter=0.097, top_diameter=0.0755, height=0.480, mass=21.94)
+    edges = np.linspace(0, 0.480, 200_001)
+    z = (edges[1:] + edges[:-1]) / 2
+    radius = 0.0485 + (0.03775 - 0.0485) * z / 0.480
+    share = radius**2 / (radius**2).sum() * 21.94
+    centre = (share * z).sum() / 21.94
+    inertia = (share * (radius**2 / 4 + z**2)).sum() + 21.94 * 0.0485**2
+    assert block.pole_distance == pytest.approx(math.hypot(0.0485, centre), rel=1e-9)
+    assert block.inertia == pytest.approx(inertia, rel=1e-9)
+
+
+def test_measured_block_takes_a_value_for_each_side_and_is_governed_by_the_smaller_angle():
+    block = Block.measured(mass=80.0, pole_distance=0.61, critical_angle=(0.21, 0.19), inertia=41.2)
+    assert block.critical_angle == 0.19
+    assert block.negative.critical_angle == 0.21
+    assert not block.is_symmetric
+
+
+def test_a_measured_value_overrides_the_one_from_dimensions_alone():
+    block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    assert block.override(critical_angle=0.18).critical_angle == 0.18
+    assert block.override(critical_angle=0.18).inertia == block.inertia
+    assert block.override(inertia=(1.8, 1.9)).positive.inertia == 1.9
+
+
+@pytest.mark.parametrize("wrong", [{"width": 0.0}, {"height": -1.0}, {"mass": 0.0}, {"gravity": math.nan}])
+def test_a_value_that_is_not_positive_is_refused_by_its_name(wrong):
+    arguments = {"width": 0.1, "depth": 0.1, "height": 0.5, "mass": 1.0} | wrong
+    with pytest.raises(ValueError, match=next(iter(wrong))):
+        Block.prism(**arguments)
+
+
+def test_an_angle_of_half_a_turn_and_more_is_refused():
+    with pytest.raises(ValueError, match="critical_angle"):
+        Block.measured(mass=1.0, pole_distance=1.0, critical_angle=math.pi / 2, inertia=1.0)
+
+
+def test_pair_spreads_one_value_and_passes_two():
+    assert pair(0.2) == (0.2, 0.2)
+    assert pair((0.2, 0.3)) == (0.2, 0.3)

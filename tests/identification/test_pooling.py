@@ -1,0 +1,45 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from colonnade.identification.pooling import pool
+
+
+def test_agreeing_tests_are_weighted_by_their_errors():
+    pooled = pool([0.976, 0.977], [0.001, 0.002])
+    assert pooled.value == pytest.approx((0.976 * 4 + 0.977) / 5)
+    assert pooled.between == 0.0
+
+
+def test_one_test_keeps_its_own_interval():
+    pooled = pool([0.976], [0.001])
+    assert (pooled.low, pooled.high) == pytest.approx((0.976 - 0.00196, 0.976 + 0.00196), abs=1e-6)
+
+
+def test_scatter_between_tests_is_found_apart_from_their_errors():
+    rng = np.random.default_rng(0)
+    pooled = pool(rng.normal(0.95, 0.005, 400) + rng.normal(0, 0.001, 400), np.full(400, 0.001))
+    assert pooled.between == pytest.approx(0.005, rel=0.1)
+    assert abs(pooled.value - 0.95) < 3 * pooled.standard_error
+
+
+def test_intervals_of_three_tests_hold_the_truth_as_often_as_they_say():
+    rng = np.random.default_rng(1)
+    held = 0
+    for _ in range(400):
+        error = rng.uniform(2e-4, 6e-4, 3)
+        pooled = pool(0.976 + rng.normal(0, 3e-4, 3) + rng.normal(0, error), error)
+        held += pooled.low <= 0.976 <= pooled.high
+    assert held >= 0.94 * 400
+
+
+@given(st.lists(st.tuples(st.floats(0.5, 1.0), st.floats(1e-5, 1e-2)), min_size=1, max_size=8))
+def test_the_pooled_value_lies_among_the_tests(rows):
+    values, errors = zip(*rows, strict=True)
+    assert min(values) - 1e-12 <= pool(values, errors).value <= max(values) + 1e-12
+
+
+def test_no_test_is_an_error():
+    with pytest.raises(ValueError, match="at least one test"):
+        pool([], [])

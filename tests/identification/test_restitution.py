@@ -1,0 +1,116 @@
+"""Restitution from peaks: truth is the full nonlinear equation, integrated adaptively between impacts."""
+
+import functools
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.rock import rock
+from colonnade.identification.restitution import angle_of_energy, identify_restitution, released_energy
+
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+ALPHA, P = PRISM.critical_angle, PRISM.p
+
+
+@functools.cache
+def _nonlinear_decay(restitution, released=0.5, interval=0.002, duration=14.0):
+    time = np.arange(0, duration, interval)
+    angle = np.zeros_like(time)
+    start, state, side = 0.0, [released * ALPHA, 0.0], 1.0
+    while start < duration and abs(state[0]) + abs(state[1]) > 1e-5:
+        landing = lambda t, y: y[0]  # noqa: E731
+        landing.terminal, landing.direction = True, -side
+        solution = solve_ivp(
+            lambda t, y, s=side: [y[1], -(P**2) * np.sin(ALPHA * s - y[0])],
+            (start, duration), state, method="DOP853", rtol=1e-11, atol=1e-13, events=landing, dense_output=True,
+        )  # fmt: skip
+        inside = (time >= start) & (time < solution.t[-1])
+        if inside.any():
+            angle[inside] = solution.sol(time[inside])[0]
+        start, side, state = solution.t[-1], -side, [0.0, restitution * solution.y[1, -1]]
+    return time, angle
+
+
+@pytest.mark.parametrize("restitution", [0.85, 0.93, 0.976, 0.99])
+def test_the_nonlinear_truth_is_found_without_noise(restitution):
+    result = identify_restitution(*_nonlinear_decay(restitution), PRISM)
+    assert result.value == pytest.approx(restitution, abs=3e-5)
+    assert result.zero_offset == pytest.approx(0, abs=1e-5 * ALPHA)
+
+
+def test_intervals_hold_the_truth_as_often_as_they_say():
+    time, angle = _nonlinear_decay(0.976)
+    rng = np.random.default_rng(2013)
+    results = [identify_restitution(time, angle + rng.normal(0, 2e-4, time.size) + 1e-4, PRISM) for _ in range(60)]
+    held = sum(result.low <= 0.976 <= result.high for result in results)
+    assert 52 <= held <= 60
+    assert abs(np.mean([result.value for result in results]) - 0.976) < 1e-5
+    assert np.mean([result.zero_offset for result in results]) == pytest.approx(1e-4, rel=0.05)
+
+
+def test_restitution_that_differs_from_impact_to_impact_widens_the_interval():
+    rng = np.random.default_rng(5)
+    block, velocity, time, angle = PRISM, 0.0, [], []
+    state, now = 0.5 * ALPHA, 0.0
+    while abs(state) > 0.02 * ALPHA:
+        history = rock(block, restitution=float(np.clip(rng.normal(0.976, 0.01), 0, 1)), theta0=state, duration=2.0)
+        first = history.impact_times[0]
+        velocity = history.impact_velocities[0]
+        arc = history.time < first
+        time.append(now + history.time[arc])
+        angle.append(history.angle[arc])
+        energy = (velocity / (P * ALPHA) * rng.normal(0.976, 0.01)) ** 2
+        following = -np.sign(state) * ALPHA * (1 - np.sqrt(1 - energy))
+        rise = np.arccosh(1 / (1 - abs(following) / ALPHA)) / P
+        ascent = np.arange(0, rise, history.time[1])
+        time.append(now + first + ascent)
+        angle.append(np.sign(following) * (ALPHA - (ALPHA - abs(following)) * np.cosh(P * (rise - ascent))))
+        now, state = now + first + rise, following
+    uneven = identify_restitution(np.concatenate(time), np.concatenate(angle), PRISM)
+    steady = identify_restitution(*_nonlinear_decay(0.976), PRISM)
+    assert uneven.standard_error > 20 * steady.standard_error
+    assert abs(uneven.value - 0.976) < 4 * uneven.standard_error
+
+
+def _refusal(angle, interval=0.002):
+    result = identify_restitution(np.arange(angle.size) * interval, angle, PRISM)
+    assert result.value is None
+    return result.reason
+
+
+TIME = np.arange(0, 14, 0.002)
+
+
+@pytest.mark.parametrize(
+    ("angle", "words"),
+    [
+        (np.empty(0), "fewer than 8 values"),
+        (np.random.default_rng(0).normal(0, 1e-3, TIME.size), "0 peaks"),
+        (np.where(TIME < 2, 0.05, 0.0), "0 peaks"),
+        (0.05 * np.sin(2 * np.pi * 5 * TIME), "Times between impacts"),
+        (0.05 * np.sin(2 * np.pi * 1.69 * TIME), "do not decay"),
+        (rock(PRISM, restitution=0.5, theta0=0.5 * ALPHA, duration=4.0).angle, "at least 5 are needed"),
+    ],
+    ids=["nothing", "noise", "a step", "a fast sine", "a sine at the rocking frequency", "few peaks"],
+)
+def test_what_is_no_free_rocking_is_refused_with_its_reason(angle, words):
+    assert words in _refusal(angle)
+
+
+def test_growing_motion_is_refused():
+    time, angle = _nonlinear_decay(0.976)
+    backwards = angle[time < 9][::-1]
+    assert "do not decay" in _refusal(backwards)
+
+
+def test_released_energy_is_housners_for_a_slender_block_and_has_its_inverse():
+    amplitude = np.linspace(0.01, 0.99, 50)
+    np.testing.assert_allclose(released_energy(1e-4 * amplitude, 1e-4), 1 - (1 - amplitude) ** 2, rtol=1e-6)
+    np.testing.assert_allclose(angle_of_energy(released_energy(0.3 * amplitude, 0.3), 0.3), 0.3 * amplitude, rtol=1e-9)
+
+
+def test_time_that_does_not_increase_is_an_error():
+    with pytest.raises(ValueError, match="does not increase"):
+        identify_restitution([0.0, 1.0, 1.0], [0.0, 0.0, 0.0], PRISM)
