@@ -1,4 +1,4 @@
-"""The linear model against closed forms of the literature and an independent integration."""
+"""The models against closed forms of the literature and an independent integration."""
 
 import itertools
 import math

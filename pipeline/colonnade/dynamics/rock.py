@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from math import ceil
 
 import numpy as np
@@ -11,7 +12,7 @@ from colonnade.dynamics.history import History
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import nearest
 
-MODELS = ("linear",)
+MODELS = ("linear", "nonlinear")
 """Models that `rock` can run."""
 
 DEFAULT_REST_ANGLE = 1e-6
@@ -39,14 +40,16 @@ def rock(
         Base motion; without it the block rocks freely for `duration`.
     restitution : float or pair of float, optional
         e, between 0 and 1; a pair is for impacts that end an arc at (θ < 0, θ > 0). Default: the rigid-body value.
-    model : {"linear"}
-        The linear equation, solved exactly for a base motion that is linear between samples.
+    model : {"linear", "nonlinear"}
+        The linear equation, solved exactly for a base motion that is linear between samples; or the full one, by Taylor
+        series to rounding.
     theta0, omega0 : float, optional
         Initial angle (rad) and angular velocity (rad/s), positive when the top moves to +x.
     duration : float, optional
         s, only without a motion. The history is then sampled at about 1/(500 p).
     rest_angle : float, optional
-        Fraction of α; see `colonnade.dynamics.linear.propagate`.
+        Fraction of α. After an impact whose next arc, under the base acceleration of that instant, would not rise above
+        it, the block is at rest until it is uplifted again.
 
     Returns
     -------
@@ -70,10 +73,10 @@ def rock(
     e = pair(block.restitution if restitution is None else restitution)
     _check(block, motion, e, theta0, omega0, rest_angle)
 
-    from colonnade.dynamics import linear
-
+    # The engine is compiled on import: only the one that is asked for.
+    engine = import_module(f"colonnade.dynamics.{model}")
     sides = (block.negative, block.positive)
-    angle, velocity, impact_times, impact_velocities, overturning_time = linear.propagate(
+    angle, velocity, impact_times, impact_velocities, overturning_time = engine.propagate(
         motion.acceleration / block.gravity,
         motion.dt,
         np.array([side.critical_angle for side in sides]),
@@ -106,6 +109,5 @@ def _check(
         raise ValueError(f"rest_angle is {rest_angle}; a fraction of the critical angle between 0 and 1 was expected")
     if motion.vertical is not None or motion.transverse is not None:
         raise ValueError(
-            "The linear model has constant coefficients and takes motion along x only; "
-            "a Motion without `vertical` and `transverse` was expected"
+            "The plane models take motion along x only; a Motion without `vertical` and `transverse` was expected"
         )
