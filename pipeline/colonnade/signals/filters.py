@@ -1,0 +1,101 @@
+"""Zero-phase filters, bridging of bad samples, and derivatives."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+
+Array = NDArray[np.float64]
+
+
+def lowpass(values: Array, interval: float, cutoff_hz: float, order: int = 4) -> Array:
+    """
+    Low-pass a record without shifting it in time.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+        At equal steps, all finite.
+    interval : float
+        s.
+    cutoff_hz : float
+        Frequency at which a Butterworth filter, run forwards and backwards, leaves half of the amplitude.
+    order : int, optional
+        Of each run.
+
+    Returns
+    -------
+    smooth : ndarray, shape (n,)
+
+    Raises
+    ------
+    ValueError
+        If the cut-off is not between zero and half the sampling rate.
+    """
+    nyquist = 0.5 / interval
+    if not 0 < cutoff_hz < nyquist:
+        raise ValueError(
+            f"the cut-off is {cutoff_hz:g} Hz; it was expected between 0 and {nyquist:g} Hz, half the sampling rate"
+        )
+    sections = signal.butter(order, cutoff_hz, fs=1 / interval, output="sos")
+    # The odd extension has to outlast the filter's own memory; a short record has no more than itself to give.
+    padding = min(int(3 * order / (cutoff_hz * interval)), values.size - 1)
+    return np.asarray(signal.sosfiltfilt(sections, values, padlen=padding), dtype=np.float64)
+
+
+def second_derivative(values: Array, interval: float, cutoff_hz: float) -> Array:
+    """
+    Second derivative of a record below a frequency, as an acceleration from a displacement.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+    interval : float
+        s.
+    cutoff_hz : float
+        Noise grows with the square of the frequency, so nothing above this one is kept.
+
+    Returns
+    -------
+    derivative : ndarray, shape (n,)
+        Per s²; central differences.
+    """
+    smooth = lowpass(values, interval, cutoff_hz)
+    derivative = np.zeros_like(smooth)
+    derivative[1:-1] = (smooth[2:] - 2 * smooth[1:-1] + smooth[:-2]) / interval**2
+    return derivative
+
+
+def bridge(time: Array, values: Array, bad: NDArray[np.bool_]) -> Array:
+    """
+    Replace bad samples by straight lines between their good neighbours; the ends are held.
+
+    Raises
+    ------
+    ValueError
+        If no sample is good.
+    """
+    if not bad.any():
+        return values
+    good = ~bad
+    if not good.any():
+        raise ValueError("no sample of the channel is good")
+    return np.where(bad, np.interp(time, time[good], values[good]), values)
+
+
+def noise_below(values: Array, interval: float, cutoff_hz: float, order: int = 4) -> float:
+    """
+    Standard deviation of what noise a low-pass leaves, taken the noise is white.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+        Before the filter.
+    interval, cutoff_hz, order
+        As for `lowpass`.
+    """
+    above = values - lowpass(values, interval, cutoff_hz, order)
+    kept = min(2 * cutoff_hz * interval, 0.9)
+    spread = 1.4826 * float(np.median(np.abs(above - np.median(above))))
+    return spread * float(np.sqrt(kept / (1 - kept)))

@@ -1,0 +1,60 @@
+"""Rest: the stretch of a record on which the specimen stands still."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+QUIET = 4.0
+"""A stretch is quiet where its standard deviation and its drift stay below this many times the noise."""
+
+
+@dataclass(frozen=True)
+class RestWindow:
+    """A stretch (s), and whether all channels are quiet on it; where not, why."""
+
+    start: float
+    stop: float
+    quiet: bool
+    reason: str = ""
+
+
+def find_rest(time: Array, channels: dict[str, tuple[Array, float]], *, end: bool, duration: float) -> RestWindow:
+    """
+    Take the first or last stretch of a record and judge whether it is at rest.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n,)
+        s.
+    channels : dict of str to (ndarray of shape (n,), float)
+        Values of each channel, and the standard deviation of its noise. NaN is passed over.
+    end : bool
+        The last stretch instead of the first.
+    duration : float
+        s.
+
+    Returns
+    -------
+    window : RestWindow
+    """
+    start, stop = (max(time[-1] - duration, time[0]), time[-1]) if end else (time[0], min(time[0] + duration, time[-1]))
+    inside = (time >= start) & (time <= stop)
+    restless = []
+    for name, (values, noise) in channels.items():
+        stretch = values[inside][np.isfinite(values[inside])]
+        if stretch.size < 4:
+            restless.append(f"{name} has no values there")
+            continue
+        half = stretch.size // 2
+        drift = abs(float(stretch[half:].mean() - stretch[:half].mean()))
+        spread = max(float(stretch.std()), drift)
+        if spread > QUIET * noise:
+            restless.append(f"{name} moves by {spread:.2g} against a noise of {noise:.2g} (SI)")
+    place = "end" if end else "start"
+    reason = f"the specimen is not at rest at the {place} of the record: {'; '.join(restless)}" if restless else ""
+    return RestWindow(float(start), float(stop), not restless, reason)

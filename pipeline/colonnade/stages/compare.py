@@ -1,0 +1,91 @@
+"""Compare: measured and predicted -> how far they agree."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from pydantic import BaseModel, ConfigDict
+
+from colonnade.campaign import Campaign, Test
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.history import amplitude
+from colonnade.signals.metrics import nrmse
+
+
+class Instructions(BaseModel):
+    """What this stage reads of the campaign: the block, and the outcome that was seen."""
+
+    model_config = ConfigDict(frozen=True)
+
+    block: Block
+    observed_outcome: str | None
+
+
+def instructions(campaign: Campaign, test: Test) -> Instructions:
+    """Gather what `compare` reads for one test."""
+    return Instructions(
+        block=campaign.specimens[test.specimen].block(campaign.gravity), observed_outcome=test.observed_outcome
+    )
+
+
+def compare(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], instructions: Instructions) -> xr.Dataset:
+    """
+    Lay measured over predicted, in numbers.
+
+    Parameters
+    ----------
+    rocking : xr.Dataset
+        Result of `rocking`.
+    predicted : mapping of str to xr.Dataset
+        Results of `predict` by model, on the same clock.
+    instructions : Instructions
+
+    Returns
+    -------
+    compared : xr.Dataset
+        On the dimension `model`: `nrmse`, RMS(predicted − measured)/α until either first passes α, `compared_until`
+        (s), `predicted_peak_ratio`, `peak_ratio_error` and `predicted_outcome`. NaN where nothing was measured.
+    """
+    models = sorted(predicted)
+    measured_ratio = float(rocking["peak_ratio"]) if "peak_ratio" in rocking else np.nan
+    rows = [_row(rocking, predicted[model], instructions.block) for model in models]
+    ratios = np.array([float(predicted[model]["peak_ratio"]) for model in models])
+    warnings = []
+    measured, observed = rocking.attrs["outcome"], instructions.observed_outcome
+    if measured and observed and not _agree(measured, observed):
+        warnings.append(f"The transducers say {measured}, the test log says {observed}: look at the record.")
+    return xr.Dataset(
+        {
+            "nrmse": ("model", np.array([row[0] for row in rows])),
+            "compared_until": ("model", np.array([row[1] for row in rows])),
+            "predicted_peak_ratio": ("model", ratios),
+            "peak_ratio_error": ("model", ratios - measured_ratio),
+            "predicted_outcome": (
+                "model",
+                np.array([predicted[model].attrs["outcome"] for model in models], dtype=object),
+            ),
+            "measured_peak_ratio": ((), measured_ratio),
+        },
+        coords={"model": ("model", np.array(models, dtype=object))},
+        attrs={"outcome_measured": measured or observed or "", "warnings": warnings},
+    )
+
+
+def _row(rocking: xr.Dataset, predicted: xr.Dataset, block: Block) -> tuple[float, float]:
+    """Return the nrmse and the time up to which it is taken."""
+    if "rocking_angle" not in rocking:
+        return np.nan, np.nan
+    time = rocking["elapsed"].to_numpy()
+    measured, model = rocking["rocking_angle"].to_numpy(), predicted["rocking_angle"].to_numpy()
+    beyond = np.fmax(amplitude(measured, block), amplitude(model, block)) > 1
+    until = int(np.argmax(beyond)) if beyond.any() else time.size
+    both = np.isfinite(measured[:until]) & np.isfinite(model[:until])
+    if not both.any():
+        return np.nan, np.nan
+    return nrmse(measured[:until][both], model[:until][both], block.critical_angle), float(time[until - 1])
+
+
+def _agree(measured: str, observed: str) -> bool:
+    return measured == observed or (observed == "not-overturned" and measured != "overturned")

@@ -1,0 +1,91 @@
+"""Restitution: the rocking angle of a free vibration -> impacts, peaks, e with its interval."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from pydantic import BaseModel, ConfigDict
+
+from colonnade.campaign import Campaign, Test
+from colonnade.dynamics.block import Block
+from colonnade.errors import StageError
+from colonnade.identification.restitution import identify_restitution
+
+
+class Instructions(BaseModel):
+    """What this stage reads of the campaign: the block, and how e is identified."""
+
+    model_config = ConfigDict(frozen=True)
+
+    block: Block
+    level: float
+    lowest_amplitude: float
+
+
+def instructions(campaign: Campaign, test: Test) -> Instructions:
+    """Gather what `restitution` reads for one free vibration."""
+    return Instructions(
+        block=campaign.specimens[test.specimen].block(campaign.gravity),
+        level=campaign.processing.restitution.level,
+        lowest_amplitude=campaign.processing.restitution.lowest_amplitude,
+    )
+
+
+def restitution(rocking: xr.Dataset, instructions: Instructions) -> xr.Dataset:
+    """
+    Identify e from one free vibration.
+
+    Parameters
+    ----------
+    rocking : xr.Dataset
+        Result of `rocking`.
+    instructions : Instructions
+
+    Returns
+    -------
+    identified : xr.Dataset
+        The peaks, fitted and measured, and `restitution` with its interval. Where e cannot be identified it is NaN and
+        the attribute `reason` says why: that is a result, not a failure.
+
+    Raises
+    ------
+    StageError
+        If no transducer was on the specimen.
+    """
+    if "rocking_angle" not in rocking:
+        raise StageError(
+            "A free vibration without a usable displacement transducer on the specimen gives no restitution; "
+            'at least one channel with on = "specimen" and quantity = "displacement" was expected.'
+        )
+    result = identify_restitution(
+        rocking["elapsed"].to_numpy(),
+        rocking["rocking_angle"].to_numpy(),
+        instructions.block,
+        level=instructions.level,
+        lowest_amplitude=instructions.lowest_amplitude,
+        noise=float(rocking["rocking_angle_standard_error"]),
+    )
+    scalars = {
+        "restitution": result.value,
+        "restitution_low": result.low,
+        "restitution_high": result.high,
+        "restitution_standard_error": result.standard_error,
+        "level": result.level,
+        "zero_offset": result.zero_offset,
+    }
+    columns = {
+        "peak_time": result.peaks.time,
+        "peak_angle": result.peaks.angle,
+        "peak_angle_standard_error": result.peaks.standard_error,
+        "fitted_angle": result.peaks.fitted_angle,
+        "peak_used": result.peaks.used.astype(np.int8),
+    }
+    return xr.Dataset(
+        {name: ((), np.nan if value is None else value) for name, value in scalars.items()}
+        | {name: ("peak", values) for name, values in columns.items()},
+        attrs={
+            "method": result.method,
+            "reason": result.reason,
+            "warnings": [f"No restitution from this test: {result.reason}"] if result.reason else [],
+        },
+    )

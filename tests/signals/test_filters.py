@@ -1,0 +1,63 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from colonnade.signals.filters import bridge, lowpass, noise_below, second_derivative
+
+TIME = np.arange(0, 4, 0.002)
+
+
+def test_the_filter_passes_what_is_low_without_delay_and_stops_what_is_high():
+    slow, fast = np.sin(2 * np.pi * 3 * TIME), np.sin(2 * np.pi * 120 * TIME)
+    smooth = lowpass(slow + fast, 0.002, 30.0)
+    middle = slice(200, -200)
+    np.testing.assert_allclose(smooth[middle], slow[middle], atol=1e-4)
+
+
+def test_half_of_the_amplitude_is_left_at_the_cut_off():
+    smooth = lowpass(np.sin(2 * np.pi * 30 * TIME), 0.002, 30.0)
+    assert np.abs(smooth[500:-500]).max() == pytest.approx(0.5, abs=0.01)
+
+
+@given(scale=st.floats(-5, 5), seed=st.integers(0, 99))
+def test_the_filter_is_linear_and_keeps_reversal(scale, seed):
+    first, second = np.random.default_rng(seed).normal(size=(2, 400))
+    combined = lowpass(first + scale * second, 0.002, 40.0)
+    np.testing.assert_allclose(combined, lowpass(first, 0.002, 40.0) + scale * lowpass(second, 0.002, 40.0), atol=1e-10)
+    inner = slice(150, -150)
+    np.testing.assert_allclose(
+        lowpass(first[::-1], 0.002, 40.0)[::-1][inner], lowpass(first, 0.002, 40.0)[inner], atol=1e-3
+    )
+
+
+@pytest.mark.parametrize("cutoff", [0.0, 250.0, 400.0])
+def test_a_cut_off_beyond_half_the_sampling_rate_is_refused(cutoff):
+    with pytest.raises(ValueError, match="half the sampling rate"):
+        lowpass(TIME, 0.002, cutoff)
+
+
+def test_a_short_record_is_filtered_all_the_same():
+    assert np.isfinite(lowpass(np.arange(5.0), 0.002, 30.0)).all()
+
+
+def test_the_second_derivative_of_a_displacement_is_its_acceleration():
+    displacement = 0.01 * np.sin(2 * np.pi * 2 * TIME)
+    acceleration = second_derivative(displacement, 0.002, 20.0)
+    expected = -((4 * np.pi) ** 2) * displacement
+    np.testing.assert_allclose(acceleration[300:-300], expected[300:-300], atol=2e-3 * np.abs(expected).max())
+
+
+def test_bad_samples_are_bridged_by_straight_lines_and_held_at_the_ends():
+    values = np.array([9.0, 1.0, 9.0, 3.0, 9.0])
+    bad = np.array([True, False, True, False, True])
+    assert bridge(np.arange(5.0), values, bad).tolist() == [1.0, 1.0, 2.0, 3.0, 3.0]
+    with pytest.raises(ValueError, match="no sample"):
+        bridge(np.arange(5.0), values, np.ones(5, dtype=bool))
+
+
+def test_noise_left_below_the_cut_off_is_what_the_filter_leaves():
+    noise = np.random.default_rng(0).normal(0, 1.0, 20_000)
+    left = lowpass(noise, 0.002, 35.0).std()
+    signal = 50 * np.sin(2 * np.pi * np.arange(20_000) * 0.002)
+    assert noise_below(noise + signal, 0.002, 35.0) == pytest.approx(left, rel=0.1)

@@ -1,0 +1,122 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.rock import rock
+from colonnade.signals.quality import (
+    Flag,
+    Verdict,
+    check_clipping,
+    check_dead,
+    check_flat,
+    check_gaps,
+    check_jitter,
+    check_missing,
+    check_order,
+    check_spikes,
+    combine,
+)
+
+TIME = np.arange(0, 8, 0.002)
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+
+
+def _digitised(values, full_scale, seed=0, noise=5e-4):
+    """Noise of 0.05 % of the range and 16 bits, as a recorder gives."""
+    step = full_scale / 2**15
+    noisy = values + np.random.default_rng(seed).normal(0, noise * full_scale, values.size)
+    return np.round(noisy / step) * step
+
+
+ROCKING = np.interp(TIME, *(lambda h: (h.time, h.angle))(rock(PRISM, restitution=0.95, theta0=0.1, duration=8.0)))
+MOTIONS = {
+    "rocking": _digitised(0.44 * np.sin(ROCKING), 0.1),
+    "sine at 7 Hz": _digitised(3 * np.sin(14 * np.pi * TIME), 20.0),
+    "broad-band motion": _digitised(np.random.default_rng(1).normal(0, 2, TIME.size).cumsum() * 0.05, 20.0),
+    "noise alone": _digitised(np.zeros(TIME.size), 0.1),
+    "a fall onto the frame": _digitised(np.minimum(1e-4 * np.exp(5.6 * np.clip(TIME - 3, 0, None)), 0.09), 0.1),
+    "a release": _digitised(0.03 * np.clip((1.01 - TIME) / 0.014, 0, 1), 0.1),
+}
+
+
+@pytest.mark.parametrize("values", MOTIONS.values(), ids=MOTIONS.keys())
+def test_a_sound_record_has_no_spike(values):
+    assert not check_spikes(TIME, values, threshold=8.0).where.any()
+
+
+@pytest.mark.parametrize("values", MOTIONS.values(), ids=MOTIONS.keys())
+@given(
+    places=st.sets(st.integers(60, 390), min_size=1, max_size=3),
+    sign=st.sampled_from([-1, 1]),
+    width=st.sampled_from([1, 2]),
+)
+def test_planted_spikes_are_found_at_their_places(values, places, sign, width):
+    spiked = values.copy()
+    planted = np.zeros(values.size, dtype=bool)
+    for place in places:
+        planted[10 * place : 10 * place + width] = True
+    spiked[planted] += sign * 0.6 * np.abs(values).max() + sign * 0.02
+    found = check_spikes(TIME, spiked, threshold=8.0).where
+    assert (found == planted).all()
+
+
+def test_a_clipped_record_is_flagged_where_it_is_clipped():
+    values = np.clip(1.2 * np.sin(TIME), -1, 1)
+    verdict = check_clipping(TIME, values, full_scale=1.0)
+    assert (verdict.where == (np.abs(values) == 1)).all()
+    assert "end of the range (±1), the first at" in verdict.reason
+    assert not check_clipping(TIME, 0.999 * values, full_scale=1.0).where.any()
+
+
+def test_a_value_that_stays_the_same_is_flat_only_beyond_the_duration():
+    values = np.sin(TIME)
+    values[1000:1300] = values[1000]
+    assert check_flat(TIME, values, duration=0.5).where.sum() == 300
+    assert not check_flat(TIME, values, duration=0.7).where.any()
+    assert "the channel is dead" in check_flat(TIME, np.full(TIME.size, 2.0), duration=0.5).reason
+
+
+def test_missing_values_and_times_are_counted():
+    values, time = np.sin(TIME), TIME.copy()
+    values[5], time[9] = np.nan, np.nan
+    assert np.flatnonzero(check_missing(time, values).where).tolist() == [5, 9]
+
+
+def test_a_gap_is_told_with_the_samples_lost():
+    time = np.delete(TIME, slice(100, 110))
+    verdict = check_gaps(time, interval=0.002, factor=1.5)
+    assert np.flatnonzero(verdict.where).tolist() == [99, 100]
+    assert "about 10 samples lost" in verdict.reason
+    assert not check_gaps(TIME, interval=0.002, factor=1.5).where.any()
+
+
+def test_times_that_go_back_are_flagged():
+    time = TIME.copy()
+    time[50:53] = time[40:43]
+    assert np.flatnonzero(check_order(time).where).tolist() == [50, 51, 52]
+
+
+def test_jitter_is_told_apart_from_rounding_of_times():
+    jittered = TIME + np.random.default_rng(0).uniform(-3e-4, 3e-4, TIME.size)
+    assert "off an even clock" in check_jitter(jittered, interval=0.002, share=0.05, factor=1.5).reason
+    rounded = np.round(TIME, 5)
+    assert not check_jitter(rounded, interval=0.002, share=0.05, factor=1.5).reason
+
+
+def test_a_channel_beside_a_moving_table_that_hardly_moves_is_dead():
+    table = np.sin(TIME)
+    assert "practically dead" in check_dead(0.01 * table, table, share=0.08).reason
+    assert check_dead(0.1 * table, table, share=0.08).flag == Flag.GOOD
+
+
+def test_the_worst_flag_of_a_sample_stands():
+    verdicts = [
+        Verdict(Flag.FAIL, np.array([True, False, False]), "a"),
+        Verdict(Flag.SUSPECT, np.array([True, True, False]), "b"),
+        Verdict.good(3),
+    ]
+    flags, reasons = combine(verdicts, 3)
+    assert flags.tolist() == [Flag.FAIL, Flag.SUSPECT, Flag.GOOD]
+    assert reasons == ["a", "b"]

@@ -1,0 +1,23 @@
+import numpy as np
+
+from colonnade.signals.rest import find_rest
+
+TIME = np.arange(0, 5, 0.002)
+NOISE = np.random.default_rng(0).normal(0, 1e-5, TIME.size)
+DECAY = NOISE + np.where(TIME < 4, 0.01 * np.sin(9 * TIME), 0.0)
+
+
+def test_the_quiet_end_of_a_decay_is_rest():
+    window = find_rest(TIME, {"top": (DECAY, 1e-5)}, end=True, duration=0.5)
+    assert window.quiet
+    assert window.stop == TIME[-1]
+
+
+def test_a_moving_start_is_not_rest_and_says_which_channel_moves():
+    window = find_rest(TIME, {"top": (DECAY, 1e-5), "bottom": (NOISE, 1e-5)}, end=False, duration=0.5)
+    assert not window.quiet
+    assert "not at rest at the start of the record: top moves" in window.reason
+
+
+def test_a_channel_without_values_is_not_at_rest():
+    assert "has no values" in find_rest(TIME, {"top": (np.full(TIME.size, np.nan), 1.0)}, end=True, duration=0.5).reason
