@@ -1,6 +1,6 @@
 import numpy as np
 
-from colonnade.signals.rest import find_rest
+from colonnade.signals.rest import drift, find_rest
 
 TIME = np.arange(0, 5, 0.002)
 NOISE = np.random.default_rng(0).normal(0, 1e-5, TIME.size)
@@ -21,3 +21,9 @@ def test_a_moving_start_is_not_rest_and_says_which_channel_moves():
 
 def test_a_channel_without_values_is_not_at_rest():
     assert "has no values" in find_rest(TIME, {"top": (np.full(TIME.size, np.nan), 1.0)}, end=True, duration=0.5).reason
+
+
+def test_what_a_transducer_drifts_between_two_rests_is_told():
+    values = NOISE + 2e-4 * TIME / TIME[-1] + np.where((TIME > 2) & (TIME < 3), 0.01, 0.0)
+    assert abs(drift(TIME, values, duration=0.5, noise=1e-5) - 1.8e-4) < 5e-6
+    assert drift(TIME, DECAY, duration=0.5, noise=1e-5) == 0.0

@@ -89,6 +89,8 @@ def count_impacts(time: Array, amplitude: Array, impact_times: Array, threshold:
     threshold : float
         As a fraction of α.
     """
+    if impact_times.size == 0:
+        return 0
     edges = np.searchsorted(time, impact_times)
     ends = np.append(edges[1:], time.size)
     return sum(

@@ -28,7 +28,7 @@ LONGEST_STEP = 0.25
 """In x = p t. The series converges far beyond; 0.25¹⁸ is 1e-11 of coefficients that fall as well."""
 
 SHORTEST_ARC = 1e-4
-"""In x: an arc this short rises 1e-9 α, below any rest rule; it is stepped over where an uplift begins without slope."""
+"""In x: an arc this short rises 1e-9 α, below any rest rule; it is stepped over where an uplift begins."""
 
 
 @kernel

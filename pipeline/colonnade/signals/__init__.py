@@ -1,0 +1,1 @@
+"""Plain arrays of samples: clocks, filters, quality checks, rest, metrics."""

@@ -58,3 +58,29 @@ def find_rest(time: Array, channels: dict[str, tuple[Array, float]], *, end: boo
     place = "end" if end else "start"
     reason = f"the specimen is not at rest at the {place} of the record: {'; '.join(restless)}" if restless else ""
     return RestWindow(float(start), float(stop), not restless, reason)
+
+
+def drift(time: Array, values: Array, *, duration: float, noise: float) -> float:
+    """
+    Difference of the means of a record's first and last stretch.
+
+    Parameters
+    ----------
+    time, values : ndarray, shape (n,)
+        s; any unit, NaN passed over.
+    duration : float
+        Of each stretch, s.
+    noise : float
+        Standard deviation of the noise.
+
+    Returns
+    -------
+    drift : float
+        Its magnitude; 0 where the record is not quiet at both ends or too short to tell.
+    """
+    channel = {"": (values, noise)}
+    windows = [find_rest(time, channel, end=end, duration=duration) for end in (False, True)]
+    if not all(window.quiet for window in windows) or windows[0].stop >= windows[1].start:
+        return 0.0
+    first, last = (values[(time >= window.start) & (time <= window.stop)] for window in windows)
+    return abs(float(np.nanmean(last) - np.nanmean(first)))

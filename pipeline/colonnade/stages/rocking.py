@@ -18,12 +18,19 @@ from colonnade.identification.angle import RockingFit, fit_rocking
 from colonnade.identification.arcs import find_impacts
 from colonnade.identification.outcome import judge
 from colonnade.signals.filters import second_derivative
+from colonnade.signals.rest import drift
 from colonnade.store.variables import variable_name
 
 Array = NDArray[np.float64]
 
 NOISE_FACTOR = 6.0
 """Standard errors of the angle below which a rotation is not told from noise, over records of some 10⁴ samples."""
+
+DRIFT_FACTOR = 2.0
+"""A specimen that stands has no angle: what is left between the rests before and after, the transducers have drifted."""
+
+LARGEST_DRIFT = 0.02
+"""Fraction of α; a specimen that is further off at an end of its record is held tilted, or has overturned."""
 
 ALONG = 0.9
 """Smallest part of a channel's direction along x with which it counts as a record of the motion along x."""
@@ -62,6 +69,7 @@ class Instructions(BaseModel):
     displacements: dict[str, float]
     catch: float | None
     free_vibration: bool
+    rest_duration: float
 
 
 def instructions(campaign: Campaign, test: Test) -> Instructions:
@@ -80,6 +88,7 @@ def instructions(campaign: Campaign, test: Test) -> Instructions:
         displacements=_table_channels(channels, "displacement"),
         catch=setup.catch,
         free_vibration=test.kind == "free-vibration",
+        rest_duration=campaign.processing.rest_duration,
     )
 
 
@@ -204,7 +213,12 @@ def _angle_variables(
     attributes: dict[str, Any],
 ) -> dict[str, Any]:
     block = instructions.block
-    threshold = max(NOISE_FACTOR * fit.standard_error, NO_ROCKING_RATIO * block.critical_angle)
+    drifted = drift(time, fit.angle, duration=instructions.rest_duration, noise=fit.standard_error)
+    if drifted > LARGEST_DRIFT * block.critical_angle:
+        drifted = 0.0
+    threshold = max(
+        NOISE_FACTOR * fit.standard_error, DRIFT_FACTOR * drifted, NO_ROCKING_RATIO * block.critical_angle
+    )
     verdict = judge(time, fit.angle, block, threshold=threshold, catch=instructions.catch)
     attributes |= {"outcome": verdict.outcome, "separation": fit.separation}
     standing = time <= verdict.overturning_time if np.isfinite(verdict.overturning_time) else np.isfinite(time)
@@ -214,7 +228,7 @@ def _angle_variables(
     variables: dict[str, Any] = {
         "rocking_angle": ("elapsed", fit.angle),
         "rocking_angle_quality": ("elapsed", quality.astype(np.int8)),
-        "rocking_angle_standard_error": ((), fit.standard_error),
+        "rocking_angle_standard_error": ((), float(np.hypot(fit.standard_error, drifted / np.sqrt(3)))),
         "impact_time": ("impact", find_impacts(time[standing], fit.angle[standing], lowest=threshold)),
         "peak_angle": ((), float(fit.angle[peak])),
         "peak_ratio": ((), np.nan if verdict.outcome == "overturned" else float(ratio[peak])),
