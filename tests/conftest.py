@@ -1,4 +1,4 @@
-"""What every test shares: hypothesis is deterministic, matplotlib draws without a screen, real files are found or skipped."""
+"""What every test shares: a deterministic hypothesis, figures without a screen, real files found or skipped."""
 
 from __future__ import annotations
 

@@ -1,1 +1,0 @@
-"""Plain arrays of samples: clocks, filters, quality checks, rest, metrics."""

@@ -1,131 +1,101 @@
-"""Low-pass without a shift in time, and the second derivative that needs one."""
+"""Zero-phase filters, bridging of bad samples, and derivatives."""
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from scipy.signal import butter, sosfiltfilt
+from numpy.typing import NDArray
+from scipy import signal
 
 Array = NDArray[np.float64]
 
-PADDING_PERIODS = 3.0
-"""The record is continued at both ends, by point reflection, for this many periods of the cut-off."""
 
-
-def lowpass(values: ArrayLike, interval: float, cutoff_hz: float, order: int = 4) -> Array:
+def lowpass(values: Array, interval: float, cutoff_hz: float, order: int = 4) -> Array:
     """
-    Low-pass filter without phase: Butterworth, run forwards and backwards.
+    Low-pass a record without shifting it in time.
 
     Parameters
     ----------
-    values : array_like, shape (n,)
-        At equal steps, without NaN.
+    values : ndarray, shape (n,)
+        At equal steps, all finite.
     interval : float
-        Step, s.
+        s.
     cutoff_hz : float
-        An oscillation of this frequency comes out at half its amplitude.
-    order : int
-        Of the Butterworth filter that is run twice.
+        Frequency at which a Butterworth filter, run forwards and backwards, leaves half of the amplitude.
+    order : int, optional
+        Of each run.
 
     Returns
     -------
-    filtered : ndarray, shape (n,)
-        In the unit of the values. A record of fewer than three samples is returned as it is.
+    smooth : ndarray, shape (n,)
 
     Raises
     ------
     ValueError
-        If a sample is NaN, or the cut-off is not between 0 and half the sampling rate.
-
-    Examples
-    --------
-    >>> bool(abs(lowpass([1.0] * 50, 0.01, 10.0) - 1.0).max() < 1e-9)
-    True
+        If the cut-off is not between zero and half the sampling rate.
     """
-    samples = _samples(values)
     nyquist = 0.5 / interval
     if not 0 < cutoff_hz < nyquist:
         raise ValueError(
-            f"the cut-off is {cutoff_hz:.4g} Hz; with {1 / interval:.4g} samples a second "
-            f"one between 0 and {nyquist:.4g} Hz was expected"
+            f"the cut-off is {cutoff_hz:g} Hz; it was expected between 0 and {nyquist:g} Hz, half the sampling rate"
         )
-    if samples.size < 3:
-        return samples.copy()
-    padding = min(samples.size - 1, int(np.ceil(PADDING_PERIODS / (cutoff_hz * interval))))
-    sections = butter(order, cutoff_hz / nyquist, output="sos")
-    return np.asarray(sosfiltfilt(sections, samples, padtype="odd", padlen=padding), dtype=np.float64)
+    sections = signal.butter(order, cutoff_hz, fs=1 / interval, output="sos")
+    # The odd extension has to outlast the filter's own memory; a short record has no more than itself to give.
+    padding = min(int(3 * order / (cutoff_hz * interval)), values.size - 1)
+    return np.asarray(signal.sosfiltfilt(sections, values, padlen=padding), dtype=np.float64)
 
 
-def second_derivative(values: ArrayLike, interval: float, cutoff_hz: float, order: int = 4) -> Array:
+def second_derivative(values: Array, interval: float, cutoff_hz: float) -> Array:
     """
-    Differentiate twice after a low-pass, as for the acceleration of a table whose displacement was recorded.
+    Second derivative of a record below a frequency, as an acceleration from a displacement.
 
     Parameters
     ----------
-    values : array_like, shape (n,)
-        At equal steps, without NaN.
+    values : ndarray, shape (n,)
     interval : float
-        Step, s.
+        s.
     cutoff_hz : float
-        As for `lowpass`. At half the sampling rate or above, nothing is filtered.
-    order : int
-        As for `lowpass`.
+        Noise grows with the square of the frequency, so nothing above this one is kept.
 
     Returns
     -------
     derivative : ndarray, shape (n,)
-        In the unit of the values per s². The two end samples repeat their neighbours; a record of fewer than three
-        samples gives zeros.
-
-    Notes
-    -----
-    Noise of standard deviation s and bandwidth up to f comes out at about s (2πf)² / √5. The central difference
-    gives an oscillation of frequency f too small, by the factor (sin(πfΔt) / πfΔt)².
-
-    Examples
-    --------
-    >>> second_derivative([0.0, 1.0, 4.0, 9.0], 1.0, 5.0).tolist()
-    [2.0, 2.0, 2.0, 2.0]
+        Per s²; central differences.
     """
-    samples = _samples(values)
-    if samples.size < 3:
-        return np.zeros_like(samples)
-    smooth = lowpass(samples, interval, cutoff_hz, order) if cutoff_hz < 0.5 / interval else samples
-    inner = np.diff(smooth, 2) / interval**2
-    return np.concatenate((inner[:1], inner, inner[-1:]))
+    smooth = lowpass(values, interval, cutoff_hz)
+    derivative = np.zeros_like(smooth)
+    derivative[1:-1] = (smooth[2:] - 2 * smooth[1:-1] + smooth[:-2]) / interval**2
+    return derivative
 
 
-def bridge(values: ArrayLike, bad: ArrayLike) -> Array:
+def bridge(time: Array, values: Array, bad: NDArray[np.bool_]) -> Array:
     """
-    Replace bad samples by the straight line between their neighbours.
+    Replace bad samples by straight lines between their good neighbours; the ends are held.
+
+    Raises
+    ------
+    ValueError
+        If no sample is good.
+    """
+    if not bad.any():
+        return values
+    good = ~bad
+    if not good.any():
+        raise ValueError("no sample of the channel is good")
+    return np.where(bad, np.interp(time, time[good], values[good]), values)
+
+
+def noise_below(values: Array, interval: float, cutoff_hz: float, order: int = 4) -> float:
+    """
+    Standard deviation of what noise a low-pass leaves, taken the noise is white.
 
     Parameters
     ----------
-    values : array_like, shape (n,)
-    bad : array_like of bool, shape (n,)
-        NaN counts as bad as well.
-
-    Returns
-    -------
-    bridged : ndarray, shape (n,)
-        Bad samples at an end take the nearest good value. All NaN where no sample is good.
-
-    Examples
-    --------
-    >>> bridge([1.0, 9.0, 3.0, 9.0], [False, True, False, True]).tolist()
-    [1.0, 2.0, 3.0, 3.0]
+    values : ndarray, shape (n,)
+        Before the filter.
+    interval, cutoff_hz, order
+        As for `lowpass`.
     """
-    samples = np.asarray(values, dtype=np.float64)
-    good = np.isfinite(samples) & ~np.asarray(bad, dtype=bool)
-    if not good.any():
-        return np.full_like(samples, np.nan)
-    index = np.arange(samples.size)
-    return np.where(good, samples, np.interp(index, index[good], samples[good]))
-
-
-def _samples(values: ArrayLike) -> Array:
-    samples = np.asarray(values, dtype=np.float64)
-    finite = np.isfinite(samples)
-    if not finite.all():
-        raise ValueError(f"sample {int(np.argmin(finite))} is not a number; bridge the gaps first")
-    return samples
+    above = values - lowpass(values, interval, cutoff_hz, order)
+    kept = min(2 * cutoff_hz * interval, 0.9)
+    spread = 1.4826 * float(np.median(np.abs(above - np.median(above))))
+    return spread * float(np.sqrt(kept / (1 - kept)))

@@ -138,7 +138,7 @@ def _described(
         attrs={
             "outcome": history.outcome,
             "model": instructions.model,
-            "restitution_source": specimen.attrs["source"],
+            "restitution_source": specimen.attrs["restitution_source"],
             "warnings": [],
         },
     )

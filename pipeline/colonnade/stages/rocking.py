@@ -26,8 +26,8 @@ Array = NDArray[np.float64]
 NOISE_FACTOR = 6.0
 """Standard errors of the angle below which a rotation is not told from noise, over records of some 10⁴ samples."""
 
-DRIFT_FACTOR = 2.0
-"""A specimen that stands has no angle: what is left between the rests before and after, the transducers have drifted."""
+DRIFT_FACTOR = 1.5
+"""A specimen that stands has no angle: what differs between the rests before and after is the transducers' drift."""
 
 LARGEST_DRIFT = 0.02
 """Fraction of α; a specimen that is further off at an end of its record is held tilted, or has overturned."""
@@ -216,9 +216,8 @@ def _angle_variables(
     drifted = drift(time, fit.angle, duration=instructions.rest_duration, noise=fit.standard_error)
     if drifted > LARGEST_DRIFT * block.critical_angle:
         drifted = 0.0
-    threshold = max(
-        NOISE_FACTOR * fit.standard_error, DRIFT_FACTOR * drifted, NO_ROCKING_RATIO * block.critical_angle
-    )
+    indistinct = NOISE_FACTOR * fit.standard_error + DRIFT_FACTOR * drifted
+    threshold = max(indistinct, NO_ROCKING_RATIO * block.critical_angle)
     verdict = judge(time, fit.angle, block, threshold=threshold, catch=instructions.catch)
     attributes |= {"outcome": verdict.outcome, "separation": fit.separation}
     standing = time <= verdict.overturning_time if np.isfinite(verdict.overturning_time) else np.isfinite(time)

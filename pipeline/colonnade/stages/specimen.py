@@ -45,7 +45,7 @@ def specimen(identified: Mapping[str, xr.Dataset], instructions: Instructions) -
     -------
     pooled : xr.Dataset
         `side_restitution` (θ < 0, θ > 0) that predictions take and `restitution`, their mean: the one given in the
-        campaign file, else the identified one, else the rigid-body value; the attribute `source` says which.
+        campaign file, else the identified one, else the rigid-body value; `restitution_source` says which.
     """
     tests = sorted(name for name, result in identified.items() if np.isfinite(float(result["restitution"])))
     refused = [f"{name}: {result.attrs['reason']}" for name, result in sorted(identified.items()) if name not in tests]
@@ -56,17 +56,17 @@ def specimen(identified: Mapping[str, xr.Dataset], instructions: Instructions) -
     low = high = np.nan
     if instructions.given is not None:
         value = pair(instructions.given)
-        attributes |= {"source": "given", "method": "given in the campaign file"}
+        attributes |= {"restitution_source": "given", "method": "given in the campaign file"}
     elif tests:
         pooled = pool(values, errors, level=instructions.level)
         value, low, high = pair(pooled.value), pooled.low, pooled.high
         count = f"{len(tests)} free vibration{'s' if len(tests) > 1 else ''}"
         method = identified[tests[0]].attrs["method"]
-        attributes |= {"source": "identified", "method": f"{method}; random effects over {count}"}
+        attributes |= {"restitution_source": "identified", "method": f"{method}; random effects over {count}"}
     else:
         value = pair(block.restitution)
         attributes |= {
-            "source": "rigid-body",
+            "restitution_source": "rigid-body",
             "method": "rigid body without bounce, 1 − (2 m R b/I₀) sin α (Housner 1963)",
             "reason": "; ".join(refused) or "no free vibration of this specimen was identified",
         }

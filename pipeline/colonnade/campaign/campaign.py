@@ -1,0 +1,107 @@
+"""The campaign: the file as written, and what it becomes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, Field, WithJsonSchema
+
+from colonnade.campaign.channel import Channel
+from colonnade.campaign.fields import Gravity, Text, shown
+from colonnade.campaign.identifier import Identifier
+from colonnade.campaign.settings import Processing
+from colonnade.campaign.setup import Setup
+from colonnade.campaign.specimen import AnySpecimen, Specimen
+from colonnade.campaign.table import Table
+from colonnade.campaign.test import Test
+from colonnade.dynamics.block import STANDARD_GRAVITY, Block
+
+SCHEMA = 1
+"""Version of the contract of campaign.toml."""
+
+
+def _version(value: object) -> int:
+    if value != SCHEMA or isinstance(value, bool) or not isinstance(value, int):
+        raise ValueError(f"{shown(value)} was found. This colonnade reads campaign files of schema {SCHEMA}.")
+    return value
+
+
+class CampaignFile(Table):
+    """A campaign file as written; `tests` may also be the path of a test log, which is read before this."""
+
+    version: Annotated[int, BeforeValidator(_version), WithJsonSchema({"const": SCHEMA})] = Field(alias="schema")
+    """Version of the campaign file's form: 1."""
+    campaign: Identifier
+    """Id of the campaign, such as "prism-2013"."""
+    title: Text
+    """Title of the report."""
+    facility: Text | None = None
+    """Laboratory and shake table."""
+    gravity: Gravity = Field(default=STANDARD_GRAVITY, json_schema_extra={"unit": "m/s^2"})
+    """Gravity at the laboratory; 9.81 m/s² where it is not given."""
+    specimens: dict[Identifier, AnySpecimen] = Field(min_length=1)
+    """Specimens, by id."""
+    setups: dict[Identifier, Setup] = Field(min_length=1)
+    """Setups, by id."""
+    processing: Processing = Processing()
+    """Settings of the processing, each with a default."""
+    tests: tuple[Test, ...] = ()
+    """The tests, or the path of the test log (CSV or Excel)."""
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """
+    A campaign, read and found valid; all numbers in SI.
+
+    Attributes
+    ----------
+    schema : int
+    campaign, title : str
+    facility : str or None
+    gravity : float
+        m/s².
+    specimens, setups, tests : dict
+        By id, in the order of the file.
+    processing : Processing
+    path, folder : Path
+        The campaign file and its folder, absolute and resolved.
+    warnings : tuple of str
+        What is accepted but not yet used, and what looks odd.
+    """
+
+    schema: int
+    campaign: str
+    title: str
+    facility: str | None
+    gravity: float
+    specimens: dict[str, Specimen]
+    setups: dict[str, Setup]
+    processing: Processing
+    tests: dict[str, Test]
+    path: Path
+    folder: Path
+    warnings: tuple[str, ...] = ()
+
+    def block(self, specimen: str) -> Block:
+        """Block of a specimen, with the campaign's gravity."""
+        return self.specimens[specimen].block(self.gravity)
+
+    def channels(self, test: Test) -> dict[str, Channel]:
+        """Channels that a test has a raw file of, by id."""
+        channels = self.setups[test.setup].channels
+        return {name: channel for name, channel in channels.items() if channel.recorder in test.files}
+
+    def tests_of(self, specimen: str) -> dict[str, Test]:
+        """Tests of one specimen, by id."""
+        return {name: test for name, test in self.tests.items() if test.specimen == specimen}
+
+
+def resolved(written: CampaignFile, path: Path, warnings: tuple[str, ...]) -> Campaign:
+    """Make the campaign of a valid file."""
+    fields: dict[str, Any] = {name: getattr(written, name) for name in CampaignFile.model_fields}
+    fields["schema"] = fields.pop("version")
+    fields["tests"] = {test.id: test for test in written.tests}
+    return Campaign(**fields, path=path, folder=path.parent, warnings=warnings)

@@ -1,0 +1,225 @@
+"""Channels: which column of which recorder is what, where on the specimen or the table, and how it becomes SI."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Annotated, Any, Self
+
+from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
+
+from colonnade import units
+from colonnade.campaign.fields import Column, Delay, Direction, Position, number, one_of, shown
+from colonnade.campaign.identifier import Identifier
+from colonnade.campaign.table import Table, problem, refuse
+from colonnade.errors import UnitError
+
+MAIN = "main"
+"""The recorder that a setup has without saying so."""
+
+_NEEDS_DIRECTION = {"displacement", "velocity", "acceleration", "angle", "angular_velocity"}
+
+
+def _gain(value: object) -> str:
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        value = repr(number(value))
+    if not isinstance(value, str):
+        raise ValueError(f'{shown(value)} was found. A gain in quotes was expected, such as "10 mm/V".')
+    try:
+        factor, unit = units.parse(value)
+        units.normalise_unit(unit)
+    except UnitError as error:
+        raise ValueError(str(error)) from None
+    if factor == 0.0:
+        raise ValueError(f"{shown(value)} was found. A gain of zero leaves nothing of the recording.")
+    return value
+
+
+def _unit(value: object) -> str:
+    if not isinstance(value, str):
+        raise ValueError(f'{shown(value)} was found. A unit in quotes was expected, such as "V".')
+    try:
+        units.normalise_unit(value)
+    except UnitError as error:
+        raise ValueError(str(error)) from None
+    return value
+
+
+def _quantity_text(value: object) -> str:
+    if not isinstance(value, str):
+        raise ValueError(f'{shown(value)} has no unit. A quantity in quotes was expected, such as "10 V".')
+    try:
+        _, unit = units.parse(value)
+        units.normalise_unit(unit)
+    except UnitError as error:
+        raise ValueError(str(error)) from None
+    return value
+
+
+_QUANTITY_SCHEMA: dict[str, Any] = {"type": "string", "pattern": rf"^\s*{units.NUMBER_PATTERN}"}
+Gain = Annotated[
+    str,
+    BeforeValidator(_gain),
+    WithJsonSchema({"anyOf": [_QUANTITY_SCHEMA | {"examples": ["10 mm/V"]}, {"type": "number"}]}),
+]
+Unit = Annotated[str, BeforeValidator(_unit), WithJsonSchema({"type": "string", "examples": ["V", "mm", "g"]})]
+QuantityText = Annotated[str, BeforeValidator(_quantity_text), WithJsonSchema(_QUANTITY_SCHEMA)]
+
+
+class Channel(Table):
+    """
+    One transducer as recorded: physical value = recorded × gain + offset.
+
+    Beside its keys it has, in SI: `factor`, `offset`, `range_recorded`, `full_scale` and `si_unit`.
+    """
+
+    column: Column
+    """Name of its column in the raw file, or its number from 1."""
+    recorder: Identifier = MAIN
+    """Recorder that has the column."""
+    time: Column | None = None
+    """Column of its own time, where it has one."""
+    quantity: Annotated[str, *one_of(*units.QUANTITY_DIMENSIONS)]
+    """What it records: "displacement", "velocity", "acceleration", "angle", "angular_velocity", "force" or "other"."""
+    unit: Unit | None = None
+    """Unit of the values in the file, such as "V" or "mm"."""
+    gain: Gain | None = None
+    """Physical over recorded, such as "10.02 mm/V"; -1 turns the sign."""
+    written_offset: QuantityText | None = Field(default=None, alias="offset")
+    """Physical value of a recorded zero, such as "-0.13 mm"."""
+    written_range: QuantityText | None = Field(default=None, alias="range")
+    """Largest magnitude: of the recorded value where its unit is the recorded one, else of the physical value."""
+    on: Annotated[str, *one_of("specimen", "table", "ground")] | None = None
+    """What it is fixed to or looks at: "specimen", "table" or "ground"."""
+    at: Position | None = None
+    """Its material point [x, y, z] from the centre of the specimen's base."""
+    direction: Direction | None = None
+    """Direction of a positive reading, such as [1, 0, 0]; for angles the axis, right-handed."""
+    relative_to: Annotated[str, *one_of("table", "ground")] | None = None
+    """What a displacement of the specimen is measured against: "table" or "ground"."""
+    delay: Delay = Field(default=0.0, json_schema_extra={"unit": "s"})
+    """How late its values are, such as "2 ms"."""
+    sensing: Annotated[str, *one_of("point", "surface", "wire")] = "point"
+    """What it follows: "point", "surface" or "wire"."""
+    normal: Direction | None = None
+    """Outward normal of the face that a "surface" transducer looks at."""
+    anchor: Position | None = None
+    """Fixed end of a "wire"."""
+
+    @model_validator(mode="after")
+    def _fits_together(self) -> Self:
+        wrong = self._missing()
+        for key, derived in (
+            ("gain" if self.gain else "unit", "factor"),
+            ("offset", "offset"),
+            ("range", "full_scale"),
+        ):
+            if {"unit", "gain", "offset"} & set(wrong):
+                break
+            try:
+                getattr(self, derived)
+            except UnitError as error:
+                wrong[key] = str(error)
+        if wrong:
+            raise refuse("Channel", [problem(message, key) for key, message in wrong.items()])
+        return self
+
+    def _missing(self) -> dict[str, str]:
+        told: dict[str, str] = {}
+        if self.quantity == "other":
+            return told
+        if self.unit is None:
+            told["unit"] = 'It is missing. Expected: unit of the values in the file, such as "V" or "mm".'
+        if self.quantity in _NEEDS_DIRECTION:
+            if self.on is None:
+                told["on"] = 'It is missing. "specimen", "table" or "ground" was expected.'
+            if self.direction is None:
+                told["direction"] = (
+                    "It is missing. The direction of a positive reading was expected, such as [1, 0, 0]."
+                )
+        if self.quantity == "displacement" and self.on == "specimen":
+            if self.at is None:
+                told["at"] = (
+                    "It is missing. The point that the transducer follows was expected, "
+                    'such as ["43 mm", "0 mm", "440 mm"] from the centre of the base.'
+                )
+            if self.relative_to is None:
+                told["relative_to"] = 'It is missing. "table" or "ground" was expected: where the transducer is fixed.'
+        if self.sensing == "surface" and self.normal is None:
+            told["normal"] = 'It is missing. A "surface" transducer needs the normal of the face, such as [1, 0, 0].'
+        if self.sensing == "wire" and self.anchor is None:
+            told["anchor"] = 'It is missing. A "wire" needs its fixed end, such as ["500 mm", "0 mm", "440 mm"].'
+        return told
+
+    @property
+    def dimension(self) -> str | None:
+        """Dimension of its quantity; None for "other"."""
+        return units.QUANTITY_DIMENSIONS[self.quantity]
+
+    @property
+    def si_unit(self) -> str:
+        """Unit of the physical value in the notation of CF, such as "m s-2"."""
+        if self.dimension is not None:
+            return units.si_factor(units.DIMENSIONS[self.dimension][0])[1]
+        return units.si_factor(self._physical_unit)[1]
+
+    @cached_property
+    def factor(self) -> float:
+        """SI value of one recorded unit."""
+        if self.gain is None:
+            recorded = self.unit or ""
+            if self.dimension is None:
+                return units.si_factor(recorded)[0]
+            try:
+                return units.factor_to_si(recorded, self.dimension)
+            except UnitError as error:
+                example = f"{units.DIMENSIONS[self.dimension][1]}/{recorded}"
+                raise UnitError(f'{error} If this is the recorder\'s own unit, add a gain in "{example}".') from None
+        if self.dimension is None:
+            return units.parse(self.gain)[0] * units.si_factor(self._physical_unit)[0]
+        return units.gain_to_si(self.gain, self.unit or "", self.dimension)
+
+    @cached_property
+    def offset(self) -> float:
+        """Physical value of a recorded zero, SI."""
+        return 0.0 if self.written_offset is None else self._physical(self.written_offset)
+
+    @cached_property
+    def range_recorded(self) -> float | None:
+        """Largest magnitude of the recorded value, in the recorded unit; None where `range` is a physical value."""
+        if self.written_range is None:
+            return None
+        value, unit = units.parse(self.written_range)
+        recorded = self.unit or ""
+        if units.same_unit(unit, recorded):
+            return abs(value)
+        (factor, dimension), (recorded_factor, recorded_dimension) = units.si_factor(unit), units.si_factor(recorded)
+        if dimension != recorded_dimension or dimension == self.si_unit:
+            return None
+        return abs(value) * factor / recorded_factor
+
+    @cached_property
+    def full_scale(self) -> float | None:
+        """Largest magnitude of the physical value, SI; None where no range is given."""
+        if self.written_range is None:
+            return None
+        if self.range_recorded is not None:
+            return self.range_recorded * abs(self.factor) + abs(self.offset)
+        try:
+            return abs(self._physical(self.written_range))
+        except UnitError as error:
+            raise UnitError(f'{error} A range in the recorded unit, "{self.unit or ""}", is right as well.') from None
+
+    @property
+    def _physical_unit(self) -> str:
+        """Unit of recorded × gain, for a quantity without a dimension of its own."""
+        recorded = f"({self.unit})" if self.unit else "1"
+        return recorded if self.gain is None else f"({units.parse(self.gain)[1] or 1}) * {recorded}"
+
+    def _physical(self, text: str) -> float:
+        if self.dimension is not None:
+            return units.to_si(text, self.dimension)
+        value, unit = units.parse(text)
+        factor, found = units.si_factor(unit)
+        if found != self.si_unit:
+            raise UnitError(f'"{text}" is not in the unit of the physical value, which is {self.si_unit} in SI.')
+        return value * factor

@@ -1,0 +1,98 @@
+"""Names that have to exist and ids that have to differ: checked on the file as written, so that all is told at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from colonnade.campaign.channel import MAIN
+from colonnade.campaign.fields import shown
+from colonnade.campaign.identifier import clashes
+from colonnade.campaign.places import Place
+from colonnade.errors import nearest
+
+Problem = tuple[Place, str]
+
+
+def dangling(document: Mapping[str, Any]) -> Iterator[Problem]:
+    """
+    Find names that refer to nothing and ids that clash.
+
+    Parameters
+    ----------
+    document : mapping
+        The campaign file as written; anything may have the wrong type, which is told elsewhere.
+
+    Yields
+    ------
+    problem : (place, str)
+    """
+    specimens, setups = _table(document.get("specimens")), _table(document.get("setups"))
+    yield from _clashing(("specimens",), specimens)
+    yield from _clashing(("setups",), setups)
+    for name, setup in setups.items():
+        yield from _setup(("setups", name), _table(setup))
+    tests = document.get("tests")
+    yield from _tests(tests if isinstance(tests, list) else [], specimens, setups)
+
+
+def _table(value: object) -> dict[str, Any]:
+    return value if isinstance(value, dict) else {}
+
+
+def _clashing(place: Place, table: Mapping[str, Any], *, as_variables: bool = False) -> Iterator[Problem]:
+    for _, name, earlier in clashes(table, as_variables=as_variables):
+        same = "once '.', '-' and '_' are taken for the same" if as_variables else "but for upper and lower case"
+        yield (*place, name), f'This id is the same as "{earlier}", {same}. Choose another.'
+
+
+def _setup(place: Place, setup: Mapping[str, Any]) -> Iterator[Problem]:
+    channels, recorders = _table(setup.get("channels")), _table(setup.get("recorders"))
+    yield from _clashing((*place, "channels"), channels, as_variables=True)
+    yield from _clashing((*place, "recorders"), recorders)
+    for name, channel in channels.items():
+        recorder = _table(channel).get("recorder", MAIN)
+        if isinstance(recorder, str) and recorder not in {MAIN, *recorders}:
+            hint = nearest(recorder, [MAIN, *recorders])
+            yield (*place, "channels", name, "recorder"), f"{shown(recorder)} is no recorder of this setup.{hint}"
+    for name, recorder in recorders.items():
+        named = _table(_table(recorder).get("clock")).get("align")
+        if isinstance(named, list) and len(named) == 2:
+            for channel, owner in zip(named, (MAIN, name), strict=True):
+                yield from _aligned((*place, "recorders", name, "clock", "align"), channel, owner, channels)
+
+
+def _aligned(place: Place, channel: object, owner: str, channels: Mapping[str, Any]) -> Iterator[Problem]:
+    if not isinstance(channel, str):
+        return
+    own = [name for name, each in channels.items() if _table(each).get("recorder", MAIN) == owner]
+    if channel not in channels:
+        yield place, f"{shown(channel)} is no channel of this setup.{nearest(channel, own)}"
+    elif channel not in own:
+        yield place, f'{shown(channel)} is not a channel of recorder "{owner}".{nearest(channel, own)}'
+
+
+def _tests(tests: list[Any], specimens: Mapping[str, Any], setups: Mapping[str, Any]) -> Iterator[Problem]:
+    ids = [
+        test.get("id") if isinstance(_table(test).get("id"), str) else f"\0{index}" for index, test in enumerate(tests)
+    ]
+    for index, name, earlier in clashes(ids):
+        same = (
+            "There is a test of this id already" if name == earlier else f'It is the same as "{earlier}" but for case'
+        )
+        yield ("tests", index, "id"), f"{shown(name)}: {same}. Every test needs an id of its own."
+    for index, test in enumerate(map(_table, tests)):
+        for key, known in (("specimen", specimens), ("setup", setups)):
+            called = test.get(key)
+            if isinstance(called, str) and called not in known:
+                yield ("tests", index, key), f"{shown(called)} is no {key} of this campaign.{nearest(called, known)}"
+        setup = _table(setups.get(test["setup"])) if isinstance(test.get("setup"), str) else {}
+        if setup:
+            recorders = [MAIN, *_table(setup.get("recorders"))]
+            for recorder in _table(test.get("file")):
+                if recorder not in recorders:
+                    hint = nearest(recorder, recorders)
+                    yield (
+                        ("tests", index, "file", recorder),
+                        f'Setup "{test["setup"]}" has no recorder of this name.{hint}',
+                    )

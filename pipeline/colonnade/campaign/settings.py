@@ -1,0 +1,141 @@
+"""Settings of the processing: every number that a stage takes from the campaign, with its default and what it does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, WithJsonSchema
+
+from colonnade.campaign.fields import Duration, number, quantity, shown
+from colonnade.campaign.table import Table
+
+MODELS = ("linear",)
+"""Models that `predict` runs."""
+
+
+def _bounded(low: float, high: float) -> tuple[Any, Any]:
+    def bounded(value: object) -> float:
+        converted = number(value)
+        if not low < converted < high:
+            raise ValueError(f"{shown(value)} was found. A number between {low:g} and {high:g} was expected.")
+        return converted
+
+    return BeforeValidator(bounded), WithJsonSchema(
+        {"type": "number", "exclusiveMinimum": low, "exclusiveMaximum": high}
+    )
+
+
+def _count(low: int, high: int) -> tuple[Any, Any]:
+    def counted(value: object) -> int:
+        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+            raise ValueError(f"{shown(value)} was found. A whole number from {low} to {high} was expected.")
+        return value
+
+    return BeforeValidator(counted), WithJsonSchema({"type": "integer", "minimum": low, "maximum": high})
+
+
+def _auto_or_frequency() -> tuple[Any, Any]:
+    convert, schema = quantity("frequency", above_zero=True)
+
+    def either(value: object) -> Any:
+        if value == "auto":
+            return value
+        try:
+            return convert.func(value)
+        except ValueError as error:
+            raise ValueError(f'{error} Or "auto".') from None
+
+    return BeforeValidator(either), WithJsonSchema({"anyOf": [{"const": "auto"}, schema.json_schema]})
+
+
+def _models(value: object) -> tuple[str, ...]:
+    names = [value] if isinstance(value, str) else value
+    if not isinstance(names, (list, tuple)) or not names or len(set(map(str, names))) != len(names):
+        raise ValueError(f'{shown(value)} was found. A list of models was expected, such as ["linear"].')
+    for name in names:
+        if name not in MODELS:
+            raise ValueError(f"{shown(name)} is no model I know. There is: {', '.join(MODELS)}.")
+    return tuple(names)
+
+
+AutoFrequency = Annotated[Literal["auto"] | float, *_auto_or_frequency()]
+Models = Annotated[
+    tuple[str, ...],
+    BeforeValidator(_models),
+    WithJsonSchema({"type": "array", "items": {"enum": list(MODELS)}, "minItems": 1, "uniqueItems": True}),
+]
+
+
+def _setting(default: Any, unit: str = "") -> Any:
+    return Field(default=default, json_schema_extra={"unit": unit} if unit else None)
+
+
+class RestitutionSettings(Table):
+    """What the identification of the coefficient of restitution takes."""
+
+    lowest_amplitude: Annotated[float, *_bounded(0.0, 1.0)] = _setting(0.02, "of α")
+    """Peaks below this fraction of the critical angle are left out."""
+    level: Annotated[float, *_bounded(0.5, 1.0)] = _setting(0.95)
+    """Probability of the interval that is given for e."""
+
+
+class PredictSettings(Table):
+    """What the predictions take."""
+
+    models: Models = _setting(("linear",))
+    """Models of rocking that are run on the recorded base motion."""
+    rest_angle: Annotated[float, *_bounded(0.0, 0.1)] = _setting(1e-6, "of α")
+    """An arc after an impact that stays below this fraction of the critical angle is taken as rest."""
+
+
+class Processing(Table):
+    """Settings of all stages; SI."""
+
+    sampling_rate: AutoFrequency = _setting("auto", "Hz")
+    """Rate of the one clock that all channels are brought to; "auto" takes the main recorder's."""
+    lowpass: AutoFrequency = _setting("auto", "Hz")
+    """Cut-off of the zero-phase low-pass of channels on the specimen; "auto" takes it from specimen and rate."""
+    base_lowpass: AutoFrequency = _setting("auto", "Hz")
+    """Cut-off of the zero-phase low-pass of channels on the table; "auto" takes it from specimen and rate."""
+    filter_order: Annotated[int, *_count(1, 10)] = _setting(4)
+    """Order of the Butterworth low-pass, before it is run forwards and backwards."""
+    spike_threshold: Annotated[float, *_bounded(1.0, 1000.0)] = _setting(8.0, "robust standard deviations")
+    """A sample that stands out from its neighbours by more than this is flagged as a spike and bridged."""
+    flat_duration: Duration = _setting(0.5, "s")
+    """A value that stays exactly the same for longer than this is flagged as flat."""
+    gap: Annotated[float, *_bounded(1.0, 1000.0)] = _setting(1.5, "sampling intervals")
+    """A longer step of the clock is a gap."""
+    jitter: Annotated[float, *_bounded(0.0, 1.0)] = _setting(0.05, "sampling intervals")
+    """A clock whose steps differ by more than this is flagged."""
+    rest_duration: Duration = _setting(0.5, "s")
+    """Shortest quiet stretch that is taken as rest."""
+    longest_offset: Duration = _setting(1.0, "s")
+    """Largest delay between two recorders that is looked for."""
+    restitution: RestitutionSettings = RestitutionSettings()
+    """The identification of the coefficient of restitution."""
+    predict: PredictSettings = PredictSettings()
+    """The predictions."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One setting as `show settings` lists it: its whole key, value and default in SI, unit, and what it does."""
+
+    key: str
+    value: Any
+    default: Any
+    unit: str
+    description: str
+
+
+def settings(processing: Table, prefix: str = "processing") -> Iterator[Setting]:
+    """List every setting of a campaign."""
+    for name, field in type(processing).model_fields.items():
+        value, key = getattr(processing, name), f"{prefix}.{name}"
+        if isinstance(value, Table):
+            yield from settings(value, key)
+        else:
+            extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
+            yield Setting(key, value, field.default, str(extra.get("unit", "")), field.description or "")

@@ -1,0 +1,162 @@
+"""Setups: how the raw files are read, which recorders there were, and the channels."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema
+from pydantic_core import InitErrorDetails
+
+from colonnade.campaign.channel import MAIN, Channel
+from colonnade.campaign.fields import Angle, Frequency, PositiveAngle, shown
+from colonnade.campaign.identifier import Identifier, identifier
+from colonnade.campaign.table import Table, problem, refuse
+from colonnade.errors import nearest
+
+GENERAL_FORMAT = "delimited"
+
+
+class FileOptions(BaseModel):
+    """
+    How a raw file is to be read.
+
+    Attributes
+    ----------
+    format : str or None
+        Name of its format; None where it is recognised from the file.
+    options : dict
+        Options of that format, as written and found valid.
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    format: str | None = None
+    options: dict[str, Any] = {}
+
+
+class Align(BaseModel):
+    """
+    Two linked channels that give a recorder's delay against the main one.
+
+    Attributes
+    ----------
+    channel : str
+        Of the main recorder.
+    own_channel : str
+        Of this recorder.
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    channel: str
+    own_channel: str
+
+
+def _file_options(value: object) -> FileOptions:
+    from colonnade.readers.registry import formats
+
+    if not isinstance(value, Mapping):
+        raise ValueError(
+            f'{shown(value)} was found. A table was expected, such as {{format = "delimited", delimiter = ";"}}.'
+        )
+    options = {str(key): each for key, each in value.items() if key != "format"}
+    name = value.get("format")
+    known = formats()
+    if name is not None and (not isinstance(name, str) or name not in known):
+        raise refuse("file", [problem(f"{shown(name)} is no format I know.{nearest(str(name), known)}", "format")])
+    chosen = known[name or GENERAL_FORMAT]
+    try:
+        chosen.options.model_validate(options)
+    except ValidationError as error:
+        raise refuse("file", [_option_problem(each, chosen.options, chosen.name) for each in error.errors()]) from None
+    return FileOptions(format=name, options=options)
+
+
+def _option_problem(error: Any, options: type[BaseModel], format_name: str) -> InitErrorDetails:
+    place = error["loc"]
+    if error["type"] == "extra_forbidden":
+        return problem(
+            f'Format "{format_name}" has no such option.{nearest(str(place[-1]), options.model_fields)}', *place
+        )
+    said = str(error["ctx"]["error"]) if error["type"] == "value_error" else error["msg"]
+    return problem(f"{shown(error['input'])} was found: {said.rstrip('.')}.", *place)
+
+
+def _clock(value: object) -> Literal["trigger"] | Align:
+    if value == "trigger":
+        return "trigger"
+    named = value.get("align") if isinstance(value, Mapping) and set(value) == {"align"} else None
+    if not (isinstance(named, list) and len(named) == 2 and all(isinstance(name, str) for name in named)):
+        raise ValueError(
+            f'{shown(value)} was found. "trigger" was expected where the recorders start together, else '
+            '{align = ["a channel of the main recorder", "its channel that measures the same"]}.'
+        )
+    return Align(channel=named[0], own_channel=named[1])
+
+
+def _recorder_id(value: object) -> str:
+    name = identifier(value)
+    if name.casefold() == MAIN:
+        raise ValueError(f'"{name}" is the recorder of the setup\'s own `file`. Choose another id for a further one.')
+    return name
+
+
+_CLOCK_SCHEMA = {
+    "anyOf": [
+        {"const": "trigger"},
+        {
+            "type": "object",
+            "properties": {"align": {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}},
+            "required": ["align"],
+            "additionalProperties": False,
+        },
+    ]
+}
+FileTable = Annotated[FileOptions, BeforeValidator(_file_options), WithJsonSchema({"type": "object"})]
+Clock = Annotated[Literal["trigger"] | Align, BeforeValidator(_clock), WithJsonSchema(_CLOCK_SCHEMA)]
+RecorderId = Annotated[str, BeforeValidator(_recorder_id), WithJsonSchema({"type": "string"})]
+
+
+class Recorder(Table):
+    """One data logger."""
+
+    file: FileTable = FileOptions()
+    """How its raw files are read; every option is sniffed where it is not given."""
+    sampling_rate: Frequency | None = None
+    """Samples per second, such as "200 Hz", where the file has no time column."""
+    clock: Clock = "trigger"
+    """"trigger" where it starts with the main recorder, else {align = ["main's channel", "its channel"]}."""
+
+
+class Setup(Table):
+    """
+    How tests were recorded.
+
+    `recorders` holds all of them, the one of the setup's own `file` first, under the name "main".
+    """
+
+    file: FileTable = FileOptions()
+    """How the raw files are read; every option is sniffed where it is not given."""
+    sampling_rate: Frequency | None = None
+    """Samples per second, such as "200 Hz", where the file has no time column."""
+    further_recorders: dict[RecorderId, Recorder] = Field(default={}, alias="recorders")
+    """Recorders beside the main one, by id."""
+    catch: PositiveAngle | None = None
+    """Rotation at which the safety frame catches the specimen, such as "0.3 rad"."""
+    table_tilt: Angle | None = None
+    """Tilt of the table at rest, such as "0.1 deg"."""
+    channels: dict[Identifier, Channel] = Field(min_length=1)
+    """The channels, by id."""
+
+    @cached_property
+    def recorders(self) -> dict[str, Recorder]:
+        """All recorders by name, "main" first."""
+        return {MAIN: Recorder.model_construct(file=self.file, sampling_rate=self.sampling_rate, clock="trigger")} | (
+            self.further_recorders
+        )
+
+    def of_recorder(self, recorder: str) -> dict[str, Channel]:
+        """Channels of one recorder, by id."""
+        return {name: channel for name, channel in self.channels.items() if channel.recorder == recorder}

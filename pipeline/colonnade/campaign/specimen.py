@@ -1,0 +1,201 @@
+"""Specimens: dimensions or measured properties, and the block that they make."""
+
+from __future__ import annotations
+
+from math import cos, tan
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from colonnade.campaign.fields import (
+    Length,
+    Mass,
+    PositiveNumber,
+    Sided,
+    SidedAngle,
+    SidedInertia,
+    SidedLength,
+    SidedRestitution,
+)
+from colonnade.campaign.table import Table
+from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
+
+LARGEST_DEVIATION = 0.01
+"""A measured value further than this from the one of the dimensions is told, as a fraction of the latter."""
+
+SLIP_TOLERANCE = 0.003
+"""A value this near to a known slip is told to be one; tables print three digits."""
+
+_MEASURED = {"critical_angle": ("rad", 1.0), "pole_distance": ("mm", 1e3), "inertia": ("kg m²", 1.0)}
+
+
+class Specimen(Table):
+    """What every specimen has; a measured value given beside dimensions overrides the one that follows from them."""
+
+    shape: str
+    """Its shape: "prism", "cylinder", "cone" or "measured"."""
+    mass: Mass
+    """Mass, such as "26.10 kg"."""
+    scale: PositiveNumber | None = None
+    """Scale of the model: 20 means 1:20."""
+    critical_angle: SidedAngle | None = None
+    """Rotation that brings the centre of mass above the pole, such as "0.1864 rad"."""
+    pole_distance: SidedLength | None = None
+    """Distance of the centre of mass from the pole, such as "232 mm"."""
+    inertia: SidedInertia | None = None
+    """Moment of inertia about the pole, such as "1.873 kg m^2"."""
+    restitution: SidedRestitution | None = None
+    """Coefficient of restitution, a plain number such as 0.976; without it the identified one is used."""
+
+    @model_validator(mode="after")
+    def _is_a_block(self) -> Self:
+        try:
+            self.block(STANDARD_GRAVITY)
+        except ArithmeticError:
+            raise ValueError("These numbers are too large or too small for a block. Check the units.") from None
+        except ValueError as error:
+            raise ValueError(f"These numbers make no block: {error}.") from None
+        return self
+
+    def dimensions(self, gravity: float) -> Block | None:
+        """Block of the dimensions alone, or None where the specimen has none."""
+        return None
+
+    def block(self, gravity: float) -> Block:
+        """
+        Build the block that predictions use.
+
+        Parameters
+        ----------
+        gravity : float
+            m/s².
+
+        Returns
+        -------
+        block : Block
+            Of the dimensions, with measured values in their place where given.
+        """
+        block = self.dimensions(gravity)
+        if block is None:
+            if self.critical_angle is None or self.pole_distance is None or self.inertia is None:
+                raise ValueError("critical_angle, pole_distance and inertia are needed where there are no dimensions")
+            return Block.measured(
+                mass=self.mass,
+                pole_distance=self.pole_distance,
+                critical_angle=self.critical_angle,
+                inertia=self.inertia,
+                gravity=gravity,
+            )
+        return block.override(
+            critical_angle=self.critical_angle, pole_distance=self.pole_distance, inertia=self.inertia
+        )
+
+    def deviations(self, gravity: float) -> list[str]:
+        """
+        Say which measured values are more than 1 % off the ones that follow from the dimensions.
+
+        A critical angle that is the tangent, and a pole distance that is the height of the centre of mass, are slips
+        often met in tables; they are named where the value agrees with them.
+        """
+        block = self.dimensions(gravity)
+        if block is None:
+            return []
+        side = block.governing
+        slips = {
+            "critical_angle": (
+                tan(side.critical_angle),
+                "the tangent of the angle, half width over height of the centre of mass",
+            ),
+            "pole_distance": (
+                side.pole_distance * cos(side.critical_angle),
+                "the height of the centre of mass, not its distance from the pole",
+            ),
+        }
+        told = []
+        for name, (unit, factor) in _MEASURED.items():
+            given: Sided | None = getattr(self, name)
+            if given is None:
+                continue
+            expected = float(getattr(side, name))
+            for value in dict.fromkeys(pair(given)):
+                if abs(value - expected) <= LARGEST_DEVIATION * expected:
+                    continue
+                slip, meaning = slips.get(name, (0.0, ""))
+                hint = f" It agrees with {meaning}." if abs(value - slip) < SLIP_TOLERANCE * expected else ""
+                told.append(
+                    f"{name} is given as {value * factor:.4g} {unit}, {100 * (value / expected - 1):+.1f} % off the "
+                    f"{expected * factor:.4g} {unit} of the dimensions; the given value is used.{hint}"
+                )
+        return told
+
+
+class Prism(Specimen):
+    """A solid rectangular block."""
+
+    shape: Literal["prism"]
+    """Its shape."""
+    width: Length
+    """Along x, the direction of shaking, such as "86 mm"."""
+    depth: Length
+    """Along y, across the direction of shaking."""
+    height: Length
+    """Along z."""
+
+    def dimensions(self, gravity: float) -> Block:
+        """Block of the dimensions alone."""
+        return Block.prism(width=self.width, depth=self.depth, height=self.height, mass=self.mass, gravity=gravity)
+
+
+class Cylinder(Specimen):
+    """A solid upright cylinder."""
+
+    shape: Literal["cylinder"]
+    """Its shape."""
+    diameter: Length
+    """Diameter, such as "97 mm"."""
+    height: Length
+    """Along z."""
+
+    def dimensions(self, gravity: float) -> Block:
+        """Block of the dimensions alone."""
+        return Block.cylinder(diameter=self.diameter, height=self.height, mass=self.mass, gravity=gravity)
+
+
+class Cone(Specimen):
+    """A solid truncated cone."""
+
+    shape: Literal["cone"]
+    """Its shape."""
+    base_diameter: Length
+    """Diameter of the circle it stands on."""
+    top_diameter: Length
+    """Diameter at the top."""
+    height: Length
+    """Along z."""
+
+    def dimensions(self, gravity: float) -> Block:
+        """Block of the dimensions alone."""
+        return Block.cone(
+            base_diameter=self.base_diameter,
+            top_diameter=self.top_diameter,
+            height=self.height,
+            mass=self.mass,
+            gravity=gravity,
+        )
+
+
+class Measured(Specimen):
+    """A specimen of any shape, known by measurement."""
+
+    shape: Literal["measured"]
+    """Its shape."""
+    critical_angle: SidedAngle
+    """Rotation that brings the centre of mass above the pole, such as "0.21 rad"."""
+    pole_distance: SidedLength
+    """Distance of the centre of mass from the pole, such as "610 mm"."""
+    inertia: SidedInertia
+    """Moment of inertia about the pole, such as "41.2 kg m^2"."""
+
+
+AnySpecimen = Annotated[Prism | Cylinder | Cone | Measured, Field(discriminator="shape")]
+SHAPES = ("prism", "cylinder", "cone", "measured")

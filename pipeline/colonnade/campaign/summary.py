@@ -1,0 +1,127 @@
+"""The form of processed/summary.json, contract 1."""
+
+from __future__ import annotations
+
+from math import isnan
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+
+Outcome = Literal["no-rocking", "rocking", "overturned"]
+
+
+def _known(value: Any) -> Any:
+    return None if isinstance(value, float) and isnan(value) else value
+
+
+Known = Annotated[float | None, BeforeValidator(_known)]
+"""A number, or null where it is not known; NaN becomes null, which JSON has a word for."""
+
+
+class _Record(BaseModel):
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True, use_attribute_docstrings=True
+    )
+
+
+class RestitutionSummary(_Record):
+    """The coefficient of restitution that predictions take."""
+
+    value: float | tuple[float, float] | None
+    """Ratio of angular velocity after an impact to before; a pair for θ < 0 and θ > 0; null where refused."""
+    low: Known = None
+    """Lower end of its interval."""
+    high: Known = None
+    """Upper end of its interval."""
+    level: Known = None
+    """Probability of the interval."""
+    source: Literal["given", "identified", "rigid-body"]
+    """Where it comes from."""
+    method: str | None = None
+    """How it was identified."""
+    reason: str | None = None
+    """Why it was refused."""
+    tests: tuple[str, ...] = ()
+    """Free vibrations it was identified from."""
+
+
+class SpecimenSummary(_Record):
+    """A specimen; of one that is not symmetric the side with the smaller critical angle."""
+
+    critical_angle: float
+    """α, rad."""
+    p: float
+    """Frequency parameter, rad/s."""
+    pole_distance: float
+    """R, m."""
+    inertia: float
+    """I₀ about the pole, kg m²."""
+    restitution: RestitutionSummary
+    """Coefficient of restitution."""
+
+
+class PredictionSummary(_Record):
+    """What a model gives on the recorded base motion; empty where it has not run."""
+
+    outcome: Outcome | None = None
+    """Predicted outcome."""
+    peak_ratio: Known = None
+    """max |θ| / α; null when overturned."""
+    nrmse: Known = None
+    """RMS of predicted − measured, over α, until either first passes α."""
+
+
+class TestSummary(_Record):
+    """A test."""
+
+    status: Literal["done", "failed", "pending"]
+    """Whether its stages have run."""
+    reason: str | None = None
+    """Why it failed."""
+    warnings: tuple[str, ...] = ()
+    """What its stages warned of."""
+    kind: str
+    """As in the campaign file."""
+    specimen: str
+    """As in the campaign file."""
+    span: Known = None
+    """As in the campaign file."""
+    outcome: Outcome | None = None
+    """Measured outcome."""
+    observed_outcome: str | None = None
+    """As in the campaign file."""
+    peak_ratio: Known = None
+    """max |θ| / α; null when overturned."""
+    peak_time: Known = None
+    """Time of the peak, s."""
+    pga: Known = None
+    """Peak acceleration of the table, m/s²."""
+    impacts: int | None = None
+    """Impacts followed by a peak above noise and 0.001 α."""
+    frequency_ratio: Known = None
+    """Ω = ω / p of a sine test."""
+    amplitude_ratio: Known = None
+    """A = a / (g tan α) of a sine test."""
+    order: Known = None
+    """Order of a sine test's response."""
+    predicted: dict[str, PredictionSummary] = {}
+    """By model."""
+
+
+class Summary(_Record):
+    """One record a specimen and a test; rebuilt from the results files, which are the truth."""
+
+    version: Literal[1] = Field(default=1, alias="schema")
+    """Version of this form: 1."""
+    campaign: str
+    """Id of the campaign."""
+    colonnade: str
+    """Version of colonnade that wrote it."""
+    specimens: dict[str, SpecimenSummary]
+    """By id."""
+    tests: dict[str, TestSummary]
+    """By id."""
+
+    def text(self) -> str:
+        """Write it as JSON."""
+        return self.model_dump_json(by_alias=True, indent=1) + "\n"

@@ -1,0 +1,106 @@
+"""Tests: what was done with which specimen in which setup, and where its raw files are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema
+
+from colonnade.campaign.channel import MAIN
+from colonnade.campaign.fields import (
+    INTERVAL_SCHEMA,
+    Frequency,
+    Interval,
+    PositiveNumber,
+    Text,
+    interval,
+    one_of,
+    shown,
+)
+from colonnade.campaign.identifier import Identifier
+from colonnade.campaign.rawpath import inside
+from colonnade.campaign.table import Table, problem, refuse
+
+KINDS = ("free-vibration", "sine", "earthquake", "pulse", "noise", "tilt", "other")
+OUTCOMES = ("overturned", "not-overturned", "no-rocking", "rocking")
+ZEROS = ("auto", "start", "end", "none")
+
+
+def _files(value: object, info: ValidationInfo) -> dict[str, Path]:
+    folder = info.context["folder"] if info.context else Path.cwd()
+    if not isinstance(value, Mapping):
+        return {MAIN: inside(folder, value)}
+    paths, problems = {}, []
+    for recorder, path in value.items():
+        try:
+            paths[str(recorder)] = inside(folder, path)
+        except ValueError as error:
+            problems.append(problem(str(error), str(recorder), value=path))
+    if problems:
+        raise refuse("file", problems)
+    if MAIN not in paths:
+        raise ValueError(
+            'A file of each recorder was expected, among them `main`: {main = "raw/a.csv", daq2 = "raw/b.csv"}.'
+        )
+    return paths
+
+
+def _zero(value: object) -> str | tuple[float, float]:
+    if isinstance(value, (list, tuple)):
+        return interval(value)
+    if isinstance(value, str) and value in ZEROS:
+        return value
+    listed = ", ".join(f'"{choice}"' for choice in ZEROS)
+    raise ValueError(f'{shown(value)} was found. {listed} or an interval such as ["0 s", "0.5 s"] was expected.')
+
+
+Files = Annotated[
+    dict[str, Path],
+    BeforeValidator(_files),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"type": "string", "minLength": 1},
+                {"type": "object", "required": [MAIN], "additionalProperties": {"type": "string", "minLength": 1}},
+            ]
+        }
+    ),
+]
+Zero = Annotated[
+    Literal["auto", "start", "end", "none"] | tuple[float, float],
+    BeforeValidator(_zero),
+    WithJsonSchema({"anyOf": [{"enum": list(ZEROS)}, INTERVAL_SCHEMA]}),
+]
+
+
+class Test(Table):
+    """One test."""
+
+    id: Identifier
+    """Its id, such as "free-01"; results lie in a folder of this name."""
+    kind: Annotated[str, *one_of(*KINDS)]
+    """What was done: "free-vibration", "sine", "earthquake", "pulse", "noise", "tilt" or "other"."""
+    specimen: str
+    """Id of its specimen."""
+    setup: str
+    """Id of its setup."""
+    files: Files = Field(alias="file")
+    """Its raw file, from the folder of the campaign file; with several recorders a table of one each."""
+    window: Interval | None = None
+    """Part of the file that is this test, such as ["2 s", "14 s"]."""
+    zero: Zero = "auto"
+    """Where the transducers' zero is taken: "auto", "start", "end", "none" or an interval."""
+    frequency: Frequency | None = None
+    """Frequency of a sine or pulse, such as "3 Hz"."""
+    motion: Text | None = None
+    """Name of the base motion, such as "El Centro 1940 NS"."""
+    span: PositiveNumber | None = None
+    """The table's intensity setting."""
+    time_scale: PositiveNumber | None = None
+    """Factor on the motion's time."""
+    observed_outcome: Annotated[str, *one_of(*OUTCOMES)] | None = None
+    """What was seen: "overturned", "not-overturned", "no-rocking" or "rocking"."""
+    notes: Text | None = None
+    """Anything worth keeping."""

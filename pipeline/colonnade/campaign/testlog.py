@@ -1,0 +1,185 @@
+"""The laboratory's own test log, CSV or Excel: one row a test, the campaign file's keys as column heads."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import date, time
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from colonnade.campaign.channel import MAIN
+from colonnade.campaign.test import Test
+from colonnade.errors import nearest
+
+EXCEL_SUFFIXES = (".xlsx", ".xlsm", ".xls", ".xlsb", ".ods")
+_NUMBERS = ("span", "time_scale")
+_QUANTITIES = ("frequency", "window", "zero")
+_INTERVALS = ("window", "zero")
+_LARGEST_BYTES = 50_000_000
+
+
+@dataclass(frozen=True)
+class Log:
+    """
+    A test log as tables of the campaign file.
+
+    Attributes
+    ----------
+    name : str
+        The file's name.
+    tests : tuple of dict
+        As they would stand in campaign.toml.
+    rows : tuple of int
+        Row of each in the file, from 1.
+    problems, warnings : tuple of str
+        Finished paragraphs.
+    """
+
+    name: str = ""
+    tests: tuple[dict[str, Any], ...] = ()
+    rows: tuple[int, ...] = ()
+    problems: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+
+def read_log(path: Path) -> Log:
+    """
+    Read a test log.
+
+    Parameters
+    ----------
+    path : Path
+        CSV (comma, semicolon or tab) or Excel; of a workbook the first sheet.
+
+    Returns
+    -------
+    log : Log
+        Empty cells are keys not given. A column that is no key is left out with a warning, but refused where its
+        name is nearly that of a key. `file.daq2` is the file of recorder daq2.
+
+    Raises
+    ------
+    ValueError
+        If the file is not there or not readable as a table; the message is a finished sentence.
+    """
+    cells, decimal_comma = _cells(path)
+    heads_row = next((index for index, row in enumerate(cells) if any(map(_filled, row))), None)
+    if heads_row is None:
+        raise ValueError(f"{path.name} is empty. A row of column heads was expected: {', '.join(Test.purposes())}.")
+    heads = [str(_plain(head)).strip() for head in cells[heads_row]]
+    problems, warnings = _judge(heads, path.name, heads_row + 1)
+    tests, rows = [], []
+    for index, row in enumerate(cells[heads_row + 1 :], start=heads_row + 2):
+        if not any(map(_filled, row)):
+            continue
+        surplus = [cell for cell in row[len(heads) :] if _filled(cell)]
+        if surplus:
+            problems.append(
+                f'{path.name}, row {index}: there are more cells than the {len(heads)} heads ("{_plain(surplus[0])}"). '
+                "Put a cell that holds the separator in quotes."
+            )
+        tests.append(_test(dict(zip(heads, row, strict=False)), decimal_comma))
+        rows.append(index)
+    return Log(path.name, tuple(tests), tuple(rows), tuple(problems), tuple(warnings))
+
+
+def _cells(path: Path) -> tuple[list[list[Any]], bool]:
+    """Rows of cells, and whether a comma between digits is a decimal sign."""
+    try:
+        if path.suffix.lower() in EXCEL_SUFFIXES:
+            return _workbook(path), True
+        if path.stat().st_size > _LARGEST_BYTES:
+            raise ValueError(f"{path.name} is larger than a test log can be. Is it a raw file?")
+        raw = path.read_bytes()
+    except FileNotFoundError:
+        there = [entry.name for entry in path.parent.iterdir()] if path.parent.is_dir() else []
+        raise ValueError(f'There is no test log "{path.name}" in {path.parent}.{nearest(path.name, there)}') from None
+    except OSError as error:
+        raise ValueError(f"The test log {path.name} cannot be read ({error.strerror or error}).") from None
+    text = _decoded(raw)
+    first = next((line for line in text.splitlines() if line.strip()), "")
+    delimiter = max(";\t,", key=first.count)
+    try:
+        return list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)), delimiter != ","
+    except csv.Error as error:
+        raise ValueError(f"{path.name} is not a table of text ({error}).") from None
+
+
+def _decoded(raw: bytes) -> str:
+    if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return raw.decode("utf-16", errors="replace")
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return raw.decode("cp1252", errors="replace")
+
+
+def _workbook(path: Path) -> list[list[Any]]:
+    from python_calamine import CalamineError, CalamineWorkbook
+
+    if not path.is_file():
+        raise FileNotFoundError(path)
+    try:
+        return [
+            list(row)
+            for row in CalamineWorkbook.from_path(str(path)).get_sheet_by_index(0).to_python(skip_empty_area=False)
+        ]
+    except CalamineError as error:
+        raise ValueError(f"{path.name} cannot be read as a workbook ({error}). Save it again, or as CSV.") from None
+
+
+def _judge(heads: Sequence[str], name: str, row: int) -> tuple[list[str], list[str]]:
+    problems, warnings, keys = [], [], Test.purposes()
+    for head in dict.fromkeys(head for head in heads if head and heads.count(head) > 1):
+        problems.append(
+            f'{name}, row {row}: the column head "{head}" stands there twice. Each key may have one column.'
+        )
+    for head in dict.fromkeys(head for head in heads if head):
+        if head in keys or head.startswith("file."):
+            continue
+        if get_close_matches(head.casefold(), keys, n=1, cutoff=0.75):
+            problems.append(f'{name}, row {row}: there is no key "{head}".{nearest(head, keys)}')
+        else:
+            warnings.append(f'{name}: column "{head}" is not a key of a test and is not used.')
+    return problems, warnings
+
+
+def _test(cells: dict[str, Any], decimal_comma: bool) -> dict[str, Any]:
+    keys = Test.purposes()
+    filled = {head: cell for head, cell in cells.items() if _filled(cell)}
+    test = {head: _value(head, cell, decimal_comma) for head, cell in filled.items() if head in keys}
+    files = {head.removeprefix("file."): str(_plain(cell)) for head, cell in filled.items() if head.startswith("file.")}
+    if files:
+        test["file"] = ({MAIN: test["file"]} if "file" in test else {}) | files
+    return test
+
+
+def _value(key: str, cell: Any, decimal_comma: bool) -> Any:
+    text = str(_plain(cell)).strip()
+    if decimal_comma and key in (*_NUMBERS, *_QUANTITIES):
+        text = re.sub(r"(?<=[0-9]),(?=[0-9])", ".", text)
+    if key in _NUMBERS:
+        try:
+            return float(text)
+        except ValueError:
+            return text
+    if key in _INTERVALS:
+        parts = [part.strip() for part in re.split(r"\s*(?:[;,…]|\.\.\.|\bto\b)\s*", text.strip("[]")) if part.strip()]
+        return [part.strip("\"'") for part in parts] if len(parts) > 1 else text
+    return text
+
+
+def _filled(cell: Any) -> bool:
+    return cell is not None and str(cell).strip() != ""
+
+
+def _plain(cell: Any) -> Any:
+    """Excel keeps every number as a float: 1.0 was typed as 1."""
+    if isinstance(cell, float) and cell.is_integer() and abs(cell) < 1e15:
+        return int(cell)
+    return cell.isoformat() if isinstance(cell, (date, time)) else cell

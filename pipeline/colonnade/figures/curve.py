@@ -1,0 +1,70 @@
+"""A curve over time, and its envelope that draws the same with a few hundred points."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+INTERVALS = 600
+"""Time intervals of an envelope: finer than a screen or a printer shows across a figure's width."""
+
+
+class Curve(NamedTuple):
+    """Times (s) and values of one line, both shape (n,); NaN where there is no value."""
+
+    time: Array
+    values: Array
+
+
+def envelope(curve: Curve, *, intervals: int = INTERVALS) -> Curve:
+    """
+    Thin a long curve to the lowest and highest value of each time interval, so that no peak is lost.
+
+    Parameters
+    ----------
+    curve : Curve
+        Times not decreasing.
+    intervals : int, optional
+        Equal intervals over the curve's time.
+
+    Returns
+    -------
+    thinned : Curve
+        The curve itself where it has at most two values an interval; else at most two an interval, in their order of
+        time, and the first and last value. An interval without any value gives one NaN, so that gaps stay gaps.
+
+    Raises
+    ------
+    ValueError
+        If times and values differ in shape.
+
+    Examples
+    --------
+    >>> short = Curve(np.array([0.0, 1.0]), np.array([0.0, 2.0]))
+    >>> envelope(short) is short
+    True
+    """
+    time, values = curve
+    if time.shape != values.shape:
+        raise ValueError(
+            f"time has shape {time.shape} and values {values.shape}; two arrays of one length were expected"
+        )
+    if time.size <= 2 * intervals:
+        return curve
+    edges = np.linspace(time[0], time[-1], intervals + 1)[1:-1]
+    starts = np.unique(np.concatenate(([0], np.searchsorted(time, edges))))
+    starts = starts[starts < time.size]
+    finite = np.isfinite(values)
+    ends = np.append(starts[1:], time.size)
+    kept = [0, time.size - 1]
+    for start, end in zip(starts, ends, strict=True):
+        if finite[start:end].any():
+            kept += [start + int(np.nanargmin(values[start:end])), start + int(np.nanargmax(values[start:end]))]
+        else:
+            kept.append(int(start))
+    index = np.unique(kept)
+    return Curve(time[index], values[index])

@@ -1,0 +1,130 @@
+"""What the store holds of a test or a specimen: results, failures with their reasons, warnings, provenance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from colonnade.campaign import Campaign, Test
+from colonnade.errors import StoreError
+from colonnade.store import files
+from colonnade.store.layout import Layout
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+STAGES = ("ingest", "condition", "rocking", "restitution", "predict", "compare")
+
+
+@dataclass(frozen=True)
+class Message:
+    """A warning or a reason, and the stage that gave it."""
+
+    stage: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Results:
+    """
+    All that is stored of one test or specimen.
+
+    Attributes
+    ----------
+    datasets : mapping of str to Dataset
+        Results that are done, by stage; those of `predict` by ``predict <model>``. Of `ingest` and `condition` the
+        samples are not kept: a page of a hundred tests has to fit into memory.
+    failures, warnings : tuple of Message
+        In the order of the stages.
+    raw_files : tuple of (str, str)
+        Name and SHA-256.
+    versions : tuple of str
+        Versions of colonnade that wrote these results.
+    channels : mapping of str to mapping
+        Attributes that `ingest` and `condition` gave each channel, by its id.
+    """
+
+    datasets: Mapping[str, xr.Dataset]
+    failures: tuple[Message, ...]
+    warnings: tuple[Message, ...]
+    raw_files: tuple[tuple[str, str], ...] = ()
+    versions: tuple[str, ...] = ()
+    channels: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+
+    @property
+    def status(self) -> str:
+        """Give failed, done (the last stage is there) or pending."""
+        if self.failures:
+            return "failed"
+        return "done" if "compare" in self.datasets else "pending"
+
+    def value(self, stage: str, name: str) -> float | None:
+        """Return a scalar result, None where it is not there."""
+        dataset = self.datasets.get(stage)
+        return float(dataset[name]) if dataset is not None and name in dataset else None
+
+    def text(self, stage: str, name: str) -> str:
+        """Return a text attribute, empty where it is not there."""
+        dataset = self.datasets.get(stage)
+        return str(dataset.attrs.get(name, "")) if dataset is not None else ""
+
+
+def of_test(campaign: Campaign, layout: Layout, test: Test) -> Results:
+    """Read what is stored of a test; a damaged file counts as a failure of its stage."""
+    return _gather(_files_of(campaign, layout, test))
+
+
+def of_specimen(layout: Layout, specimen: str) -> Results:
+    """Read what is stored of a specimen, under the stage name ``specimen``."""
+    return _gather(iter([("specimen", layout.specimen(specimen))]))
+
+
+def _files_of(campaign: Campaign, layout: Layout, test: Test) -> Iterator[tuple[str, Path]]:
+    for stage in STAGES:
+        if stage == "predict":
+            for model in campaign.processing.predict.models:
+                yield f"predict {model}", layout.stage(test.id, stage, model)
+        elif stage != "restitution" or test.kind == "free-vibration":
+            yield stage, layout.stage(test.id, stage)
+
+
+def _gather(paths: Iterator[tuple[str, Path]]) -> Results:
+    datasets: dict[str, xr.Dataset] = {}
+    failures: list[Message] = []
+    warnings: list[Message] = []
+    raw: dict[str, str] = {}
+    versions: dict[str, None] = {}
+    channels: dict[str, dict[str, Any]] = {}
+    for stage, path in paths:
+        if not path.is_file():
+            continue
+        try:
+            dataset = files.read(path)
+        except StoreError as error:
+            failures.append(Message(stage, str(error)))
+            continue
+        warnings += [Message(stage, text) for text in _listed(dataset.attrs.get("warnings"))]
+        names, hashes = (_listed(dataset.attrs.get(name)) for name in ("raw_files", "raw_sha256"))
+        raw |= dict(zip(names, hashes, strict=False))
+        versions |= dict.fromkeys(
+            [str(dataset.attrs["colonnade_version"])] if "colonnade_version" in dataset.attrs else []
+        )
+        if dataset.attrs.get("status") == "failed":
+            failures.append(Message(stage, str(dataset.attrs.get("reason") or "no reason was stored")))
+        elif stage in ("ingest", "condition"):
+            for variable in dataset.data_vars.values():
+                if "channel" in variable.attrs:
+                    channels[variable.attrs["channel"]] = channels.get(variable.attrs["channel"], {}) | variable.attrs
+            datasets[stage] = dataset.drop_vars(list(dataset.variables))
+        else:
+            datasets[stage] = dataset
+    return Results(datasets, tuple(failures), tuple(warnings), tuple(raw.items()), tuple(versions), channels)
+
+
+def _listed(attribute: object) -> list[str]:
+    """Return a list of text that was stored as an attribute, empty where there is none."""
+    if not attribute:
+        return []
+    return [str(item) for item in attribute] if isinstance(attribute, (list, tuple)) else [str(attribute)]

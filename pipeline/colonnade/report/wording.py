@@ -1,0 +1,102 @@
+"""Numbers and outcomes in the words of the page; what is not known is a dash."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from colonnade.units import format_quantity, format_uncertain, from_si
+
+NOTHING = "–"
+
+
+def number(value: float | None, digits: int = 3) -> str:
+    """
+    Write a plain number with significant digits.
+
+    Examples
+    --------
+    >>> number(0.41234), number(float("nan")), number(None), number(12345.6)
+    ('0.412', '–', '–', '12300')
+    """
+    if value is None or not isfinite(value):
+        return NOTHING
+    text = f"{value:.{digits}g}"
+    return text if "e" not in text or abs(value) < 1e-4 else f"{float(text):.0f}"
+
+
+def quantity(value: float | None, unit: str, digits: int = 3) -> str:
+    """
+    Write an SI value in a unit.
+
+    Examples
+    --------
+    >>> quantity(0.23202, "mm", 4), quantity(None, "mm")
+    ('232 mm', '–')
+    """
+    if value is None or not isfinite(value):
+        return NOTHING
+    if "e" in f"{from_si(value, unit):.{digits}g}":
+        return f"{number(from_si(value, unit), digits)} {unit}"
+    return format_quantity(value, unit, digits)
+
+
+def acceleration(value: float | None) -> str:
+    """
+    Write an acceleration in both units of the field.
+
+    Examples
+    --------
+    >>> acceleration(2.3)
+    '2.3 m/s² (0.235 g)'
+    """
+    if value is None or not isfinite(value):
+        return NOTHING
+    return f"{quantity(value, 'm/s²')} ({quantity(value, 'g')})"
+
+
+def interval(value: float | None, low: float, high: float, level: float) -> str:
+    """
+    Write a coefficient of restitution with the half-width of its interval.
+
+    Examples
+    --------
+    >>> interval(0.97608, 0.97528, 0.97688, 0.95)
+    '0.9761 ± 0.0008 (95 % interval)'
+    >>> interval(0.976, float("nan"), float("nan"), 0.95)
+    '0.976'
+    """
+    if value is None or not isfinite(value):
+        return NOTHING
+    if not (isfinite(low) and isfinite(high)):
+        return number(value, 4)
+    return f"{format_uncertain(value, (high - low) / 2)} ({100 * level:g} % interval)"
+
+
+def count(amount: int, one: str, several: str = "") -> str:
+    """
+    Write a number of things.
+
+    Examples
+    --------
+    >>> count(1, "test"), count(3, "test"), count(0, "test")
+    ('1 test', '3 tests', 'no test')
+    """
+    if amount == 0:
+        return f"no {one}"
+    return f"{amount} {one if amount == 1 else several or one + 's'}"
+
+
+def agree(measured: str, predicted: str) -> bool | None:
+    """
+    Tell whether a predicted outcome is the measured (or observed) one; None where either is not known.
+
+    Examples
+    --------
+    >>> agree("rocking", "rocking"), agree("not-overturned", "overturned"), agree("", "rocking")
+    (True, False, None)
+    """
+    if not measured or not predicted:
+        return None
+    if measured == "not-overturned":
+        return predicted != "overturned"
+    return measured == predicted

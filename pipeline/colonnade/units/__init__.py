@@ -1,0 +1,33 @@
+"""Quantities in text to SI and back; inside colonnade all numbers are SI."""
+
+from colonnade.units.conversion import (
+    NUMBER_PATTERN,
+    factor_to_si,
+    from_si,
+    gain_to_si,
+    normalise_unit,
+    offset_to_si,
+    parse,
+    same_unit,
+    si_factor,
+    to_si,
+)
+from colonnade.units.dimensions import DIMENSIONS, QUANTITY_DIMENSIONS
+from colonnade.units.writing import format_quantity, format_uncertain
+
+__all__ = [
+    "DIMENSIONS",
+    "NUMBER_PATTERN",
+    "QUANTITY_DIMENSIONS",
+    "factor_to_si",
+    "format_quantity",
+    "format_uncertain",
+    "from_si",
+    "gain_to_si",
+    "normalise_unit",
+    "offset_to_si",
+    "parse",
+    "same_unit",
+    "si_factor",
+    "to_si",
+]

@@ -1,0 +1,31 @@
+"""A campaign file as contract 1 shows it, and a way to load a changed one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from colonnade.campaign import Campaign, load
+
+CONTRACT = Path(__file__).with_name("contract.toml").read_text(encoding="utf-8")
+
+LoadText = Callable[[str], Campaign]
+
+
+@pytest.fixture
+def contract() -> str:
+    """Text of a campaign file that has every key of contract 1."""
+    return CONTRACT
+
+
+@pytest.fixture
+def load_text(tmp_path: Path) -> LoadText:
+    """Load a campaign file of this text."""
+
+    def loaded(text: str) -> Campaign:
+        (tmp_path / "campaign.toml").write_text(text, encoding="utf-8")
+        return load(tmp_path)
+
+    return loaded

@@ -1,0 +1,319 @@
+"""Contract 1 as a whole: what is read, and that everything wrong is told at once, with its place."""
+
+from __future__ import annotations
+
+import math
+import pickle
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from colonnade.campaign import Align, load
+from colonnade.errors import CampaignError
+
+CONTRACT = Path(__file__).with_name("contract.toml").read_text(encoding="utf-8")
+
+
+def test_every_key_of_the_contract_becomes_si(contract, load_text, tmp_path):
+    campaign = load_text(contract)
+    assert (campaign.schema, campaign.campaign, campaign.gravity) == (1, "prism-2013", 9.80)
+    assert campaign.facility == "Earthquake Simulator, Aristotle University"
+    assert campaign.folder == tmp_path.resolve()
+    assert campaign.path == tmp_path.resolve() / "campaign.toml"
+
+    assert list(campaign.specimens) == ["prism", "cylinder", "cone", "statue"]
+    prism, statue = campaign.specimens["prism"], campaign.specimens["statue"]
+    assert (prism.shape, prism.width, prism.mass, prism.scale) == ("prism", 0.086, 26.10, 20.0)
+    assert statue.pole_distance == (0.610, 0.612)
+    assert statue.critical_angle == (0.21, pytest.approx(math.radians(12)))
+    assert statue.restitution == 0.9
+    assert campaign.block("prism").gravity == 9.80
+
+    setup = campaign.setups["frame"]
+    assert setup.file.format == "delimited"
+    assert setup.file.options == {"delimiter": ";", "decimal": ",", "encoding": "latin-1", "time": "Time [s]"}
+    assert (setup.sampling_rate, setup.catch) == (200.0, 0.3)
+    assert setup.table_tilt == pytest.approx(math.radians(0.1))
+    assert list(setup.recorders) == ["main", "daq2"]
+    assert setup.recorders["main"].sampling_rate == 200.0
+    assert setup.recorders["main"].file is setup.file
+    assert setup.recorders["daq2"].clock == Align(channel="table_acceleration", own_channel="table_acceleration_2")
+
+    top, bottom = setup.channels["top"], setup.channels["bottom"]
+    assert (top.column, top.recorder, top.time, top.sensing, top.delay) == ("LVDT 1", "main", None, "point", 0.0)
+    assert top.factor == pytest.approx(0.01002)
+    assert top.offset == pytest.approx(-0.00013)
+    assert top.at == (0.043, 0.0, 0.440)
+    assert (bottom.column, bottom.direction, bottom.delay, bottom.relative_to) == (3, (1.0, 0.0, 0.0), 0.002, "ground")
+    assert setup.channels["table_displacement"].time == "Time 2"
+    assert list(setup.of_recorder("daq2")) == ["table_acceleration_2"]
+
+    free, span = campaign.tests["free-01"], campaign.tests["span-2.0"]
+    folder = tmp_path.resolve()
+    assert free.files == {"main": folder / "raw" / "free-01.csv", "daq2": folder / "raw" / "free-01b.csv"}
+    assert (free.window, free.zero, free.kind) == ((2.0, 14.0), (0.0, 0.5), "free-vibration")
+    assert span.files == {"main": folder / "raw" / "span20.csv"}
+    assert (span.zero, span.span, span.motion) == ("auto", 2.0, "El Centro 1940 NS")
+    assert (span.time_scale, span.observed_outcome) == (0.2236, "overturned")
+    assert "table_acceleration_2" not in campaign.channels(span)
+
+    assert campaign.processing.lowpass == 25.0
+    assert campaign.processing.base_lowpass == "auto"
+    assert campaign.processing.restitution.level == 0.9
+    assert campaign.processing.restitution.lowest_amplitude == 0.02
+
+
+def test_a_campaign_goes_to_another_process_unchanged(contract, load_text):
+    campaign = load_text(contract)
+    assert pickle.loads(pickle.dumps(campaign)) == campaign
+
+
+def test_the_path_may_be_the_file_or_its_folder(contract, load_text, tmp_path):
+    campaign = load_text(contract)
+    assert load(tmp_path / "campaign.toml") == campaign
+
+
+def test_windows_line_ends_and_a_byte_order_mark_change_nothing(contract, load_text, tmp_path):
+    campaign = load_text(contract)
+    (tmp_path / "campaign.toml").write_bytes(b"\xef\xbb\xbf" + contract.replace("\n", "\r\n").encode())
+    assert load(tmp_path) == campaign
+
+
+WRONG = [
+    ("schema = 1", "schema = 2", "line 1: schema: 2 was found. This colonnade reads campaign files of schema 1."),
+    ('campaign = "prism-2013"', 'campaing = "x"', 'line 2: campaing: There is no such key. Did you mean "campaign"?'),
+    ('campaign = "prism-2013"', "", "campaign: It is missing. Expected: id of the campaign"),
+    (
+        '"9.80 m/s^2"',
+        "9.80",
+        'line 5: gravity: 9.8 has no unit. A quantity in quotes was expected, such as "9.81 m/s^2".',
+    ),
+    ('width = "86 mm"', 'width = "86"', 'line 8: specimens.prism.width: "86" has no unit. A length was expected'),
+    ('width = "86 mm"', 'width = "86,0 mm"', 'specimens.prism.width: "86,0 mm" has a decimal comma'),
+    ('width = "86 mm"', 'widht = "86 mm"', 'specimens.prism.widht: There is no such key. Did you mean "width"?'),
+    ('width = "86 mm"', 'width = "-86 mm"', 'specimens.prism.width: "-86 mm" was found. It has to be above zero.'),
+    ('mass = "26.10 kg"', 'mass = "26.10 g"', 'specimens.prism.mass: "26.10 g": "g" is a unit of acceleration.'),
+    ('shape = "cone"', 'shape = "kone"', 'specimens.cone: "kone" is no shape I know. Did you mean "cone"?'),
+    ('shape = "cone", ', "", 'specimens.cone: "shape" is missing.'),
+    ('["0.21 rad", "12 deg"]', '"100 deg"', "specimens.statue: These numbers make no block: critical_angle"),
+    ("restitution = 0.9}", "restitution = 1.2}", "specimens.statue.restitution: 1.2 was found."),
+    ("cylinder =", "Prism =", 'specimens.Prism: This id is the same as "prism", but for upper and lower case.'),
+    ("cylinder =", "con =", 'specimens.con: "con" is the name of a device on Windows.'),
+    ("cylinder =", '"a b" =', 'specimens.a b: "a b" cannot be an id.'),
+    (
+        'format = "delimited"',
+        'format = "delimitd"',
+        'setups.frame.file.format: "delimitd" is no format I know. Did you mean',
+    ),
+    (
+        "decimal = ",
+        "decmal = ",
+        'setups.frame.file.decmal: Format "delimited" has no such option. Did you mean "decimal"?',
+    ),
+    ('catch = "0.3 rad"', 'catch = "0.3 m"', 'setups.frame.catch: "0.3 m": "m" is a unit of length. An angle'),
+    ("recorders.daq2", "recorders.Main", 'setups.frame.recorders.Main: "Main" is the recorder of the setup\'s own'),
+    (
+        '"table_acceleration", ',
+        '"table_aceleration", ',
+        'clock.align: "table_aceleration" is no channel of this setup. Did',
+    ),
+    ('"table_acceleration", ', '"table_acceleration_2", ', 'is not a channel of recorder "main".'),
+    (
+        "clock = {align",
+        "clock = {aling",
+        'setups.frame.recorders.daq2.clock: a table was found. "trigger" was expected',
+    ),
+    ('recorder = "daq2"', 'recorder = "daq3"', '"daq3" is no recorder of this setup. Did you mean "daq2"?'),
+    (
+        'gain = "10.02 mm/V"',
+        'gain = "10.02 mm"',
+        'channels.top.gain: "10.02 mm" times a recorded value in "V" is not a length.',
+    ),
+    ('unit = "V", gain = "10.02 mm/V"', 'unit = "V"', 'channels.top.unit: "V" is a unit of voltage.'),
+    ('offset = "-0.13 mm"', 'offset = "-0.13 V"', 'channels.top.offset: "-0.13 V": "V" is a unit of voltage.'),
+    ('range = "10 V"', 'range = "10 Hz"', 'channels.top.range: "10 Hz": "Hz" is a unit of frequency.'),
+    ('unit = "V"', 'unit = "Vlot"', 'channels.top.unit: "Vlot" is not a unit I know.'),
+    (
+        "direction = [1, 0, 0]",
+        "direction = [0, 0, 0]",
+        "channels.top.direction: [0, 0, 0] was found, which points nowhere.",
+    ),
+    ('on = "specimen", ', "", "channels.top.on: It is missing."),
+    (', relative_to = "table"', "", 'channels.top.relative_to: It is missing. "table" or "ground" was expected'),
+    ("bottom =", "TOP =", 'channels.TOP: This id is the same as "top"'),
+    ("table_displacement =", "table-acceleration =", "once '.', '-' and '_' are taken for the same"),
+    ("column = 3", "column = 0", "channels.bottom.column: 0 was found."),
+    ('quantity = "acceleration"', 'quantity = "acceleraton"', '"acceleraton" was found. Did you mean "acceleration"?'),
+    ('lowpass = "25 Hz"', 'lowpass = "25 mm"', 'processing.lowpass: "25 mm": "mm" is a unit of length.'),
+    ('lowpass = "25 Hz"', 'lowpas = "25 Hz"', 'processing.lowpas: There is no such key. Did you mean "lowpass"?'),
+    (
+        "level = 0.9",
+        "level = 90",
+        "processing.restitution.level: 90 was found. A number between 0.5 and 1 was expected.",
+    ),
+    ('id = "span-2.0"', 'id = "Free-01"', 'tests[Free-01].id: "Free-01": It is the same as "free-01" but for case.'),
+    ('id = "span-2.0"', 'id = "free-01"', "There is a test of this id already."),
+    ('id = "span-2.0"', "", "tests[2].id: It is missing."),
+    ('kind = "earthquake"', 'kind = "earthquakes"', 'tests[span-2.0].kind: "earthquakes" was found. Did you mean'),
+    (
+        'specimen = "prism"',
+        'specimen = "prsm"',
+        'tests[free-01].specimen: "prsm" is no specimen of this campaign. Did you mean',
+    ),
+    (
+        'setup = "frame"',
+        'setup = "fram"',
+        'tests[free-01].setup: "fram" is no setup of this campaign. Did you mean "frame"?',
+    ),
+    (
+        'daq2 = "raw/free',
+        'daq3 = "raw/free',
+        'tests[free-01].file.daq3: Setup "frame" has no recorder of this name. Did you',
+    ),
+    ('main = "raw', 'daq2 = "raw', "this is not TOML"),
+    (
+        '{main = "raw/free-01.csv", ',
+        "{",
+        "tests[free-01].file: A file of each recorder was expected, among them `main`",
+    ),
+    (
+        '"raw/span20.csv"',
+        '"../span20.csv"',
+        'tests[span-2.0].file: "../span20.csv" leads out of the campaign\'s folder',
+    ),
+    (
+        '["2 s", "14 s"]',
+        '["14 s", "2 s"]',
+        'tests[free-01].window: ["14 s", "2 s"] was found. The end has to come after',
+    ),
+    (
+        '["0 s", "0.5 s"]',
+        '"begin"',
+        'tests[free-01].zero: "begin" was found. "auto", "start", "end", "none" or an interval',
+    ),
+    ("span = 2.0", 'span = "2.0"', 'tests[span-2.0].span: "2.0" was found. A plain number was expected'),
+    ("span = 2.0", "span = nan", "tests[span-2.0].span: nan was found. A finite number was expected."),
+    (
+        '"overturned"',
+        '"fell"',
+        'tests[span-2.0].observed_outcome: "fell" was found. One of these was expected: "overturned"',
+    ),
+    ("[processing]", "[processing", "this is not TOML: "),
+]
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "told"), WRONG, ids=[f"{wrong[:40]} for {right[:30]}" for right, wrong, _ in WRONG]
+)
+def test_one_wrong_thing_is_told_with_its_place_and_what_to_do(right, wrong, told, load_text):
+    assert right in CONTRACT
+    with pytest.raises(CampaignError) as caught:
+        load_text(CONTRACT.replace(right, wrong, 1))
+    message = str(caught.value)
+    assert told in message
+    assert message.startswith("campaign.toml")
+
+
+def test_all_problems_are_told_at_once_in_the_order_of_the_file(load_text):
+    text = CONTRACT
+    for right, wrong, _ in [WRONG[3], WRONG[6], WRONG[18], WRONG[24], WRONG[38], WRONG[44]]:
+        text = text.replace(right, wrong, 1)
+    with pytest.raises(CampaignError) as caught:
+        load_text(text)
+    lines = [
+        int(number) for number in re.findall(r"^campaign\.toml, line (\d+):", str(caught.value), flags=re.MULTILINE)
+    ]
+    assert len(lines) >= 6
+    assert lines == sorted(lines)
+
+
+def test_a_missing_raw_file_is_no_problem_of_the_campaign(contract, load_text):
+    campaign = load_text(contract)
+    assert not campaign.tests["free-01"].files["main"].exists()
+
+
+def test_a_missing_campaign_file_names_what_is_there(tmp_path):
+    (tmp_path / "test.toml").touch()
+    with pytest.raises(CampaignError, match=r"no such file .* there is: test\.toml"):
+        load(tmp_path)
+
+
+def test_a_campaign_file_that_is_not_utf8_says_how_to_save_it(contract, tmp_path):
+    (tmp_path / "campaign.toml").write_bytes(contract.replace("solid", "sölid").encode("latin-1"))
+    with pytest.raises(CampaignError, match=r"byte \d+ is not UTF-8 text\. Save the file as UTF-8"):
+        load(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "text", ["x = " + "[" * 20000, "x = " + "9" * 5000, "schema = 1", "", "\0", "tests = 3", "specimens = [1]"]
+)
+def test_odd_files_are_refused_without_a_traceback(text, load_text):
+    with pytest.raises(CampaignError):
+        load_text(text)
+
+
+VALUES = st.sampled_from(
+    [
+        '""',
+        "3",
+        "-1",
+        "true",
+        "nan",
+        "inf",
+        "1e400",
+        "[]",
+        "{}",
+        '"1e308 Mm"',
+        '"86 mm"',
+        '["1 s"]',
+        "1979-05-27",
+        "[[1]]",
+        '"\\u0000"',
+        "9" * 400,
+    ]
+)
+
+
+@st.composite
+def mutated(draw: st.DrawFn) -> str:
+    lines = CONTRACT.splitlines()
+    for _ in range(draw(st.integers(1, 3))):
+        index = draw(st.integers(0, len(lines) - 1))
+        line = lines[index]
+        kind = draw(st.sampled_from(["value", "delete", "repeat", "cut", "character", "key", "swap"]))
+        values = list(re.finditer(r'(?<== )("[^"]*"|\[[^\]]*\]|[0-9.]+)', line))
+        if kind == "value" and values:
+            chosen = draw(st.sampled_from(values))
+            lines[index] = line[: chosen.start()] + draw(VALUES) + line[chosen.end() :]
+        elif kind == "delete":
+            lines[index] = ""
+        elif kind == "repeat":
+            lines.insert(index, line)
+        elif kind == "cut" and line:
+            lines[index] = line[: draw(st.integers(0, len(line) - 1))]
+        elif kind == "character" and line:
+            at = draw(st.integers(0, len(line) - 1))
+            lines[index] = line[:at] + draw(st.characters(codec="utf-8")) + line[at + 1 :]
+        elif kind == "key":
+            lines[index] = re.sub(
+                r"[a-z_]+ =", f"{draw(st.sampled_from(['x', 'unit', 'on', 'at', 'shape', 'id']))} =", line, count=1
+            )
+        elif kind == "swap":
+            other = draw(st.integers(0, len(lines) - 1))
+            lines[index], lines[other] = lines[other], lines[index]
+    return "\n".join(lines)
+
+
+@settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(mutated())
+def test_a_mutated_campaign_is_read_or_refused_with_a_place_never_a_traceback(tmp_path: Path, text: str):
+    (tmp_path / "campaign.toml").write_text(text, encoding="utf-8", newline="")
+    told = ""
+    try:
+        load(tmp_path)
+    except CampaignError as error:
+        told = str(error)
+    assert all(line.startswith("campaign.toml") for line in told.splitlines())

@@ -1,0 +1,183 @@
+"""The laboratory's own test log: the same campaign as with [[tests]], and errors by row and column."""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from colonnade.campaign import load
+from colonnade.errors import CampaignError
+
+CONTRACT = Path(__file__).with_name("contract.toml").read_text(encoding="utf-8")
+HEADS = [
+    "id",
+    "kind",
+    "specimen",
+    "setup",
+    "file",
+    "file.daq2",
+    "window",
+    "zero",
+    "span",
+    "observed_outcome",
+    "frequency",
+]
+ROWS = [
+    ["free-01", "free-vibration", "prism", "frame", "raw/a.csv", "raw/b.csv", "2 s, 14 s", "0 s to 0.5 s", "", "", ""],
+    ["2", "earthquake", "prism", "frame", "raw/c.csv", "", "", "end", "2.5", "rocking", ""],
+    ["3", "sine", "prism", "frame", "raw/d.csv", "", "", "", "", "", "3.5 Hz"],
+]
+
+
+def with_log(folder: Path, name: str, content: bytes):
+    text = CONTRACT[: CONTRACT.index("[[tests]]")].replace("[specimens]", f'tests = "{name}"\n\n[specimens]', 1)
+    (folder / "campaign.toml").write_text(text, encoding="utf-8")
+    (folder / name).write_bytes(content)
+    return load(folder)
+
+
+def table(delimiter: str, rows: list[list[str]]) -> str:
+    quoted = [[f'"{cell}"' if delimiter in cell else cell for cell in row] for row in rows]
+    return "\n".join(delimiter.join(row) for row in quoted) + "\n"
+
+
+def workbook(rows: list[list[str]]) -> bytes:
+    """Write a minimal xlsx: text as inline strings, numbers as numbers."""
+    cells = []
+    for row in rows:
+        line = ""
+        for column, cell in enumerate(row):
+            place = f"{chr(65 + column)}{len(cells) + 1}"
+            if re.fullmatch(r"[0-9.]+", cell):
+                line += f'<c r="{place}"><v>{cell}</v></c>'
+            elif cell:
+                line += f'<c r="{place}" t="inlineStr"><is><t>{cell}</t></is></c>'
+        cells.append(f'<row r="{len(cells) + 1}">{line}</row>')
+    main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+    office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+    package = "http://schemas.openxmlformats.org/package/2006/"
+    kind = "application/vnd.openxmlformats-officedocument.spreadsheetml"
+    parts = {
+        "[Content_Types].xml": f'<Types xmlns="{package}content-types"><Default Extension="rels" '
+        'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
+        f'<Override PartName="/xl/workbook.xml" ContentType="{kind}.sheet.main+xml"/>'
+        f'<Override PartName="/xl/worksheets/sheet1.xml" ContentType="{kind}.worksheet+xml"/></Types>',
+        "_rels/.rels": f'<Relationships xmlns="{package}relationships"><Relationship Id="r1" '
+        f'Type="{office}/officeDocument" Target="xl/workbook.xml"/></Relationships>',
+        "xl/workbook.xml": f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets>'
+        '<sheet name="log" sheetId="1" r:id="r1"/></sheets></workbook>',
+        "xl/_rels/workbook.xml.rels": f'<Relationships xmlns="{package}relationships"><Relationship Id="r1" '
+        f'Type="{office}/worksheet" Target="worksheets/sheet1.xml"/></Relationships>',
+        "xl/worksheets/sheet1.xml": f'<worksheet xmlns="{main}"><sheetData>{"".join(cells)}</sheetData></worksheet>',
+    }
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        for name, text in parts.items():
+            archive.writestr(name, text)
+    return buffer.getvalue()
+
+
+LOGS = {
+    "commas.csv": table(",", [HEADS, *ROWS]).encode(),
+    "semicolons.csv": table(";", [HEADS, *ROWS]).replace("2.5", "2,5").replace("3.5 Hz", "3,5 Hz").encode("cp1252"),
+    "bom.csv": b"\xef\xbb\xbf" + table(";", [HEADS, *ROWS]).encode(),
+    "utf16.csv": table("\t", [HEADS, *ROWS]).encode("utf-16"),
+    "log.xlsx": workbook([HEADS, *ROWS]),
+}
+
+
+@pytest.mark.parametrize("name", LOGS)
+def test_a_log_gives_the_tests_whatever_wrote_it(name, tmp_path):
+    tests = with_log(tmp_path, name, LOGS[name]).tests
+    assert list(tests) == ["free-01", "2", "3"]
+    folder = tmp_path.resolve() / "raw"
+    assert tests["free-01"].files == {"main": folder / "a.csv", "daq2": folder / "b.csv"}
+    assert (tests["free-01"].window, tests["free-01"].zero) == ((2.0, 14.0), (0.0, 0.5))
+    assert (tests["2"].span, tests["2"].zero, tests["2"].observed_outcome) == (2.5, "end", "rocking")
+    assert (tests["3"].frequency, tests["3"].zero, tests["3"].files) == (3.5, "auto", {"main": folder / "d.csv"})
+
+
+@pytest.mark.parametrize(
+    ("row", "column", "cell", "told"),
+    [
+        (1, 1, "earthquakes", 'log.csv, row 3, column "kind": tests[2].kind: "earthquakes" was found. Did you mean'),
+        (0, 2, "prsm", 'log.csv, row 2, column "specimen": tests[free-01].specimen: "prsm" is no specimen'),
+        (2, 10, "3.5", 'log.csv, row 4, column "frequency": tests[3].frequency: "3.5" has no unit.'),
+        (1, 8, "much", 'log.csv, row 3, column "span": tests[2].span: "much" was found. A plain number'),
+        (2, 0, "FREE-01", 'log.csv, row 4, column "id": tests[FREE-01].id'),
+        (2, 0, "", 'log.csv, row 4, column "id": tests[3].id: It is missing.'),
+        (0, 5, "../b.csv", 'log.csv, row 2, column "file.daq2": tests[free-01].file.daq2: "../b.csv" leads out'),
+        (0, 6, "14 s, 2 s", 'log.csv, row 2, column "window": tests[free-01].window'),
+    ],
+)
+def test_a_wrong_cell_is_told_by_row_and_column(row, column, cell, told, tmp_path):
+    rows = [list(each) for each in ROWS]
+    rows[row][column] = cell
+    with pytest.raises(CampaignError) as caught:
+        with_log(tmp_path, "log.csv", table(";", [HEADS, *rows]).encode())
+    assert told in str(caught.value)
+
+
+def test_a_column_of_the_laboratorys_own_is_warned_of_and_a_mistyped_key_refused(tmp_path):
+    rows = [[*row, "Anna"] for row in ROWS]
+    campaign = with_log(tmp_path, "log.csv", table(";", [[*HEADS, "Operator"], *rows]).encode())
+    assert 'log.csv: column "Operator" is not a key of a test and is not used.' in campaign.warnings
+    with pytest.raises(CampaignError, match=r'log\.csv, row 1: there is no key "windw"\. Did you mean "window"\?'):
+        with_log(tmp_path, "log.csv", table(";", [[*HEADS, "windw"], *rows]).encode())
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (b"", "log.csv is empty. A row of column heads was expected: id, kind"),
+        (b"id;id;kind\n1;2;sine\n", 'the column head "id" stands there twice'),
+        (b"id;kind\n1;sine;more\n", "there are more cells than the 2 heads"),
+        (b'id;kind\n"1;sine\n', "row 2"),
+        (bytes(range(256)), "log.csv"),
+    ],
+)
+def test_what_is_no_table_is_refused(content, told, tmp_path):
+    with pytest.raises(CampaignError) as caught:
+        with_log(tmp_path, "log.csv", content)
+    assert told in str(caught.value)
+
+
+def test_a_broken_workbook_is_refused(tmp_path):
+    with pytest.raises(CampaignError, match=r"log\.xlsx cannot be read as a workbook"):
+        with_log(tmp_path, "log.xlsx", LOGS["log.xlsx"][:300])
+
+
+def test_a_missing_log_names_the_nearest_file(tmp_path):
+    with_log(tmp_path, "log.csv", LOGS["commas.csv"])
+    text = (tmp_path / "campaign.toml").read_text(encoding="utf-8")
+    (tmp_path / "campaign.toml").write_text(text.replace("log.csv", "logg.csv"), encoding="utf-8")
+    with pytest.raises(
+        CampaignError, match=r'line 7: tests: There is no test log "logg\.csv" in .*Did you mean "log\.csv"'
+    ):
+        load(tmp_path)
+
+
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    st.sampled_from(sorted(LOGS)),
+    st.lists(st.tuples(st.integers(0, 3000), st.integers(0, 255)), max_size=6),
+    st.booleans(),
+)
+def test_a_damaged_log_is_read_or_refused_never_a_traceback(tmp_path, name, changes, cut):
+    content = bytearray(LOGS[name])
+    for place, byte in changes:
+        content[place % len(content)] = byte
+    if cut and changes:
+        del content[changes[0][0] % len(content) :]
+    told = ""
+    try:
+        with_log(tmp_path, name, bytes(content))
+    except CampaignError as error:
+        told = str(error)
+    assert all(line.startswith((name, "campaign.toml")) for line in told.splitlines())

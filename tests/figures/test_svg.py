@@ -1,0 +1,80 @@
+from __future__ import annotations
+
+import re
+from xml.etree import ElementTree
+
+import matplotlib
+import numpy as np
+import pytest
+
+from colonnade.figures import Curve, SpanPanel, history_with_base, spans_together, to_svg
+
+TEXT = 'Test <a> & "b"'
+
+
+def long_figure(samples: int = 60_000):
+    time = np.arange(samples) / 1000
+    noise = np.random.default_rng(5)
+    measured, linear, base = (Curve(time, noise.normal(size=samples)) for _ in range(3))
+    return history_with_base(measured, {"linear": linear, "nonlinear": measured, "contact": linear}, base)
+
+
+def svg(identity: str = "one", figure=None) -> str:
+    return to_svg(figure or long_figure(3000), identity=identity, title=TEXT, description="measured & predicted")
+
+
+def identifiers(text: str) -> list[str]:
+    return [element.attrib["id"] for element in ElementTree.fromstring(text).iter() if "id" in element.attrib]
+
+
+def test_the_same_figure_gives_the_same_bytes():
+    assert svg() == svg()
+
+
+def test_a_users_own_matplotlib_settings_change_nothing():
+    expected = svg()
+    with matplotlib.rc_context({"svg.fonttype": "path", "font.size": 20, "lines.color": "red", "svg.hashsalt": None}):
+        assert svg() == expected
+
+
+def test_a_long_noisy_record_stays_below_150_kilobytes():
+    assert len(svg(figure=long_figure()).encode()) < 150_000
+
+
+def test_ids_of_two_figures_in_one_page_do_not_collide():
+    first, second = identifiers(svg("one")), identifiers(svg("two"))
+    assert len(set(first)) == len(first) > 3
+    assert not set(first) & set(second)
+
+
+def test_every_reference_leads_to_an_id_of_the_same_figure():
+    text = svg()
+    referred = set(re.findall(r'(?:url\(#|href="#)([^)"]+)', text))
+    assert referred
+    assert referred <= set(identifiers(text))
+
+
+def test_it_has_a_text_alternative_that_is_escaped():
+    root = ElementTree.fromstring(svg())
+    labels = [root.find(f".//*[@id='{name}']") for name in root.attrib["aria-labelledby"].split()]
+    assert [label.text for label in labels] == [TEXT, "measured & predicted"]
+    assert root.attrib["role"] == "img"
+    assert "<a>" not in svg()
+
+
+def test_it_holds_no_date_no_script_no_style_sheet_and_no_outside_link():
+    text = svg()
+    for unwanted in ("<?xml", "<!DOCTYPE", "metadata", "<script", "<style", "date"):
+        assert unwanted not in text
+    assert set(re.findall(r"https?://[^\"' <]+", text)) == {"http://www.w3.org/2000/svg"}
+
+
+def test_text_stays_text_and_dollar_signs_are_no_formula():
+    panels = [SpanPanel("costs $2 and $3", Curve(np.arange(3.0), np.arange(3.0)), {})]
+    assert "costs $2 and $3" in to_svg(spans_together(panels), identity="one", title="", description="")
+
+
+@pytest.mark.parametrize("identity", ["", "2.0", "a b", 'a"b', "é"])
+def test_what_is_no_id_is_refused(identity):
+    with pytest.raises(ValueError, match="is no id"):
+        svg(identity)

@@ -1,0 +1,310 @@
+"""A campaign with everything that a report meets, its results made up from the model and written by the real store."""
+
+from __future__ import annotations
+
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.signal import butter, sosfiltfilt
+
+from colonnade.campaign import Campaign, load
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
+from colonnade.identification.restitution import identify_restitution
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.store.provenance import global_attributes
+
+SCRIPT = "<script>alert('title')</script>"
+MARKUP = '<img src=x onerror="alert(1)"> & 5 < 6'
+DEAD = (
+    "channel <top>: the largest value is 0.2 % of its range.\nA living channel was expected; is the sensor plugged in?"
+)
+INTERVAL = 0.005
+
+CAMPAIGN = f"""
+schema = 1
+campaign = "prism-2013"
+title = "Rocking of a solid steel prism {SCRIPT}"
+facility = "Earthquake Simulator, Aristotle University"
+
+[specimens.prism]
+shape = "prism"
+width = "86 mm"
+depth = "86 mm"
+height = "456 mm"
+mass = "26.10 kg"
+
+[specimens.statue]
+shape = "measured"
+mass = "80 kg"
+pole_distance = "610 mm"
+critical_angle = ["0.21 rad", "0.23 rad"]
+inertia = "41.2 kg m^2"
+restitution = 0.9
+
+[setups.frame.channels.top]
+column = "LVDT 1"
+quantity = "displacement"
+unit = "mm"
+on = "specimen"
+at = ["43 mm", "0 mm", "440 mm"]
+direction = [1, 0, 0]
+relative_to = "table"
+
+[setups.frame.channels.table_acceleration]
+column = "ACC"
+quantity = "acceleration"
+unit = "g"
+on = "table"
+direction = [1, 0, 0]
+
+[processing]
+lowpass = "25 Hz"
+"""
+FREE = ("free-01", "free-02", "free-refused")
+SPANS = {"span-2.0": 2.0, "span-2.5": 2.5, "span-3.0": 3.0}
+
+
+def _tests() -> str:
+    rows = [{"id": name, "kind": "free-vibration"} for name in FREE]
+    rows += [
+        {"id": name, "kind": "earthquake", "span": span, "motion": f"El Centro 1940 NS {MARKUP}", "time_scale": 0.2236}
+        for name, span in SPANS.items()
+    ]
+    rows += [
+        {"id": "sine-3hz-too-strong-for-the-block-1", "kind": "sine", "frequency": "3 Hz", "notes": MARKUP},
+        {"id": "sine-dead", "kind": "sine", "frequency": "3 Hz"},
+        {"id": "later", "kind": "sine", "frequency": "4 Hz"},
+        {"id": "watched", "kind": "earthquake", "specimen": "statue", "observed_outcome": "not-overturned"},
+    ]
+    text = ""
+    for row in rows:
+        entry = {"specimen": "prism", "setup": "frame", "file": f"raw/{row['id']}.csv"} | row
+        written = [repr(value) if isinstance(value, str) else str(value) for value in entry.values()]
+        text += "\n[[tests]]\n"
+        text += "".join(f"{name} = {value}\n" for name, value in zip(entry, written, strict=True))
+    return text
+
+
+def _attributes(stage: str, subject: str) -> dict[str, str]:
+    return global_attributes(campaign="prism-2013", title="Prism", facility=None, stage=stage, test=subject)
+
+
+def _write(dataset: xr.Dataset, path: Path, stage: str, subject: str, warnings: list[str] | None = None) -> None:
+    dataset.attrs["warnings"] = warnings or []
+    files.write(dataset, path, attributes=_attributes(stage, subject))
+
+
+def _earthquake(strength: float) -> np.ndarray[Any, Any]:
+    time = np.arange(1600) * INTERVAL
+    noise = np.random.default_rng(7).normal(size=time.size)
+    shaking = sosfiltfilt(butter(2, [1, 8], "bandpass", fs=200, output="sos"), noise)
+    shaking *= np.clip((time - 0.5) / 1.0, 0, 1) * np.exp(-np.clip(time - 3, 0, None) / 1.5)
+    return strength * shaking / np.abs(shaking).max()
+
+
+def _rocking(history: Any, base: np.ndarray[Any, Any] | None, noise: float, seed: int) -> xr.Dataset:
+    angle = history.angle + np.random.default_rng(seed).normal(0, noise, history.angle.size)
+    angle = np.clip(angle, -0.3, 0.3)
+    values: dict[str, Any] = {
+        "rocking_angle": ("elapsed", angle),
+        "rocking_angle_quality": ("elapsed", np.ones(angle.size, np.int8)),
+        "rocking_angle_standard_error": ((), noise),
+        "noise_threshold": ((), 6 * noise),
+        "impact_time": ("impact", history.impact_times),
+        "peak_angle": ((), float(np.abs(angle).max())),
+        "peak_ratio": ((), np.nan if history.peak_ratio is None else history.peak_ratio),
+        "peak_time": ((), history.peak_time),
+        "overturning_time": ((), history.overturning_time),
+        "peak_ground_acceleration": ((), np.nan if base is None else float(np.abs(base).max())),
+    }
+    if base is not None:
+        values["base_acceleration"] = ("elapsed", base)
+    return xr.Dataset(
+        values,
+        coords={"elapsed": history.time},
+        attrs={"outcome": history.outcome, "separation": "one transducer: rotation alone, the slide is taken as nil"},
+    )
+
+
+def _predicted(history: Any, base: np.ndarray[Any, Any] | None, source: str) -> xr.Dataset:
+    return xr.Dataset(
+        {
+            "rocking_angle": ("elapsed", history.angle),
+            "base_acceleration": ("elapsed", np.zeros(history.time.size) if base is None else base),
+            "impact_time": ("impact", history.impact_times),
+            "restitution": ((), 0.976),
+            "peak_angle": ((), float(np.abs(history.angle).max())),
+            "peak_ratio": ((), np.nan if history.peak_ratio is None else history.peak_ratio),
+            "peak_time": ((), history.peak_time),
+            "overturning_time": ((), history.overturning_time),
+            "impact_count": ((), history.impact_times.size),
+        },
+        coords={"elapsed": history.time},
+        attrs={"outcome": history.outcome, "model": "linear", "restitution_source": source},
+    )
+
+
+def _compared(measured: xr.Dataset, predicted: xr.Dataset, nrmse: float) -> xr.Dataset:
+    ratio = float(predicted["peak_ratio"])
+    return xr.Dataset(
+        {
+            "nrmse": ("model", [nrmse]),
+            "compared_until": ("model", [5.0]),
+            "predicted_peak_ratio": ("model", [ratio]),
+            "peak_ratio_error": ("model", [0.01]),
+            "predicted_outcome": ("model", np.array([predicted.attrs["outcome"]], dtype=object)),
+            "measured_peak_ratio": ((), float(measured["peak_ratio"]) if "peak_ratio" in measured else np.nan),
+        },
+        coords={"model": ("model", np.array(["linear"], dtype=object))},
+        attrs={"outcome_measured": measured.attrs["outcome"]},
+    )
+
+
+def _recorded(name: str) -> xr.Dataset:
+    flags, values = np.ones(10, np.int8), np.arange(10.0)
+    return xr.Dataset(
+        {
+            "top": ("elapsed", values, {"channel": "top", "quantity": "displacement", "on": "specimen",
+                                        "quality_report": "3 samples are spikes, the first at 1.204 s"}),
+            "top_recorded": ("elapsed", values),
+            "top_quality": ("elapsed", flags),
+        },
+        coords={"elapsed": values},
+        attrs={"raw_files": [f"raw/{name}.csv"], "raw_sha256": [sha256(name.encode()).hexdigest()]},
+    )  # fmt: skip
+
+
+def _conditioned() -> xr.Dataset:
+    values = np.arange(10.0)
+    top = {"channel": "top", "quantity": "displacement", "zero": 0.00123, "noise": 2.1e-5, "cutoff_hz": 25.0}
+    table = {"channel": "table_acceleration", "quantity": "acceleration", "zero": 0.02, "noise": 0.004}
+    table |= {"cutoff_hz": 40.0, "clock_offset": 0.0201, "clock_offset_standard_error": 0.0002}
+    return xr.Dataset(
+        {"top": ("elapsed", values, top), "table_acceleration": ("elapsed", values, table)}, coords={"elapsed": values}
+    )
+
+
+def _fill(campaign: Campaign, layout: Layout) -> None:
+    block = campaign.specimens["prism"].block(campaign.gravity)
+    for seed, name in enumerate(FREE):
+        truth = rock(block, restitution=0.976, theta0=0.5 * block.critical_angle, duration=8.0)
+        model = rock(block, restitution=0.974, theta0=0.5 * block.critical_angle, duration=8.0)
+        measured, predicted = _rocking(truth, None, 3e-4, seed), _predicted(model, None, "identified")
+        _test(layout, name, measured, predicted, 0.012)
+        found = identify_restitution(truth.time, measured["rocking_angle"].to_numpy(), block, noise=3e-4)
+        refused = name == "free-refused"
+        used = np.zeros(found.peaks.used.size, np.int8) if refused else found.peaks.used.astype(np.int8)
+        identified = xr.Dataset(
+            {
+                "restitution": ((), np.nan if refused else found.value),
+                "restitution_low": ((), np.nan if refused else found.low),
+                "restitution_high": ((), np.nan if refused else found.high),
+                "restitution_standard_error": ((), np.nan if refused else found.standard_error),
+                "level": ((), 0.95),
+                "zero_offset": ((), 0.0),
+                "peak_time": ("peak", found.peaks.time),
+                "peak_angle": ("peak", found.peaks.angle),
+                "peak_angle_standard_error": ("peak", found.peaks.standard_error),
+                "fitted_angle": ("peak", found.peaks.fitted_angle * (np.nan if refused else 1.0)),
+                "peak_used": ("peak", used),
+            },
+            attrs={"method": found.method, "reason": f"The peaks do not decay. {MARKUP}" if refused else ""},
+        )
+        _write(identified, layout.stage(name, "restitution"), "restitution", name)
+    for seed, (name, span) in enumerate(SPANS.items()):
+        base = _earthquake(1.35 * span)
+        motion = Motion(base, INTERVAL)
+        measured = _rocking(rock(block, motion, restitution=0.976), base, 3e-4, seed)
+        stronger = Motion(base * (2.0 if span == 3.0 else 1.004), INTERVAL)
+        predicted = _predicted(rock(block, stronger, restitution=0.974), base, "identified")
+        _test(layout, name, measured, predicted, 0.031, [f"3 spikes bridged. {MARKUP}"])
+    time = np.arange(1600) * INTERVAL
+    base = 7.0 * np.sin(2 * np.pi * 3 * time) * np.clip(time / 2, 0, 1)
+    strong = "sine-3hz-too-strong-for-the-block-1"
+    fallen = rock(block, Motion(base, INTERVAL), restitution=0.976)
+    _test(layout, strong, _rocking(fallen, base, 3e-4, 9), _predicted(fallen, base, "identified"), 0.004)
+    path = layout.stage("sine-dead", "condition")
+    _write(_recorded("sine-dead"), layout.stage("sine-dead", "ingest"), "ingest", "sine-dead")
+    files.write_failed(path, DEAD, attributes=_attributes("condition", "sine-dead"))
+
+    statue = campaign.specimens["statue"].block(campaign.gravity)
+    base = _earthquake(2.0)
+    seen = xr.Dataset(
+        {"base_acceleration": ("elapsed", base), "peak_ground_acceleration": ((), float(np.abs(base).max()))},
+        coords={"elapsed": time},
+        attrs={"outcome": "", "separation": "no displacement transducer on the specimen"},
+    )
+    _test(
+        layout,
+        "watched",
+        seen,
+        _predicted(rock(statue, Motion(base, INTERVAL), restitution=0.9), base, "given"),
+        np.nan,
+    )
+    _specimens(campaign, layout)
+
+
+def _test(
+    layout: Layout,
+    name: str,
+    measured: xr.Dataset,
+    predicted: xr.Dataset,
+    nrmse: float,
+    warnings: list[str] | None = None,
+) -> None:
+    _write(_recorded(name), layout.stage(name, "ingest"), "ingest", name, warnings)
+    _write(_conditioned(), layout.stage(name, "condition"), "condition", name)
+    _write(measured, layout.stage(name, "rocking"), "rocking", name)
+    _write(predicted, layout.stage(name, "predict", "linear"), "predict", name)
+    _write(_compared(measured, predicted, nrmse), layout.stage(name, "compare"), "compare", name)
+
+
+def _specimens(campaign: Campaign, layout: Layout) -> None:
+    for name, source, value, low, high in (
+        ("prism", "identified", 0.97608, 0.97528, 0.97688),
+        ("statue", "given", 0.9, np.nan, np.nan),
+    ):
+        block = campaign.specimens[name].block(campaign.gravity)
+        _write(
+            xr.Dataset(
+                {
+                    "restitution": ((), value),
+                    "restitution_low": ((), low),
+                    "restitution_high": ((), high),
+                    "level": ((), 0.95),
+                    "rigid_restitution": ((), block.restitution),
+                },
+                attrs={
+                    "restitution_source": source,
+                    "method": "peaks; random effects",
+                    "reason": "",
+                },
+            ),
+            layout.specimen(name),
+            "specimen",
+            name,
+        )
+
+
+@pytest.fixture(scope="session")
+def empty_campaign(tmp_path_factory: pytest.TempPathFactory) -> tuple[Campaign, Layout]:
+    """The campaign before anything was run."""
+    folder = tmp_path_factory.mktemp("empty")
+    (folder / "campaign.toml").write_text(CAMPAIGN + _tests(), encoding="utf-8")
+    return load(folder), Layout(folder)
+
+
+@pytest.fixture(scope="session")
+def filled_campaign(tmp_path_factory: pytest.TempPathFactory) -> tuple[Campaign, Layout]:
+    """The campaign with results: done, refused, overturned, failed, never run, seen but not measured."""
+    folder = tmp_path_factory.mktemp("filled")
+    (folder / "campaign.toml").write_text(CAMPAIGN + _tests(), encoding="utf-8")
+    campaign, layout = load(folder), Layout(folder)
+    _fill(campaign, layout)
+    return campaign, layout

@@ -1,0 +1,113 @@
+"""A small campaign whose recordings are made in memory, with every number of the truth in sight."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from colonnade import campaign as campaigns
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.kinematics import point_displacement
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
+from colonnade.readers.recording import RecordedChannel, Recording
+
+TEXT = """
+schema = 1
+campaign = "small"
+title = "Small"
+
+[specimens]
+prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}
+
+[setups.frame]
+catch = "0.28 rad"
+
+[setups.frame.channels.top]
+column = "LVDT 1"
+quantity = "displacement"
+unit = "V"
+gain = "12 mm/V"
+offset = "3 mm"
+range = "10 V"
+on = "specimen"
+at = ["43 mm", "0 mm", "400 mm"]
+direction = [1, 0, 0]
+relative_to = "table"
+
+[setups.frame.channels.bottom]
+column = "LVDT 2"
+quantity = "displacement"
+unit = "mm"
+on = "specimen"
+at = ["43 mm", "0 mm", "20 mm"]
+direction = [1, 0, 0]
+relative_to = "table"
+
+[setups.frame.channels.table_acceleration]
+column = "ACC"
+quantity = "acceleration"
+unit = "g"
+on = "table"
+direction = [1, 0, 0]
+
+[[tests]]
+id = "free-01"
+kind = "free-vibration"
+specimen = "prism"
+setup = "frame"
+file = "free.csv"
+
+[[tests]]
+id = "shake-01"
+kind = "earthquake"
+specimen = "prism"
+setup = "frame"
+file = "shake.csv"
+observed_outcome = "not-overturned"
+"""
+
+RATE = 500.0
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+POINTS = [[0.043, 0.0, 0.400], [0.043, 0.0, 0.020]]
+
+
+@pytest.fixture
+def small_campaign(tmp_path):
+    path = tmp_path / "campaign.toml"
+    path.write_text(TEXT, encoding="utf-8")
+    return campaigns.load(path)
+
+
+def recorded(time, angle, acceleration, *, noise=1e-5, seed=0, slide=0.0):
+    """A recording of the true angle (rad) and base acceleration (m/s²), in the units of the campaign above."""
+    rng = np.random.default_rng(seed)
+    top, bottom = point_displacement(angle, POINTS, PRISM, slide)[..., 0] + rng.normal(0, noise, (2, time.size))
+    columns = {
+        "LVDT 1": ("V", (1e3 * top - 3.0) / 12.0),
+        "LVDT 2": ("mm", 1e3 * bottom + 0.7),
+        "ACC": ("g", acceleration / 9.80665 + 0.01 + rng.normal(0, 1e-4, time.size)),
+    }
+    channels = tuple(RecordedChannel(name, unit, values, time) for name, (unit, values) in columns.items())
+    return {"main": Recording(Path("small.csv"), "delimited", channels)}
+
+
+@pytest.fixture
+def free_vibration():
+    """Held tilted for one second, released, at rest in the end: recordings, times, true angles, true e."""
+    decay = rock(PRISM, restitution=0.93, theta0=0.5 * PRISM.critical_angle, duration=9.0, model="nonlinear")
+    time = np.arange(0, 12, 1 / RATE)
+    angle = np.interp(time - 1.0, decay.time, decay.angle)
+    return recorded(time, angle, np.zeros(time.size)), time, angle, 0.93
+
+
+@pytest.fixture
+def shaken():
+    """A base motion under which the prism rocks and comes to rest: recordings, times, true angles, base motion."""
+    time = np.arange(0, 12, 1 / RATE)
+    envelope = np.clip(np.minimum(time - 1, 7 - time), 0, 1)
+    base = 1.7 * PRISM.uplift_acceleration * envelope * np.sin(2 * np.pi * 4 * time)
+    angle = rock(PRISM, Motion(base, 1 / RATE), restitution=0.93).angle
+    return recorded(time, angle, base), time, angle, base

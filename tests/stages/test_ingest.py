@@ -1,0 +1,117 @@
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from colonnade.errors import ReadError, StageError
+from colonnade.readers.recording import RecordedChannel, Recording
+from colonnade.signals.quality import Flag
+from colonnade.stages.ingest import ingest, instructions
+from colonnade.store.variables import describe
+
+
+def _changed(recordings, name, change):
+    recording = recordings["main"]
+    channels = tuple(change(channel) if channel.name == name else channel for channel in recording.channels)
+    return {"main": replace(recording, channels=channels)}
+
+
+def test_recorded_values_stay_and_si_values_stand_beside_them(small_campaign, free_vibration):
+    recordings, time, _, _ = free_vibration
+    recorded = ingest(recordings, instructions(small_campaign, small_campaign.tests["free-01"]))
+    volts = recordings["main"].channel("LVDT 1").values
+    np.testing.assert_array_equal(recorded["top_recorded"], volts)
+    np.testing.assert_allclose(recorded["top"], volts * 0.012 + 0.003, rtol=1e-12)
+    np.testing.assert_allclose(recorded["table_acceleration"], recordings["main"].channel("ACC").values * 9.80665)
+    np.testing.assert_array_equal(recorded["elapsed"], time)
+    assert recorded.attrs["warnings"] == []
+    assert describe(recorded)["top"].attrs["units"] == "m"
+
+
+def test_planted_faults_are_flagged_and_told_and_nothing_is_overwritten(small_campaign, free_vibration):
+    recordings, _, _, _ = free_vibration
+    values = recordings["main"].channel("LVDT 1").values.copy()
+    values[700] = 9.0
+    values[900:905] = np.nan
+    values[1000:1010] = 10.0
+    faulty = _changed(recordings, "LVDT 1", lambda channel: replace(channel, values=values))
+    recorded = ingest(faulty, instructions(small_campaign, small_campaign.tests["free-01"]))
+    flags = recorded["top_quality"].to_numpy()
+    assert flags[700] == Flag.FAIL
+    assert (flags[900:905] == Flag.MISSING).all()
+    assert (flags[1000:1010] == Flag.SUSPECT).all()
+    assert (np.delete(flags, [700, *range(900, 905), *range(1000, 1010)]) == Flag.GOOD).all()
+    np.testing.assert_array_equal(recorded["top_recorded"], values)
+    told = " ".join(recorded.attrs["warnings"])
+    for words in (
+        "channel top",
+        "spikes on 1 sample",
+        "5 samples without a value",
+        "10 samples at the end of the range",
+    ):
+        assert words in told
+
+
+def test_the_window_of_a_test_is_cut_out(small_campaign, free_vibration):
+    test = small_campaign.tests["free-01"].model_copy(update={"window": (2.0, 5.0)})
+    recorded = ingest(free_vibration[0], instructions(small_campaign, test))
+    assert float(recorded["elapsed"][0]) == 2.0
+    assert float(recorded["elapsed"][-1]) == 5.0
+
+
+def test_a_window_beside_the_record_is_refused(small_campaign, free_vibration):
+    test = small_campaign.tests["free-01"].model_copy(update={"window": (50.0, 60.0)})
+    with pytest.raises(StageError, match="0 samples between 50 and 60 s"):
+        ingest(free_vibration[0], instructions(small_campaign, test))
+
+
+def test_a_missing_column_is_told_with_the_nearest(small_campaign, free_vibration):
+    renamed = _changed(free_vibration[0], "LVDT 1", lambda channel: replace(channel, name="LVDT_1", heading="LVDT_1"))
+    with pytest.raises(ReadError, match=r'no column is called "LVDT 1".*Did you mean'):
+        ingest(renamed, instructions(small_campaign, small_campaign.tests["free-01"]))
+
+
+def test_a_file_without_a_clock_needs_a_sampling_rate(small_campaign, free_vibration):
+    recording = free_vibration[0]["main"]
+    clockless = {"main": replace(recording, channels=tuple(replace(each, time=None) for each in recording.channels))}
+    read = instructions(small_campaign, small_campaign.tests["free-01"])
+    with pytest.raises(StageError, match="sampling_rate"):
+        ingest(clockless, read)
+    recorded = ingest(clockless, read.model_copy(update={"sampling_rates": {"main": 250.0}}))
+    assert float(recorded["elapsed"][1]) == 0.004
+
+
+def test_a_unit_that_the_file_contradicts_is_warned_of(small_campaign, free_vibration):
+    wrong = _changed(free_vibration[0], "LVDT 2", lambda channel: replace(channel, unit="V"))
+    recorded = ingest(wrong, instructions(small_campaign, small_campaign.tests["free-01"]))
+    assert any('says "V"' in warning and '"mm"' in warning for warning in recorded.attrs["warnings"])
+
+
+def test_channels_with_other_times_get_a_clock_of_their_own(small_campaign, free_vibration):
+    later = _changed(free_vibration[0], "ACC", lambda channel: replace(channel, time=channel.time + 0.001))
+    recorded = ingest(later, instructions(small_campaign, small_campaign.tests["free-01"]))
+    assert recorded["table_acceleration"].dims == ("elapsed_table_acceleration",)
+    assert recorded["top"].dims == ("elapsed",)
+
+
+def test_an_unnamed_recorder_is_told(small_campaign, free_vibration):
+    read = instructions(small_campaign, small_campaign.tests["free-01"])
+    channels = read.channels | {"top": read.channels["top"].model_copy(update={"recorder": "daq2"})}
+    with pytest.raises(StageError, match='daq2 = "…"'):
+        ingest(free_vibration[0], read.model_copy(update={"channels": channels}))
+
+
+def test_a_dead_accelerometer_on_the_specimen_is_flagged_beside_a_moving_table(small_campaign):
+    time = np.arange(0, 4, 0.002)
+    values = {"ACC": np.sin(9 * time), "block": 1e-3 * np.sin(9 * time)}
+    channels = tuple(RecordedChannel(name, "g", each, time) for name, each in values.items())
+    read = instructions(small_campaign, small_campaign.tests["shake-01"])
+    table = read.channels["table_acceleration"]
+    both = {"table": table, "block": table.model_copy(update={"column": "block", "on": "specimen"})}
+    recorded = ingest(
+        {"main": Recording(Path("a.csv"), "delimited", channels)}, read.model_copy(update={"channels": both})
+    )
+    assert (recorded["block_quality"] == Flag.SUSPECT).all()
+    assert any("channel block: the channel is practically dead" in warning for warning in recorded.attrs["warnings"])
+    assert (recorded["table_quality"] == Flag.GOOD).all()

@@ -1,0 +1,134 @@
+"""From the rocking angle to restitution, prediction and comparison."""
+
+import numpy as np
+import pytest
+
+from colonnade.errors import StageError
+from colonnade.stages import compare as comparing
+from colonnade.stages import condition as conditioning
+from colonnade.stages import ingest as ingesting
+from colonnade.stages import predict as predicting
+from colonnade.stages import restitution as identifying
+from colonnade.stages import rocking as rocking_stage
+from colonnade.stages import specimen as pooling
+
+
+@pytest.fixture
+def measured(small_campaign, free_vibration, shaken):
+    results = {}
+    for name, recordings in (("free-01", free_vibration[0]), ("shake-01", shaken[0])):
+        test = small_campaign.tests[name]
+        recorded = ingesting.ingest(recordings, ingesting.instructions(small_campaign, test))
+        ready = conditioning.condition(recorded, conditioning.instructions(small_campaign, test))
+        results[name] = rocking_stage.rocking(ready, rocking_stage.instructions(small_campaign, test))
+    return results
+
+
+@pytest.fixture
+def identified(small_campaign, measured):
+    read = identifying.instructions(small_campaign, small_campaign.tests["free-01"])
+    return identifying.restitution(measured["free-01"], read)
+
+
+@pytest.fixture
+def pooled(small_campaign, identified):
+    return pooling.specimen({"free-01": identified}, pooling.instructions(small_campaign, "prism"))
+
+
+def test_restitution_of_a_free_vibration_is_the_true_one(identified):
+    assert float(identified["restitution"]) == pytest.approx(0.93, abs=5e-4)
+    assert identified.attrs["reason"] == ""
+    used = identified["peak_used"].to_numpy() == 1
+    fitted, seen = identified["fitted_angle"].to_numpy()[used], identified["peak_angle"].to_numpy()[used]
+    np.testing.assert_allclose(fitted, seen, atol=2e-4)
+
+
+def test_a_record_without_peaks_gives_a_reason_and_no_number(small_campaign, measured):
+    still = measured["free-01"].assign(rocking_angle=measured["free-01"]["rocking_angle"] * 0)
+    result = identifying.restitution(still, identifying.instructions(small_campaign, small_campaign.tests["free-01"]))
+    assert np.isnan(float(result["restitution"]))
+    assert "0 peaks" in result.attrs["reason"]
+    assert result.attrs["warnings"]
+
+
+def test_a_free_vibration_without_transducers_is_refused(small_campaign, measured):
+    read = identifying.instructions(small_campaign, small_campaign.tests["free-01"])
+    with pytest.raises(StageError, match="no restitution"):
+        identifying.restitution(measured["free-01"].drop_vars("rocking_angle"), read)
+
+
+def test_the_restitution_given_comes_before_the_identified_before_the_rigid_one(small_campaign, identified):
+    read = pooling.instructions(small_campaign, "prism")
+    given = pooling.specimen({"free-01": identified}, read.model_copy(update={"given": (0.8, 0.9)}))
+    assert given.attrs["restitution_source"] == "given"
+    assert given["side_restitution"].to_numpy().tolist() == [0.8, 0.9]
+    found = pooling.specimen({"free-01": identified}, read)
+    assert found.attrs["restitution_source"] == "identified"
+    assert found["test_id"].to_numpy().tolist() == ["free-01"]
+    rigid = pooling.specimen({}, read)
+    assert rigid.attrs["restitution_source"] == "rigid-body"
+    assert float(rigid["restitution"]) == pytest.approx(0.94848, abs=1e-5)
+    assert "no free vibration" in rigid.attrs["reason"]
+
+
+def test_the_prediction_on_the_recorded_motion_is_the_true_history(small_campaign, measured, pooled):
+    test = small_campaign.tests["shake-01"]
+    predicted = predicting.predict(
+        measured["shake-01"], pooled, predicting.instructions(small_campaign, test, "linear")
+    )
+    assert predicted.attrs["outcome"] == "rocking"
+    assert predicted.attrs["restitution_source"] == "identified"
+    compared = comparing.compare(
+        measured["shake-01"], {"linear": predicted}, comparing.instructions(small_campaign, test)
+    )
+    assert float(compared["nrmse"][0]) < 0.01
+    assert abs(float(compared["peak_ratio_error"][0])) < 0.01
+    assert compared["predicted_outcome"].to_numpy().tolist() == ["rocking"]
+    assert compared.attrs["warnings"] == []
+
+
+def test_a_free_vibration_is_predicted_from_its_first_peak_on(small_campaign, measured, pooled):
+    test = small_campaign.tests["free-01"]
+    predicted = predicting.predict(
+        measured["free-01"], pooled, predicting.instructions(small_campaign, test, "nonlinear")
+    )
+    angle = predicted["rocking_angle"].to_numpy()
+    begins = int(np.argmax(np.isfinite(angle)))
+    assert np.isnan(angle[:begins]).all()
+    assert 1.0 < float(predicted["elapsed"][begins]) < 2.0
+    compared = comparing.compare(
+        measured["free-01"], {"nonlinear": predicted}, comparing.instructions(small_campaign, test)
+    )
+    assert float(compared["nrmse"][0]) < 0.01
+
+
+def test_an_outcome_that_the_log_contradicts_is_warned_of(small_campaign, measured, pooled):
+    test = small_campaign.tests["shake-01"]
+    predicted = predicting.predict(
+        measured["shake-01"], pooled, predicting.instructions(small_campaign, test, "linear")
+    )
+    read = comparing.instructions(small_campaign, test).model_copy(update={"observed_outcome": "overturned"})
+    compared = comparing.compare(measured["shake-01"], {"linear": predicted}, read)
+    assert "the test log says overturned" in compared.attrs["warnings"][0]
+
+
+def test_a_test_without_transducers_is_compared_by_its_observed_outcome(small_campaign, measured, pooled):
+    test = small_campaign.tests["shake-01"]
+    bare = measured["shake-01"].drop_vars(
+        [name for name in measured["shake-01"] if str(name).startswith(("rock", "peak_r"))]
+    )
+    bare.attrs["outcome"] = ""
+    predicted = predicting.predict(bare, pooled, predicting.instructions(small_campaign, test, "linear"))
+    compared = comparing.compare(bare, {"linear": predicted}, comparing.instructions(small_campaign, test))
+    assert compared.attrs["outcome_measured"] == "not-overturned"
+    assert np.isnan(float(compared["nrmse"][0]))
+
+
+def test_a_base_motion_with_a_hole_is_refused_with_its_place(small_campaign, measured, pooled):
+    broken = measured["shake-01"].copy(deep=True)
+    broken["base_acceleration"][1000:1010] = np.nan
+    read = predicting.instructions(small_campaign, small_campaign.tests["shake-01"], "linear")
+    with pytest.raises(StageError, match=r"misses 10 of \d+ samples, the first at 2\.000 s"):
+        predicting.predict(broken, pooled, read)
+    with pytest.raises(StageError, match="no record of the table"):
+        predicting.predict(broken.drop_vars("base_acceleration"), pooled, read)

@@ -1,0 +1,95 @@
+import numpy as np
+import pytest
+
+from colonnade.errors import StageError
+from colonnade.stages import condition as conditioning
+from colonnade.stages import ingest as ingesting
+from colonnade.stages import rocking as rocking_stage
+from colonnade.stages.rocking import rocking
+
+
+def conditioned(campaign, test, recordings):
+    recorded = ingesting.ingest(recordings, ingesting.instructions(campaign, test))
+    return conditioning.condition(recorded, conditioning.instructions(campaign, test))
+
+
+def _rocking(campaign, name, recordings, **changes):
+    test = campaign.tests[name]
+    read = rocking_stage.instructions(campaign, test).model_copy(update=changes)
+    return rocking(conditioned(campaign, test, recordings), read)
+
+
+def test_the_angle_of_a_free_vibration_is_the_true_one(small_campaign, free_vibration):
+    recordings, time, angle, _ = free_vibration
+    result = _rocking(small_campaign, "free-01", recordings)
+    alpha = small_campaign.specimens["prism"].block(9.81).critical_angle
+    away = np.abs(time - 1.0) > 0.05  # the release is a step that the filter rounds
+    error = (result["rocking_angle"].to_numpy() - np.interp(result["elapsed"], time, angle))[away]
+    assert np.sqrt(np.mean(error**2)) < 5e-4 * alpha
+    assert result.attrs["outcome"] == "rocking"
+    assert float(result["peak_ratio"]) == pytest.approx(0.5, abs=2e-3)
+    assert "angle and slide" in result.attrs["separation"]
+
+
+def test_the_base_motion_and_its_peak_are_those_of_the_table(small_campaign, shaken):
+    recordings, time, angle, base = shaken
+    result = _rocking(small_campaign, "shake-01", recordings)
+    expected = np.interp(result["elapsed"], time, base)
+    np.testing.assert_allclose(result["base_acceleration"], expected, atol=0.01)
+    assert float(result["peak_ground_acceleration"]) == pytest.approx(np.abs(base).max(), rel=5e-3)
+    assert float(result["peak_time"]) == pytest.approx(time[np.argmax(np.abs(angle))], abs=0.01)
+
+
+def test_a_standard_error_goes_with_the_angle(small_campaign, free_vibration):
+    recordings, time, _angle, _ = free_vibration
+    result = _rocking(small_campaign, "free-01", recordings)
+    rest = result["rocking_angle"].to_numpy()[time[: result.sizes["elapsed"]] > 11]
+    assert rest.std() < 2 * float(result["rocking_angle_standard_error"])
+    assert float(result["rocking_angle_standard_error"]) < 5e-5
+
+
+def test_a_table_at_rest_under_a_quiet_specimen_is_no_rocking(small_campaign, shaken):
+    recordings, time, _, _base = shaken
+    top = recordings["main"].channel("LVDT 1").values
+    top[:] = top[0] + 1e-4 * np.random.default_rng(0).normal(size=time.size)
+    bottom = recordings["main"].channel("LVDT 2").values
+    bottom[:] = bottom[0] + 1e-3 * np.random.default_rng(1).normal(size=time.size)
+    assert _rocking(small_campaign, "shake-01", recordings).attrs["outcome"] == "no-rocking"
+
+
+def test_ground_relative_transducers_have_the_tables_displacement_taken_off(small_campaign, shaken):
+    test = small_campaign.tests["shake-01"]
+    ready = conditioned(small_campaign, test, shaken[0])
+    moved = 0.02 * np.sin(7 * ready["elapsed"].to_numpy())
+    ground = ready.assign(
+        {name: (("elapsed",), ready[name].to_numpy() + moved, ready[name].attrs) for name in ("top", "bottom")}
+    )
+    ground["table"] = ("elapsed", moved, ready["top"].attrs)
+    read = rocking_stage.instructions(small_campaign, test)
+    transducers = {name: each.model_copy(update={"relative_to": "ground"}) for name, each in read.transducers.items()}
+    own = read.model_copy(update={"transducers": transducers})
+    with pytest.raises(StageError, match="relative to the ground"):
+        rocking(ground, own)
+    result = rocking(ground, own.model_copy(update={"displacements": {"table": 1.0}}))
+    np.testing.assert_allclose(result["rocking_angle"], rocking(ready, read)["rocking_angle"], atol=1e-12)
+
+
+def test_a_specimen_without_transducers_still_has_its_base_motion(small_campaign, shaken):
+    result = _rocking(small_campaign, "shake-01", shaken[0], transducers={})
+    assert "rocking_angle" not in result
+    assert result.attrs["outcome"] == ""
+    assert float(result["peak_ground_acceleration"]) > 1
+
+
+def test_nothing_usable_at_all_is_refused(small_campaign, shaken):
+    with pytest.raises(StageError, match="at least one of the two was expected"):
+        _rocking(small_campaign, "shake-01", shaken[0], transducers={}, accelerations={})
+
+
+def test_a_lost_transducer_leaves_the_angle_to_the_other_and_is_said(small_campaign, free_vibration):
+    recordings, _time, _angle, _ = free_vibration
+    recordings["main"].channel("LVDT 2").values[:] = np.nan
+    result = _rocking(small_campaign, "free-01", recordings)
+    assert any("bottom could not be used" in warning for warning in result.attrs["warnings"])
+    assert "slide is not separated" in result.attrs["separation"]
+    assert float(result["peak_ratio"]) == pytest.approx(0.5, abs=2e-3)

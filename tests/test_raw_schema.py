@@ -1,0 +1,113 @@
+"""The contract of raw data: the schemas are the models', and the worked examples are ingested."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from colonnade.campaign import load
+from colonnade.campaign import test as one_test
+from colonnade.campaign.campaign import CampaignFile
+from colonnade.campaign.channel import Channel
+from colonnade.campaign.schema import json_schema, schema_text
+from colonnade.campaign.setup import Setup
+from colonnade.errors import CampaignError
+from colonnade.readers.registry import formats, read
+from colonnade.stages import condition, ingest, restitution, rocking
+
+ROOT = Path(__file__).resolve().parents[1]
+RAW_SCHEMA = ROOT / "raw_schema"
+CONTRACT = tomllib.loads((ROOT / "tests" / "campaign" / "contract.toml").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("name", ["campaign", "summary"])
+def test_schema_file_is_what_the_models_say(name):
+    written = (RAW_SCHEMA / f"{name}.schema.json").read_text(encoding="utf-8")
+    assert json.loads(written) == json_schema(name), (
+        f"write it again: colonnade schema {name} > raw_schema/{name}.schema.json"
+    )
+    assert written == schema_text(name)
+    jsonschema.Draft202012Validator.check_schema(json.loads(written))
+
+
+def test_an_unknown_schema_is_refused_with_the_nearest():
+    with pytest.raises(CampaignError, match='Did you mean "campaign"'):
+        json_schema("campain")
+
+
+def test_a_campaign_file_of_the_contract_passes_the_schema():
+    jsonschema.validate(CONTRACT, json_schema("campaign"))
+
+
+@pytest.mark.parametrize(
+    ("place", "value"),
+    [
+        (("schema",), 2),
+        (("gravity",), 9.81),
+        (("specimens", "prism", "width"), "86"),
+        (("specimens", "prism", "shape"), "prsm"),
+        (("specimens", "prism", "diameter"), "86 mm"),
+        (("specimens", "a b"), {}),
+        (("setups", "frame", "file", "delimter"), ";"),
+        (("setups", "frame", "file", "format"), "csv"),
+        (("setups", "frame", "channels", "top", "quantity"), "way"),
+        (("setups", "frame", "channels", "top", "direction"), [1, 0]),
+        (("setups", "frame", "recorders", "daq2", "clock"), "start"),
+        (("processing", "lowpass"), 25),
+        (("tests", 0, "kind"), "shaken"),
+        (("tests", 0, "zero"), "begin"),
+        (("tests", 0, "file"), {"daq2": "raw/a.csv"}),
+        (("tests",), 3),
+    ],
+    ids=str,
+)
+def test_what_the_models_refuse_fails_the_schema_too(place, value, tmp_path):
+    changed = json.loads(json.dumps(CONTRACT))
+    table = changed
+    for part in place[:-1]:
+        table = table[part]
+    table[place[-1]] = value
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(changed, json_schema("campaign"))
+    with pytest.raises(ValueError, match="validation error"):
+        CampaignFile.model_validate(changed, context={"folder": tmp_path})
+
+
+@pytest.mark.parametrize("table", [CampaignFile, Setup, Channel, one_test.Test], ids=lambda table: table.__name__)
+def test_the_data_dictionary_names_every_key(table):
+    dictionary = (RAW_SCHEMA / "README.md").read_text(encoding="utf-8")
+    assert [key for key in table.purposes() if f"`{key}" not in dictionary] == []
+
+
+def test_every_format_has_a_worked_example():
+    assert {path.parent.name for path in (RAW_SCHEMA / "examples").glob("*/campaign.toml")} == set(formats())
+
+
+def test_the_delimited_example_gives_the_restitution_it_was_made_with():
+    campaign = load(RAW_SCHEMA / "examples" / "delimited")
+    test = campaign.tests["free-01"]
+    file = campaign.setups["frame"].file
+    recording = read(test.files["main"], file.format, file.options)
+    recorded = ingest.ingest({"main": recording}, ingest.instructions(campaign, test))
+    assert recorded.sizes["elapsed"] == 801
+    assert float(recorded["top"][0]) == pytest.approx(10.02e-3 * 4.1005 - 0.13e-3, rel=1e-12)
+    assert float(recorded["table_acceleration"][0]) == pytest.approx(0.5 * 9.80665 * -0.0006, rel=1e-12)
+    rocked = rocking.rocking(
+        condition.condition(recorded, condition.instructions(campaign, test)), rocking.instructions(campaign, test)
+    )
+    identified = restitution.restitution(rocked, restitution.instructions(campaign, test))
+    assert float(identified["restitution"]) == pytest.approx(0.9, abs=5e-4)
+
+
+def test_the_example_needs_no_options():
+    campaign = load(RAW_SCHEMA / "examples" / "delimited")
+    path, file = campaign.tests["free-01"].files["main"], campaign.setups["frame"].file
+    sniffed, told = read(path), read(path, file.format, file.options)
+    assert [(channel.name, channel.unit) for channel in sniffed.channels] == [
+        (channel.name, channel.unit) for channel in told.channels
+    ]
+    assert all((one.values == other.values).all() for one, other in zip(sniffed.channels, told.channels, strict=True))

@@ -1,0 +1,188 @@
+"""Quantities in text to SI: the laboratory's spellings, and what is refused with which words."""
+
+from __future__ import annotations
+
+import contextlib
+import subprocess
+import sys
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from colonnade import units
+from colonnade.errors import UnitError
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "expected"),
+    [
+        ("86 mm", "length", 0.086),
+        ("-0.13mm", "length", -0.00013),
+        ("−1.5e-3 m", "length", -0.0015),
+        ("1 in", "length", 0.0254),
+        ("26.10 kg", "mass", 26.10),
+        ("2 g", "acceleration", 19.6133),  # CGPM 1901: 9.80665 m/s²
+        ("980.665 Gal", "acceleration", 9.80665),
+        ("9.81 m/s^2", "acceleration", 9.81),
+        ("9.81 m s-2", "acceleration", 9.81),
+        ("41.2 kg m^2", "inertia", 41.2),
+        ("41.2 kg·m²", "inertia", 41.2),
+        ("180°", "angle", 3.141592653589793),
+        ("60 rpm", "angular_velocity", 6.283185307179586),
+        ("2 ms", "time", 0.002),
+        ("200 Hz", "frequency", 200.0),
+        ("0.9", "dimensionless", 0.9),
+        ("50 %", "dimensionless", 0.5),
+    ],
+)
+def test_quantity_becomes_si(text, dimension, expected):
+    assert units.to_si(text, dimension) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "words"),
+    [
+        ("86", "length", ["has no unit", '"86 mm"']),
+        ("86 s", "length", ["unit of time", "A length was expected"]),
+        ("86,5 mm", "length", ["decimal comma", '"86.5 mm"']),
+        ("mm", "length", ["not a quantity"]),
+        ("", "length", ["not a quantity"]),
+        ("nan mm", "length", ["not a quantity"]),
+        ("1e999 mm", "length", ["too large"]),
+        ("26 gram", "mass", ["gram", "not a unit I know", "A mass was expected"]),
+        ("26 g", "mass", ["unit of acceleration", "A mass was expected"]),
+        ("3 rad/s", "frequency", ["angular velocity", "A frequency was expected"]),
+        ("3 gallon", "acceleration", ["not a unit I know"]),
+        ("5 mm^99", "length", ["not a unit I know"]),
+    ],
+)
+def test_what_is_not_such_a_quantity_is_refused_in_words(text, dimension, words):
+    with pytest.raises(UnitError) as caught:
+        units.to_si(text, dimension)
+    assert all(word in str(caught.value) for word in words), str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("spelling", "usual"),
+    [
+        ("g's", "g"),
+        ("G", "g"),
+        ("Volts", "V"),
+        ("VOLTS", "V"),
+        ("m/s²", "m/s^2"),
+        ("m/s^2", "m/s^2"),
+        ("m/sec2", "m/s^2"),
+        ("m/s/s", "m/s^2"),
+        ("mm.", "mm"),
+        ("MM", "mm"),
+        ("seconds", "s"),
+        ("sec.", "s"),
+        ("°", "deg"),
+        ("deg", "deg"),
+        ("degrees", "deg"),
+        ("gal", "Gal"),
+        ("millimetres", "mm"),
+        ("Kg", "kg"),
+        ("N.m", "N m"),
+        ("", ""),
+    ],
+)
+def test_spellings_of_recorders_are_understood(spelling, usual):
+    assert units.normalise_unit(spelling) == usual
+
+
+def test_letters_that_differ_by_case_only_stay_apart():
+    assert units.si_factor("Ms") == (1e6, "s")
+    assert units.si_factor("ms") == (1e-3, "s")
+    assert not units.same_unit("mV", "MV")
+
+
+def test_kilogram_is_not_a_thousand_gravities():
+    assert units.si_factor("kg") == (1.0, "kg")
+    assert units.si_factor("mg")[1] == "m s-2"
+
+
+@pytest.mark.parametrize(
+    ("gain", "recorded", "dimension", "factor"),
+    [
+        ("10.02 mm/V", "V", "length", 0.01002),
+        ("10.02 mm/V", "mV", "length", 1.002e-5),
+        ("10.02 mm / V", "Volts", "length", 0.01002),
+        ("0.5 g/V", "V", "acceleration", 4.903325),
+        ("5 mm/(mV/V)", "mV/V", "length", 0.005),
+        ("-1", "mm", "length", -0.001),
+        ("2 mm/count", "count", "length", 0.002),
+    ],
+)
+def test_gain_gives_si_per_recorded_unit(gain, recorded, dimension, factor):
+    assert units.gain_to_si(gain, recorded, dimension) == pytest.approx(factor, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("gain", "recorded", "hint"),
+    [
+        ("10 mm", "V", '"mm/V"'),
+        ("10 mm/V", "mm", '"mm/mm"'),
+        ("10 mm/V", "Volt/mm", '"mm/(V/mm)"'),
+        ("1", "V", '"mm/V"'),
+    ],
+)
+def test_gain_that_does_not_lead_to_the_quantity_is_refused_with_the_right_one(gain, recorded, hint):
+    with pytest.raises(UnitError, match="was expected") as caught:
+        units.gain_to_si(gain, recorded, "length")
+    assert hint in str(caught.value)
+
+
+UNITS_OF_A_DIMENSION = [
+    ("mm", "length"),
+    ("µm", "length"),
+    ("g", "acceleration"),
+    ("Gal", "acceleration"),
+    ("mrad", "angle"),
+    ("deg", "angle"),
+    ("kN", "force"),
+    ("ms", "time"),
+    ("min", "time"),
+    ("kHz", "frequency"),
+    ("deg/s", "angular_velocity"),
+]
+
+
+@given(st.sampled_from(UNITS_OF_A_DIMENSION), st.floats(-1e6, 1e6).filter(lambda value: abs(value) > 1e-6))
+def test_a_quantity_survives_the_way_to_si_and_back(unit, value):
+    name, dimension = unit
+    assert units.from_si(units.to_si(f"{value!r} {name}", dimension), name) == pytest.approx(value, rel=1e-12)
+
+
+@given(st.sampled_from(UNITS_OF_A_DIMENSION))
+def test_the_usual_spelling_means_the_same_and_is_its_own(unit):
+    usual = units.normalise_unit(unit[0])
+    assert units.same_unit(usual, unit[0])
+    assert units.normalise_unit(usual) == usual
+
+
+UNIT_PIECES = st.lists(
+    st.sampled_from([*"mkgsVNµ°/*^().-+ 0123456789", "mm", "Hz", "g", "**", "²", "'s", "rad", "Mm^9", "in", "if"]),
+    max_size=12,
+)
+
+
+@given(st.one_of(st.text(max_size=30), UNIT_PIECES.map("".join)))
+def test_any_text_is_a_unit_or_a_unit_error(text):
+    with contextlib.suppress(UnitError):
+        assert units.si_factor(text)[0] > 0.0
+
+
+@given(st.one_of(st.text(max_size=30), UNIT_PIECES.map(lambda pieces: "12" + "".join(pieces))))
+def test_any_text_is_a_length_or_a_unit_error(text):
+    with contextlib.suppress(UnitError):
+        assert isinstance(units.to_si(text, "length"), float)
+
+
+def test_pint_is_loaded_with_the_first_unit_only():
+    code = "import sys; from colonnade import units; print('pint' in sys.modules)"
+    assert (
+        subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.strip()
+        == "False"
+    )
