@@ -1,0 +1,112 @@
+"""
+A laboratory of another kind: a tall stone block, string-free transducers fixed to the ground, volts with gain and
+offset, decimal commas, a free vibration that starts tilted, and a test in which the block overturns onto its frame.
+"""
+
+import pytest
+
+from colonnade.dynamics.block import Block
+from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Trial
+from colonnade.laboratory.files import Flavour
+from colonnade.laboratory.instruments import Transducer
+from colonnade.laboratory.programme import write
+from colonnade.laboratory.table import ramped_sine
+
+STONE = Block.prism(width=0.25, depth=0.30, height=1.10, mass=180.0)
+RESTITUTION = 0.93
+CATCH = 0.35
+SHAPE = {"shape": "prism", "width": "250 mm", "depth": "300 mm", "height": "1.1 m", "mass": "180 kg"}
+
+
+def _displacement(channel, column, full_scale, offset, height):
+    return Transducer(
+        channel,
+        column,
+        "displacement",
+        "specimen",
+        full_scale,
+        "mm",
+        offset=offset,
+        at=(-0.125, 0.0, height),
+        direction=(1.0, 0.0, 0.0),
+        relative_to="ground",
+    )
+
+
+def _plan():
+    flavour = Flavour(delimiter=";", decimal=",", encoding="utf-16", time_name="Zeit", units_in_names=True)
+    transducers = (
+        _displacement("head", "Weg oben", 0.500, 0.012, 1.00),
+        _displacement("waist", "Weg Mitte", 0.300, -0.004, 0.50),
+        _displacement("foot", "Weg unten", 0.120, 0.0, 0.05),
+        Transducer("table", "Tisch", "displacement", "table", 0.100, "mm", offset=0.0015),
+        Transducer("shaking", "Beschl", "acceleration", "table", 19.6133, "g", offset=0.1),
+    )
+    sine = {"frequency": 1.5, "start": 1.5, "ramp": 2}
+    rocks = ramped_sine(acceleration=1.5 * STONE.uplift_acceleration, cycles=8, **sine)
+    falls = ramped_sine(acceleration=3.5 * STONE.uplift_acceleration, cycles=8, **sine)
+    return Plan(
+        campaign="stone-block",
+        title="Rocking of a stone block",
+        specimen="stone",
+        shape=SHAPE,
+        block=STONE,
+        restitution=RESTITUTION,
+        setups={"frame": Setup({MAIN: Recorder(transducers, 250.0, flavour)}, catch=CATCH)},
+        trials=(
+            Trial("let-go", "free-vibration", "frame", 24.0, theta0=-0.6 * STONE.critical_angle, release=2.0),
+            Trial("let-go.2", "free-vibration", "frame", 24.0, theta0=0.5 * STONE.critical_angle, release=1.2),
+            Trial("rocks", "sine", "frame", rocks.stop + 8.0, table=rocks, entry={"frequency": "1.5 Hz"}),
+            Trial("falls", "sine", "frame", falls.stop + 8.0, table=falls, entry={"frequency": "1.5 Hz"}),
+        ),
+    )
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    return write(_plan(), tmp_path_factory.mktemp("stone"), seed=7)
+
+
+@pytest.fixture(scope="module")
+def stone(written, run_campaign):
+    return run_campaign(written.path)
+
+
+def test_every_outcome_is_the_true_one(written, stone):
+    true = {name: facts["outcome"] for name, facts in written.truth["tests"].items()}
+    assert true == {"let-go": "rocking", "let-go.2": "rocking", "rocks": "rocking", "falls": "overturned"}
+    assert {name: stone.test(name)["outcome"] for name in true} == true
+    assert {name: stone.test(name)["predicted"]["linear"]["outcome"] for name in true} == true
+    assert {stone.test(name)["status"] for name in true} == {"done"}
+
+
+def test_restitution_is_found_within_its_interval(stone):
+    found = stone.summary["specimens"]["stone"]["restitution"]
+    assert found["source"] == "identified"
+    assert found["value"] == pytest.approx(RESTITUTION, abs=1e-3)
+    assert found["low"] <= RESTITUTION <= found["high"]
+    assert found["high"] - found["low"] < 6e-3
+    assert found["tests"] == ["let-go", "let-go.2"]
+
+
+@pytest.mark.parametrize("name", ["let-go", "let-go.2", "rocks", "falls"])
+def test_the_angle_is_the_true_one_within_half_a_percent(stone, name):
+    assert stone.angle_error(name, STONE.critical_angle) < 5e-3
+
+
+def test_the_overturning_is_timed(written, stone):
+    found = float(stone.result("falls", "rocking")["overturning_time"])
+    assert found == pytest.approx(written.truth["tests"]["falls"]["overturning_time"], abs=0.02)
+    assert stone.test("falls")["peak_ratio"] is None
+
+
+def test_a_free_vibration_that_starts_tilted_is_zeroed_at_its_end(stone):
+    result = stone.result("let-go", "rocking")
+    assert float(result["rocking_angle"][100]) == pytest.approx(
+        -0.6 * STONE.critical_angle, abs=0.01 * STONE.critical_angle
+    )
+
+
+def test_the_prediction_on_the_recorded_motion_follows_the_measured_one(stone):
+    assert stone.test("rocks")["predicted"]["linear"]["nrmse"] < 0.1
+    assert stone.test("rocks")["pga"] == pytest.approx(1.5 * STONE.uplift_acceleration, rel=0.03)

@@ -1,0 +1,129 @@
+"""Recordings that other laboratories published, as campaigns with a measured specimen."""
+
+import shutil
+
+import numpy as np
+import pytest
+
+SPECIMEN = """
+[specimens.statue]
+shape = "measured"
+mass = "80 kg"
+pole_distance = "610 mm"
+critical_angle = "0.21 rad"
+inertia = "41.2 kg m^2"
+restitution = 0.9
+"""
+
+WOODEN_BLOCK = f"""
+schema = 1
+campaign = "wooden-block"
+title = "Shake table with a block on it"
+{SPECIMEN}
+[setups.table.channels]
+drive = {{column = "Output To Table", quantity = "other", unit = "V"}}
+light = {{column = "LED Light", quantity = "other"}}
+table = {{column = "Table accel XXXX", quantity = "acceleration", unit = "g's", on = "table", direction = [1, 0, 0]}}
+block = {{column = 5, quantity = "acceleration", unit = "g's", on = "specimen", direction = [1, 0, 0]}}
+
+[[tests]]
+id = "sine-2Hz"
+kind = "sine"
+frequency = "2 Hz"
+specimen = "statue"
+setup = "table"
+file = "raw/thadhaines_01.csv"
+zero = ["3.75 s", "6.15 s"]
+observed_outcome = "no-rocking"
+"""
+
+PHONES = f"""
+schema = 1
+campaign = "phones"
+title = "A reference accelerometer and two phones"
+{SPECIMEN}
+[setups.table]
+sampling_rate = "100 Hz"
+
+[setups.table.channels]
+reference = {{column = 1, quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]}}
+phone_1 = {{column = 2, quantity = "other", unit = "m/s^2"}}
+phone_2 = {{column = 3, quantity = "other", unit = "m/s^2"}}
+
+[[tests]]
+id = "earthquake-1"
+kind = "earthquake"
+specimen = "statue"
+setup = "table"
+file = "raw/earthquake-test1.csv"
+"""
+
+
+@pytest.fixture(scope="module")
+def open_campaign(shared_data, tmp_path_factory, run_campaign):
+    def opened(text, *files):
+        folder = tmp_path_factory.mktemp("other")
+        (folder / "raw").mkdir()
+        for name in files:
+            shutil.copy(shared_data / "shaketable" / name, folder / "raw" / name)
+        (folder / "campaign.toml").write_text(text, encoding="utf-8")
+        return run_campaign(folder / "campaign.toml")
+
+    return opened
+
+
+@pytest.fixture(scope="module")
+def wooden_block(open_campaign):
+    return open_campaign(WOODEN_BLOCK, "thadhaines_01.csv")
+
+
+@pytest.fixture(scope="module")
+def phones(open_campaign):
+    return open_campaign(PHONES, "earthquake-test1.csv")
+
+
+def test_the_shake_table_recording_has_its_published_figures(wooden_block):
+    recorded = wooden_block.result("sine-2Hz", "ingest")
+    assert recorded.sizes["elapsed"] == pytest.approx(9000, abs=2)
+    assert float(np.diff(recorded["elapsed"]).mean()) == pytest.approx(1e-3, rel=1e-6)
+    table = recorded["table_recorded"].to_numpy()
+    assert np.percentile(np.abs(table), 99) == pytest.approx(0.35, abs=0.1)  # ± 0.35 g
+    dark = recorded["elapsed"].to_numpy()[recorded["light_recorded"].to_numpy() < 1.0]
+    assert (dark.min(), dark.max()) == pytest.approx((3.731, 6.189), abs=2e-3)  # the sync light is off
+    assert float(np.std(recorded["block_recorded"])) == pytest.approx(0.006, abs=0.001)
+
+
+def test_the_dead_channel_is_flagged_and_told(wooden_block):
+    recorded = wooden_block.result("sine-2Hz", "ingest")
+    assert (recorded["block_quality"].to_numpy() == 3).all()
+    assert any(
+        "block" in warning and "practically dead" in warning for warning in wooden_block.test("sine-2Hz")["warnings"]
+    )
+
+
+def test_the_linear_model_runs_on_the_recorded_table_motion(wooden_block):
+    test = wooden_block.test("sine-2Hz")
+    assert test["status"] == "done"
+    assert test["predicted"]["linear"]["outcome"] in ("no-rocking", "rocking", "overturned")
+    assert 2.5 < test["pga"] < 6.0
+    predicted = wooden_block.result("sine-2Hz", "predict", "linear")
+    np.testing.assert_allclose(
+        predicted["base_acceleration"], wooden_block.result("sine-2Hz", "rocking")["base_acceleration"]
+    )
+    assert wooden_block.summary["specimens"]["statue"]["restitution"]["source"] == "given"
+
+
+def test_a_file_without_header_and_time_is_read_at_its_sampling_rate(phones):
+    recorded = phones.result("earthquake-1", "ingest")
+    assert recorded.sizes["elapsed"] == 4094
+    assert float(recorded["elapsed"][-1]) == pytest.approx(40.93)
+    np.testing.assert_allclose(recorded["reference_recorded"][:6], [0.0001, 0.0006, 0.0021, 0.0157, 0.0328, 0.0499])
+    assert phones.test("earthquake-1")["status"] == "done"
+    assert phones.test("earthquake-1")["predicted"]["linear"]["outcome"] in ("no-rocking", "rocking", "overturned")
+
+
+def test_both_are_reported(wooden_block, phones):
+    for outcome in (wooden_block, phones):
+        page = (outcome.folder / "report" / "index.html").read_text(encoding="utf-8")
+        assert outcome.summary["campaign"] in page
+        assert "<svg" in page
