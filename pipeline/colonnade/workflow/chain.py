@@ -1,0 +1,196 @@
+"""The steps of one test, one after the other, in a process of their own."""
+
+from __future__ import annotations
+
+import json
+import time
+import traceback
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+from colonnade.campaign import Campaign
+from colonnade.errors import ColonnadeError, StoreError
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.store.provenance import global_attributes
+from colonnade.workflow.freshness import ingredients, key_of, stored_attributes, why_stale
+from colonnade.workflow.results import StageRun
+from colonnade.workflow.steps import STAGES, Step, measuring_steps, predicting_steps
+
+Phase = Literal["measuring", "predicting"]
+
+
+@dataclass(frozen=True)
+class Chain:
+    """
+    The steps of one test that a worker walks through.
+
+    Attributes
+    ----------
+    campaign : Campaign
+        With no other test in it, so that it is light to send.
+    test : str
+    phase : str
+        From raw files to what was measured, or from there to the comparison.
+    until : str
+        Last stage.
+    redo_from : str or None
+        Stage from which on results are made again whatever their state.
+    raw : mapping of str to str
+        SHA-256 of the raw files by path; None where one cannot be read.
+    """
+
+    campaign: Campaign
+    test: str
+    phase: Phase
+    until: str
+    redo_from: str | None
+    raw: Mapping[str, str | None]
+
+    @classmethod
+    def of(cls, campaign: Campaign, test: str, **rest: Any) -> Chain:
+        """Build the chain of one test."""
+        return cls(replace(campaign, tests={test: campaign.tests[test]}), test, **rest)
+
+    def steps(self) -> list[Step]:
+        """Return the steps up to `until`."""
+        build = measuring_steps if self.phase == "measuring" else predicting_steps
+        last = STAGES.index(self.until)
+        return [
+            step for step in build(self.campaign, self.campaign.tests[self.test]) if STAGES.index(step.stage) <= last
+        ]
+
+
+def walk(chain: Chain) -> list[StageRun]:
+    """Bring a chain up to date, up to the first step that fails; what lies behind a failure is taken away."""
+    runs: list[StageRun] = []
+    steps = chain.steps()
+    for number, step in enumerate(steps):
+        run = advance(chain.campaign, chain.test, step, redo_from=chain.redo_from, raw=chain.raw)
+        runs.append(run)
+        if run.action == "failed":
+            for later in steps[number + 1 :]:
+                later.path.unlink(missing_ok=True)
+            break
+    return runs
+
+
+def is_fresh(chain: Chain) -> list[StageRun] | None:
+    """Return what `walk` would say of a chain that is up to date; None where there is something to do."""
+    runs: list[StageRun] = []
+    for step in chain.steps():
+        state = _state(step, chain.redo_from, chain.raw)
+        if state.because:
+            return None
+        runs.append(_standing(chain.test, step, state.stored))
+        if runs[-1].action == "failed":
+            break
+    return runs
+
+
+def advance(
+    campaign: Campaign, subject: str, step: Step, *, redo_from: str | None, raw: Mapping[str, str | None]
+) -> StageRun:
+    """Bring one result up to date."""
+    state = _state(step, redo_from, raw)
+    if not state.because:
+        return _standing(subject, step, state.stored)
+    started = time.perf_counter()
+    attributes = _attributes(campaign, subject, step, state)
+    reason = ""
+    try:
+        upstream: Mapping[str, Any] = step.upstream
+        if not step.is_from_raw:
+            upstream = {name: files.read(path) for name, path in step.upstream.items()}
+        result = step.work(upstream, step.instructions)
+        files.write(result, step.path, attributes=attributes)
+    except StoreError as error:
+        # The disk, not the data: nothing is known of the result, so nothing is stored.
+        step.path.unlink(missing_ok=True)
+        reason = str(error)
+    except ColonnadeError as error:
+        reason = _store_failure(step, str(error), attributes)
+    except Exception as error:  # a defect of ours: told as such, the other tests go on
+        reason = _store_failure(step, _internal_error(campaign, subject, step, error), attributes)
+    return StageRun(
+        subject, step.name, "failed" if reason else "done", reason, state.because, time.perf_counter() - started
+    )
+
+
+@dataclass(frozen=True)
+class _State:
+    """Attributes of a stored result, what a new one would be made from, and why it is needed, if it is."""
+
+    stored: Mapping[str, Any]
+    made_from: Mapping[str, Any]
+    key: str
+    because: str
+
+
+def _state(step: Step, redo_from: str | None, raw: Mapping[str, str | None]) -> _State:
+    if step.is_from_raw:
+        upstream = dict(raw)
+    else:
+        upstream = {name: stored_attributes(path).get("content") for name, path in step.upstream.items()}
+    made_from = ingredients(step.instructions.model_dump_json(), upstream)
+    key = key_of(step.name, made_from)
+    stored = stored_attributes(step.path)
+    if redo_from is not None and STAGES.index(step.stage) >= STAGES.index(redo_from):
+        because = "asked for"
+    else:
+        because = "" if stored.get("key") == key else why_stale(stored, made_from, from_raw=step.is_from_raw)
+    return _State(stored, made_from, key, because)
+
+
+def _standing(subject: str, step: Step, stored: Mapping[str, Any]) -> StageRun:
+    if stored.get("status") == "failed":
+        return StageRun(subject, step.name, "failed", str(stored.get("reason", "")))
+    return StageRun(subject, step.name, "up-to-date")
+
+
+def _attributes(campaign: Campaign, subject: str, step: Step, state: _State) -> dict[str, Any]:
+    is_specimen = step.name == "specimen"
+    attributes: dict[str, Any] = dict(
+        global_attributes(
+            campaign=campaign.campaign,
+            title=campaign.title,
+            facility=campaign.facility,
+            stage="specimen" if is_specimen else step.stage,
+            test=None if is_specimen else subject,
+            specimen=subject if is_specimen else None,
+        )
+    )
+    attributes |= {
+        "key": state.key,
+        "ingredients": json.dumps(state.made_from, sort_keys=True),
+        "settings": step.instructions.model_dump_json(),
+    }
+    if step.is_from_raw:
+        upstream = state.made_from["upstream"]
+        attributes |= {"raw_files": list(upstream), "raw_sha256": [digest or "" for digest in upstream.values()]}
+    return attributes
+
+
+def _store_failure(step: Step, reason: str, attributes: Mapping[str, Any]) -> str:
+    try:
+        files.write_failed(step.path, reason, attributes=attributes)
+    except StoreError as error:
+        return f"{reason} And the failure itself could not be stored: {error}"
+    return reason
+
+
+def _internal_error(campaign: Campaign, subject: str, step: Step, error: Exception) -> str:
+    """Write the traceback to the test's error.log; return what to tell."""
+    frames = traceback.extract_tb(error.__traceback__)
+    place = f"{frames[-1].filename.rpartition('colonnade')[2].lstrip('/')}:{frames[-1].lineno}" if frames else "?"
+    log = Layout(campaign.folder).error_log(subject)
+    where = f"its traceback is in {log.relative_to(campaign.folder).as_posix()}"
+    try:
+        files.write_text(log, "".join(traceback.format_exception(error)))
+    except StoreError:
+        where = "its traceback could not be written"
+    return (
+        f"Internal error in {step.name}, {type(error).__name__} at {place}: {error}. This is a defect of colonnade, not of "
+        f"your campaign; {where}. Please report it with that file."
+    )

@@ -1,0 +1,125 @@
+"""Whether a result is up to date: by the content of what it was made from, never by dates."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import json
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import colonnade
+from colonnade.errors import StoreError
+from colonnade.store.files import write_text
+from colonnade.store.layout import Layout
+from colonnade.store.provenance import hash_of
+
+WITHOUT_RESULTS = ("cli", "figures", "report", "laboratory")
+"""Rooms whose code changes no result."""
+
+_CHUNK = 1 << 20
+
+
+@functools.cache
+def source_hash() -> str:
+    """Hash of the sources that results depend on."""
+    root = Path(colonnade.__file__).parent
+    digest = hashlib.sha256()
+    for path in sorted(root.rglob("*.py")):
+        relative = path.relative_to(root)
+        if relative.parts[0] not in WITHOUT_RESULTS:
+            digest.update(relative.as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def ingredients(instructions: str, upstream: Mapping[str, str | None]) -> dict[str, Any]:
+    """
+    Gather what a result is made from.
+
+    Parameters
+    ----------
+    instructions : str
+        JSON of what the stage reads of the campaign.
+    upstream : mapping of str to str
+        Hash of each result or raw file that it reads; None where it is not there.
+    """
+    return {"code": source_hash(), "settings": hash_of(instructions), "upstream": dict(upstream)}
+
+
+def key_of(stage: str, made_from: Mapping[str, Any]) -> str:
+    """Key of a result: hash of its stage and ingredients."""
+    return hash_of({"stage": stage, **made_from})
+
+
+def why_stale(stored: Mapping[str, Any], made_from: Mapping[str, Any], *, from_raw: bool) -> str:
+    """Say what changed since a stored result (its attributes) was made."""
+    try:
+        before = json.loads(stored.get("ingredients", ""))
+    except ValueError:
+        return "never run"
+    if before.get("upstream") != made_from["upstream"]:
+        return "raw file changed" if from_raw else "upstream changed"
+    return "settings changed" if before.get("settings") != made_from["settings"] else "code changed"
+
+
+class RawIndex:
+    """
+    Size, time and SHA-256 of the raw files as last seen; a file whose size and time are the same is not read again.
+
+    Parameters
+    ----------
+    layout : Layout
+    verify : bool
+        Read every file whatever its size and time.
+    """
+
+    def __init__(self, layout: Layout, *, verify: bool) -> None:
+        self._layout, self._verify = layout, verify
+        self._seen: dict[str, str | None] = {}
+        try:
+            self._known: dict[str, Any] = json.loads(layout.raw_index.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            self._known = {}
+
+    def hashes(self, paths: Iterable[Path]) -> dict[str, str | None]:
+        """SHA-256 of each file by its path from the campaign's folder; None where it cannot be read."""
+        return {name: self._hash(name, path) for name, path in ((self._name(path), path) for path in paths)}
+
+    def _name(self, path: Path) -> str:
+        return path.relative_to(self._layout.folder.resolve()).as_posix()
+
+    def _hash(self, name: str, path: Path) -> str | None:
+        if name not in self._seen:
+            self._seen[name] = self._look(name, path)
+        return self._seen[name]
+
+    def _look(self, name: str, path: Path) -> str | None:
+        try:
+            status = path.stat()
+            known = self._known.get(name, {})
+            if not self._verify and (known.get("size"), known.get("time")) == (status.st_size, status.st_mtime_ns):
+                return str(known["sha256"])
+            digest = hashlib.sha256()
+            with path.open("rb") as stream:
+                while chunk := stream.read(_CHUNK):
+                    digest.update(chunk)
+        except OSError:
+            self._known.pop(name, None)
+            return None
+        self._known[name] = {"size": status.st_size, "time": status.st_mtime_ns, "sha256": digest.hexdigest()}
+        return digest.hexdigest()
+
+    def save(self) -> None:
+        """Write the index, if it changed."""
+        write_text(self._layout.raw_index, json.dumps(self._known, indent=1, sort_keys=True) + "\n")
+
+
+def stored_attributes(path: Path) -> dict[str, Any]:
+    """Attributes of a result, empty where it is not there or damaged (and so has to be made again)."""
+    from colonnade.store.files import read_attributes
+
+    try:
+        return read_attributes(path)
+    except StoreError:
+        return {}

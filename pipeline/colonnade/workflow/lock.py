@@ -1,0 +1,64 @@
+"""One run at a time in a campaign, by a lock of the operating system, which a crash frees."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+from collections.abc import Iterator
+from contextlib import contextmanager
+from datetime import datetime
+
+from filelock import FileLock, Timeout
+
+from colonnade.errors import StoreError
+from colonnade.store.files import PARTIAL, write_text
+from colonnade.store.layout import Layout
+
+
+@contextmanager
+def only_run(layout: Layout) -> Iterator[None]:
+    """
+    Hold a campaign's lock, and sweep what a killed run left half-written.
+
+    Raises
+    ------
+    StoreError
+        If another run holds it, or the folder of results cannot be written.
+    """
+    try:
+        layout.processed.mkdir(parents=True, exist_ok=True)
+        lock = FileLock(layout.lock)
+        lock.acquire(timeout=0)
+    except Timeout:
+        raise StoreError(_held(layout)) from None
+    except OSError as error:
+        raise StoreError(
+            f"{layout.processed}: results cannot be written here ({error.strerror or error}). A folder with room that you "
+            "may write to was expected; free some space, or copy the campaign elsewhere."
+        ) from error
+    try:
+        for partial in layout.folder.glob(f"processed/**/.*{PARTIAL}"):
+            partial.unlink(missing_ok=True)
+        holder = {
+            "process": os.getpid(),
+            "host": platform.node(),
+            "since": datetime.now().astimezone().isoformat("T", "seconds"),
+        }
+        write_text(layout.lock_holder, json.dumps(holder) + "\n")
+        yield
+    finally:
+        layout.lock_holder.unlink(missing_ok=True)
+        lock.release()
+
+
+def _held(layout: Layout) -> str:
+    try:
+        holder = json.loads(layout.lock_holder.read_text(encoding="utf-8"))
+        who = f"process {holder['process']} on {holder['host']}, since {holder['since']}"
+    except (OSError, ValueError, KeyError):
+        who = "another process"
+    return (
+        f"{layout.folder}: this campaign is being run already, by {who}. Wait until it has ended, or stop it; "
+        "results are written by one run at a time."
+    )

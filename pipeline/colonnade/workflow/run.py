@@ -1,0 +1,147 @@
+"""Run a campaign: tests in parallel, specimens in between, summary and report at the end."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+
+from colonnade.campaign import Campaign, load
+from colonnade.errors import CampaignError, nearest
+from colonnade.store.layout import Layout
+from colonnade.workflow.chain import Chain, advance, is_fresh, walk
+from colonnade.workflow.freshness import RawIndex, stored_attributes
+from colonnade.workflow.lock import only_run
+from colonnade.workflow.results import RunResult, StageRun
+from colonnade.workflow.steps import STAGES, specimen_step
+from colonnade.workflow.summary import write_summary
+
+Progress = Callable[[StageRun, int, int], None]
+
+
+def run(
+    campaign: Path | str,
+    *,
+    until: str | None = None,
+    start_from: str | None = None,
+    only: Sequence[str] = (),
+    workers: int | None = None,
+    verify: bool = False,
+    progress: Progress | None = None,
+) -> RunResult:
+    """
+    Run what is out of date in a campaign.
+
+    Parameters
+    ----------
+    campaign : Path or str
+        A campaign.toml or its folder.
+    until, start_from : str, optional
+        Last stage; stage from which on results are made again whatever their state. One of `STAGES`.
+    only : sequence of str, optional
+        Ids of the tests to run; default all. Specimens are pooled from all results that are there.
+    workers : int, optional
+        Processes; default one a core.
+    verify : bool, optional
+        Read every raw file again, whatever its size and time.
+    progress : callable, optional
+        Called with each stage that ended, how many tests have, and of how many.
+
+    Returns
+    -------
+    result : RunResult
+
+    Raises
+    ------
+    CampaignError
+        If the campaign file is not usable, or a stage or test is not known.
+    StoreError
+        If another run is under way, or results cannot be written.
+    """
+    loaded = load(Path(campaign))
+    last, first = _known_stage("until", until) or "report", _known_stage("start_from", start_from)
+    tests = _chosen(loaded, only)
+    layout = Layout(loaded.folder)
+    with only_run(layout):
+        index = RawIndex(layout, verify=verify)
+        raw = {test: index.hashes(loaded.tests[test].files.values()) for test in tests}
+        index.save()
+
+        def chains(names: Iterable[str], phase: str) -> list[Chain]:
+            return [Chain.of(loaded, name, phase=phase, until=last, redo_from=first, raw=raw[name]) for name in names]
+
+        runs = list(_walked(chains(tests, "measuring"), workers, progress))
+        if STAGES.index(last) >= STAGES.index("restitution"):
+            runs += _pool(loaded, layout, first)
+        if STAGES.index(last) >= STAGES.index("predict"):
+            failed = {stage.subject for stage in runs if stage.action == "failed"}
+            for test in failed & set(tests):
+                for stale in (*layout.test(test).glob("predicted-*.nc"), layout.stage(test, "compare")):
+                    stale.unlink(missing_ok=True)
+            runs += _walked(chains([test for test in tests if test not in failed], "predicting"), workers, progress)
+        write_summary(loaded, layout)
+        report = None
+        if last == "report":
+            from colonnade.report import build
+
+            report = build(loaded, layout)
+    return RunResult(tuple(runs), layout.summary_json, report)
+
+
+def _known_stage(name: str, stage: str | None) -> str | None:
+    if stage is not None and stage not in STAGES:
+        raise CampaignError(f'{name}: there is no stage "{stage}".{nearest(stage, STAGES)}')
+    return stage
+
+
+def _chosen(campaign: Campaign, only: Sequence[str]) -> list[str]:
+    for name in only:
+        if name not in campaign.tests:
+            raise CampaignError(f'{campaign.path.name} has no test "{name}".{nearest(name, campaign.tests)}')
+    return [name for name in campaign.tests if not only or name in only]
+
+
+def _walked(chains: Sequence[Chain], workers: int | None, progress: Progress | None) -> Iterator[StageRun]:
+    """Walk the chains, those with nothing to do here and the others in worker processes."""
+    done = 0
+    waiting = []
+    for chain in chains:
+        standing = is_fresh(chain)
+        if standing is None:
+            waiting.append(chain)
+            continue
+        done += 1
+        yield from _told(standing, done, len(chains), progress)
+    for runs in _spread(waiting, workers):
+        done += 1
+        yield from _told(runs, done, len(chains), progress)
+
+
+def _spread(chains: Sequence[Chain], workers: int | None) -> Iterator[list[StageRun]]:
+    count = min(workers or os.cpu_count() or 1, len(chains))
+    if count <= 1:
+        yield from map(walk, chains)
+        return
+    from joblib import Parallel, delayed
+
+    yield from Parallel(n_jobs=count, return_as="generator_unordered")(delayed(walk)(chain) for chain in chains)
+
+
+def _told(runs: list[StageRun], done: int, total: int, progress: Progress | None) -> list[StageRun]:
+    if progress is not None:
+        for stage in runs:
+            progress(stage, done, total)
+    return runs
+
+
+def _pool(campaign: Campaign, layout: Layout, redo_from: str | None) -> list[StageRun]:
+    """Bring the specimens up to date with the free vibrations that have been identified."""
+    identified: dict[str, dict[str, Path]] = {name: {} for name in campaign.specimens}
+    for test in campaign.tests.values():
+        path = layout.stage(test.id, "restitution")
+        if test.kind == "free-vibration" and stored_attributes(path).get("status") == "done":
+            identified[test.specimen][test.id] = path
+    return [
+        advance(campaign, name, specimen_step(campaign, name, paths), redo_from=redo_from, raw={})
+        for name, paths in identified.items()
+    ]

@@ -1,0 +1,153 @@
+"""The table of stages: what each reads, where it writes, and the function that does it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from colonnade.campaign import Campaign, Test
+from colonnade.errors import ReadError
+from colonnade.store.layout import Layout
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+STAGES = ("ingest", "condition", "rocking", "restitution", "predict", "compare", "report")
+"""In the order of the data's way."""
+
+WITHOUT_PREDICTION = ("tilt", "other")
+"""Kinds of test that have no base motion to predict from."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """
+    One stage of one test.
+
+    Attributes
+    ----------
+    stage : str
+        One of `STAGES`.
+    name : str
+        The stage, with its model where it has one.
+    path : Path
+        Of the result.
+    upstream : dict of str to Path
+        Results that it reads, by name; of ingest, raw files by recorder.
+    instructions : Any
+        The stage's own model of what it reads of the campaign.
+    work : callable
+        Takes the upstream results and the instructions, returns the result.
+    """
+
+    stage: str
+    name: str
+    path: Path
+    upstream: dict[str, Path]
+    instructions: Any
+    work: Callable[[Mapping[str, Any], Any], xr.Dataset]
+
+    @property
+    def is_from_raw(self) -> bool:
+        """Whether it reads raw files rather than results."""
+        return self.stage == "ingest"
+
+
+def measuring_steps(campaign: Campaign, test: Test) -> list[Step]:
+    """Steps from the raw files to what was measured."""
+    from colonnade.stages import condition, ingest, restitution, rocking
+
+    layout = Layout(campaign.folder)
+    recorded, conditioned, angle = (layout.stage(test.id, stage) for stage in ("ingest", "condition", "rocking"))
+    steps = [
+        Step("ingest", "ingest", recorded, dict(test.files), ingest.instructions(campaign, test), _ingest),
+        Step(
+            "condition",
+            "condition",
+            conditioned,
+            {"recorded": recorded},
+            condition.instructions(campaign, test),
+            lambda upstream, read: condition.condition(upstream["recorded"], read),
+        ),
+        Step(
+            "rocking",
+            "rocking",
+            angle,
+            {"conditioned": conditioned},
+            rocking.instructions(campaign, test),
+            lambda upstream, read: rocking.rocking(upstream["conditioned"], read),
+        ),
+    ]
+    if test.kind == "free-vibration":
+        steps.append(
+            Step(
+                "restitution",
+                "restitution",
+                layout.stage(test.id, "restitution"),
+                {"rocking": angle},
+                restitution.instructions(campaign, test),
+                lambda upstream, read: restitution.restitution(upstream["rocking"], read),
+            )
+        )
+    return steps
+
+
+def specimen_step(campaign: Campaign, specimen_id: str, identified: Mapping[str, Path]) -> Step:
+    """Step that pools the free vibrations of a specimen, given their results by test."""
+    from colonnade.stages import specimen
+
+    path = Layout(campaign.folder).specimen(specimen_id)
+    read = specimen.instructions(campaign, specimen_id)
+    return Step("restitution", "specimen", path, dict(identified), read, specimen.specimen)
+
+
+def predicting_steps(campaign: Campaign, test: Test) -> list[Step]:
+    """Steps from what was measured to how far predictions agree."""
+    from colonnade.stages import compare, predict
+
+    layout = Layout(campaign.folder)
+    rocking, specimen = layout.stage(test.id, "rocking"), layout.specimen(test.specimen)
+    models = () if test.kind in WITHOUT_PREDICTION else campaign.processing.predict.models
+    predicted = {model: layout.stage(test.id, "predict", model) for model in models}
+    steps = [
+        Step(
+            "predict",
+            f"predict-{model}",
+            path,
+            {"rocking": rocking, "specimen": specimen},
+            predict.instructions(campaign, test, model),
+            lambda upstream, read: predict.predict(upstream["rocking"], upstream["specimen"], read),
+        )
+        for model, path in predicted.items()
+    ]
+    steps.append(
+        Step(
+            "compare",
+            "compare",
+            layout.stage(test.id, "compare"),
+            {"rocking": rocking, **predicted},
+            compare.instructions(campaign, test),
+            lambda upstream, read: compare.compare(
+                upstream["rocking"], {name: each for name, each in upstream.items() if name != "rocking"}, read
+            ),
+        )
+    )
+    return steps
+
+
+def _ingest(paths: Mapping[str, Path], read: Any) -> xr.Dataset:
+    from colonnade.readers.registry import read as read_recording
+    from colonnade.stages.ingest import ingest
+
+    recordings = {}
+    for recorder, path in paths.items():
+        if not path.is_file():
+            raise ReadError(
+                f"{path.name}: there is no such file in {path.parent}. The raw file of recorder {recorder} was expected "
+                "there; put it in place, or correct the test's `file`."
+            )
+        how = read.files[recorder]
+        recordings[recorder] = read_recording(path, how["format"], how["options"])
+    return ingest(recordings, read)

@@ -1,0 +1,148 @@
+"""summary.json and summary.csv, rebuilt from the results, which are the truth."""
+
+from __future__ import annotations
+
+import csv
+import io
+from typing import Any
+
+import numpy as np
+
+import colonnade
+from colonnade.campaign import Campaign, Test
+from colonnade.campaign.summary import PredictionSummary, RestitutionSummary, SpecimenSummary, Summary, TestSummary
+from colonnade.errors import StoreError
+from colonnade.store import files
+from colonnade.store.layout import Layout
+
+
+def write_summary(campaign: Campaign, layout: Layout) -> None:
+    """
+    Write both summaries, where their content changed.
+
+    Raises
+    ------
+    StoreError
+        If they cannot be written.
+    """
+    summary = summarise(campaign, layout)
+    files.write_text(layout.summary_json, summary.text())
+    files.write_text(layout.summary_csv, _table(summary))
+
+
+def summarise(campaign: Campaign, layout: Layout) -> Summary:
+    """Gather a record a specimen and a test from what is stored."""
+    return Summary(
+        campaign=campaign.campaign,
+        colonnade=colonnade.__version__,
+        specimens={name: _specimen(campaign, layout, name) for name in campaign.specimens},
+        tests={name: _test(campaign, layout, test) for name, test in campaign.tests.items()},
+    )
+
+
+def _stored(path: Any) -> Any:
+    """Return a result, None where it is not there; damage is a failure like any other."""
+    try:
+        return files.read(path) if path.exists() else None
+    except StoreError as error:
+        return error
+
+
+def _specimen(campaign: Campaign, layout: Layout, name: str) -> SpecimenSummary:
+    block = campaign.block(name)
+    result = _stored(layout.specimen(name))
+    if result is None or isinstance(result, StoreError) or result.attrs["status"] != "done":
+        restitution = RestitutionSummary(
+            value=block.restitution, source="rigid-body", reason="the free vibrations have not been identified"
+        )
+    else:
+        sides = [float(value) for value in result["side_restitution"]]
+        restitution = RestitutionSummary(
+            value=sides[0] if sides[0] == sides[1] else (sides[0], sides[1]),
+            low=float(result["restitution_low"]),
+            high=float(result["restitution_high"]),
+            level=float(result["level"]),
+            source=result.attrs["restitution_source"],
+            method=result.attrs["method"] or None,
+            reason=result.attrs["reason"] or None,
+            tests=tuple(str(test) for test in result["test_id"].to_numpy()),
+        )
+    return SpecimenSummary(
+        critical_angle=block.critical_angle,
+        p=block.p,
+        pole_distance=block.pole_distance,
+        inertia=block.inertia,
+        restitution=restitution,
+    )
+
+
+def _test(campaign: Campaign, layout: Layout, test: Test) -> TestSummary:
+    models = campaign.processing.predict.models
+    paths = {
+        stage: layout.stage(test.id, stage) for stage in ("ingest", "condition", "rocking", "restitution", "compare")
+    }
+    paths |= {f"predict-{model}": layout.stage(test.id, "predict", model) for model in models}
+    results = {stage: _stored(path) for stage, path in paths.items()}
+    reasons = [str(each) for each in results.values() if isinstance(each, StoreError)]
+    sound = {stage: each for stage, each in results.items() if each is not None and not isinstance(each, StoreError)}
+    reasons += [f"{stage}: {each.attrs['reason']}" for stage, each in sound.items() if each.attrs["status"] == "failed"]
+    done = {stage: each for stage, each in sound.items() if each.attrs["status"] == "done"}
+    warnings = [warning for each in done.values() for warning in each.attrs.get("warnings", [])]
+    status = "failed" if reasons else "done" if "compare" in done else "pending"
+    return TestSummary(
+        status=status,
+        reason=" ".join(reasons) or None,
+        warnings=tuple(dict.fromkeys(warnings)),
+        kind=test.kind,
+        specimen=test.specimen,
+        span=test.span,
+        observed_outcome=test.observed_outcome,
+        **_measured(campaign, test, done.get("rocking")),
+        predicted={model: _predicted(done, model) for model in models if f"predict-{model}" in done},
+    )
+
+
+def _measured(campaign: Campaign, test: Test, rocking: Any) -> dict[str, Any]:
+    if rocking is None:
+        return {}
+    block = campaign.block(test.specimen)
+    acceleration = float(rocking["peak_ground_acceleration"])
+    measured: dict[str, Any] = {"outcome": rocking.attrs["outcome"] or None, "pga": acceleration}
+    if "rocking_angle" in rocking:
+        measured |= {"peak_ratio": float(rocking["peak_ratio"]), "peak_time": float(rocking["peak_time"])}
+        measured["impacts"] = int(rocking.sizes.get("impact", 0))
+    if test.kind == "sine":
+        measured["amplitude_ratio"] = acceleration / block.uplift_acceleration
+        if test.frequency is not None:
+            measured["frequency_ratio"] = 2 * np.pi * test.frequency / block.p
+    return measured
+
+
+def _predicted(done: dict[str, Any], model: str) -> PredictionSummary:
+    predicted = done[f"predict-{model}"]
+    nrmse = None
+    if "compare" in done and model in done["compare"]["model"].to_numpy():
+        nrmse = float(done["compare"]["nrmse"].to_numpy()[list(done["compare"]["model"].to_numpy()).index(model)])
+    return PredictionSummary(outcome=predicted.attrs["outcome"], peak_ratio=float(predicted["peak_ratio"]), nrmse=nrmse)
+
+
+def _table(summary: Summary) -> str:
+    """Return a row a test; text that a spreadsheet would take for a formula is quoted."""
+    rows = []
+    for name, test in summary.tests.items():
+        row: dict[str, Any] = {"test": name}
+        record = test.model_dump(exclude={"predicted"})
+        row |= {column: "; ".join(value) if column == "warnings" else value for column, value in record.items()}
+        for model, predicted in test.predicted.items():
+            row |= {f"{model}_{column}": value for column, value in predicted.model_dump().items()}
+        rows.append(row)
+    columns = list(dict.fromkeys(column for row in rows for column in row))
+    text = io.StringIO()
+    writer = csv.DictWriter(text, columns or ["test"], lineterminator="\n")
+    writer.writeheader()
+    writer.writerows({column: _harmless(value) for column, value in row.items()} for row in rows)
+    return text.getvalue()
+
+
+def _harmless(value: Any) -> Any:
+    return f"'{value}" if isinstance(value, str) and value[:1] in "=+-@\t\r" else value
