@@ -34,8 +34,8 @@ def only_run(layout: Layout) -> Iterator[None]:
         raise StoreError(_held(layout)) from None
     except OSError as error:
         raise StoreError(
-            f"{layout.processed}: results cannot be written here ({error.strerror or error}). A folder with room that you "
-            "may write to was expected; free some space, or copy the campaign elsewhere."
+            f"{layout.processed}: results cannot be written here ({error.strerror or error}). A folder with room that "
+            "you may write to was expected; free some space, or copy the campaign elsewhere."
         ) from error
     try:
         for partial in layout.folder.glob(f"processed/**/.*{PARTIAL}"):

@@ -25,8 +25,8 @@ class StageRun:
     reason : str
         Why it failed.
     because : str
-        Why it ran: "never run", "raw file changed", "settings changed", "upstream changed", "code changed", "asked for";
-        empty where it did not.
+        Why it ran: "never run", "raw file changed", "settings changed", "upstream changed", "code changed" or "asked
+        for"; empty where it did not.
     seconds : float
     """
 

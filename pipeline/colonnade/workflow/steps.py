@@ -145,8 +145,8 @@ def _ingest(paths: Mapping[str, Path], read: Any) -> xr.Dataset:
     for recorder, path in paths.items():
         if not path.is_file():
             raise ReadError(
-                f"{path.name}: there is no such file in {path.parent}. The raw file of recorder {recorder} was expected "
-                "there; put it in place, or correct the test's `file`."
+                f"{path.name}: there is no such file in {path.parent}. The raw file of recorder {recorder} was "
+                "expected there; put it in place, or correct the test's `file`."
             )
         how = read.files[recorder]
         recordings[recorder] = read_recording(path, how["format"], how["options"])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -88,7 +88,7 @@ def _test(campaign: Campaign, layout: Layout, test: Test) -> TestSummary:
     reasons += [f"{stage}: {each.attrs['reason']}" for stage, each in sound.items() if each.attrs["status"] == "failed"]
     done = {stage: each for stage, each in sound.items() if each.attrs["status"] == "done"}
     warnings = [warning for each in done.values() for warning in each.attrs.get("warnings", [])]
-    status = "failed" if reasons else "done" if "compare" in done else "pending"
+    status: Literal["done", "failed", "pending"] = "failed" if reasons else "done" if "compare" in done else "pending"
     return TestSummary(
         status=status,
         reason=" ".join(reasons) or None,
