@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from colonnade.campaign import Campaign
-from colonnade.campaign import FileOptions
 from colonnade.errors import ColonnadeError, StoreError
 from colonnade.store import files
 from colonnade.store.layout import Layout
@@ -192,6 +191,6 @@ def _internal_error(campaign: Campaign, subject: str, step: Step, error: Excepti
     except StoreError:
         where = "its traceback could not be written"
     return (
-        f"Internal error in {step.name}, {type(error).__name__} at {place}: {error}. This is a defect of colonnade, not "
-        f"of your campaign; {where}. Please report it with that file."
+        f"Internal error in {step.name}, {type(error).__name__} at {place}: {error}. This is a defect of colonnade, "
+        f"not of your campaign; {where}. Please report it with that file."
     )

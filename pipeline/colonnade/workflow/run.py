@@ -1,153 +1,147 @@
-"""The workflow: what is out of date, in which order, in how many processes."""
+"""Run a campaign: tests in parallel, specimens in between, summary and report at the end."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
-from itertools import chain as joined
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from colonnade.campaign import Campaign, load
-from colonnade.store import files
+from colonnade.errors import CampaignError, nearest
 from colonnade.store.layout import Layout
-from colonnade.workflow.chain import Chain, walk
-from colonnade.workflow.lock import run_lock
-from colonnade.workflow.plan import Plan
-from colonnade.workflow.processes import execute
-from colonnade.workflow.rawfiles import RawIndex
-from colonnade.workflow.result import Progress, RunResult, StageRun
-from colonnade.workflow.selection import Selection, select
+from colonnade.workflow.chain import Chain, advance, is_fresh, walk
+from colonnade.workflow.freshness import RawIndex, stored_attributes
+from colonnade.workflow.lock import only_run
+from colonnade.workflow.results import RunResult, StageRun
+from colonnade.workflow.steps import STAGES, specimen_step
 from colonnade.workflow.summary import write_summary
-from colonnade.workflow.survey import survey
-from colonnade.workflow.table import STAGES, Table
+
+Progress = Callable[[StageRun, int, int], None]
 
 
 def run(
-    campaign_path: Path | str,
+    campaign: Path | str,
     *,
     until: str | None = None,
     start_from: str | None = None,
-    only: Iterable[str] = (),
+    only: Sequence[str] = (),
     workers: int | None = None,
     verify: bool = False,
     progress: Progress | None = None,
 ) -> RunResult:
     """
-    Bring the results of a campaign up to date.
+    Run what is out of date in a campaign.
 
     Parameters
     ----------
-    campaign_path : Path or str
+    campaign : Path or str
         A campaign.toml or its folder.
-    until : str, optional
-        Last stage: ingest, condition, rocking, restitution, predict, compare or report (the default).
-    start_from : str, optional
-        Stage that is redone, with what follows, even where it is up to date.
-    only : iterable of str, optional
-        Tests. The free vibrations of their specimens are brought up to date with them, as far as predictions need it.
+    until, start_from : str, optional
+        Last stage; stage from which on results are made again whatever their state. One of `STAGES`.
+    only : sequence of str, optional
+        Ids of the tests to run; default all. Specimens are pooled from all results that are there.
     workers : int, optional
-        Processes; one a core by default.
+        Processes; default one a core.
     verify : bool, optional
-        Hash every raw file and every stored result again.
+        Read every raw file again, whatever its size and time.
     progress : callable, optional
-        Called with each StageRun, the number of stages that have ended and the number of all.
+        Called with each stage that ended, how many tests have, and of how many.
 
     Returns
     -------
     result : RunResult
-        A test that fails is told in it, and does not stop the others.
 
     Raises
     ------
     CampaignError
-        If the campaign file, a stage or a test is wrong.
+        If the campaign file is not usable, or a stage or test is not known.
     StoreError
-        If another run is writing there, or results cannot be written at all.
+        If another run is under way, or results cannot be written.
     """
-    campaign = load(Path(campaign_path))
-    selection = select(campaign, until, start_from, only)
-    return run_stages(campaign, STAGES, selection, workers=workers, verify=verify, progress=progress or _unheard)
-
-
-def run_stages(
-    campaign: Campaign,
-    table: Table,
-    selection: Selection,
-    *,
-    workers: int | None,
-    verify: bool,
-    progress: Progress,
-) -> RunResult:
-    """Run the stages of a table; see `run`."""
-    layout = Layout(campaign.folder)
-    with run_lock(layout):
-        files.sweep(layout.processed)
-        index = RawIndex(campaign.folder, layout.raw_index, verify=verify)
-        plan = Plan(campaign, table, layout, index, selection, verify)
-        stages = _execute_all(plan, selection, workers, progress)
+    loaded = load(Path(campaign))
+    last, first = _known_stage("until", until) or "report", _known_stage("start_from", start_from)
+    tests = _chosen(loaded, only)
+    layout = Layout(loaded.folder)
+    with only_run(layout):
+        index = RawIndex(layout, verify=verify)
+        raw = {test: index.hashes(loaded.tests[test].files.values()) for test in tests}
         index.save()
-        found = survey(plan.of_all, stages)
-        write_summary(campaign, layout, found)
-        report = _report(campaign, layout) if selection.includes("report") else None
-    failed = any(stage.action in ("failed", "skipped") for stage in stages)
-    return RunResult(tuple(stages), layout.summary_json, report, failed)
+
+        def chains(names: Iterable[str], phase: str) -> list[Chain]:
+            return [Chain.of(loaded, name, phase=phase, until=last, redo_from=first, raw=raw[name]) for name in names]
+
+        runs = list(_walked(chains(tests, "measuring"), workers, progress))
+        if STAGES.index(last) >= STAGES.index("restitution"):
+            runs += _pool(loaded, layout, first)
+        if STAGES.index(last) >= STAGES.index("predict"):
+            failed = {stage.subject for stage in runs if stage.action == "failed"}
+            for test in failed & set(tests):
+                for stale in (*layout.test(test).glob("predicted-*.nc"), layout.stage(test, "compare")):
+                    stale.unlink(missing_ok=True)
+            runs += _walked(chains([test for test in tests if test not in failed], "predicting"), workers, progress)
+        write_summary(loaded, layout)
+        report = None
+        if last == "report":
+            from colonnade.report import build
+
+            report = build(loaded, layout)
+    return RunResult(tuple(runs), layout.summary_json, report)
 
 
-def _execute_all(plan: Plan, selection: Selection, workers: int | None, progress: Progress) -> list[StageRun]:
-    specimens = list(dict.fromkeys(plan.campaign.tests[test].specimen for test in selection.tests))
-    pooling = specimens if selection.includes("restitution") else []
-    measured = [plan.measured(test) for test in selection.needed]
-    predicted = [plan.predicted(test) for test in selection.tests]
-    total = sum(len(chain.steps) for chain in measured + predicted) + len(pooling)
-    bench = _Bench(total, workers, progress)
-    bench.bring_up_to_date(measured)
-    restitutions = {stage.subject: stage.action for stage in bench.ended if stage.stage == "restitution"}
-    pools = [
-        plan.pooled(
-            specimen,
-            [test for test in plan.campaign.tests_of(specimen) if restitutions.get(test) in ("done", "up-to-date")],
-        )
-        for specimen in pooling
+def _known_stage(name: str, stage: str | None) -> str | None:
+    if stage is not None and stage not in STAGES:
+        raise CampaignError(f'{name}: there is no stage "{stage}".{nearest(stage, STAGES)}')
+    return stage
+
+
+def _chosen(campaign: Campaign, only: Sequence[str]) -> list[str]:
+    for name in only:
+        if name not in campaign.tests:
+            raise CampaignError(f'{campaign.path.name} has no test "{name}".{nearest(name, campaign.tests)}')
+    return [name for name in campaign.tests if not only or name in only]
+
+
+def _walked(chains: Sequence[Chain], workers: int | None, progress: Progress | None) -> Iterator[StageRun]:
+    """Walk the chains, those with nothing to do here and the others in worker processes."""
+    done = 0
+    waiting = []
+    for chain in chains:
+        standing = is_fresh(chain)
+        if standing is None:
+            waiting.append(chain)
+            continue
+        done += 1
+        yield from _told(standing, done, len(chains), progress)
+    for runs in _spread(waiting, workers):
+        done += 1
+        yield from _told(runs, done, len(chains), progress)
+
+
+def _spread(chains: Sequence[Chain], workers: int | None) -> Iterator[list[StageRun]]:
+    count = min(workers or os.cpu_count() or 1, len(chains))
+    if count <= 1:
+        yield from map(walk, chains)
+        return
+    from joblib import Parallel, delayed
+
+    yield from Parallel(n_jobs=count, return_as="generator_unordered")(delayed(walk)(chain) for chain in chains)
+
+
+def _told(runs: list[StageRun], done: int, total: int, progress: Progress | None) -> list[StageRun]:
+    if progress is not None:
+        for stage in runs:
+            progress(stage, done, total)
+    return runs
+
+
+def _pool(campaign: Campaign, layout: Layout, redo_from: str | None) -> list[StageRun]:
+    """Bring the specimens up to date with the free vibrations that have been identified."""
+    identified: dict[str, dict[str, Path]] = {name: {} for name in campaign.specimens}
+    for test in campaign.tests.values():
+        path = layout.stage(test.id, "restitution")
+        if test.kind == "free-vibration" and stored_attributes(path).get("status") == "done":
+            identified[test.specimen][test.id] = path
+    return [
+        advance(campaign, name, specimen_step(campaign, name, paths), redo_from=redo_from, raw={})
+        for name, paths in identified.items()
     ]
-    bench.bring_up_to_date(pools, here=True)
-    bench.bring_up_to_date(predicted)
-    order = {subject: number for number, subject in enumerate(joined(selection.needed, specimens))}
-    return sorted(bench.ended, key=lambda stage: order[stage.subject])
-
-
-@dataclass
-class _Bench:
-    """Executes chains and counts what has ended."""
-
-    total: int
-    workers: int | None
-    progress: Callable[[StageRun, int, int], None]
-    ended: list[StageRun] = field(default_factory=list)
-
-    def bring_up_to_date(self, chains: Iterable[Chain], *, here: bool = False) -> None:
-        """Execute those of the chains that are out of date; `here`: in this process."""
-        stale = []
-        for chain in chains:
-            looked = walk(chain, execute=False)
-            if any(stage.action in ("pending", "skipped") for stage in looked):
-                stale.append(chain)
-            else:
-                self._note(looked)
-        for ended in execute(stale, 1 if here else self.workers):
-            self._note(ended)
-
-    def _note(self, stages: list[StageRun]) -> None:
-        for stage in stages:
-            self.ended.append(stage)
-            self.progress(stage, len(self.ended), self.total)
-
-
-def _report(campaign: Campaign, layout: Layout) -> Path:
-    # Drawing libraries load slowly, and no worker needs them.
-    from colonnade.report.build import build
-
-    return build(campaign, layout)
-
-
-def _unheard(stage: StageRun, done: int, total: int) -> None:
-    """Take progress where nobody listens."""
