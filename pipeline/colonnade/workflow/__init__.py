@@ -1,6 +1,6 @@
-"""The workflow: brings the results of a campaign up to date."""
+"""What is out of date, in which order, in how many processes."""
 
-from colonnade.workflow.result import Progress, RunResult, StageRun
+from colonnade.workflow.results import RunResult, StageRun
 from colonnade.workflow.run import run
 
-__all__ = ["Progress", "RunResult", "StageRun", "run"]
+__all__ = ["RunResult", "StageRun", "run"]

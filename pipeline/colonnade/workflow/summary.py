@@ -1,173 +1,148 @@
-"""processed/summary.json and summary.csv: a record a test, made anew from the results on disk."""
+"""summary.json and summary.csv, rebuilt from the results, which are the truth."""
 
 from __future__ import annotations
 
 import csv
 import io
-from math import pi
-from typing import TYPE_CHECKING, Any
+from typing import Any, Literal
+
+import numpy as np
 
 import colonnade
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.summary import (
-    PredictionSummary,
-    RestitutionSummary,
-    SpecimenSummary,
-    Summary,
-    TestSummary,
-)
+from colonnade.campaign.summary import PredictionSummary, RestitutionSummary, SpecimenSummary, Summary, TestSummary
 from colonnade.errors import StoreError
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.workflow.survey import Finding, Survey
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
-def write_summary(campaign: Campaign, layout: Layout, survey: Survey) -> Summary:
+def write_summary(campaign: Campaign, layout: Layout) -> None:
     """
-    Write both files, where they differ from what is there.
+    Write both summaries, where their content changed.
 
     Raises
     ------
     StoreError
         If they cannot be written.
     """
-    summary = Summary(
+    summary = summarise(campaign, layout)
+    files.write_text(layout.summary_json, summary.text())
+    files.write_text(layout.summary_csv, _table(summary))
+
+
+def summarise(campaign: Campaign, layout: Layout) -> Summary:
+    """Gather a record a specimen and a test from what is stored."""
+    return Summary(
         campaign=campaign.campaign,
         colonnade=colonnade.__version__,
-        specimens={name: _specimen(campaign, name, survey.specimens[name]) for name in campaign.specimens},
-        tests={name: _test(campaign, test, survey) for name, test in campaign.tests.items()},
+        specimens={name: _specimen(campaign, layout, name) for name in campaign.specimens},
+        tests={name: _test(campaign, layout, test) for name, test in campaign.tests.items()},
     )
-    files.write_text(layout.summary_json, summary.text())
-    files.write_text(layout.summary_csv, _rows(campaign, summary))
-    return summary
 
 
-def _specimen(campaign: Campaign, name: str, found: Finding) -> SpecimenSummary:
+def _stored(path: Any) -> Any:
+    """Return a result, None where it is not there; damage is a failure like any other."""
+    try:
+        return files.read(path) if path.exists() else None
+    except StoreError as error:
+        return error
+
+
+def _specimen(campaign: Campaign, layout: Layout, name: str) -> SpecimenSummary:
     block = campaign.block(name)
+    result = _stored(layout.specimen(name))
+    if result is None or isinstance(result, StoreError) or result.attrs["status"] != "done":
+        restitution = RestitutionSummary(
+            value=block.restitution, source="rigid-body", reason="the free vibrations have not been identified"
+        )
+    else:
+        sides = [float(value) for value in result["side_restitution"]]
+        restitution = RestitutionSummary(
+            value=sides[0] if sides[0] == sides[1] else (sides[0], sides[1]),
+            low=float(result["restitution_low"]),
+            high=float(result["restitution_high"]),
+            level=float(result["level"]),
+            source=result.attrs["restitution_source"],
+            method=result.attrs["method"] or None,
+            reason=result.attrs["reason"] or None,
+            tests=tuple(str(test) for test in result["test_id"].to_numpy()),
+        )
     return SpecimenSummary(
         critical_angle=block.critical_angle,
         p=block.p,
         pole_distance=block.pole_distance,
         inertia=block.inertia,
-        restitution=_restitution(campaign, name, found),
+        restitution=restitution,
     )
 
 
-def _restitution(campaign: Campaign, name: str, found: Finding) -> RestitutionSummary:
-    given = campaign.specimens[name].restitution
-    reason = found.run.reason or "not pooled yet"
-    if found.holds:
-        try:
-            return _pooled(files.read(found.path))
-        except StoreError as error:
-            reason = str(error)
-    return RestitutionSummary(value=given, source="identified" if given is None else "given", reason=reason)
-
-
-def _pooled(pooled: xr.Dataset) -> RestitutionSummary:
-    sides = [float(value) for value in pooled["side_restitution"].to_numpy()]
-    source = pooled.attrs["source"]
-    low = float(pooled["restitution_low"])
-    return RestitutionSummary(
-        value=sides[0] if sides[0] == sides[1] else (sides[0], sides[1]),
-        low=low,
-        high=float(pooled["restitution_high"]),
-        level=float(pooled["level"]) if low == low else None,
-        source=source,
-        method=pooled.attrs["method"] or None,
-        reason=pooled.attrs["reason"] or None,
-        tests=tuple(str(test) for test in pooled["test_id"].to_numpy()) if source == "identified" else (),
-    )
-
-
-def _test(campaign: Campaign, test: Test, survey: Survey) -> TestSummary:
-    found = survey.tests[test.id]
-    written: dict[str, Any] = {
-        "status": _status(found),
-        "reason": _reason(found, survey.specimens[test.specimen]),
-        "kind": test.kind,
-        "specimen": test.specimen,
-        "span": test.span,
-        "observed_outcome": test.observed_outcome,
+def _test(campaign: Campaign, layout: Layout, test: Test) -> TestSummary:
+    models = campaign.processing.predict.models
+    paths = {
+        stage: layout.stage(test.id, stage) for stage in ("ingest", "condition", "rocking", "restitution", "compare")
     }
-    if test.frequency is not None:
-        written["frequency_ratio"] = 2 * pi * test.frequency / campaign.block(test.specimen).p
-    warnings: list[str] = []
-    predictions: dict[str, dict[str, Any]] = {model: {} for model in campaign.processing.predict.models}
-    for each in found:
-        if each.run.action not in ("up-to-date", "failed") or not each.path.exists():
-            continue
-        try:
-            result = files.read(each.path)
-        except StoreError as error:
-            written |= {"status": "failed", "reason": f"{each.run.stage}: {error}"}
-            continue
-        warnings += result.attrs.get("warnings", [])
-        if not each.holds:
-            continue
-        if each.run.stage == "rocking":
-            written |= _measured(campaign, test, result)
-        elif each.run.stage == "predict" and each.run.model is not None:
-            predictions[each.run.model] |= {
-                "outcome": result.attrs["outcome"] or None,
-                "peak_ratio": float(result["peak_ratio"]),
-            }
-        elif each.run.stage == "compare":
-            for model, nrmse in zip(result["model"].to_numpy(), result["nrmse"].to_numpy(), strict=True):
-                predictions[str(model)]["nrmse"] = float(nrmse)
+    paths |= {f"predict-{model}": layout.stage(test.id, "predict", model) for model in models}
+    results = {stage: _stored(path) for stage, path in paths.items()}
+    reasons = [str(each) for each in results.values() if isinstance(each, StoreError)]
+    sound = {stage: each for stage, each in results.items() if each is not None and not isinstance(each, StoreError)}
+    reasons += [f"{stage}: {each.attrs['reason']}" for stage, each in sound.items() if each.attrs["status"] == "failed"]
+    done = {stage: each for stage, each in sound.items() if each.attrs["status"] == "done"}
+    warnings = [warning for each in done.values() for warning in each.attrs.get("warnings", [])]
+    status: Literal["done", "failed", "pending"] = "failed" if reasons else "done" if "compare" in done else "pending"
     return TestSummary(
-        **written,
+        status=status,
+        reason=" ".join(reasons) or None,
         warnings=tuple(dict.fromkeys(warnings)),
-        predicted={model: PredictionSummary(**values) for model, values in predictions.items()},
+        kind=test.kind,
+        specimen=test.specimen,
+        span=test.span,
+        observed_outcome=test.observed_outcome,
+        **_measured(campaign, test, done.get("rocking")),
+        predicted={model: _predicted(done, model) for model in models if f"predict-{model}" in done},
     )
 
 
-def _status(found: list[Finding]) -> str:
-    actions = {each.run.action for each in found}
-    if actions & {"failed", "skipped"}:
-        return "failed"
-    return "pending" if "pending" in actions else "done"
-
-
-def _reason(found: list[Finding], specimen: Finding) -> str | None:
-    for each in found:
-        if each.run.action == "failed":
-            return f"{each.run.stage}: {each.run.reason}"
-    if any(each.run.action == "skipped" for each in found):
-        return f"specimen {specimen.run.subject}: {specimen.run.reason}"
-    return None
-
-
-def _measured(campaign: Campaign, test: Test, rocking: xr.Dataset) -> dict[str, Any]:
-    values = {
-        name: float(rocking[variable])
-        for name, variable in (
-            ("peak_ratio", "peak_ratio"),
-            ("peak_time", "peak_time"),
-            ("pga", "peak_ground_acceleration"),
-        )
-        if variable in rocking
-    }
-    measured: dict[str, Any] = {"outcome": rocking.attrs["outcome"] or None, **values}
-    if "impact_time" in rocking:
-        measured["impacts"] = rocking["impact_time"].size
-    if test.kind == "sine" and "pga" in values:
-        measured["amplitude_ratio"] = values["pga"] / campaign.block(test.specimen).uplift_acceleration
+def _measured(campaign: Campaign, test: Test, rocking: Any) -> dict[str, Any]:
+    if rocking is None:
+        return {}
+    block = campaign.block(test.specimen)
+    acceleration = float(rocking["peak_ground_acceleration"])
+    measured: dict[str, Any] = {"outcome": rocking.attrs["outcome"] or None, "pga": acceleration}
+    if "rocking_angle" in rocking:
+        measured |= {"peak_ratio": float(rocking["peak_ratio"]), "peak_time": float(rocking["peak_time"])}
+        measured["impacts"] = int(rocking.sizes.get("impact", 0))
+    if test.kind == "sine":
+        measured["amplitude_ratio"] = acceleration / block.uplift_acceleration
+        if test.frequency is not None:
+            measured["frequency_ratio"] = 2 * np.pi * test.frequency / block.p
     return measured
 
 
-def _rows(campaign: Campaign, summary: Summary) -> str:
-    plain = [name for name in TestSummary.model_fields if name != "predicted"]
-    models, results = campaign.processing.predict.models, list(PredictionSummary.model_fields)
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["test", *plain, *(f"{model}_{result}" for model in models for result in results)])
+def _predicted(done: dict[str, Any], model: str) -> PredictionSummary:
+    predicted = done[f"predict-{model}"]
+    nrmse = None
+    if "compare" in done and model in done["compare"]["model"].to_numpy():
+        nrmse = float(done["compare"]["nrmse"].to_numpy()[list(done["compare"]["model"].to_numpy()).index(model)])
+    return PredictionSummary(outcome=predicted.attrs["outcome"], peak_ratio=float(predicted["peak_ratio"]), nrmse=nrmse)
+
+
+def _table(summary: Summary) -> str:
+    """Return a row a test; text that a spreadsheet would take for a formula is quoted."""
+    rows = []
     for name, test in summary.tests.items():
-        record = test.model_dump()
-        record["warnings"] = "; ".join(test.warnings)
-        predicted = [record["predicted"][model][result] for model in models for result in results]
-        writer.writerow([name, *(record[key] for key in plain), *predicted])
-    return stream.getvalue()
+        row: dict[str, Any] = {"test": name}
+        record = test.model_dump(exclude={"predicted"})
+        row |= {column: "; ".join(value) if column == "warnings" else value for column, value in record.items()}
+        for model, predicted in test.predicted.items():
+            row |= {f"{model}_{column}": value for column, value in predicted.model_dump().items()}
+        rows.append(row)
+    columns = list(dict.fromkeys(column for row in rows for column in row))
+    text = io.StringIO()
+    writer = csv.DictWriter(text, columns or ["test"], lineterminator="\n")
+    writer.writeheader()
+    writer.writerows({column: _harmless(value) for column, value in row.items()} for row in rows)
+    return text.getvalue()
+
+
+def _harmless(value: Any) -> Any:
+    return f"'{value}" if isinstance(value, str) and value[:1] in "=+-@\t\r" else value
