@@ -57,9 +57,7 @@ class Chain:
         """Return the steps up to `until`."""
         build = measuring_steps if self.phase == "measuring" else predicting_steps
         last = STAGES.index(self.until)
-        return [
-            step for step in build(self.campaign, self.campaign.tests[self.test]) if STAGES.index(step.stage) <= last
-        ]
+        return [step for step in build(self.campaign, self.campaign.tests[self.test]) if step.order <= last]
 
 
 def walk(chain: Chain) -> list[StageRun]:
@@ -113,9 +111,8 @@ def advance(
         reason = _store_failure(step, str(error), attributes)
     except Exception as error:  # a defect of ours: told as such, the other tests go on
         reason = _store_failure(step, _internal_error(campaign, subject, step, error), attributes)
-    return StageRun(
-        subject, step.name, "failed" if reason else "done", reason, state.because, time.perf_counter() - started
-    )
+    seconds = time.perf_counter() - started
+    return StageRun(subject, step.stage, "failed" if reason else "done", step.model, reason, state.because, seconds)
 
 
 @dataclass(frozen=True)
@@ -134,9 +131,9 @@ def _state(step: Step, redo_from: str | None, raw: Mapping[str, str | None]) -> 
     else:
         upstream = {name: stored_attributes(path).get("content") for name, path in step.upstream.items()}
     made_from = ingredients(step.instructions.model_dump_json(), upstream)
-    key = key_of(step.name, made_from)
+    key = key_of(step.stage, made_from)
     stored = stored_attributes(step.path)
-    if redo_from is not None and STAGES.index(step.stage) >= STAGES.index(redo_from):
+    if redo_from is not None and step.order >= STAGES.index(redo_from):
         because = "asked for"
     else:
         because = "" if stored.get("key") == key else why_stale(stored, made_from, from_raw=step.is_from_raw)
@@ -145,18 +142,18 @@ def _state(step: Step, redo_from: str | None, raw: Mapping[str, str | None]) -> 
 
 def _standing(subject: str, step: Step, stored: Mapping[str, Any]) -> StageRun:
     if stored.get("status") == "failed":
-        return StageRun(subject, step.name, "failed", str(stored.get("reason", "")))
-    return StageRun(subject, step.name, "up-to-date")
+        return StageRun(subject, step.stage, "failed", step.model, str(stored.get("reason", "")))
+    return StageRun(subject, step.stage, "up-to-date", step.model)
 
 
 def _attributes(campaign: Campaign, subject: str, step: Step, state: _State) -> dict[str, Any]:
-    is_specimen = step.name == "specimen"
+    is_specimen = step.stage == "specimen"
     attributes: dict[str, Any] = dict(
         global_attributes(
             campaign=campaign.campaign,
             title=campaign.title,
             facility=campaign.facility,
-            stage="specimen" if is_specimen else step.stage,
+            stage=step.stage,
             test=None if is_specimen else subject,
             specimen=subject if is_specimen else None,
         )
@@ -191,6 +188,6 @@ def _internal_error(campaign: Campaign, subject: str, step: Step, error: Excepti
     except StoreError:
         where = "its traceback could not be written"
     return (
-        f"Internal error in {step.name}, {type(error).__name__} at {place}: {error}. This is a defect of colonnade, "
+        f"Internal error in {step.stage}, {type(error).__name__} at {place}: {error}. This is a defect of colonnade, "
         f"not of your campaign; {where}. Please report it with that file."
     )

@@ -19,9 +19,11 @@ class StageRun:
     subject : str
         Id of the test or specimen.
     stage : str
-        Name of the stage; `predict-<model>` for a prediction.
+        Name of the stage; "specimen" for what pools a specimen's free vibrations.
     action : str
         done, up-to-date or failed, now or in an earlier run.
+    model : str or None
+        Where the stage runs once a model.
     reason : str
         Why it failed.
     because : str
@@ -33,6 +35,7 @@ class StageRun:
     subject: str
     stage: str
     action: Action
+    model: str | None = None
     reason: str = ""
     because: str = ""
     seconds: float = 0.0

@@ -29,9 +29,7 @@ class Step:
     Attributes
     ----------
     stage : str
-        One of `STAGES`.
-    name : str
-        The stage, with its model where it has one.
+        One of `STAGES`, or "specimen".
     path : Path
         Of the result.
     upstream : dict of str to Path
@@ -40,14 +38,21 @@ class Step:
         The stage's own model of what it reads of the campaign.
     work : callable
         Takes the upstream results and the instructions, returns the result.
+    model : str or None
+        Of a prediction.
     """
 
     stage: str
-    name: str
     path: Path
     upstream: dict[str, Path]
     instructions: Any
     work: Callable[[Mapping[str, Any], Any], xr.Dataset]
+    model: str | None = None
+
+    @property
+    def order(self) -> int:
+        """Place of its stage in `STAGES`; specimens are pooled with the restitution of their tests."""
+        return STAGES.index("restitution" if self.stage == "specimen" else self.stage)
 
     @property
     def is_from_raw(self) -> bool:
@@ -62,9 +67,8 @@ def measuring_steps(campaign: Campaign, test: Test) -> list[Step]:
     layout = Layout(campaign.folder)
     recorded, conditioned, angle = (layout.stage(test.id, stage) for stage in ("ingest", "condition", "rocking"))
     steps = [
-        Step("ingest", "ingest", recorded, dict(test.files), ingest.instructions(campaign, test), _ingest),
+        Step("ingest", recorded, dict(test.files), ingest.instructions(campaign, test), _ingest),
         Step(
-            "condition",
             "condition",
             conditioned,
             {"recorded": recorded},
@@ -72,7 +76,6 @@ def measuring_steps(campaign: Campaign, test: Test) -> list[Step]:
             lambda upstream, read: condition.condition(upstream["recorded"], read),
         ),
         Step(
-            "rocking",
             "rocking",
             angle,
             {"conditioned": conditioned},
@@ -83,7 +86,6 @@ def measuring_steps(campaign: Campaign, test: Test) -> list[Step]:
     if test.kind == "free-vibration":
         steps.append(
             Step(
-                "restitution",
                 "restitution",
                 layout.stage(test.id, "restitution"),
                 {"rocking": angle},
@@ -100,7 +102,7 @@ def specimen_step(campaign: Campaign, specimen_id: str, identified: Mapping[str,
 
     path = Layout(campaign.folder).specimen(specimen_id)
     read = specimen.instructions(campaign, specimen_id)
-    return Step("restitution", "specimen", path, dict(identified), read, specimen.specimen)
+    return Step("specimen", path, dict(identified), read, specimen.specimen)
 
 
 def predicting_steps(campaign: Campaign, test: Test) -> list[Step]:
@@ -114,17 +116,16 @@ def predicting_steps(campaign: Campaign, test: Test) -> list[Step]:
     steps = [
         Step(
             "predict",
-            f"predict-{model}",
             path,
             {"rocking": rocking, "specimen": specimen},
             predict.instructions(campaign, test, model),
             lambda upstream, read: predict.predict(upstream["rocking"], upstream["specimen"], read),
+            model,
         )
         for model, path in predicted.items()
     ]
     steps.append(
         Step(
-            "compare",
             "compare",
             layout.stage(test.id, "compare"),
             {"rocking": rocking, **predicted},
