@@ -1,0 +1,151 @@
+"""The campaign.toml of a virtual campaign, with comments that explain it to a newcomer."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+from colonnade import units
+from colonnade.dynamics.block import STANDARD_GRAVITY
+from colonnade.errors import CampaignError
+from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Trial, raw_path
+from colonnade.laboratory.files import Flavour
+from colonnade.laboratory.instruments import VOLTS, Transducer
+
+FILE_NAME = "campaign.toml"
+MARK = "# Written by colonnade's virtual laboratory"
+"""First words of every campaign file that may be overwritten by another one of the laboratory."""
+
+_HEAD = (
+    MARK
+    + """: no specimen was shaken for it.
+# Its truth lies in truth/, where no stage of the processing reads it.
+# Every quantity is text with its unit; paths are relative to this file.
+"""
+)
+
+_SPECIMEN = """
+# What was tested. Critical angle, inertia and the rest follow from dimensions and mass; a measured value beside them
+# would win. No restitution is given here, so that it is identified from the free vibrations.
+"""
+
+_CHANNELS = """
+# What each column is. Physical value = recorded × gain + offset; `range` is the largest magnitude.
+# `at` is the point that the transducer follows: x along shaking, y across, z up, from the centre of the base.
+"""
+
+_TESTS = """
+# The tests, in the order in which they were done.
+"""
+
+
+def campaign_text(plan: Plan) -> str:
+    """Write out the campaign file of a plan."""
+    lines = [_HEAD, "schema = 1", f"campaign = {_value(plan.campaign)}", f"title = {_value(plan.title)}"]
+    if plan.block.gravity != STANDARD_GRAVITY:
+        lines.append(f'gravity = "{plan.block.gravity} m/s^2"')
+    lines += [_SPECIMEN + "[specimens]", f"{_key(plan.specimen)} = {_inline(plan.shape)}"]
+    for number, (name, setup) in enumerate(plan.setups.items()):
+        lines += _setup(name, setup, explained=number == 0)
+    lines.append(_TESTS.rstrip())
+    for trial in plan.trials:
+        lines += _trial(plan, trial)
+    return "\n".join([*lines, ""])
+
+
+def refuse_foreign(folder: Path) -> None:
+    """
+    Keep the laboratory from writing over a real campaign.
+
+    Raises
+    ------
+    CampaignError
+        If the folder holds a campaign file that the laboratory did not write.
+    """
+    path = folder / FILE_NAME
+    if path.exists() and not path.read_bytes().startswith(MARK.encode()):
+        raise CampaignError(
+            f"{path}: this campaign was not written by the virtual laboratory, and is left as it is. "
+            "Name another folder for the demo."
+        )
+
+
+def _setup(name: str, setup: Setup, *, explained: bool) -> list[str]:
+    main = setup.recorders[MAIN]
+    lines = ["", *([f"# {setup.comment}"] if setup.comment else []), f"[setups.{_key(name)}]", *_file(main.flavour)]
+    if setup.catch is not None:
+        lines.append(f'catch = "{setup.catch:g} rad"    # where the safety frame catches the specimen')
+    for recorder_name, recorder in setup.recorders.items():
+        if recorder_name != MAIN:
+            lines += _recorder(name, recorder_name, recorder)
+    lines.append((_CHANNELS if explained else "\n") + f"[setups.{_key(name)}.channels]")
+    for recorder_name, recorder in setup.recorders.items():
+        lines += [f"{_key(each.channel)} = {_inline(_channel(each, recorder_name))}" for each in recorder.transducers]
+    return lines
+
+
+def _file(flavour: Flavour) -> list[str]:
+    if not flavour.declared:
+        return ["# How its files are written is not said: delimiter, decimal sign, names and units are sniffed."]
+    said: dict[str, str | float] = {"format": "delimited", "delimiter": flavour.delimiter, "decimal": flavour.decimal}
+    said |= {"encoding": flavour.encoding, "time": flavour.heading(flavour.time_name, "s")}
+    return [f"file = {_inline(said)}    # every key optional: sniffed where it is not given"]
+
+
+def _recorder(setup: str, name: str, recorder: Recorder) -> list[str]:
+    lines = ["", f"[setups.{_key(setup)}.recorders.{_key(name)}]    # a second recorder", *_file(recorder.flavour)]
+    if recorder.align is not None:
+        first, second = map(_value, recorder.align)
+        lines.append("# It starts on its own; two channels of the same movement, one of each recorder, tell how late.")
+        lines.append(f"clock = {{align = [{first}, {second}]}}")
+    return lines
+
+
+def _channel(transducer: Transducer, recorder: str) -> dict[str, object]:
+    unit = transducer.physical_unit
+    factor = units.factor_to_si(unit, transducer.dimension)
+    entry: dict[str, object] = {"column": transducer.column}
+    if recorder != MAIN:
+        entry["recorder"] = recorder
+    entry |= {"quantity": transducer.quantity, "unit": transducer.recorded_unit}
+    if transducer.recorded_unit == "V":
+        entry["gain"] = f"{transducer.full_scale / VOLTS / factor:.10g} {unit}/V"
+        if transducer.offset:
+            entry["offset"] = f"{transducer.offset / factor:.10g} {unit}"
+        entry["range"] = f"{VOLTS:g} V"
+    else:
+        entry["range"] = f"{(transducer.full_scale + abs(transducer.offset)) / factor:.10g} {unit}"
+    entry["on"] = transducer.on
+    if transducer.at is not None:
+        entry["at"] = [f"{value * 1000:.10g} mm" for value in transducer.at]
+    entry["direction"] = [each if each % 1 else int(each) for each in transducer.direction]
+    if transducer.on == "specimen":
+        entry["relative_to"] = transducer.relative_to
+    return entry
+
+
+def _trial(plan: Plan, trial: Trial) -> list[str]:
+    recorders = plan.setups[trial.setup].recorders
+    paths = {name: raw_path(trial, name) for name in recorders}
+    entry: dict[str, object] = {"id": trial.name, "kind": trial.kind, "specimen": plan.specimen, "setup": trial.setup}
+    entry["file"] = paths[MAIN] if len(paths) == 1 else paths
+    return ["", "[[tests]]", *(f"{key} = {_value(value)}" for key, value in (entry | dict(trial.entry)).items())]
+
+
+def _inline(table: Mapping[str, object]) -> str:
+    return "{" + ", ".join(f"{_key(key)} = {_value(value)}" for key, value in table.items()) + "}"
+
+
+def _value(value: object) -> str:
+    if isinstance(value, Mapping):
+        return _inline(value)
+    if isinstance(value, list):
+        return "[" + ", ".join(_value(each) for each in value) + "]"
+    # JSON's strings are TOML's basic strings.
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _key(name: str) -> str:
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else _value(name)

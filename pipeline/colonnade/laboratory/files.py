@@ -1,0 +1,110 @@
+"""Raw files as recorders write them: delimited text in several flavours."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.errors import StoreError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Flavour:
+    """
+    How one recorder writes its text files.
+
+    Attributes
+    ----------
+    delimiter, decimal, encoding : str
+    time_name : str
+        Name of the clock's column.
+    preamble : tuple of str
+        Lines above the names.
+    units_in_names : bool
+        Names such as `LVDT 1 [V]`; else the units have a row of their own.
+    declared : bool
+        Whether the campaign file says all this; else it is left to be sniffed.
+    """
+
+    delimiter: str = ","
+    decimal: str = "."
+    encoding: str = "utf-8"
+    time_name: str = "Time"
+    preamble: tuple[str, ...] = ()
+    units_in_names: bool = False
+    declared: bool = False
+
+    def heading(self, name: str, unit: str) -> str:
+        """Name of a column as it stands in the file."""
+        return f"{name} [{unit}]" if self.units_in_names else name
+
+
+GERMAN = Flavour(
+    delimiter=";",
+    decimal=",",
+    encoding="latin-1",
+    time_name="Zeit",
+    preamble=("Messdatei des Rütteltischs", "Messbereich ±10 V; 16 bit", "Kanäle gemäß Belegungsplan"),
+    units_in_names=True,
+    declared=True,
+)
+"""Semicolons, decimal commas, Latin-1 and a preamble, all of it told in the campaign file."""
+
+COMMAS = Flavour()
+"""Comma-separated, names above a row of units."""
+
+TABS = Flavour(delimiter="\t", preamble=("Data logger export",))
+"""Tab-separated, names above a row of units, below one line of text."""
+
+
+def delimited_text(time: Array, columns: Mapping[str, tuple[str, Array]], flavour: Flavour) -> str:
+    """
+    Write out the columns of a recorder.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n,)
+        s, from the recorder's own zero.
+    columns : mapping of str to (str, ndarray of shape (n,))
+        Unit and values by name; six decimals are written.
+    flavour : Flavour
+
+    Returns
+    -------
+    text : str
+    """
+    named = {flavour.time_name: ("s", time), **columns}
+    names = [flavour.heading(name, unit) for name, (unit, _) in named.items()]
+    lines = [*flavour.preamble, flavour.delimiter.join(names)]
+    if not flavour.units_in_names:
+        lines.append(flavour.delimiter.join(unit for unit, _ in named.values()))
+    row = flavour.delimiter.join(["%.4f", *(["%.6f"] * len(columns))])
+    table = np.column_stack([values for _, values in named.values()])
+    samples = [row % tuple(values) for values in table.tolist()]
+    if flavour.decimal != ".":
+        samples = [sample.replace(".", flavour.decimal) for sample in samples]
+    return "\n".join([*lines, *samples, ""])
+
+
+def put(path: Path, text: str, encoding: str = "utf-8") -> None:
+    """
+    Write a file of a virtual campaign, unless it holds that text already.
+
+    Raises
+    ------
+    StoreError
+        If it cannot be written.
+    """
+    data = text.encode(encoding)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if not path.is_file() or path.read_bytes() != data:
+            path.write_bytes(data)
+    except OSError as error:
+        raise StoreError(f"{path}: the virtual campaign cannot be written here ({error.strerror}).") from error

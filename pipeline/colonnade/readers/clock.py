@@ -1,0 +1,109 @@
+"""Which columns of a text file are its clocks."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.readers.recording import TIME_UNITS, RecordedChannel
+
+Array = NDArray[np.float64]
+
+TIME_NAME = re.compile(
+    r"(?:t|time|zeit|messzeit|laufzeit|time\W?stamp|date\W?time|elapsed(?:\W?time)?|temps|tiempo|tempo|tid|χρόνοσ|χρονοσ"
+    r"|seconds|sekunden|sec)(?:[\s_#-]*\d+)?(?:\s+-\s.*)?"
+)
+RISING_SHARE = 0.9
+"""Share of steps that are positive in what is still a clock; the rest is for quality control to flag."""
+
+
+@dataclass(frozen=True)
+class Clocks:
+    """
+    What goes by which clock.
+
+    Attributes
+    ----------
+    columns : frozenset of int
+        Indices of the columns that are clocks.
+    times : tuple of (ndarray or None)
+        Of each column, s; None where there is no clock.
+    notes, warnings : tuple of str
+    """
+
+    columns: frozenset[int]
+    times: tuple[Array | None, ...]
+    notes: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+
+def find_clocks(channels: tuple[RecordedChannel, ...], kinds: tuple[str, ...]) -> Clocks:
+    """
+    Find columns of times by their name or unit and by rising values.
+
+    With several clocks each column goes by the nearest one on its left, as recorders write them.
+
+    Parameters
+    ----------
+    channels : tuple of RecordedChannel
+    kinds : tuple of str
+        What each holds; timestamps are in seconds from their first already.
+    """
+    notes, warnings = [], []
+    clocks: dict[int, Array] = {}
+    for index, (channel, kind) in enumerate(zip(channels, kinds, strict=True)):
+        if kind not in ("number", "time"):
+            continue
+        named = TIME_NAME.fullmatch(channel.name.casefold()) is not None and _may_be_time(channel.unit)
+        by_unit = index == 0 and channel.unit is not None and channel.unit.casefold() in TIME_UNITS
+        if not (named or by_unit or kind == "time"):
+            continue
+        rising = rising_share(channel.values)
+        if rising < RISING_SHARE:
+            warnings.append(
+                f'"{channel.heading}" looks like a clock, but only {rising:.0%} of its steps go forward: '
+                "it is not used as one"
+            )
+            continue
+        clocks[index], factor_note = (
+            (channel.values, "timestamps") if kind == "time" else in_seconds(channel, channel.unit)
+        )
+        notes.append(f'clock: column {index + 1}, "{channel.heading}" ({factor_note}; rising)')
+    if not clocks:
+        hint = _rising_in_equal_steps(channels)
+        notes.append("no clock: no rising column has a name or unit of time" + hint)
+        return Clocks(frozenset(), (None,) * len(channels), tuple(notes), tuple(warnings))
+    if len(clocks) > 1:
+        notes.append("several clocks: each column goes by the nearest one on its left")
+    leftmost = min(clocks)
+    times = tuple(clocks[max((c for c in clocks if c <= index), default=leftmost)] for index in range(len(channels)))
+    return Clocks(frozenset(clocks), times, tuple(notes), tuple(warnings))
+
+
+def in_seconds(channel: RecordedChannel, unit: str | None) -> tuple[Array, str]:
+    """Convert a column of times to seconds, and say how; a unit that is none of time counts as seconds."""
+    factor = TIME_UNITS.get((unit or "s").casefold(), 1.0)
+    how = f"in {unit}" if unit else "without a unit, taken as seconds"
+    return (channel.values if factor == 1.0 else channel.values * factor), how
+
+
+def rising_share(values: Array) -> float:
+    """Share of the steps between numbers that are positive; 0 where there are fewer than two numbers."""
+    steps = np.diff(values[np.isfinite(values)])
+    return float((steps > 0).mean()) if steps.size else 0.0
+
+
+def _may_be_time(unit: str | None) -> bool:
+    return unit is None or unit.casefold() in TIME_UNITS
+
+
+def _rising_in_equal_steps(channels: tuple[RecordedChannel, ...]) -> str:
+    """Hint at a first column that may be a clock nevertheless."""
+    first = channels[0]
+    steps = np.diff(first.values[np.isfinite(first.values)])
+    if steps.size > 1 and np.all(steps > 0) and np.ptp(steps) < 1e-3 * steps.mean():
+        return f'; set time = "{first.heading}" if that is one: it rises in equal steps of {steps.mean():g}'
+    return ""

@@ -1,0 +1,224 @@
+"""Names and units of columns: which lines hold them, and `LVDT 1 [mm]` taken apart."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from colonnade.readers.cells import Dialect, kind_of, looks_like_numbers, quoted_cells
+from colonnade.readers.sniffing import DELIMITERS
+
+_BASE = (
+    r"(?:[kKMGmµμun]|c|d)?(?:m|s|g|N|V|A|W|J|Hz|Pa|rad|bar|strain|eps|ε|m/m)|g's|gal|Gal|in|inch(?:es)?|ft|lbf?|kip|psi|ksi"
+    r"|kg|t|m?l|min|h|hr|°|deg(?:rees?)?|°C|degC|K|%|‰|-|volts?|amps?|sec(?:onds?|s)?|Sek(?:unden)?|msec|ms|hertz"
+    r"|met(?:er|re)s?|mm|newtons?|counts?|LSB|digits?|rpm|mil"
+)
+UNIT = re.compile(
+    rf"(?:{_BASE})(?:(?:\^|\*\*)?-?[0-9²³])?(?:\s?[/·*. ]\s?(?:{_BASE})(?:(?:\^|\*\*)?-?[0-9²³])?)*\.?", re.IGNORECASE
+)
+BRACKETED = re.compile(r"(?P<name>.*?)\s*(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))\s*")
+SOLIDUS = re.compile(r"(?P<name>.*\w{2}.*?)(?:\s*/\s*|\s+in\s+)(?P<unit>\S+)")
+RULE = re.compile(r"[\s\-=_*+|;,.]*")
+
+
+@dataclass(frozen=True)
+class Heading:
+    """
+    What stands above the samples.
+
+    Attributes
+    ----------
+    first : int
+        Index of the line of the first sample, from 0.
+    headings, names : tuple of str
+        As written, and without units; one a column.
+    units : tuple of (str or None)
+    notes, warnings : tuple of str
+    """
+
+    first: int
+    headings: tuple[str, ...]
+    names: tuple[str, ...]
+    units: tuple[str | None, ...]
+    notes: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class HeadingLines:
+    """Lines, from 0, of names and units, where they are."""
+
+    names: int | None
+    units: int | None
+
+
+def looks_like_unit(text: str) -> bool:
+    """
+    Whether a text is a unit of measurement, by its spelling.
+
+    Examples
+    --------
+    >>> [looks_like_unit(text) for text in ("mm", "g's", "m/s²", "Volts", "LVDT 1", "top")]
+    [True, True, True, True, False, False]
+    """
+    return UNIT.fullmatch(text.strip().strip("[]()")) is not None
+
+
+def take_apart(heading: str) -> tuple[str, str | None]:
+    """
+    Separate a column's name from its unit.
+
+    Examples
+    --------
+    >>> take_apart("LVDT 1 [mm]"), take_apart("Time (s)"), take_apart("Kraft / kN"), take_apart("Accel (top)")
+    (('LVDT 1', 'mm'), ('Time', 's'), ('Kraft', 'kN'), ('Accel (top)', None))
+    """
+    match = BRACKETED.fullmatch(heading)
+    if match and match["name"]:
+        square, round_ = match["square"], match["round"]
+        if square is not None and not square.strip().isdigit():
+            return match["name"], square.strip() or None
+        if round_ is not None and looks_like_unit(round_):
+            return match["name"], round_.strip()
+    match = SOLIDUS.fullmatch(heading)
+    if match and looks_like_unit(match["unit"]):
+        return match["name"], match["unit"]
+    return heading, None
+
+
+def heading_cells(line: str, dialect: Dialect, columns: int) -> list[str] | None:
+    """
+    Cut a line of names or units into one cell a column, or say None where it does not fit.
+
+    A line above the samples may use another delimiter than these, a comment sign before it, or one delimiter more.
+    """
+    bare = line.strip("\r\n ")
+    for sign in sorted(dialect.comments, key=len, reverse=True):
+        if bare.startswith(sign) and dialect.delimiter != sign:
+            bare = bare.lstrip(sign).strip(" ")
+            break
+    if RULE.fullmatch(bare) or bare == "":
+        return None
+    if columns == 1:
+        return [bare.strip().strip('";,\t').strip()]
+    own = dialect.split(bare) if dialect.delimiter.isspace() else quoted_cells(bare, dialect.delimiter)
+    others = [quoted_cells(bare, delimiter) for delimiter in DELIMITERS if not delimiter.isspace() or delimiter == "\t"]
+    if dialect.delimiter in bare and not dialect.delimiter.isspace():
+        others = []  # it uses the samples' delimiter, only not as often: a line of the preamble, or a damaged one
+    wide_gaps = re.split(r"\s{2,}|\t", bare.strip())
+    for cells in (own, wide_gaps, *others):
+        while len(cells) > columns and cells[-1] == "":
+            cells = cells[:-1]
+        if len(cells) == columns:
+            return [cell.strip().strip('"').strip() for cell in cells]
+    return None
+
+
+def find_heading(lines: list[str], start: int, first: int, dialect: Dialect, kinds: list[str]) -> HeadingLines:
+    """
+    Find the lines of names and units above the first sample.
+
+    Parameters
+    ----------
+    lines : list of str
+        Head of the file.
+    start, first : int
+        Index of the first line that may be looked at, and of the first sample.
+    dialect : Dialect
+    kinds : list of str
+        What each column holds, by `cells.kind_of`.
+    """
+    above = [index for index in range(first - 1, start - 1, -1) if not dialect.is_blank(lines[index])]
+    above = [index for index in above if not RULE.fullmatch(lines[index])][:2]
+    fitting = []
+    for index in above:
+        cells = heading_cells(lines[index], dialect, len(kinds))
+        if cells is None or not _says_something(cells, dialect, kinds):
+            break
+        fitting.append((index, cells))
+    if not fitting:
+        return HeadingLines(None, None)
+    index, cells = fitting[0]
+    filled = [cell for cell in cells if cell]
+    units = [cell for cell in filled if looks_like_unit(cell)]
+    if len(fitting) == 2 and len(units) >= 0.6 * len(filled):
+        return HeadingLines(fitting[1][0], index)
+    # A single line of units: nobody calls two channels "mm", but two channels are in mm.
+    if len(units) == len(filled) and (
+        len(set(units)) < len(units) or all(cell.startswith(("[", "(")) for cell in units)
+    ):
+        return HeadingLines(None, index)
+    return HeadingLines(index, None)
+
+
+def _says_something(cells: list[str], dialect: Dialect, kinds: list[str]) -> bool:
+    """Whether some cell could not be a value of its column."""
+    return any(
+        kind_of(cell, dialect) == "text"
+        for cell, kind in zip(cells, kinds, strict=True)
+        if kind in ("number", "time", "empty")
+    )
+
+
+def describe_columns(lines: list[str], where: HeadingLines, first: int, dialect: Dialect, columns: int) -> Heading:
+    """Take names and units from their lines; columns without a name are called by their number."""
+    names_row = _row(lines, where.names, dialect, columns)
+    units_row = _row(lines, where.units, dialect, columns)
+    parts = [take_apart(cell) for cell in names_row]
+    units: list[str | None] = []
+    for cell, (_, unit) in zip(units_row, parts, strict=True):
+        bare = re.sub(r"^[\[(](.*)[\])]$", r"\1", cell).strip()
+        units.append(bare or unit)
+    headings = tuple(cell or f"column {number}" for number, cell in enumerate(names_row, 1))
+    names = tuple(name or f"column {number}" for number, (name, _) in enumerate(parts, 1))
+    notes, warnings = [], []
+    if where.names is not None:
+        notes.append(
+            f'names on line {where.names + 1} ("{headings[0]}", …)'
+            if columns > 1
+            else f"name on line {where.names + 1}"
+        )
+        numbers = sum(dialect.is_number(cell) for cell in names_row)
+        if 2 * numbers > columns:
+            warnings.append(
+                f"line {where.names + 1} is taken for the names although {numbers} of its {columns} cells are numbers; "
+                "set names_row = 0 if it is a sample"
+            )
+    else:
+        notes.append(f'no names above the samples: columns are called "column 1" to "column {columns}"')
+    if where.units is not None:
+        notes.append(f"units on line {where.units + 1}")
+    elif any(units):
+        notes.append(f'units in the names (as in "{next(h for h, u in zip(headings, units, strict=True) if u)}")')
+    notes.append(f"first sample on line {first + 1}")
+    repeated = sorted({name for name in headings if headings.count(name) > 1})
+    if repeated:
+        warnings.append(f'several columns are called "{repeated[0]}": tell them apart by number')
+    return Heading(first, headings, names, tuple(units), tuple(notes), tuple(warnings))
+
+
+def unread_numbers(lines: list[str], where: HeadingLines, start: int, first: int, dialect: Dialect) -> list[str]:
+    """Tell of lines right above the first sample that hold numbers too, but not one for each column."""
+    taken = {where.names, where.units}
+    skipped = []
+    for index in range(first - 1, start - 1, -1):
+        line = lines[index]
+        if index in taken or dialect.is_comment(line) or not looks_like_numbers(line):
+            break
+        skipped.append(index + 1)
+    if not skipped:
+        return []
+    places = f"lines {skipped[-1]} to {skipped[0]}" if len(skipped) > 1 else f"line {skipped[0]}"
+    return [
+        f"{places} above the first sample: numbers, but not one for each column; not read "
+        f'("{lines[skipped[0] - 1].strip()[:50]}")'
+    ]
+
+
+def _row(lines: list[str], index: int | None, dialect: Dialect, columns: int) -> list[str]:
+    if index is None:
+        return [""] * columns
+    cells = heading_cells(lines[index], dialect, columns)
+    if cells is None:  # a line that was given, not found: whatever its number of cells
+        cells = dialect.split(lines[index])
+    return (cells + [""] * columns)[:columns]

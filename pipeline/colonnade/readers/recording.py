@@ -1,0 +1,172 @@
+"""What a raw file holds, as recorded: channels in the file's own units, with the evidence for all that was sniffed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.errors import ReadError, nearest
+
+Array = NDArray[np.float64]
+
+TIME_UNITS = {
+    **dict.fromkeys(("s", "sec", "sec.", "secs", "second", "seconds", "sek", "sek.", "sekunde", "sekunden"), 1.0),
+    **dict.fromkeys(("ms", "msec", "msecs", "millisecond", "milliseconds", "millisekunden"), 1e-3),
+    **dict.fromkeys(("us", "µs", "μs", "usec", "microsecond", "microseconds"), 1e-6),
+    **dict.fromkeys(("min", "minute", "minutes", "minuten"), 60.0),
+    **dict.fromkeys(("h", "hr", "hour", "hours", "stunden"), 3600.0),
+}
+"""Spellings of units of time, casefolded, in s."""
+
+
+@dataclass(frozen=True)
+class RecordedChannel:
+    """
+    One column of a raw file.
+
+    Attributes
+    ----------
+    name : str
+        Its name, without the unit: `LVDT 1`.
+    unit : str or None
+        As written in the file; None where it says nothing.
+    values : ndarray, shape (n,)
+        In that unit; NaN where the file holds no number.
+    time : ndarray, shape (n,), or None
+        Seconds from the file's own zero; NaN where the file holds no time; None where it has no clock.
+    heading : str
+        The head of the column as written, `LVDT 1 [mm]`; the name where nothing else is known.
+    is_clock : bool
+        Whether the column holds times; `time` is then its own values in seconds.
+    """
+
+    name: str
+    unit: str | None
+    values: Array
+    time: Array | None = None
+    heading: str = ""
+    is_clock: bool = False
+
+    def __post_init__(self) -> None:
+        if not self.heading:
+            object.__setattr__(self, "heading", self.name)
+        if self.time is not None and self.time.shape != self.values.shape:
+            raise ValueError(
+                f"{self.name} has {self.values.size} values at {self.time.size} times; as many were expected"
+            )
+
+
+@dataclass(frozen=True)
+class Recording:
+    """
+    All that a raw file holds.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    format : str
+        Name of the format it was read as.
+    channels : tuple of RecordedChannel
+        In the order of the file.
+    start : datetime or None
+        Date and time of the first sample, where the file tells it.
+    notes : tuple of str
+        What was sniffed, each with its evidence.
+    warnings : tuple of str
+        What was not as it should be: cells without a number, damaged lines; each with its line in the file.
+    """
+
+    path: Path
+    format: str
+    channels: tuple[RecordedChannel, ...]
+    start: datetime | None = None
+    notes: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+    def channel(self, column: str | int) -> RecordedChannel:
+        """
+        Find a channel.
+
+        Parameters
+        ----------
+        column : str or int
+            Its name, with or without the unit as in the file, whatever its case and spaces; or its number, from 1.
+
+        Raises
+        ------
+        ReadError
+            If there is none or more than one; the message gives the nearest name.
+        """
+        if isinstance(column, int):
+            return self._numbered(column)
+        headings = [channel.heading for channel in self.channels]
+        names = [channel.name for channel in self.channels]
+        for wanted, candidates in (
+            (column, headings),
+            (column, names),
+            (_plain(column), [_plain(heading) for heading in headings]),
+            (_plain(column), [_plain(name) for name in names]),
+        ):
+            found = [number for number, candidate in enumerate(candidates, 1) if candidate == wanted]
+            if len(found) == 1:
+                return self.channels[found[0] - 1]
+            if found:
+                raise ReadError(
+                    f'{self.path.name}: {len(found)} columns are called "{column}": {_listed(found)}. '
+                    "Give the number of the one that is meant instead of its name."
+                )
+        raise ReadError(
+            f'{self.path.name}: no column is called "{column}"; it has {len(names)} columns.{nearest(column, names)}'
+        )
+
+    def _numbered(self, number: int) -> RecordedChannel:
+        if not 1 <= number <= len(self.channels):
+            raise ReadError(
+                f"{self.path.name}: there is no column {number}; it has columns 1 to {len(self.channels)}. "
+                "Columns are counted from 1."
+            )
+        return self.channels[number - 1]
+
+    def on_clock(self, column: str | int, time_column: str | int) -> RecordedChannel:
+        """
+        Give a channel with the times of another column of the same file.
+
+        Parameters
+        ----------
+        column, time_column : str or int
+            As for `channel`. Where the reader has not recognised the time column as a clock, its values are taken
+            as times in its unit, or in seconds where it has none.
+
+        Raises
+        ------
+        ReadError
+            If either is not there, or the time column holds no number.
+        """
+        channel, clock = self.channel(column), self.channel(time_column)
+        if clock.is_clock and clock.time is not None:
+            time = clock.time
+        else:
+            time = clock.values * TIME_UNITS.get((clock.unit or "s").casefold(), 1.0)
+        if not np.isfinite(time).any():
+            raise ReadError(
+                f'{self.path.name}: column "{clock.heading}" holds no number, so it cannot be the clock of '
+                f'"{channel.heading}". Name a column of times, or leave `time` out and give `sampling_rate`.'
+            )
+        return replace(channel, time=time)
+
+
+def _plain(name: str) -> str:
+    """Name without what people type differently: case and spaces."""
+    return "".join(name.casefold().split())
+
+
+def _listed(numbers: Sequence[int]) -> str:
+    """Numbers in a sentence: `columns 3, 7 and 8`."""
+    *first, last = (str(number) for number in numbers)
+    return f"columns {', '.join(first)} and {last}" if first else f"column {last}"

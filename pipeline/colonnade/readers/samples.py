@@ -1,0 +1,173 @@
+"""The samples of a text file: numbers as fast as pandas reads them, everything that is not a number told."""
+
+from __future__ import annotations
+
+import csv
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.errors import ReadError
+from colonnade.readers.body import Body
+from colonnade.readers.cells import WHITESPACE, Dialect
+from colonnade.readers.timestamps import Timestamps
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Array = NDArray[np.float64]
+
+CELLS_AT_ONCE = 400_000
+
+
+@dataclass
+class Samples:
+    """
+    Columns of numbers, with the rows that deserve a look.
+
+    Attributes
+    ----------
+    columns : list of ndarray, shape (n,)
+        NaN where there is no number; seconds from the first for columns of timestamps.
+    doubtful : ndarray of int
+        Rows, from 0, that may have the wrong number of cells or may be no samples at all.
+    start : datetime or None
+        Of the first timestamp that has a date.
+    """
+
+    columns: list[Array]
+    doubtful: NDArray[np.int64]
+    start: datetime | None = None
+
+
+@dataclass
+class _Pieces:
+    """What has been read so far; a column's pieces are joined one column at a time, so that little is held twice."""
+
+    columns: list[list[Array]]
+    doubtful: list[NDArray[np.int64]] = field(default_factory=list)
+    rows: int = 0
+
+
+def read_samples(
+    path: Path, dialect: Dialect, first: int, kinds: Sequence[str], trailing: int, missing: Sequence[str]
+) -> Samples:
+    """
+    Read all rows from the line of the first sample on.
+
+    Parameters
+    ----------
+    path : Path
+    dialect : Dialect
+    first : int
+        Index of the line of the first sample, from 0.
+    kinds : sequence of str
+        What each column holds: "number", "time", "text" or "empty".
+    trailing : int
+        Empty cells after these columns on every line.
+    missing : sequence of str
+        Further texts that stand for a missing value, numbers such as "-999" among them.
+
+    Raises
+    ------
+    ReadError
+        If the text cannot be cut into rows and cells.
+    """
+    from pandas.errors import ParserError, ParserWarning
+
+    widest = len(kinds) + trailing + 1
+    try:
+        # A quotation mark may hide the line end, so with these each line is looked at.
+        return _read(path, dialect, first, kinds, trailing, missing, widest if dialect.quoted else None)
+    except (ParserError, ParserWarning):
+        # Some line has more cells than pandas was told of.
+        pass
+    try:
+        return _read(path, dialect, first, kinds, trailing, missing, widest)
+    except (ParserError, ParserWarning) as error:
+        raise ReadError(
+            f"{path.name}: the lines from {first + 1} on cannot be cut into cells ({str(error).strip()}). "
+            "Look there for lines unlike the others."
+        ) from error
+
+
+def _read(
+    path: Path,
+    dialect: Dialect,
+    first: int,
+    kinds: Sequence[str],
+    trailing: int,
+    missing: Sequence[str],
+    widest: int | None,
+) -> Samples:
+    import pandas as pd
+    from pandas.errors import ParserWarning
+
+    width = len(kinds) + trailing
+    options: dict[str, Any] = {
+        "decimal": dialect.decimal,
+        "header": None,
+        # One column more than there should be: what ends up in it shows rows with too many cells.
+        "names": range(width + 1),
+        "index_col": False,
+        "quoting": csv.QUOTE_NONE,
+        "skipinitialspace": dialect.padded,  # costs a quarter of the speed
+        "na_values": list(missing),
+        "chunksize": max(1000, CELLS_AT_ONCE // (width + 1)),
+        "low_memory": False,
+    }
+    pieces = _Pieces([[] for _ in kinds])
+    clocks = {column: Timestamps() for column, kind in enumerate(kinds) if kind == "time"}
+    with warnings.catch_warnings(), Body(path, dialect, first, widest) as body:
+        warnings.simplefilter("error", ParserWarning)  # pandas only warns where it drops cells
+        separator = r"\s+" if body.separator == WHITESPACE else body.separator
+        with pd.read_csv(body, sep=separator, **options) as frames:
+            for frame in frames:
+                _take(frame, pieces, clocks, dialect, kinds)
+    columns = []
+    for column in range(len(kinds)):
+        columns.append(np.concatenate(pieces.columns[column]))
+        pieces.columns[column].clear()
+    starts = [clock.start for clock in clocks.values() if clock.start is not None]
+    return Samples(columns, np.concatenate(pieces.doubtful), starts[0] if starts else None)
+
+
+def _take(
+    frame: pd.DataFrame,
+    pieces: _Pieces,
+    clocks: dict[int, Timestamps],
+    dialect: Dialect,
+    kinds: Sequence[str],
+) -> None:
+    """Add a piece of the table to the columns."""
+    beyond = frame.iloc[:, len(kinds) :]
+    doubtful = beyond.notna().any(axis="columns").to_numpy()
+    nothing = np.ones(len(frame), dtype=bool)
+    # A short row has nothing in the last column that ever holds something.
+    outer = {0, max((column for column, kind in enumerate(kinds) if kind != "empty"), default=0)}
+    for column, kind in enumerate(kinds):
+        series = frame[column]
+        values = clocks[column].seconds(series) if kind == "time" else _numbers(series, dialect)
+        absent = np.isnan(values)
+        nothing &= absent
+        if column in outer:
+            doubtful = doubtful | (series.isna().to_numpy() if kind == "text" else absent)
+        pieces.columns[column].append(values)
+    pieces.doubtful.append(np.flatnonzero(doubtful | nothing) + pieces.rows)
+    pieces.rows += len(frame)
+
+
+def _numbers(series: pd.Series, dialect: Dialect) -> Array:
+    """Values of a column: a copy of what pandas has read as numbers, else each cell by itself."""
+    if series.dtype.kind in "biuf":
+        values = series.to_numpy(dtype=np.float64, copy=True)
+    else:
+        values = np.fromiter(map(dialect.number, series.to_list()), dtype=np.float64, count=len(series))
+    values[np.isinf(values)] = np.nan
+    return values

@@ -1,0 +1,240 @@
+"""
+NetCDF and text on disk: whole or not at all.
+
+A file is made in memory, written beside its place under a temporary name and put there in one step; so a kill at any
+instant leaves the old file or the new one. Reading goes through memory too, and compares the stored hash of the values.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import xarray as xr
+from xarray.backends import NetCDF4DataStore
+
+from colonnade.errors import StoreError
+from colonnade.store.attributes import listed, storable
+from colonnade.store.provenance import content_hash, coverage
+from colonnade.store.variables import describe
+
+PARTIAL = ".partial"
+"""Ending of temporary names; what is left of a killed run ends so."""
+
+_COMPRESSION = {"zlib": True, "complevel": 4, "shuffle": True}
+_LABEL = "_name"
+
+
+def write(dataset: xr.Dataset, path: Path, *, attributes: Mapping[str, Any]) -> str:
+    """
+    Store a stage's result.
+
+    Parameters
+    ----------
+    dataset : xr.Dataset
+        Values and attributes as the stage returns them; it is described here.
+    path : Path
+        Its folder is made where it is not there.
+    attributes : mapping
+        Global attributes besides the dataset's own, with `stage`.
+
+    Returns
+    -------
+    content : str
+        Hash of the values and of the attributes that a later stage may read.
+
+    Raises
+    ------
+    StoreError
+        If a variable is not described, or the file cannot be written.
+    """
+    described = describe(dataset, str(attributes.get("stage", "")))
+    described.attrs = storable({"status": "done", "warnings": [], **dataset.attrs, **attributes, **coverage(dataset)})
+    for variable in described.variables.values():
+        variable.attrs = storable(variable.attrs)
+    described.attrs["content"] = content = content_hash(described)
+    _put(path, _to_bytes(described, path))
+    return content
+
+
+def write_failed(path: Path, reason: str, *, attributes: Mapping[str, Any]) -> None:
+    """Store that a stage failed, and why; the file holds no data."""
+    failed = xr.Dataset(attrs=storable({"warnings": [], **attributes, "status": "failed", "reason": reason}))
+    failed.attrs["content"] = content_hash(failed)
+    _put(path, _to_bytes(failed, path))
+
+
+def read(path: Path) -> xr.Dataset:
+    """
+    Load a result into memory; the file is closed again.
+
+    Returns
+    -------
+    dataset : xr.Dataset
+        With `warnings` and other lists of text as they were given; times are numbers, nothing is masked.
+
+    Raises
+    ------
+    StoreError
+        If it is not there, is no whole NetCDF file, or its values are not those that were written.
+    """
+    try:
+        with netCDF4.Dataset(path.name, memory=path.read_bytes()) as opened:
+            backend = _backend(opened)
+            stored = xr.open_dataset(backend, decode_times=False, decode_timedelta=False, mask_and_scale=False).load()
+    except FileNotFoundError:
+        raise StoreError(f"{path}: this result is not there. `colonnade run` makes it.") from None
+    except (OSError, RuntimeError, ValueError, KeyError) as error:
+        raise _damaged(path, f"it cannot be read as NetCDF ({error})") from error
+    dataset = _with_labels(stored)
+    if dataset.attrs.get("content") != content_hash(dataset):
+        raise _damaged(path, "its values are not those that were written")
+    dataset.attrs = {name: listed(value) for name, value in dataset.attrs.items()}
+    return dataset
+
+
+def read_attributes(path: Path) -> dict[str, Any]:
+    """
+    Read the global attributes alone, which is fast.
+
+    Raises
+    ------
+    StoreError
+        If the file is not there or is no NetCDF file.
+    """
+    try:
+        with netCDF4.Dataset(path) as opened:
+            return {name: listed(opened.getncattr(name)) for name in opened.ncattrs()}
+    except FileNotFoundError:
+        raise StoreError(f"{path}: this result is not there. `colonnade run` makes it.") from None
+    except (OSError, RuntimeError, ValueError) as error:
+        raise _damaged(path, f"it cannot be read as NetCDF ({error})") from error
+
+
+def write_text(path: Path, text: str) -> bool:
+    """
+    Write a text file, unless it holds that text already.
+
+    Returns
+    -------
+    written : bool
+
+    Raises
+    ------
+    StoreError
+        If it cannot be written.
+    """
+    data = text.encode()
+    try:
+        if path.read_bytes() == data:
+            return False
+    except FileNotFoundError:
+        pass
+    except OSError as error:
+        raise _unwritable(path, error) from error
+    _put(path, data)
+    return True
+
+
+def remove(path: Path) -> bool:
+    """Remove a file where it is there, and tell whether it was."""
+    try:
+        path.unlink()
+    except FileNotFoundError:
+        return False
+    except OSError as error:
+        raise _unwritable(path, error) from error
+    return True
+
+
+def sweep(folder: Path) -> None:
+    """Remove temporary files that a killed run left; only for the one who holds the lock."""
+    for partial in folder.rglob(f".*{PARTIAL}"):
+        remove(partial)
+
+
+def _to_bytes(dataset: xr.Dataset, path: Path) -> memoryview:
+    # Text as text: of an empty array of objects xarray would make numbers.
+    texts = {name: value.astype(str) for name, value in dataset.variables.items() if value.dtype.kind == "O"}
+    prepared = _without_labels(dataset.assign(texts))
+    for variable in prepared.variables.values():
+        if variable.dtype.kind in "fiu":
+            # Missing samples are NaN and flagged; a fill value on a clock would be against CF.
+            variable.encoding = {"_FillValue": None} | (_COMPRESSION if variable.ndim else {})
+    opened = netCDF4.Dataset(path.name, "w", memory=1024)
+    prepared.dump_to_store(_backend(opened))
+    return _trimmed(memoryview(opened.close()))
+
+
+def _trimmed(image: memoryview) -> memoryview:
+    """Cut what HDF5 reserved beyond the file's end; its superblock (version 2 or 3) says where that is."""
+    end = int.from_bytes(image[28:36], "little")
+    return image[:end] if image[8] in (2, 3) and 0 < end <= len(image) else image
+
+
+def _backend(opened: netCDF4.Dataset) -> NetCDF4DataStore:
+    return NetCDF4DataStore(opened)  # type: ignore[no-untyped-call]
+
+
+def _without_labels(dataset: xr.Dataset) -> xr.Dataset:
+    """Store text that names a dimension's positions as `<dimension>_name`: CF coordinate variables are numbers."""
+    names = [str(name) for name in dataset.dims if name in dataset.variables and dataset[name].dtype.kind in "OUT"]
+    prepared = dataset.copy()
+    for name in names:
+        label = dataset[name].variable
+        prepared = prepared.drop_vars(name).assign_coords({f"{name}{_LABEL}": (label.dims, label.values, label.attrs)})
+    return prepared
+
+
+def _with_labels(stored: xr.Dataset) -> xr.Dataset:
+    labels = [str(name) for name in stored.variables if str(name).endswith(_LABEL)]
+    restored = stored
+    for label in labels:
+        name, variable = label.removesuffix(_LABEL), stored[label].variable
+        if variable.dims == (name,):
+            restored = restored.drop_vars(label).assign_coords({name: (name, variable.values, variable.attrs)})
+    return restored
+
+
+def _put(path: Path, data: bytes | memoryview) -> None:
+    partial = path.with_name(f".{path.name}.{os.getpid()}{PARTIAL}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            with partial.open("wb") as stream:
+                stream.write(data)
+                stream.flush()
+                os.fsync(stream.fileno())
+            partial.replace(path)
+        except BaseException:  # Ctrl-C too: nothing half-written stays
+            partial.unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        raise _unwritable(path, error) from error
+
+
+def _unwritable(path: Path, error: OSError) -> StoreError:
+    if error.errno in (errno.ENOSPC, errno.EDQUOT):
+        there = next(folder for folder in path.parents if folder.exists())
+        free = shutil.disk_usage(there).free
+        return StoreError(
+            f"{path}: the disk is full ({free / 1e6:.1f} MB free). Results so far are whole; make room and run again."
+        )
+    if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
+        return StoreError(
+            f"{path}: it may not be written ({error.strerror}). Results lie in folders beside campaign.toml: make that "
+            "folder writable, or copy the campaign to one that is."
+        )
+    return StoreError(f"{path}: it cannot be written ({error.strerror or error}). Check the disk and run again.")
+
+
+def _damaged(path: Path, found: str) -> StoreError:
+    return StoreError(
+        f"{path}: {found}; it was changed or damaged after colonnade wrote it. "
+        "Delete it and run again: it is made anew from the raw file."
+    )

@@ -1,0 +1,106 @@
+"""Where everything that colonnade writes for a campaign lies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+FILE_NAMES = {
+    "ingest": "recorded",
+    "condition": "conditioned",
+    "rocking": "rocking",
+    "restitution": "restitution",
+    "predict": "predicted",
+    "compare": "compared",
+}
+"""Stage -> stem of the file that it writes for a test."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """
+    Paths of a campaign's results; nothing is created.
+
+    Attributes
+    ----------
+    folder : Path
+        The folder of campaign.toml.
+
+    Examples
+    --------
+    >>> Layout(Path("prism")).stage("span-2.0", "predict", "linear").as_posix()
+    'prism/processed/tests/span-2.0/predicted-linear.nc'
+    """
+
+    folder: Path
+
+    @property
+    def processed(self) -> Path:
+        """Folder of all results."""
+        return self.folder / "processed"
+
+    @property
+    def tests(self) -> Path:
+        """Folder of the tests' folders."""
+        return self.processed / "tests"
+
+    @property
+    def specimens(self) -> Path:
+        """Folder of the specimens' files."""
+        return self.processed / "specimens"
+
+    @property
+    def maps(self) -> Path:
+        """Folder of stability maps."""
+        return self.processed / "maps"
+
+    @property
+    def report(self) -> Path:
+        """The report's page."""
+        return self.folder / "report" / "index.html"
+
+    @property
+    def summary_json(self) -> Path:
+        """A record a test, for machines."""
+        return self.processed / "summary.json"
+
+    @property
+    def summary_csv(self) -> Path:
+        """A row a test, for spreadsheets."""
+        return self.processed / "summary.csv"
+
+    @property
+    def raw_index(self) -> Path:
+        """Size, time and SHA-256 of the raw files, as last seen."""
+        return self.processed / "raw-files.json"
+
+    @property
+    def lock(self) -> Path:
+        """Locked while a run writes."""
+        return self.processed / ".lock"
+
+    @property
+    def lock_holder(self) -> Path:
+        """Who holds the lock."""
+        return self.processed / ".lock-holder.json"
+
+    def test(self, test_id: str) -> Path:
+        """Folder of a test's results."""
+        return self.tests / test_id
+
+    def error_log(self, test_id: str) -> Path:
+        """Traceback of an internal error in a test."""
+        return self.test(test_id) / "error.log"
+
+    def specimen(self, specimen_id: str) -> Path:
+        """File of a specimen's pooled restitution."""
+        return self.specimens / f"{specimen_id}.nc"
+
+    def specimen_error_log(self, specimen_id: str) -> Path:
+        """Traceback of an internal error in pooling a specimen."""
+        return self.specimens / f"{specimen_id}.error.log"
+
+    def stage(self, test_id: str, stage: str, model: str | None = None) -> Path:
+        """File that a stage writes for a test; `model` where the stage has one file a model."""
+        stem = FILE_NAMES[stage]
+        return self.test(test_id) / (f"{stem}-{model}.nc" if model else f"{stem}.nc")

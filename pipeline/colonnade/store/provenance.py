@@ -1,0 +1,165 @@
+"""Where a result comes from: CF and ACDD attributes of a file, and the hash that says whether its values changed."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from datetime import UTC, datetime, timedelta
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import colonnade
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+CONVENTIONS = "CF-1.11, ACDD-1.3"
+KEYWORDS = "rocking, free-standing column, shake table, coefficient of restitution"
+
+_SUMMARIES = {
+    "ingest": "Channels of a shake-table test as recorded and in SI, with quality flags.",
+    "condition": "Channels of a shake-table test on one uniform clock, de-spiked, low-pass filtered, zeroed at rest.",
+    "rocking": "Rocking angle of a free-standing specimen and motion of its base, from the conditioned transducers.",
+    "restitution": "Peaks of a free vibration and the coefficient of restitution identified from them.",
+    "specimen": "Properties of a specimen and the coefficient of restitution of all its free vibrations together.",
+    "predict": "Rocking angle of a model on the recorded base motion.",
+    "compare": "Measured against predicted rocking, in numbers.",
+}
+_SOURCES = {
+    "ingest": "recordings of a shake-table test",
+    "predict": "numerical model of a rocking block on a recorded base motion",
+}
+
+# What may differ between two results that are otherwise the same: it is not part of their content.
+_CIRCUMSTANCES = frozenset(
+    {
+        *("Conventions", "title", "summary", "keywords", "id", "institution", "project", "processing_level", "source"),
+        *("history", "date_created", "standard_name_vocabulary", "colonnade_version", "stage", "test", "specimen"),
+        *("time_coverage_duration", "time_coverage_resolution", "time_coverage_start", "time_coverage_end"),
+        *("status", "key", "ingredients", "settings", "content"),
+        *("raw_files", "raw_sha256", "notes", "warnings"),
+    }
+)
+
+
+def global_attributes(
+    *,
+    campaign: str,
+    title: str,
+    facility: str | None,
+    stage: str,
+    test: str | None = None,
+    specimen: str | None = None,
+    now: datetime | None = None,
+) -> dict[str, str]:
+    """
+    Describe a file as CF and ACDD ask.
+
+    Parameters
+    ----------
+    campaign, title, facility : str
+        Id, title and laboratory of the campaign.
+    stage : str
+        Name of the stage that made the result.
+    test, specimen : str, optional
+        Id of what the result is of.
+    now : datetime, optional
+        Instant of making; the present one by default.
+
+    Returns
+    -------
+    attributes : dict of str
+        Global attributes; those that are not known are left out.
+    """
+    instant = (now or datetime.now(UTC)).astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+    subject = test or specimen or campaign
+    attributes = {
+        "Conventions": CONVENTIONS,
+        "title": f"{title}: {subject}, {stage}",
+        "summary": _SUMMARIES.get(stage, f"Result of the stage {stage}."),
+        "keywords": KEYWORDS,
+        "id": "/".join((campaign, subject, stage)),
+        "institution": facility,
+        "project": campaign,
+        "processing_level": stage,
+        "source": _SOURCES.get(stage, "recordings of a shake-table test, processed"),
+        "history": f"{instant} colonnade {colonnade.__version__} {stage}",
+        "date_created": instant,
+        "colonnade_version": colonnade.__version__,
+        "stage": stage,
+        "test": test,
+        "specimen": specimen,
+    }
+    return {name: value for name, value in attributes.items() if value}
+
+
+def coverage(dataset: xr.Dataset) -> dict[str, str]:
+    """Tell the span of a record's main clock as ACDD does; nothing where there is none."""
+    if "elapsed" not in dataset or dataset["elapsed"].size < 2:
+        return {}
+    elapsed = dataset["elapsed"].to_numpy()
+    duration = float(np.nanmax(elapsed) - np.nanmin(elapsed))
+    attributes = {
+        "time_coverage_duration": f"PT{duration:.6g}S",
+        "time_coverage_resolution": f"PT{float(np.nanmedian(np.diff(elapsed))):.6g}S",
+    }
+    if "time" in dataset and dataset["time"].ndim == 0:
+        zero = datetime.fromtimestamp(float(dataset["time"]), tz=UTC)
+        for name, seconds in (("start", np.nanmin(elapsed)), ("end", np.nanmax(elapsed))):
+            instant = zero + timedelta(seconds=float(seconds))
+            attributes[f"time_coverage_{name}"] = instant.isoformat(timespec="milliseconds").replace("+00:00", "Z")
+    return attributes
+
+
+def content_hash(dataset: xr.Dataset) -> str:
+    """
+    Hash what a result says: its values, and the attributes that a later stage may read.
+
+    Parameters
+    ----------
+    dataset : xr.Dataset
+        Described by `store.variables.describe`.
+
+    Returns
+    -------
+    content : str
+        SHA-256. Dates, versions, titles, keys and warnings are not in it.
+    """
+    digest = hashlib.sha256()
+    attributes = {name: plain(value) for name, value in dataset.attrs.items() if name not in _CIRCUMSTANCES}
+    digest.update(_canonical(attributes))
+    for name in sorted(map(str, dataset.variables)):
+        variable = dataset.variables[name]
+        values = np.asarray(variable.values)
+        if values.dtype.kind in "OUST":
+            kind, data = "text", _canonical(values.tolist())
+        else:
+            values = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<"))
+            kind, data = values.dtype.str, values.tobytes()
+        attributes = {key: plain(value) for key, value in variable.attrs.items()}
+        digest.update(_canonical([name, list(map(str, variable.dims)), list(values.shape), kind, attributes]))
+        digest.update(data)
+    return digest.hexdigest()
+
+
+def hash_of(value: Any) -> str:
+    """SHA-256 of a value that JSON can hold, whatever the order of its keys."""
+    return hashlib.sha256(_canonical(value)).hexdigest()
+
+
+def plain(value: Any) -> Any:
+    """Turn an attribute into what JSON can hold, the same before it is written and after it is read."""
+    if isinstance(value, (np.ndarray, list, tuple)):
+        items = [plain(item) for item in np.asarray(value).tolist()]
+        return items[0] if len(items) == 1 else items
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    return value
+
+
+def _canonical(value: Any) -> bytes:
+    return json.dumps(value, sort_keys=True, ensure_ascii=False, separators=(",", ":")).encode()

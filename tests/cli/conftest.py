@@ -1,0 +1,82 @@
+"""Commands in a process of their own, as a person or a script meets them."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+CAMPAIGN = """\
+schema = 1
+campaign = "two-tests"
+title = "Two free vibrations of a prism"
+
+[specimens]
+prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}
+
+[setups.frame.channels.top]
+column = "top"
+quantity = "displacement"
+unit = "mm"
+on = "specimen"
+at = ["43 mm", "0 mm", "440 mm"]
+direction = [1, 0, 0]
+relative_to = "table"
+
+[[tests]]
+id = "free-01"
+kind = "free-vibration"
+specimen = "prism"
+setup = "frame"
+file = "raw/free-01.csv"
+
+[[tests]]
+id = "free-02"
+kind = "free-vibration"
+specimen = "prism"
+setup = "frame"
+file = "raw/free-02.csv"
+"""
+
+Run = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture
+def colonnade(tmp_path: Path) -> Run:
+    """Run a command in a folder of its own."""
+
+    def run(*arguments: str, **options: object) -> subprocess.CompletedProcess[str]:
+        environment = {**os.environ, "COLUMNS": "100", **options.pop("environment", {})}
+        command = [sys.executable, "-m", "colonnade", *arguments]
+        return subprocess.run(
+            command, cwd=tmp_path, env=environment, capture_output=True, encoding="utf-8", timeout=300
+        )
+
+    return run
+
+
+@pytest.fixture
+def campaign(tmp_path: Path) -> Path:
+    """A campaign of two free vibrations, computed with e = 0.95, one file with commas and one with semicolons."""
+    import numpy as np
+
+    from colonnade import Block, rock
+    from colonnade.dynamics.kinematics import point_displacement
+
+    block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    history = rock(block, theta0=0.4 * block.critical_angle, restitution=0.95, duration=12.0)
+    time = np.arange(0.0, 12.0, 0.005)
+    angle = np.interp(time, history.time, history.angle)
+    top = 1000 * point_displacement(angle, (0.043, 0.0, 0.440), block)[0, :, 0]
+    top += np.random.default_rng(1).normal(0.0, 0.01, time.size)
+    (tmp_path / "raw").mkdir()
+    for name, delimiter in (("free-01", ","), ("free-02", ";")):
+        rows = [f"{instant:.4f}{delimiter}{value:.5f}" for instant, value in zip(time, top, strict=True)]
+        text = "\n".join([delimiter.join(("Time [s]", "top [mm]")), *rows, ""])
+        (tmp_path / "raw" / f"{name}.csv").write_text(text, encoding="utf-8")
+    (tmp_path / "campaign.toml").write_text(CAMPAIGN, encoding="utf-8")
+    return tmp_path

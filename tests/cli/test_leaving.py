@@ -1,0 +1,79 @@
+"""How the command ends: its exit code, quietly where its reader goes away, and tidily where it is interrupted."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from colonnade.cli.app import COMMANDS
+
+
+def test_help_is_a_success(colonnade):
+    told = colonnade("--help")
+    assert (told.returncode, told.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("command", [command.name for command in COMMANDS])
+def test_every_command_has_help_with_an_example(colonnade, command):
+    told = colonnade(command, "--help")
+    assert told.returncode == 0
+    if command == "show":
+        told = colonnade(command, "tests", "--help")
+    assert f"Example: colonnade {command}" in told.stdout
+
+
+@pytest.mark.parametrize("arguments", [("rnu",), ("run", "--form", "predict"), ("run", "--from", "prediction"), ()])
+def test_wrong_usage_is_exit_code_2(colonnade, arguments):
+    told = colonnade(*arguments)
+    assert told.returncode == 2
+    assert "Traceback" not in told.stderr
+
+
+def test_a_mistyped_command_is_answered_with_the_nearest(colonnade):
+    assert "Did you mean 'run'" in colonnade("rnu").stderr
+
+
+def test_a_missing_campaign_is_exit_code_2(colonnade):
+    told = colonnade("run", "nowhere")
+    assert told.returncode == 2
+    assert "campaign.toml" in told.stderr
+
+
+def test_a_reader_that_goes_away_is_no_error(tmp_path):
+    command = f"{sys.executable} -m colonnade schema campaign | head -n 1; echo ${{PIPESTATUS[0]}}"
+    told = subprocess.run(["bash", "-c", command], cwd=tmp_path, capture_output=True, encoding="utf-8")
+    assert told.stdout == "{\n0\n"
+    assert told.stderr == ""
+
+
+def test_a_console_without_greek_letters_gets_question_marks(colonnade, campaign):
+    told = colonnade("show", "specimens", environment={"PYTHONIOENCODING": "ascii:strict", "PYTHONUTF8": "0"})
+    assert told.returncode == 0
+    assert "? rad" in told.stdout
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign, sent):
+    process = subprocess.Popen(
+        [sys.executable, "-m", "colonnade", "run"],
+        cwd=campaign,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+        start_new_session=True,
+    )
+    deadline = time.monotonic() + 60.0
+    while not (campaign / "processed" / "tests").is_dir() and time.monotonic() < deadline:
+        time.sleep(0.01)
+    process.send_signal(sent)
+    _, complaints = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "Interrupted" in complaints
+    assert "Traceback" not in complaints
+    assert colonnade("run").returncode == 0

@@ -1,0 +1,63 @@
+"""`colonnade show`: what is known before and after a run."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+
+def test_tests_that_were_never_run_are_pending(colonnade, campaign):
+    told = colonnade("show", "tests", "--json")
+    assert told.returncode == 0
+    assert {test["status"] for test in json.loads(told.stdout).values()} == {"pending"}
+
+
+def test_specimens_show_their_geometry_before_any_run(colonnade, campaign):
+    prism = json.loads(colonnade("show", "specimens", "prism", "--json").stdout)
+    assert prism["critical_angle"] == pytest.approx(0.18641, abs=5e-6)  # atan(86/456)
+    assert prism["p"] == pytest.approx(5.631, abs=5e-4)  # the paper's Table 1
+    assert prism["restitution"]["value"] is None
+
+
+@pytest.mark.parametrize("arguments", [("free-01",), (".", "free-01"), ("campaign.toml", "free-01")])
+def test_one_test_is_shown_by_its_id_with_or_without_the_campaign(colonnade, campaign, arguments):
+    told = colonnade("show", "tests", *arguments)
+    assert told.returncode == 0
+    assert "free-vibration" in told.stdout
+    assert "free-02" not in told.stdout
+
+
+def test_an_unknown_id_is_a_usage_error_with_the_nearest_one(colonnade, campaign):
+    told = colonnade("show", "tests", "fre-01")
+    assert told.returncode == 2
+    assert 'Did you mean "free-01"?' in told.stderr
+
+
+def test_too_many_arguments_are_a_usage_error(colonnade, campaign):
+    assert colonnade("show", "tests", ".", "free-01", "free-02").returncode == 2
+
+
+def test_settings_show_the_campaigns_value_beside_the_default(colonnade, campaign):
+    with (campaign / "campaign.toml").open("a", encoding="utf-8") as file:
+        file.write('\n[processing]\nlowpass = "25 Hz"\n')
+    lowpass = json.loads(colonnade("show", "settings", "--json").stdout)["processing.lowpass"]
+    assert (lowpass["value"], lowpass["default"], lowpass["unit"]) == (25.0, "auto", "Hz")
+
+
+def test_settings_without_a_campaign_are_the_defaults(colonnade):
+    told = colonnade("show", "settings")
+    assert told.returncode == 0
+    assert "processing.restitution.level" in told.stdout
+
+
+def test_formats_list_their_options(colonnade):
+    known = json.loads(colonnade("show", "formats", "--json").stdout)
+    assert {"delimiter", "decimal", "encoding"} <= known["delimited"]["options"].keys()
+    assert "decimal" in colonnade("show", "formats").stdout
+
+
+def test_a_table_that_is_piped_has_one_line_a_row_without_trailing_spaces(colonnade, campaign):
+    lines = colonnade("show", "settings").stdout.splitlines()
+    assert len(lines) == 1 + len(json.loads(colonnade("show", "settings", "--json").stdout))
+    assert all(line == line.rstrip() for line in lines)

@@ -1,0 +1,158 @@
+"""The truth against closed forms, energy and published overturning limits."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import acosh, cos, pi, sin, tan
+
+import numpy as np
+import pytest
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.laboratory.integration import REST_ANGLE, Integration
+from colonnade.laboratory.table import Piece, TableMotion, ramped_sine, recorded
+from colonnade.laboratory.truth import simulate
+
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+SLENDER = Block.measured(mass=1.0, pole_distance=1.0, critical_angle=1e-4, inertia=1.3)
+
+
+def one_sine(ratio: float, block: Block, period: float) -> TableMotion:
+    """One whole sine of amplitude `ratio` g tan α."""
+    amplitude = ratio * block.gravity * tan(block.critical_angle)
+    edges = np.linspace(0.0, period, 9)
+
+    def wave(time: float) -> float:
+        return amplitude * sin(2 * pi * time / period)
+
+    return TableMotion(tuple(Piece(*piece, wave) for piece in pairwise(edges)), np.zeros_like)
+
+
+@pytest.mark.parametrize("amplitude", [0.1, 0.5, 0.9, 0.99])
+def test_free_rocking_of_a_slender_block_has_housners_quarter_period(amplitude: float) -> None:
+    truth = simulate(SLENDER, [3.0], restitution=0.9, theta0=amplitude * SLENDER.critical_angle)
+    # Housner 1963, eq. 3; the nonlinear equation differs from it by parts of α².
+    assert truth.impact_times[0] * SLENDER.p == pytest.approx(acosh(1 / (1 - amplitude)), rel=1e-8)
+
+
+def test_peaks_of_a_slender_block_follow_housner() -> None:
+    time = np.arange(0.0, 12.0, 5e-4)
+    truth = simulate(SLENDER, time, restitution=0.7**0.5, theta0=0.5 * SLENDER.critical_angle)
+    edges = np.searchsorted(time, truth.impact_times)[:9]
+    peaks = [truth.amplitude[start:stop].max() for start, stop in pairwise(edges)]
+    # Housner 1963 with e² = 0.7, φ₀ = 0.5, to the digits given there.
+    expected = [0.3108, 0.2047, 0.1382, 0.0945, 0.0651, 0.0451, 0.0314, 0.0219]
+    np.testing.assert_allclose(peaks, expected, atol=6e-5)
+
+
+def test_energy_is_kept_between_impacts_and_each_impact_leaves_e_squared_of_it() -> None:
+    alpha, released = PRISM.critical_angle, 0.6 * PRISM.critical_angle
+    truth = simulate(PRISM, [20.0], restitution=0.976, theta0=released)
+    first = PRISM.p * (2 * (cos(alpha - released) - cos(alpha))) ** 0.5
+    assert abs(truth.impact_velocities[0]) == pytest.approx(first, rel=1e-11)
+    speeds = np.abs(truth.impact_velocities)
+    np.testing.assert_allclose(speeds[1:] / speeds[:-1], 0.976, rtol=1e-9)
+
+
+def test_a_block_of_two_sides_goes_on_with_the_velocity_that_the_impact_leaves() -> None:
+    block = Block.measured(mass=10.0, pole_distance=(0.3, 0.32), critical_angle=(0.15, 0.2), inertia=(1.2, 1.4))
+    truth = simulate(block, [10.0], restitution=0.9, theta0=-0.1)
+    np.testing.assert_allclose(np.abs(truth.impact_velocities[1:] / truth.impact_velocities[:-1]), 0.9, rtol=1e-9)
+
+
+def test_free_rocking_ends_by_the_rest_rule() -> None:
+    truth = simulate(PRISM, np.arange(0.0, 25.0, 0.002), restitution=0.976, theta0=0.5 * PRISM.critical_angle)
+    # The last arc rises above the rule's angle, the next, of e² its height, would not.
+    last = truth.impact_velocities[-1] ** 2 / (2 * PRISM.p**2 * sin(PRISM.critical_angle) * PRISM.critical_angle)
+    assert REST_ANGLE < last < REST_ANGLE / 0.976**2 * 1.000001
+    assert not truth.angle[truth.time > truth.impact_times[-1]].any()
+
+
+@pytest.mark.parametrize(
+    ("pole_distance", "limit"), [(0.25, 1.2618896), (0.5, 1.4584424), (1.0, 2.1637842), (2.0, 5.1549268)]
+)
+def test_one_sine_overturns_from_the_published_amplitude(pole_distance: float, limit: float) -> None:
+    # Numerics-in-Motion/blocks, ± 4.9e-6: T = 0.5 s, α = 0.2, e = 1 − 1.5 sin²α, g = 9.80665.
+    block = Block.measured(
+        mass=1.0, pole_distance=pole_distance, critical_angle=0.2, inertia=4 / 3 * pole_distance**2, gravity=9.80665
+    )
+    e = 1 - 1.5 * sin(0.2) ** 2
+    below, above = (
+        simulate(block, [12.0], one_sine(limit + step, block, 0.5), restitution=e) for step in (-6e-6, 6e-6)
+    )
+    assert below.outcome != "overturned"
+    assert above.outcome == "overturned"
+
+
+def test_no_amplitude_up_to_six_overturns_the_largest_block() -> None:
+    block = Block.measured(mass=1.0, pole_distance=4.0, critical_angle=0.2, inertia=4 / 3 * 16.0, gravity=9.80665)
+    truth = simulate(block, np.linspace(0.0, 12.0, 200), one_sine(6.0, block, 0.5), restitution=1 - 1.5 * sin(0.2) ** 2)
+    assert truth.outcome == "rocking"
+
+
+@pytest.mark.parametrize(
+    ("pole_distance", "energy"),
+    [(0.25, 2.6769386150), (0.5, 1.7110938843), (1.0, 0.9245234031), (2.0, 0.4769203393), (4.0, 0.2418237131)],
+)
+def test_one_sine_leaves_the_published_energy(pole_distance: float, energy: float) -> None:
+    # Numerics-in-Motion/blocks: A = 2, over the energy barrier, to 1e-8.
+    block = Block.measured(
+        mass=1.0, pole_distance=pole_distance, critical_angle=0.2, inertia=4 / 3 * pole_distance**2, gravity=9.80665
+    )
+    e = 1 - 1.5 * sin(0.2) ** 2
+    run = Integration(block, np.array([0.5]), e, pi / 2, 0.0)
+    run.release(0.0, 0.0)
+    for piece in one_sine(2.0, block, 0.5).pieces:
+        run.go(piece.start, piece.stop, piece.acceleration)
+    risen = (cos(0.2 - abs(run.angle)) - cos(0.2)) / (1 - cos(0.2))
+    assert run.velocity**2 / (2 * block.p**2 * (1 - cos(0.2))) + risen == pytest.approx(energy, abs=1e-8)
+
+
+def test_acceleration_towards_plus_x_starts_rocking_with_negative_angle_at_g_tan_alpha() -> None:
+    ramp = TableMotion((Piece(0.0, 1.0, lambda time: 2.0 * PRISM.uplift_acceleration * time),), np.zeros_like)
+    time = np.linspace(0.0, 0.7, 701)
+    angle = simulate(PRISM, time, ramp, restitution=0.9).angle
+    assert not angle[time <= 0.5].any()
+    assert (angle[time > 0.502] < 0.0).all()
+
+
+def test_the_frame_catches_and_holds_an_overturning_block() -> None:
+    table = ramped_sine(2.0, 1.8 * PRISM.uplift_acceleration, start=0.5, cycles=8, ramp=3)
+    truth = simulate(PRISM, np.arange(0.0, 8.0, 0.002), table, restitution=0.976, catch=0.28)
+    assert truth.outcome == "overturned"
+    assert truth.peak_ratio is None
+    caught = np.flatnonzero(np.abs(truth.angle) >= 0.28)
+    assert np.all(np.abs(truth.angle[caught[0] :]) == 0.28)
+    passing = np.interp(truth.overturning_time, truth.time, np.abs(truth.angle))
+    assert passing == pytest.approx(PRISM.critical_angle, rel=1e-4)
+
+
+def test_a_held_block_stays_until_its_release() -> None:
+    time = np.arange(0.0, 3.0, 0.01)
+    held = simulate(PRISM, time, restitution=0.976, theta0=0.1, release=1.0)
+    free = simulate(PRISM, time, restitution=0.976, theta0=0.1)
+    assert np.all(held.angle[time <= 1.0] == 0.1)
+    np.testing.assert_allclose(held.angle[101:], free.angle[1:-100], atol=1e-10)
+
+
+@pytest.mark.parametrize(("omega0", "outcome"), [(0.999, "rocking"), (1.001, "overturned")])
+def test_a_record_that_ends_early_is_judged_by_how_the_block_would_go_on(omega0: float, outcome: str) -> None:
+    barrier = PRISM.p * (2 * (1 - cos(PRISM.critical_angle))) ** 0.5
+    truth = simulate(PRISM, [0.0, 0.05], restitution=0.976, omega0=omega0 * barrier)
+    assert truth.outcome == outcome
+
+
+def test_samples_of_a_record_and_a_smooth_sine_give_the_same_truth() -> None:
+    table = ramped_sine(5.0, 1.5 * PRISM.uplift_acceleration, start=0.2, cycles=4, ramp=2)
+    dt = 1e-3
+    sampled = recorded(Motion(table.acceleration(0.2 + dt * np.arange(1601)), dt), start=0.2)
+    time = np.arange(0.0, 2.5, 0.01)
+    smooth, linear = (simulate(PRISM, time, each, restitution=0.976) for each in (table, sampled))
+    np.testing.assert_allclose(linear.angle, smooth.angle, atol=2e-3 * PRISM.critical_angle)
+
+
+@pytest.mark.parametrize(("change", "said"), [({"restitution": 1.2}, "1.2"), ({"theta0": 2.0}, "within the catch")])
+def test_impossible_blocks_are_refused(change: dict[str, float], said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        simulate(PRISM, [1.0], **{"restitution": 0.9, **change})

@@ -1,0 +1,109 @@
+"""A damaged file gives a recording or a message that names it, never anything else."""
+
+from __future__ import annotations
+
+import random
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.recording import Recording
+from colonnade.readers.registry import read
+
+INSERTED = [
+    '"',
+    ";",
+    ";;;;",
+    "OVERFLOW",
+    "\0\0\0\0",
+    "\r",
+    "\n\n",
+    "1.234,5",
+    "\N{GREEK SMALL LETTER THETA}",
+    "#",
+    "nan",
+    "--",
+    "\x1a",
+    "e",
+    "- 5",
+]
+ROWS = 400
+
+
+def undamaged(separator: str, decimal: str, encoding: str) -> bytes:
+    lines = [separator.join(["Time [s]", "LVDT 1 [mm]", "ACC [g]"])]
+    for row in range(ROWS):
+        numbers = [f"{row * 0.005:.3f}", f"{10 * np.sin(row / 9):.4f}", f"{np.cos(row / 5):.5f}"]
+        lines.append(separator.join(number.replace(".", decimal) for number in numbers))
+    return ("\r\n".join(lines) + "\r\n").encode(encoding)
+
+
+def damage(content: bytes, kind: str, chance: random.Random) -> bytes:
+    place = chance.randrange(len(content))
+    if kind == "flips":
+        flipped = bytearray(content)
+        for _ in range(chance.randint(1, 40)):
+            flipped[chance.randrange(len(flipped))] ^= 1 << chance.randrange(8)
+        return bytes(flipped)
+    if kind == "truncation":
+        return content[:place]
+    if kind == "deletion":
+        return content[:place] + content[place + chance.randint(1, 200) :]
+    if kind == "insertion":
+        return content[:place] + chance.choice(INSERTED).encode() + content[place:]
+    if kind == "repetition":
+        return content[:place] + content[max(0, place - 300) :]
+    if kind == "zeros":
+        return content[:place] + bytes(chance.randint(1, 3000))
+    return bytes(chance.randrange(256) for _ in range(chance.randint(0, 3000)))
+
+
+def read_or_refusal(path: Path) -> Recording | ReadError:
+    try:
+        return read(path)
+    except ReadError as error:
+        return error
+
+
+@pytest.mark.parametrize("kind", ["flips", "truncation", "deletion", "insertion", "repetition", "zeros", "noise"])
+@pytest.mark.parametrize(
+    ("separator", "decimal", "encoding"), [(";", ",", "latin-1"), (",", ".", "utf-16"), ("\t", ".", "utf-8")]
+)
+def test_a_damaged_file_is_read_or_refused(
+    tmp_path: Path, kind: str, separator: str, decimal: str, encoding: str
+) -> None:
+    content = undamaged(separator, decimal, encoding)
+    path = tmp_path / "damaged.csv"
+    seen: Counter[str] = Counter()
+    for seed in range(25):
+        path.write_bytes(damage(content, kind, random.Random(f"{kind} {encoding} {seed}")))
+        outcome = read_or_refusal(path)
+        if isinstance(outcome, ReadError):
+            assert "damaged.csv" in str(outcome)
+            seen["refused"] += 1
+            continue
+        recording = outcome
+        assert isinstance(recording, Recording)
+        assert len({channel.values.size for channel in recording.channels}) == 1
+        assert not any(np.isinf(channel.values).any() for channel in recording.channels)
+        seen["warned" if recording.warnings else "read"] += 1
+    assert sum(seen.values()) == 25
+    assert seen["refused"] == 25 if kind == "noise" else seen["refused"] < 25
+
+
+@pytest.mark.parametrize("removed", ["0,5000", ";", ";0,5000", "0,5000;"])
+def test_a_lost_cell_or_delimiter_never_moves_values_to_another_column(tmp_path: Path, removed: str) -> None:
+    rows = [f"{row};0,5000;{row + 100}" for row in range(50)]
+    rows[20] = rows[20].replace(removed, "", 1)
+    path = tmp_path / "record.csv"
+    path.write_text("n;a;b\n" + "\n".join(rows) + "\n")
+    recording = read(path)
+    others = np.arange(50) != 20
+    for name, expected in (("a", np.full(50, 0.5)), ("b", np.arange(50) + 100.0)):
+        values = recording.channel(name).values
+        np.testing.assert_array_equal(values[others], expected[others])
+        assert np.isnan(values[20]) or values[20] == expected[20]
+    assert "line 22" in " ".join(recording.warnings)

@@ -1,0 +1,92 @@
+"""Base motions are read to m/s², or the message says what has to be given."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.motion import read_motion
+
+STANDARD_GRAVITY = 9.80665
+
+
+def test_numbers_that_run_on_from_row_to_row(shared_data: Path) -> None:
+    motion = read_motion(shared_data / "motion" / "elcentro_chopra_8f10.dat")
+    assert motion.acceleration.size == 1560  # its header says 1559
+    assert motion.dt == 0.02
+    assert motion.peak == pytest.approx(0.31882 * STANDARD_GRAVITY)
+
+
+def test_two_columns_are_the_same_motion_as_rows(shared_data: Path) -> None:
+    columns = read_motion(shared_data / "motion" / "elcentro_chopra_xy.dat", unit="g")
+    rows = read_motion(shared_data / "motion" / "elcentro_chopra_8f10.dat")
+    assert columns.dt == pytest.approx(rows.dt)
+    np.testing.assert_allclose(columns.acceleration, rows.acceleration, atol=1e-12)
+
+
+def test_another_digitisation(shared_data: Path) -> None:
+    motion = read_motion(shared_data / "motion" / "elcentro_s00e_reversed.dat", unit="g")
+    assert motion.acceleration.size == 2688
+    assert motion.dt == pytest.approx(0.02)
+
+
+def test_the_unit_has_to_be_given_where_the_file_is_silent(shared_data: Path) -> None:
+    with pytest.raises(ReadError, match=r'does not tell the unit.*unit="g"'):
+        read_motion(shared_data / "motion" / "elcentro_chopra_xy.dat")
+
+
+def written(tmp_path: Path, text: str) -> Path:
+    path = tmp_path / "motion.txt"
+    path.write_text(text)
+    return path
+
+
+def test_unit_and_clock_come_from_the_heading(tmp_path: Path) -> None:
+    path = written(tmp_path, "Time (ms);Acceleration (cm/s^2)\n0;100\n5;-200\n10;300\n")
+    motion = read_motion(path)
+    assert motion.dt == pytest.approx(0.005)
+    np.testing.assert_allclose(motion.acceleration, [1.0, -2.0, 3.0])
+
+
+def test_fields_of_fixed_width_may_touch(tmp_path: Path) -> None:
+    path = written(
+        tmp_path, "units are (g), 4F8.4, spacing of 0.01 sec\n  0.1000 -0.2000-10.0000-11.5000\n  0.3000  0.4000\n"
+    )
+    np.testing.assert_allclose(
+        read_motion(path).acceleration, np.array([0.1, -0.2, -10, -11.5, 0.3, 0.4]) * STANDARD_GRAVITY
+    )
+
+
+def test_one_column_needs_its_step(tmp_path: Path) -> None:
+    path = written(tmp_path, "0.1\n0.2\n-0.3\n0.1\n")
+    assert read_motion(path, unit="m/s^2", dt=0.02).duration == pytest.approx(0.06)
+    with pytest.raises(ReadError, match="sampling interval"):
+        read_motion(path, unit="m/s^2")
+
+
+def test_one_of_several_columns_has_to_be_named(tmp_path: Path) -> None:
+    path = written(tmp_path, "t,north,up\n" + "".join(f"{row / 100},{row % 3},{-(row % 2)}\n" for row in range(9)))
+    assert read_motion(path, unit="g", column="up").acceleration.min() == -STANDARD_GRAVITY
+    with pytest.raises(ReadError, match='2 columns may be the acceleration: "north", "up"'):
+        read_motion(path, unit="g")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        pytest.param("t,a\n0,1\n1,2\n3,1\n4,0\n", "not equally spaced", id="unequal steps"),
+        pytest.param("t,a\n0,1\n1,\n2,1\n3,0\n", "accelerations are missing", id="a missing value"),
+        pytest.param("t [s],a [mm]\n0,1\n1,3\n2,1\n3,0\n", "mm", id="a displacement"),
+        pytest.param(
+            "4F6.2\n" + "  1.00  2.00  3.00  1.00\n" * 4 + "end\n" + "  1.00  2.00  3.00  1.00\n" * 2,
+            "line 7",
+            id="two blocks",
+        ),
+    ],
+)
+def test_a_motion_that_is_not_one_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(ReadError, match=message):
+        read_motion(written(tmp_path, text), unit=None if "mm" in text else "g", dt=None)

@@ -1,0 +1,61 @@
+"""Channels are found by name or number, and their absence explained."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.recording import RecordedChannel, Recording
+
+VALUES = np.array([1.0, 2.0])
+RECORDING = Recording(
+    Path("raw/free-01.csv"),
+    "delimited",
+    (
+        RecordedChannel("Time", "s", VALUES, VALUES, heading="Time [s]"),
+        RecordedChannel("LVDT 1", "mm", VALUES, VALUES, heading="LVDT 1 [mm]"),
+        RecordedChannel("LVDT 1", "V", VALUES, VALUES, heading="LVDT 1 [V]"),
+        RecordedChannel("ACC", None, VALUES),
+        RecordedChannel("off", None, VALUES * np.nan),
+    ),
+)
+
+
+@pytest.mark.parametrize("column", ["ACC", "acc", " Acc ", 4])
+def test_a_channel_is_found_by_name_and_number(column: str | int) -> None:
+    assert RECORDING.channel(column) is RECORDING.channels[3]
+
+
+@pytest.mark.parametrize(("column", "index"), [("LVDT 1 [mm]", 1), ("lvdt1[V]", 2), ("Time", 0), ("time [s]", 0)])
+def test_a_channel_is_found_with_and_without_its_unit(column: str, index: int) -> None:
+    assert RECORDING.channel(column) is RECORDING.channels[index]
+
+
+@pytest.mark.parametrize(
+    ("column", "message"),
+    [
+        ("AC", r'free-01.csv: no column is called "AC"; it has 5 columns. Did you mean "ACC"\?'),
+        ("LVDT 1", r'2 columns are called "LVDT 1": columns 2 and 3'),
+        (0, "there is no column 0; it has columns 1 to 5"),
+        (6, "there is no column 6"),
+    ],
+)
+def test_a_channel_that_is_not_there_is_explained(column: str | int, message: str) -> None:
+    with pytest.raises(ReadError, match=message):
+        RECORDING.channel(column)
+
+
+def test_another_column_can_be_the_clock() -> None:
+    clocked = RECORDING.on_clock("ACC", "LVDT 1 [V]")
+    assert clocked.time is not None
+    np.testing.assert_array_equal(clocked.time, VALUES)
+    with pytest.raises(ReadError, match='"off" holds no number'):
+        RECORDING.on_clock("ACC", "off")
+
+
+def test_times_have_to_be_as_many_as_values() -> None:
+    with pytest.raises(ValueError, match="2 values at 1 times"):
+        RecordedChannel("a", None, VALUES, VALUES[:1])

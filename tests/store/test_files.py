@@ -1,0 +1,174 @@
+"""Files are whole or not there, come back as they went, and say when they were damaged."""
+
+from __future__ import annotations
+
+import errno
+import os
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from colonnade.errors import StoreError
+from colonnade.store import files
+
+
+def record(values=(0.0, 1.0, np.nan)):
+    return xr.Dataset(
+        {
+            "top": ("elapsed", np.array(values), {"channel": "top", "quantity": "displacement", "bridged": True}),
+            "top_quality": ("elapsed", np.array([1, 1, 9])),
+        },
+        coords={"elapsed": np.arange(3) * 0.005},
+        attrs={"warnings": ["top: 1 sample is missing"], "outcome": "", "nothing": None},
+    )
+
+
+def test_a_result_comes_back_as_it_went(tmp_path):
+    path = tmp_path / "tests" / "a" / "recorded.nc"
+    content = files.write(record(), path, attributes={"stage": "ingest", "key": "k"})
+    stored = files.read(path)
+    np.testing.assert_array_equal(stored["top"], record()["top"])
+    np.testing.assert_array_equal(stored["elapsed"], record()["elapsed"])
+    assert stored.attrs["warnings"] == ["top: 1 sample is missing"]
+    assert (stored.attrs["status"], stored.attrs["outcome"], stored.attrs["key"]) == ("done", "", "k")
+    assert "nothing" not in stored.attrs
+    assert stored["top"].attrs["bridged"] == 1
+    assert files.read_attributes(path)["content"] == content
+
+
+@pytest.mark.parametrize("models", [["linear", "nonlinear"], ["linear"]])
+def test_names_of_models_come_back_as_the_dimensions_labels(tmp_path, models):
+    dataset = xr.Dataset(
+        {"nrmse": ("model", np.arange(len(models)) / 10)}, coords={"model": np.array(models, dtype=object)}
+    )
+    files.write(dataset, tmp_path / "compared.nc", attributes={"stage": "compare"})
+    assert files.read(tmp_path / "compared.nc")["nrmse"].sel(model="linear") == 0.0
+
+
+def test_empty_columns_of_numbers_and_text_come_back_empty(tmp_path):
+    dataset = xr.Dataset(
+        {"test_restitution": ("test", np.array([])), "impact_time": ("impact", np.array([]))},
+        coords={"test_id": ("test", np.array([], dtype=object))},
+    )
+    files.write(dataset, tmp_path / "specimen.nc", attributes={})
+    stored = files.read(tmp_path / "specimen.nc")
+    assert stored["test_id"].to_numpy().tolist() == []
+    assert stored["impact_time"].shape == (0,)
+
+
+def test_the_content_is_that_of_the_values_and_not_of_dates_keys_or_warnings(tmp_path):
+    first = files.write(record(), tmp_path / "a.nc", attributes={"date_created": "2024-01-01", "key": "a"})
+    again = record()
+    again.attrs["warnings"] = []
+    assert files.write(again, tmp_path / "b.nc", attributes={"date_created": "2025-01-01", "key": "b"}) == first
+    assert files.write(record([0.0, 1.0 + 1e-15, np.nan]), tmp_path / "c.nc", attributes={}) != first
+
+
+def test_no_number_gets_a_fill_value_whatever_text_is_stored_before_it(tmp_path):
+    dataset = xr.Dataset(
+        {
+            "predicted_outcome": ("model", np.array(["rocking"], dtype=object)),
+            "nrmse": ("model", np.array([0.1])),
+            "measured_peak_ratio": ((), np.nan),
+        },
+        coords={"model": np.array(["linear"], dtype=object)},
+    )
+    files.write(dataset, tmp_path / "compared.nc", attributes={})
+    with xr.open_dataset(tmp_path / "compared.nc", mask_and_scale=False) as opened:
+        assert [name for name in opened.variables if "_FillValue" in opened[name].attrs] == []
+        assert opened["nrmse"].encoding["zlib"]
+
+
+def test_a_small_result_is_a_small_file(tmp_path):
+    files.write(record(), tmp_path / "a.nc", attributes={})
+    assert (tmp_path / "a.nc").stat().st_size < 30_000
+
+
+def test_a_failure_is_stored_with_its_reason_and_no_data(tmp_path):
+    files.write_failed(tmp_path / "a.nc", "The clock runs backwards.", attributes={"stage": "ingest"})
+    stored = files.read(tmp_path / "a.nc")
+    assert (stored.attrs["status"], stored.attrs["reason"]) == ("failed", "The clock runs backwards.")
+    assert not stored.variables
+
+
+def test_a_file_that_was_cut_is_told(tmp_path):
+    path = tmp_path / "a.nc"
+    files.write(record(), path, attributes={})
+    path.write_bytes(path.read_bytes()[:2000])
+    for read in (files.read, files.read_attributes):
+        with pytest.raises(StoreError, match=r"changed or damaged after colonnade wrote it\. Delete it and run again"):
+            read(path)
+
+
+def test_a_value_that_was_changed_in_the_file_is_told(tmp_path):
+    path = tmp_path / "a.nc"
+    files.write(record(), path, attributes={})
+    with xr.open_dataset(path, decode_times=False) as opened:
+        changed = opened.load().copy(deep=True)
+    changed["top"][0] = 1e-9
+    changed.to_netcdf(path)
+    with pytest.raises(StoreError, match="its values are not those that were written"):
+        files.read(path)
+
+
+def test_a_result_that_is_not_there_is_told(tmp_path):
+    with pytest.raises(StoreError, match="is not there"):
+        files.read(tmp_path / "a.nc")
+
+
+def test_xarray_opens_the_file_as_anyone_would(tmp_path):
+    files.write(record(), tmp_path / "a.nc", attributes={})
+    with xr.open_dataset(tmp_path / "a.nc") as opened:
+        np.testing.assert_array_equal(opened["elapsed"], np.arange(3) * 0.005)
+
+
+def test_a_write_that_breaks_off_leaves_the_old_file_and_nothing_beside_it(tmp_path, monkeypatch):
+    path = tmp_path / "a.nc"
+    files.write(record(), path, attributes={})
+    before = path.read_bytes()
+
+    def interrupted(descriptor):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "fsync", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        files.write(record([3.0, 4.0, 5.0]), path, attributes={})
+    assert path.read_bytes() == before
+    assert [entry.name for entry in tmp_path.iterdir()] == ["a.nc"]
+
+
+@pytest.mark.parametrize(
+    ("number", "said"),
+    [
+        (errno.ENOSPC, r"the disk is full \(.* MB free\)"),
+        (errno.EROFS, "it may not be written"),
+        (errno.EIO, "Check the disk"),
+    ],
+)
+def test_a_disk_that_refuses_is_told_in_words(tmp_path, monkeypatch, number, said):
+    def refused(descriptor):
+        raise OSError(number, os.strerror(number))
+
+    monkeypatch.setattr(os, "fsync", refused)
+    with pytest.raises(StoreError, match=said):
+        files.write_text(tmp_path / "summary.json", "{}")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_text_is_written_only_where_it_differs(tmp_path):
+    path = tmp_path / "summary.json"
+    assert files.write_text(path, "α")
+    before = path.stat().st_mtime_ns
+    assert not files.write_text(path, "α")
+    assert path.stat().st_mtime_ns == before
+    assert files.write_text(path, "β")
+    assert path.read_text(encoding="utf-8") == "β"
+
+
+def test_what_a_killed_run_left_is_swept_and_results_stay(tmp_path):
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / ".a.nc.123.partial").write_bytes(b"half")
+    (tmp_path / "tests" / "a.nc").write_bytes(b"whole")
+    files.sweep(tmp_path)
+    assert [entry.name for entry in (tmp_path / "tests").iterdir()] == ["a.nc"]

@@ -1,0 +1,34 @@
+"""Paths of results, as the contract gives them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from colonnade.store.layout import Layout
+
+
+@pytest.mark.parametrize(
+    ("stage", "name"),
+    [
+        ("ingest", "recorded.nc"),
+        ("condition", "conditioned.nc"),
+        ("rocking", "rocking.nc"),
+        ("restitution", "restitution.nc"),
+        ("compare", "compared.nc"),
+    ],
+)
+def test_each_stage_has_its_file_in_the_tests_folder(stage, name):
+    assert Layout(Path("c")).stage("free-01", stage) == Path("c/processed/tests/free-01") / name
+
+
+def test_each_model_has_a_file():
+    assert Layout(Path("c")).stage("free-01", "predict", "linear").name == "predicted-linear.nc"
+
+
+def test_specimens_summary_and_report_lie_where_the_contract_says():
+    layout = Layout(Path("c"))
+    assert layout.specimen("prism") == Path("c/processed/specimens/prism.nc")
+    assert layout.summary_json == Path("c/processed/summary.json")
+    assert layout.report == Path("c/report/index.html")

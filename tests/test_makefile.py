@@ -1,0 +1,83 @@
+"""Which interpreter `make` takes, held by stand-ins on a PATH that has nothing else."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+PROJECT = Path(__file__).parents[1]
+
+pytestmark = pytest.mark.skipif(shutil.which("make") is None, reason="there is no make here")
+
+ABSENT_BUT_SHIMMED = "exit 127\n"
+TOO_OLD_OR_WITHOUT_VENV = '[ "$1" = "--version" ] && echo "Python 3.9.6" && exit 0\nexit 1\n'
+FITTING = """
+case "$1" in
+  --version) echo "Python 3.12.9" ;;
+  -c) exit 0 ;;
+  -m) echo "$*" >> calls
+      if [ "$2" = venv ]; then mkdir -p .venv/bin; cp "$0" .venv/bin/python; fi ;;
+esac
+"""
+
+
+@pytest.fixture
+def clone(tmp_path):
+    """Folder with Makefile and pyproject.toml, and beside it a PATH of the few tools that they use."""
+    folder, tools = tmp_path / "clone", tmp_path / "tools"
+    folder.mkdir()
+    tools.mkdir()
+    for name in ("Makefile", "pyproject.toml"):
+        shutil.copy(PROJECT / name, folder)
+    for tool in ("make", "sh", "touch", "mkdir", "cp"):
+        (tools / tool).symlink_to(shutil.which(tool))
+    return folder
+
+
+def add_interpreter(clone: Path, name: str, script: str) -> None:
+    path = clone.parent / "tools" / name
+    path.write_text(f"#!/bin/sh\n{script}", encoding="utf-8")
+    path.chmod(0o755)
+
+
+def make(clone: Path, target: str) -> subprocess.CompletedProcess[str]:
+    environment = {"PATH": str(clone.parent / "tools"), "HOME": str(clone)}
+    return subprocess.run(["make", target], cwd=clone, env=environment, capture_output=True, text=True)
+
+
+def test_an_interpreter_that_does_not_run_is_passed_over(clone):
+    add_interpreter(clone, "python3.14", ABSENT_BUT_SHIMMED)
+    add_interpreter(clone, "python3.13", TOO_OLD_OR_WITHOUT_VENV)
+    add_interpreter(clone, "python3", FITTING)
+    told = make(clone, ".venv/installed")
+    assert told.returncode == 0, told.stderr
+    assert "Making .venv with python3 (Python 3.12.9)" in told.stdout
+    assert (clone / "calls").read_text().splitlines() == [
+        "-m venv --clear .venv",
+        "-m pip install --quiet --disable-pip-version-check --editable .[demo,test]",
+    ]
+
+
+def test_without_a_fitting_interpreter_one_line_to_type_is_printed(clone):
+    add_interpreter(clone, "python3", TOO_OLD_OR_WITHOUT_VENV)
+    add_interpreter(clone, "dnf", "")
+    told = make(clone, "demo")
+    assert told.returncode != 0
+    assert [line for line in told.stdout.splitlines() if line.startswith("  ")] == ["  sudo dnf install python3.13"]
+    assert not (clone / ".venv").exists()
+
+
+def test_the_environment_is_only_touched_again_when_pyproject_changed(clone):
+    add_interpreter(clone, "python3.12", FITTING)
+    make(clone, ".venv/installed")
+    (clone / "calls").unlink()
+    make(clone, ".venv/installed")
+    assert not (clone / "calls").exists()
+    later = (clone / ".venv" / "installed").stat().st_mtime + 10
+    os.utime(clone / "pyproject.toml", (later, later))
+    make(clone, ".venv/installed")
+    assert (clone / "calls").read_text().startswith("-m pip install")

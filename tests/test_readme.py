@@ -1,0 +1,77 @@
+"""README.md is run as it stands: its commands in order in an empty folder, its campaign file, its Python."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PROJECT = Path(__file__).parents[1]
+README = (PROJECT / "README.md").read_text(encoding="utf-8")
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+
+
+def commands() -> list[str]:
+    """Lines of all shell blocks, then the commands named in the text, but those with a word in capitals to fill in."""
+    in_blocks = [line for block in blocks("sh") for line in block.splitlines()]
+    in_text = re.findall(r"`(colonnade [^`]+)`", re.sub(r"```.*?```", "", README, flags=re.DOTALL))
+    return in_blocks + [command for command in in_text if not re.search(r"\b[A-Z]{2,}\b", command)]
+
+
+@pytest.fixture(scope="module")
+def outputs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """What each command that starts `colonnade` printed; the first that fails ends the run."""
+    folder, printed = tmp_path_factory.mktemp("reader"), {}
+    (campaign,) = blocks("toml")
+    for command in commands():
+        command = command.removeprefix(".venv/bin/")
+        if command.startswith("colonnade "):
+            call = [sys.executable, "-m", *command.split()]
+            told = subprocess.run(call, cwd=folder, capture_output=True, encoding="utf-8")
+            assert told.returncode == 0, f"{command}\n{told.stdout}\n{told.stderr}"
+            printed[command] = told.stdout
+        elif command.startswith(("mkdir ", "cp ")):
+            subprocess.run(command.split(), cwd=folder, check=True)
+            (folder / "first" / "campaign.toml").write_text(campaign, encoding="utf-8")
+    return printed
+
+
+def test_every_command_runs_and_the_demo_is_near_its_truth(outputs):
+    assert {"colonnade demo demo", "colonnade check first", "colonnade run first"} <= outputs.keys()
+    assert "which the interval holds" in outputs["colonnade demo demo"]
+    assert "wrong" not in outputs["colonnade demo demo"]
+
+
+def test_the_first_campaign_gives_its_column_a_restitution(outputs):
+    assert re.search(r"column +prism .* 0\.97\d* ± 0\.00\d+ +identified", outputs["colonnade show specimens first"])
+
+
+def test_make_has_every_target_that_is_named():
+    typed = [*blocks("sh"), *re.findall(r"`([^`\n]+)`", README)]
+    targets = set(re.findall(r"^make (\w+)$", "\n".join(typed), re.MULTILINE))
+    makefile = (PROJECT / "Makefile").read_text(encoding="utf-8")
+    assert targets >= {"demo", "test", "study", "reports"}
+    assert targets <= set(re.search(r"^\.PHONY: (.*)$", makefile, re.MULTILINE)[1].split())
+
+
+def test_the_python_runs_and_finds_the_restitution_it_computed_with():
+    (source,) = blocks("python")
+    printed, names = io.StringIO(), {}
+    with contextlib.redirect_stdout(printed):
+        exec(source, names)
+    assert names["history"].outcome == "rocking"
+    assert names["result"].value == pytest.approx(0.976, abs=1e-4)
+
+
+def test_every_link_leads_somewhere():
+    links = re.findall(r"\]\((?!https?:)([^)#]+)\)", README)
+    assert links
+    assert [link for link in links if not (PROJECT / link).exists()] == []

@@ -1,0 +1,65 @@
+"""The built wheel in a fresh environment, with nothing but what it declares: the command runs and finds its data."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.wheel
+
+PROJECT = Path(__file__).parents[1]
+EXAMPLE = PROJECT / "raw_schema" / "examples" / "delimited"
+
+
+def run(*command: str | Path, folder: Path) -> subprocess.CompletedProcess[str]:
+    clean = {name: value for name, value in os.environ.items() if name not in {"PYTHONPATH", "VIRTUAL_ENV"}}
+    return subprocess.run([str(part) for part in command], cwd=folder, env=clean, capture_output=True, text=True)
+
+
+@pytest.fixture(scope="module")
+def commands(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the commands of an environment that holds the wheel, made from the sdist, and its dependencies."""
+    folder = tmp_path_factory.mktemp("wheel")
+    built = run(sys.executable, "-m", "build", "--outdir", folder, PROJECT, folder=folder)
+    assert built.returncode == 0, built.stdout + built.stderr
+    (wheel,) = folder.glob("colonnade-*.whl")
+    venv.create(folder / "fresh", with_pip=True)
+    commands = folder / "fresh" / ("Scripts" if os.name == "nt" else "bin")
+    installed = run(commands / "python", "-m", "pip", "install", "--quiet", wheel, folder=folder)
+    assert installed.returncode == 0, installed.stderr
+    return commands
+
+
+def test_the_command_runs(commands, tmp_path):
+    told = run(commands / "colonnade", "--version", folder=tmp_path)
+    assert (told.returncode, told.stderr) == (0, "")
+    assert told.stdout.startswith("colonnade, version ")
+
+
+@pytest.mark.parametrize("data", ["py.typed", "figures/colonnade.mplstyle", "report/templates/page.html.jinja"])
+def test_package_data_is_there(commands, tmp_path, data):
+    where = run(commands / "python", "-c", "import colonnade; print(colonnade.__file__)", folder=tmp_path)
+    package = Path(where.stdout.strip()).parent
+    assert package.parent.name == "site-packages"
+    assert (package / data).is_file()
+
+
+def test_a_raw_file_becomes_a_page(commands, tmp_path):
+    shutil.copytree(EXAMPLE, tmp_path / "example", ignore=shutil.ignore_patterns("processed", "report"))
+    done = run(commands / "colonnade", "run", "example", folder=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert (tmp_path / "example" / "report" / "index.html").stat().st_size > 10_000
+
+
+def test_the_demo_says_what_it_needs_where_its_extra_is_missing(commands, tmp_path):
+    refused = run(commands / "colonnade", "demo", "demo", folder=tmp_path)
+    assert refused.returncode == 2
+    assert "Traceback" not in refused.stderr
+    assert "colonnade[demo]" in refused.stderr
+    assert "--motion" in refused.stderr
