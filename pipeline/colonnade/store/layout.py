@@ -75,6 +75,11 @@ class Layout:
         return self.processed / "raw-files.json"
 
     @property
+    def report_key(self) -> Path:
+        """Hash of what the report's page shows."""
+        return self.processed / "report.key"
+
+    @property
     def lock(self) -> Path:
         """Locked while a run writes."""
         return self.processed / ".lock"

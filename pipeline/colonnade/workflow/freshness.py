@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import colonnade
+from colonnade.campaign import Campaign
 from colonnade.errors import StoreError
 from colonnade.store.files import write_text
 from colonnade.store.layout import Layout
@@ -22,13 +23,13 @@ _CHUNK = 1 << 20
 
 
 @functools.cache
-def source_hash() -> str:
-    """Hash of the sources that results depend on."""
+def source_hash(*, without: tuple[str, ...] = WITHOUT_RESULTS) -> str:
+    """Hash of the package's sources and templates but for some rooms; by default those that results depend on."""
     root = Path(colonnade.__file__).parent
     digest = hashlib.sha256()
-    for path in sorted(root.rglob("*.py")):
+    for path in sorted(path for path in root.rglob("*") if path.suffix in (".py", ".jinja", ".css", ".mplstyle")):
         relative = path.relative_to(root)
-        if relative.parts[0] not in WITHOUT_RESULTS:
+        if relative.parts[0] not in without:
             digest.update(relative.as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
 
@@ -61,6 +62,18 @@ def why_stale(stored: Mapping[str, Any], made_from: Mapping[str, Any], *, from_r
     if before.get("upstream") != made_from["upstream"]:
         return "raw file changed" if from_raw else "upstream changed"
     return "settings changed" if before.get("settings") != made_from["settings"] else "code changed"
+
+
+def report_key(campaign: Campaign, layout: Layout) -> str:
+    """Hash of all that the report shows: the campaign as read, the results that are stored, and the code."""
+    results = sorted((*layout.tests.glob("*/*.nc"), *layout.specimens.glob("*.nc")))
+    shown = {
+        path.relative_to(layout.processed).as_posix(): [
+            stored_attributes(path).get(part) for part in ("key", "status", "content")
+        ]
+        for path in results
+    }
+    return hash_of({"code": source_hash(without=("cli", "laboratory")), "campaign": repr(campaign), "results": shown})
 
 
 class RawIndex:

@@ -8,9 +8,10 @@ from pathlib import Path
 
 from colonnade.campaign import Campaign, load
 from colonnade.errors import CampaignError, nearest
+from colonnade.store.files import write_text
 from colonnade.store.layout import Layout
 from colonnade.workflow.chain import Chain, advance, is_fresh, walk
-from colonnade.workflow.freshness import RawIndex, stored_attributes
+from colonnade.workflow.freshness import RawIndex, report_key, stored_attributes
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.results import RunResult, StageRun
 from colonnade.workflow.steps import STAGES, specimen_step
@@ -80,12 +81,20 @@ def run(
                     stale.unlink(missing_ok=True)
             runs += _walked(chains([test for test in tests if test not in failed], "predicting"), workers, progress)
         write_summary(loaded, layout)
-        report = None
-        if last == "report":
-            from colonnade.report import build
-
-            report = build(loaded, layout)
+        report = _report(loaded, layout) if last == "report" else None
     return RunResult(tuple(runs), layout.summary_json, report)
+
+
+def _report(campaign: Campaign, layout: Layout) -> Path:
+    """Build the page, unless the one that is there shows just this."""
+    key = report_key(campaign, layout)
+    if layout.report.is_file() and layout.report_key.is_file() and layout.report_key.read_text(encoding="utf-8") == key:
+        return layout.report
+    from colonnade.report import build
+
+    page = build(campaign, layout)
+    write_text(layout.report_key, key)
+    return page
 
 
 def _known_stage(name: str, stage: str | None) -> str | None:
