@@ -101,7 +101,7 @@ def demo_table(numbers: dict[str, Any]) -> str:
         "",
         f"Restitution of the prism: {e['value']} (95 % interval {e['low']} to {e['high']}), true {e['true']}.",
         "",
-        "Outcome and largest |θ|/α: true (nonlinear model, adaptive integration), measured through virtual instruments,",
+        "Outcome and largest |θ|/α: true (nonlinear model, adaptive integration), measured by virtual instruments,",
         "and predicted by the linear model on the recorded base motion; nrmse of predicted against measured.",
         "",
         "| test | true | measured | linear model | true max | measured max | linear max | nrmse |",

@@ -1,4 +1,4 @@
-"""Commands in a process of their own, as a person or a script meets them."""
+"""Commands, and a small campaign to run them on."""
 
 from __future__ import annotations
 
@@ -7,8 +7,11 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
+
+from colonnade.cli import invoke
 
 CAMPAIGN = """\
 schema = 1
@@ -42,19 +45,45 @@ setup = "frame"
 file = "raw/free-02.csv"
 """
 
-Run = Callable[..., subprocess.CompletedProcess[str]]
+
+class Told(NamedTuple):
+    """What a command left behind."""
+
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+Run = Callable[..., Told]
 
 
 @pytest.fixture
-def colonnade(tmp_path: Path) -> Run:
-    """Run a command in a folder of its own."""
+def colonnade(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
+    """Run a command in this process, in a folder of its own."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "100")
 
-    def run(*arguments: str, **options: object) -> subprocess.CompletedProcess[str]:
-        environment = {**os.environ, "COLUMNS": "100", **options.pop("environment", {})}
-        command = [sys.executable, "-m", "colonnade", *arguments]
-        return subprocess.run(
-            command, cwd=tmp_path, env=environment, capture_output=True, encoding="utf-8", timeout=300
+    def run(*arguments: str) -> Told:
+        capsys.readouterr()
+        return Told(invoke(arguments), *capsys.readouterr())
+
+    return run
+
+
+@pytest.fixture
+def process(tmp_path: Path) -> Run:
+    """Run a command in a process of its own, as a person or a script meets it."""
+
+    def run(*arguments: str, **environment: str) -> Told:
+        told = subprocess.run(
+            [sys.executable, "-m", "colonnade", *arguments],
+            cwd=tmp_path,
+            env={**os.environ, "COLUMNS": "100", **environment},
+            capture_output=True,
+            encoding="utf-8",
+            timeout=300,
         )
+        return Told(told.returncode, told.stdout, told.stderr)
 
     return run
 

@@ -13,8 +13,8 @@ import pytest
 from colonnade.cli.app import COMMANDS
 
 
-def test_help_is_a_success(colonnade):
-    told = colonnade("--help")
+def test_help_is_a_success(process):
+    told = process("--help")
     assert (told.returncode, told.stderr) == (0, "")
 
 
@@ -28,18 +28,18 @@ def test_every_command_has_help_with_an_example(colonnade, command):
 
 
 @pytest.mark.parametrize("arguments", [("rnu",), ("run", "--form", "predict"), ("run", "--from", "prediction"), ()])
-def test_wrong_usage_is_exit_code_2(colonnade, arguments):
-    told = colonnade(*arguments)
+def test_wrong_usage_is_exit_code_2(process, arguments):
+    told = process(*arguments)
     assert told.returncode == 2
     assert "Traceback" not in told.stderr
 
 
-def test_a_mistyped_command_is_answered_with_the_nearest(colonnade):
-    assert "Did you mean 'run'" in colonnade("rnu").stderr
+def test_a_mistyped_command_is_answered_with_the_nearest(process):
+    assert "Did you mean 'run'" in process("rnu").stderr
 
 
-def test_a_missing_campaign_is_exit_code_2(colonnade):
-    told = colonnade("run", "nowhere")
+def test_a_missing_campaign_is_exit_code_2(process):
+    told = process("run", "nowhere")
     assert told.returncode == 2
     assert "campaign.toml" in told.stderr
 
@@ -51,17 +51,23 @@ def test_a_reader_that_goes_away_is_no_error(tmp_path):
     assert told.stderr == ""
 
 
-def test_a_console_without_greek_letters_gets_question_marks(colonnade, campaign):
-    told = colonnade("show", "specimens", environment={"PYTHONIOENCODING": "ascii:strict", "PYTHONUTF8": "0"})
+def test_a_console_without_greek_letters_gets_question_marks(process, campaign):
+    told = process("show", "specimens", PYTHONIOENCODING="ascii:strict", PYTHONUTF8="0")
     assert told.returncode == 0
     assert "? rad" in told.stdout
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
-@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
-def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign, sent):
-    process = subprocess.Popen(
-        [sys.executable, "-m", "colonnade", "run"],
+@pytest.mark.parametrize(
+    ("send", "sent"),
+    [
+        pytest.param("killpg", signal.SIGINT, id="Ctrl-C reaches the workers too"),
+        pytest.param("kill", signal.SIGTERM, id="a polite kill reaches the parent alone"),
+    ],
+)
+def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign, send, sent):
+    running = subprocess.Popen(
+        [sys.executable, "-m", "colonnade", "run", "--workers", "2"],
         cwd=campaign,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -69,11 +75,12 @@ def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign,
         start_new_session=True,
     )
     deadline = time.monotonic() + 60.0
-    while not (campaign / "processed" / "tests").is_dir() and time.monotonic() < deadline:
+    while not (campaign / "processed").is_dir() and time.monotonic() < deadline:
         time.sleep(0.01)
-    process.send_signal(sent)
-    _, complaints = process.communicate(timeout=60)
-    assert process.returncode == 130
+    time.sleep(0.5)
+    getattr(os, send)(running.pid, sent)
+    _, complaints = running.communicate(timeout=60)
+    assert running.returncode == 130
     assert "Interrupted" in complaints
     assert "Traceback" not in complaints
-    assert colonnade("run").returncode == 0
+    assert colonnade("run", "--workers", "1").returncode == 0

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import hashlib
+import json
 import shutil
-from collections.abc import Callable
+from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +14,8 @@ import pytest
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
+from colonnade.store import files
+from colonnade.store.layout import Layout
 from colonnade.workflow import RunResult, run
 
 CAMPAIGN = """\
@@ -39,7 +42,8 @@ def write_campaign(folder: Path, tests: dict[str, str] = TESTS) -> Path:
     (folder / "raw").mkdir(parents=True)
     text = CAMPAIGN
     for number, (name, kind) in enumerate(tests.items()):
-        text += f'[[tests]]\nid = "{name}"\nkind = "{kind}"\nspecimen = "prism"\nsetup = "frame"\nfile = "raw/{name}.csv"\n\n'
+        text += f'[[tests]]\nid = "{name}"\nkind = "{kind}"\nfile = "raw/{name}.csv"\n'
+        text += 'specimen = "prism"\nsetup = "frame"\n\n'
         _write_raw(folder / "raw" / f"{name}.csv", kind, number)
     (folder / "campaign.toml").write_text(text, encoding="utf-8")
     return folder
@@ -60,43 +64,75 @@ def _write_raw(path: Path, kind: str, number: int) -> None:
     np.savetxt(path, rows, delimiter=",", header="time,top,table", comments="", fmt="%.6f")
 
 
+class Small:
+    """A copy of the small campaign."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.layout = Layout(folder)
+
+    def run(self, **options: Any) -> RunResult:
+        """Run it up to the comparison, in this process."""
+        return run(self.folder, **({"workers": 1, "until": "compare"} | options))
+
+    def redone(self, **options: Any) -> dict[tuple[str, str], str]:
+        """Run it; return the reason of each stage that was executed."""
+        return {(stage.subject, stage.stage): stage.because for stage in self.run(**options).stages if stage.because}
+
+    def summary(self) -> Any:
+        """Return summary.json."""
+        return json.loads(self.layout.summary_json.read_text(encoding="utf-8"))
+
+    def files(self) -> dict[str, tuple[int, str]]:
+        """Time and hash of every file but the lock, which holds nothing."""
+        return {
+            path.relative_to(self.folder).as_posix(): (path.stat().st_mtime_ns, sha256(path.read_bytes()).hexdigest())
+            for path in sorted(self.folder.rglob("*"))
+            if path.is_file() and path != self.layout.lock
+        }
+
+    def contents(self) -> dict[str, str]:
+        """Hash of the values of every result; each is whole, or this raises."""
+        return {
+            path.relative_to(self.folder).as_posix(): files.read(path).attrs["content"]
+            for path in sorted(self.layout.processed.rglob("*.nc"))
+        }
+
+    def raw(self, test: str) -> Path:
+        """Raw file of a test."""
+        return self.folder / "raw" / f"{test}.csv"
+
+    def change_a_sample(self, test: str, line: int = 300) -> None:
+        """Add 0.1 mm to one sample of the transducer."""
+        lines = self.raw(test).read_text(encoding="utf-8").splitlines()
+        time, top, table = lines[line].split(",")
+        lines[line] = f"{time},{float(top) + 0.1:.6f},{table}"
+        self.raw(test).write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+    def edit(self, before: str, after: str) -> None:
+        """Change campaign.toml."""
+        path = self.folder / "campaign.toml"
+        text = path.read_text(encoding="utf-8")
+        assert before in text
+        path.write_text(text.replace(before, after), encoding="utf-8")
+
+
 @pytest.fixture(scope="session")
-def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder of the campaign as one run in one process leaves it."""
-    folder = write_campaign(tmp_path_factory.mktemp("undisturbed") / "small")
-    assert not run(folder, workers=1).failed
-    return folder
+def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Small:
+    """The campaign as one run in one process leaves it; it is only looked at."""
+    small = Small(write_campaign(tmp_path_factory.mktemp("undisturbed") / "small"))
+    assert not small.run(until="report").failed
+    return small
 
 
 @pytest.fixture
-def folder(undisturbed: Path, tmp_path: Path) -> Path:
+def small(undisturbed: Small, tmp_path: Path) -> Small:
     """Copy of it, with the files' times."""
-    return Path(shutil.copytree(undisturbed, tmp_path / "small"))
+    return Small(Path(shutil.copytree(undisturbed.folder, tmp_path / "small")))
 
 
-def files_of(folder: Path) -> dict[str, tuple[int, str]]:
-    """Time and hash of every file but the lock."""
-    return {
-        path.relative_to(folder).as_posix(): (path.stat().st_mtime_ns, hashlib.sha256(path.read_bytes()).hexdigest())
-        for path in sorted(folder.rglob("*"))
-        if path.is_file() and path.name != ".lock"
-    }
-
-
-def executed(result: RunResult) -> dict[tuple[str, str], str]:
-    """Stages that were executed, with the reason."""
-    return {(stage.subject, stage.stage): stage.because for stage in result.stages if stage.because}
-
-
-def change_a_sample(path: Path, line: int = 300) -> None:
-    """Add 0.1 mm to one sample of the transducer."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    time, top, table = lines[line].split(",")
-    lines[line] = f"{time},{float(top) + 0.1:.6f},{table}"
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
-
-
-def edit(folder: Path, change: Callable[[str], str]) -> None:
-    """Change campaign.toml."""
-    path = folder / "campaign.toml"
-    path.write_text(change(path.read_text(encoding="utf-8")), encoding="utf-8")
+@pytest.fixture
+def untouched(undisturbed: Small, tmp_path: Path) -> Small:
+    """Copy of it that was never run."""
+    ignored = shutil.ignore_patterns("processed", "report")
+    return Small(Path(shutil.copytree(undisturbed.folder, tmp_path / "small", ignore=ignored)))

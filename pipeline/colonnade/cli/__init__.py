@@ -1,0 +1,72 @@
+"""The command `colonnade`: one module a command. Each parses, calls the workflow and prints; none computes."""
+
+from __future__ import annotations
+
+import io
+import signal
+import sys
+from collections.abc import Sequence
+from types import FrameType
+from typing import NoReturn
+
+INTERRUPTED = 130
+"""Exit code of Ctrl-C and of a polite kill; click's own is 1, which means here that a test failed."""
+
+
+def main(arguments: Sequence[str] | None = None) -> NoReturn:
+    """
+    Run the command line and leave with its exit code.
+
+    0 all good; 1 some test failed, the others are done; 2 usage or campaign file; 130 interrupted.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            # A console that cannot show θ or ± gets a question mark, not a traceback.
+            stream.reconfigure(errors="replace")
+    signal.signal(signal.SIGTERM, _interrupt)
+    try:
+        code = invoke(arguments)
+    except KeyboardInterrupt:  # before there was anything to say it with
+        code = INTERRUPTED
+    sys.exit(code)
+
+
+def invoke(arguments: Sequence[str] | None = None) -> int:
+    """
+    Run one command and return its exit code.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        What follows `colonnade` on the command line. Default: that of this process.
+    """
+    import click
+
+    from colonnade.cli.app import app
+    from colonnade.cli.console import close_output, complain
+    from colonnade.errors import CampaignError, ColonnadeError
+
+    try:
+        code = app.main(arguments, prog_name="colonnade", standalone_mode=False)
+    except click.ClickException as error:
+        error.show(sys.stderr)
+        return error.exit_code
+    except (KeyboardInterrupt, click.Abort):
+        complain("Interrupted. What is finished is kept; the same command goes on from there.")
+        return INTERRUPTED
+    except CampaignError as error:
+        complain(str(error))
+        return 2
+    except ColonnadeError as error:
+        complain(str(error))
+        return 1
+    except OSError as error:
+        complain(f"{error.filename or 'A file'}: {error.strerror or error}")
+        return 1
+    finally:
+        close_output()
+    return int(code or 0)
+
+
+def _interrupt(signum: int, frame: FrameType | None) -> None:
+    raise KeyboardInterrupt

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
@@ -10,9 +9,10 @@ from colonnade.campaign import Campaign, load
 from colonnade.errors import CampaignError, nearest
 from colonnade.store.files import write_text
 from colonnade.store.layout import Layout
-from colonnade.workflow.chain import Chain, advance, is_fresh, walk
+from colonnade.workflow.chain import Chain, advance, is_fresh
 from colonnade.workflow.freshness import RawIndex, report_key, stored_attributes
 from colonnade.workflow.lock import only_run
+from colonnade.workflow.processes import execute
 from colonnade.workflow.results import RunResult, StageRun
 from colonnade.workflow.steps import STAGES, specimen_step
 from colonnade.workflow.summary import write_summary
@@ -121,19 +121,9 @@ def _walked(chains: Sequence[Chain], workers: int | None, progress: Progress | N
             continue
         done += 1
         yield from _told(standing, done, len(chains), progress)
-    for runs in _spread(waiting, workers):
+    for runs in execute(waiting, workers):
         done += 1
         yield from _told(runs, done, len(chains), progress)
-
-
-def _spread(chains: Sequence[Chain], workers: int | None) -> Iterator[list[StageRun]]:
-    count = min(workers or os.cpu_count() or 1, len(chains))
-    if count <= 1:
-        yield from map(walk, chains)
-        return
-    from joblib import Parallel, delayed
-
-    yield from Parallel(n_jobs=count, return_as="generator_unordered")(delayed(walk)(chain) for chain in chains)
 
 
 def _told(runs: list[StageRun], done: int, total: int, progress: Progress | None) -> list[StageRun]:

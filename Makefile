@@ -1,0 +1,67 @@
+# make demo     writes the virtual campaign into demo/ and runs it: open demo/report/index.html
+# make test     style, types, import rules, tests, and the built wheel in a fresh environment
+# make study    the slow tests: seeds 0-19 of the virtual campaign, kills, mutated files
+# make format   rewrites the sources in the project's style
+# make reports  rebuilds the reference reports in reports/ and the picture of the README
+# make clean    removes what the other targets made
+#
+# Written for GNU make 3.81 (macOS) and later. README.md says what to type without make.
+
+PYTHONS := python3.14 python3.13 python3.12 python3.11 python3 python
+FITS := import sys, venv, ensurepip; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 14))
+BIN := .venv/bin
+INSTALLED := .venv/installed
+
+.PHONY: demo test study format reports clean
+
+demo: $(INSTALLED)
+	@$(BIN)/colonnade demo demo
+
+test: $(INSTALLED)
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/python -m pytest -m "not slow"
+
+study: $(INSTALLED)
+	$(BIN)/python -m pytest -m slow
+
+format: $(INSTALLED)
+	$(BIN)/ruff check --fix
+	$(BIN)/ruff format
+
+reports: $(INSTALLED)
+	$(BIN)/python reports/rebuild.py
+
+clean:
+	rm -rf .venv build demo dist .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	find pipeline tests -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# An interpreter counts if it runs, is 3.11 to 3.14 and can make an environment; being on the PATH is not enough
+# (version managers leave stubs there). Installed again only when pyproject.toml is newer.
+$(INSTALLED): pyproject.toml
+	@if ! $(BIN)/python -c "$(FITS)" >/dev/null 2>&1; then \
+	  chosen=; \
+	  for python in $(PYTHONS); do \
+	    if $$python -c "$(FITS)" >/dev/null 2>&1; then chosen=$$python; break; fi; \
+	  done; \
+	  if [ -z "$$chosen" ]; then \
+	    echo "colonnade needs Python 3.11, 3.12, 3.13 or 3.14 with venv, and found none. Type this line, then make again:"; \
+	    if command -v brew >/dev/null 2>&1; then echo "  brew install python@3.13"; \
+	    elif command -v apt-get >/dev/null 2>&1; then \
+	      for version in 3.13 3.12 3.11 3; do \
+	        if apt-cache show python$$version-venv >/dev/null 2>&1; then break; fi; \
+	      done; \
+	      echo "  sudo apt-get install python$$version-venv"; \
+	    elif command -v dnf >/dev/null 2>&1; then echo "  sudo dnf install python3.13"; \
+	    elif command -v zypper >/dev/null 2>&1; then echo "  sudo zypper install python313"; \
+	    elif command -v pacman >/dev/null 2>&1; then echo "  sudo pacman -S python"; \
+	    else echo "  open https://www.python.org/downloads/"; fi; \
+	    exit 1; \
+	  fi; \
+	  echo "Making .venv with $$chosen ($$($$chosen --version))"; \
+	  $$chosen -m venv --clear .venv || exit 1; \
+	fi
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[demo,test]"
+	@touch $(INSTALLED)

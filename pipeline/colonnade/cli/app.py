@@ -1,0 +1,45 @@
+"""The group of all commands."""
+
+from __future__ import annotations
+
+import rich_click as click
+
+import colonnade
+from colonnade.cli.check import check
+from colonnade.cli.demo import demo
+from colonnade.cli.identify import identify
+from colonnade.cli.ingest import ingest
+from colonnade.cli.predict import predict
+from colonnade.cli.report import report
+from colonnade.cli.run import run
+from colonnade.cli.schema import schema
+from colonnade.cli.show import show
+
+COMMANDS = (demo, check, run, ingest, identify, predict, report, show, schema)
+
+
+class InOrder(click.RichGroup):
+    """Lists its commands in the order in which they are met, not by the alphabet."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Names in the order in which they were added."""
+        return list(self.commands)
+
+
+@click.group(
+    cls=InOrder,
+    epilog="Exit codes: 0 all good; 1 some test failed, others are done; 2 usage or campaign file; 130 interrupted.",
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+@click.version_option(colonnade.__version__, prog_name="colonnade")
+def app() -> None:
+    """
+    From the recordings of a shake-table test on a free-standing column to measured over predicted.
+
+    Start with `colonnade demo`: it writes a virtual campaign and runs all of it. Most commands take a CAMPAIGN: a
+    campaign.toml or its folder, by default the one you stand in. Results and paths go to stdout, progress to stderr.
+    """
+
+
+for command in COMMANDS:
+    app.add_command(command)

@@ -1,0 +1,93 @@
+"""What a command says: results on stdout as text, tables or JSON; progress and complaints on stderr."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Iterable, Sequence
+
+from rich.console import Console
+from rich.table import Table
+
+
+class _Output(Console):
+    """stdout. Where its reader goes away (`colonnade … | head`) the rest is dropped; the exit code stays the work's."""
+
+    def on_broken_pipe(self) -> None:
+        self.quiet = True
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def output() -> Console:
+    """Return the console on stdout; text is shown as it is, whatever brackets or colons it holds."""
+    return _Output(markup=False, emoji=False, highlight=False, soft_wrap=True)
+
+
+def messages() -> Console:
+    """Return the console on stderr."""
+    return Console(stderr=True, markup=False, emoji=False, highlight=False, soft_wrap=True)
+
+
+def say(text: str = "") -> None:
+    """Write a line of result."""
+    output().print(text)
+
+
+def complain(text: str) -> None:
+    """Write what went wrong."""
+    messages().print(text)
+
+
+def show_json(value: object) -> None:
+    """Write a result for machines."""
+    say(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def show_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """
+    Write rows under their heads, in columns; nothing where there are none.
+
+    On a terminal long cells wrap inside their column; elsewhere each row is one line, whatever its length.
+    """
+    if not rows:
+        return
+    table = Table(*heads, box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
+    for row in rows:
+        table.add_row(*row)
+    console = _Output(markup=False, emoji=False, highlight=False)
+    if console.is_terminal:
+        console.print(table)
+        return
+    console.width = console.measure(table, options=console.options.update(width=100_000)).maximum
+    with console.capture() as captured:
+        console.print(table)
+    for line in captured.get().splitlines():
+        say(line.rstrip())
+
+
+def show_fields(fields: Iterable[tuple[str, str]]) -> None:
+    """Write names and values under each other."""
+    pairs = list(fields)
+    width = max((len(name) for name, _ in pairs), default=0)
+    for name, value in pairs:
+        say(f"{name:<{width}}  {value}")
+
+
+def shown(value: object) -> str:
+    """Write a value for people: nothing for None, four digits for a number, a list with commas."""
+    if value is None:
+        return ""
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    if isinstance(value, (list, tuple)):
+        return ", ".join(shown(item) for item in value)
+    return str(value)
+
+
+def close_output() -> None:
+    """Flush stdout, so that a reader that went away is met here and not in a traceback at exit."""
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,0 +1,33 @@
+"""Arguments and options that several commands share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import rich_click as click
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+campaign_argument = click.argument("campaign", type=click.Path(path_type=Path), default=Path(), metavar="[CAMPAIGN]")
+"""A campaign.toml or its folder; the folder one stands in by default."""
+
+json_option = click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
+
+
+workers_option = click.option(
+    "--workers", type=click.IntRange(min=1), metavar="N", help="Number of processes; one per core by default."
+)
+
+
+def work_options(command: Command) -> Command:
+    """Add what every command that runs stages understands."""
+    for option in (
+        json_option,
+        click.option("--verify", is_flag=True, help="Hash raw files again also where size and time are unchanged."),
+        workers_option,
+        click.option("--only", multiple=True, metavar="ID", help="Only this test; may be given several times."),
+    ):
+        command = option(command)
+    return command

@@ -1,0 +1,22 @@
+"""`colonnade schema`: the JSON Schemas of the two contracts."""
+
+from __future__ import annotations
+
+import rich_click as click
+
+from colonnade.cli.console import show_json
+
+
+@click.command(epilog="Example: colonnade schema campaign > campaign.schema.json")
+@click.argument("contract", type=click.Choice(("campaign", "summary")))
+def schema(contract: str) -> int:
+    """
+    Write the JSON Schema of campaign.toml or of processed/summary.json.
+
+    Editors that know TOML schemas complete and check a campaign.toml with it; loggers and scripts in any language can
+    hold what they write and read against it.
+    """
+    from colonnade.campaign.schema import json_schema
+
+    show_json(json_schema(contract))
+    return 0

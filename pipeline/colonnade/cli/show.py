@@ -1,0 +1,166 @@
+"""`colonnade show`: what is known of a campaign, as a table or JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import rich_click as click
+
+from colonnade.cli.console import show_fields, show_json, show_table, shown
+from colonnade.cli.options import json_option
+from colonnade.cli.records import KnownCampaign, Record, specimen_records, test_records
+
+campaign_and_id = click.argument("arguments", nargs=-1, metavar="[CAMPAIGN] [ID]")
+
+
+@click.group()
+def show() -> None:
+    """Show what is known: tests, specimens, settings, formats."""
+
+
+@show.command(epilog="Example: colonnade show tests demo span-2.0")
+@campaign_and_id
+@json_option
+def tests(arguments: tuple[str, ...], as_json: bool) -> int:
+    """
+    Show the tests, measured and predicted, as of the last run; with an ID all that is known of one.
+
+    One argument alone is taken as CAMPAIGN where there is such a file or folder, else as ID.
+    """
+    campaign, identifier = _campaign_and_id(arguments)
+    records = test_records(KnownCampaign.of(campaign))
+    heads = ("test", "kind", "specimen", "status", "outcome", "|θ|/α", "predicted", "reason or warnings")
+    return _show_records("test", records, identifier, heads, _test_cells, as_json=as_json)
+
+
+@show.command(epilog="Example: colonnade show specimens demo")
+@campaign_and_id
+@json_option
+def specimens(arguments: tuple[str, ...], as_json: bool) -> int:
+    """
+    Show the specimens: geometry, and restitution with its interval as of the last run; with an ID one of them.
+
+    One argument alone is taken as CAMPAIGN where there is such a file or folder, else as ID.
+    """
+    campaign, identifier = _campaign_and_id(arguments)
+    records = specimen_records(KnownCampaign.of(campaign))
+    heads = ("specimen", "shape", "α rad", "R m", "I₀ kg m²", "p rad/s", "rigid-body e", "e", "source")
+    return _show_records("specimen", records, identifier, heads, _specimen_cells, as_json=as_json)
+
+
+@show.command(epilog="Example: colonnade show settings demo")
+@click.argument("campaign", required=False, type=click.Path(path_type=Path), metavar="[CAMPAIGN]")
+@json_option
+def settings(campaign: Path | None, as_json: bool) -> int:
+    """Show every setting of the processing: its value in the campaign, its default, and what it does."""
+    from colonnade.campaign import FILE_NAME, Processing, load
+    from colonnade.campaign import settings as all_settings
+
+    if campaign is None and Path(FILE_NAME).is_file():
+        campaign = Path()
+    rows = list(all_settings(Processing() if campaign is None else load(campaign).processing))
+    if as_json:
+        show_json({row.key: {name: value for name, value in vars(row).items() if name != "key"} for row in rows})
+    else:
+        cells = [(row.key, shown(row.value), shown(row.default), row.unit, row.description) for row in rows]
+        show_table(("setting", "value", "default", "unit", "what it does"), cells)
+    return 0
+
+
+@show.command(epilog="Example: colonnade show formats --json")
+@json_option
+def formats(as_json: bool) -> int:
+    """Show the raw formats that can be read, and the options of each."""
+    from colonnade.readers.registry import formats as all_formats
+
+    known = all_formats().values()
+    if as_json:
+        show_json(
+            {
+                each.name: {
+                    "summary": each.summary,
+                    "suffixes": each.suffixes,
+                    "options": each.options.model_json_schema()["properties"],
+                }
+                for each in known
+            }
+        )
+    for each in () if as_json else known:
+        show_table(("format", "usual endings", "what it is"), [(each.name, " ".join(each.suffixes), each.summary)])
+        options = [(f"  {name}", field.description or "") for name, field in each.options.model_fields.items()]
+        show_table(("  option", "what it says"), options)
+    return 0
+
+
+def _campaign_and_id(arguments: tuple[str, ...]) -> tuple[Path, str | None]:
+    if len(arguments) > 2:
+        raise click.UsageError(f"{len(arguments)} arguments were found; a CAMPAIGN and an ID were expected at most.")
+    if len(arguments) == 2:
+        return Path(arguments[0]), arguments[1]
+    if arguments and not Path(arguments[0]).exists():
+        return Path(), arguments[0]
+    return Path(*arguments), None
+
+
+def _show_records(
+    what: str,
+    records: Mapping[str, Record],
+    identifier: str | None,
+    heads: Sequence[str],
+    cells: Callable[[Record], tuple[str, ...]],
+    *,
+    as_json: bool,
+) -> int:
+    from colonnade.errors import nearest
+
+    if identifier is not None and identifier not in records:
+        raise click.UsageError(f'The campaign has no {what} "{identifier}".{nearest(identifier, records)}')
+    if as_json:
+        show_json(records if identifier is None else records[identifier])
+    elif identifier is None:
+        show_table(heads, [(name, *cells(record)) for name, record in records.items()])
+    else:
+        show_fields(_flat(records[identifier]))
+    return 0
+
+
+def _test_cells(record: Record) -> tuple[str, ...]:
+    outcome = record["outcome"] or (f"{record['observed_outcome']} (seen)" if record["observed_outcome"] else "")
+    predicted = [
+        f"{model}: {' '.join(part for part in (result['outcome'], shown(result['peak_ratio'])) if part)}"
+        for model, result in record["predicted"].items()
+        if result.get("outcome")
+    ]
+    return (
+        record["kind"],
+        record["specimen"],
+        record["status"],
+        outcome,
+        shown(record["peak_ratio"]),
+        ", ".join(predicted),
+        record["reason"] or "; ".join(record["warnings"]),
+    )
+
+
+def _specimen_cells(record: Record) -> tuple[str, ...]:
+    from colonnade.units import format_uncertain
+
+    restitution = record["restitution"]
+    value, low, high = restitution["value"], restitution["low"], restitution["high"]
+    told = shown(value) if low is None else format_uncertain(value, (high - low) / 2)
+    columns = ("critical_angle", "pole_distance", "inertia", "p", "rigid_restitution")
+    geometry = [shown(record[column]) for column in columns]
+    return (record["shape"], *geometry, told, restitution["source"] or restitution["reason"] or "")
+
+
+def _flat(record: Mapping[str, Any], prefix: str = "") -> list[tuple[str, str]]:
+    """Write a nested record as lines of `a.b` and value, leaving out what is not known."""
+    lines: list[tuple[str, str]] = []
+    for key, value in record.items():
+        if isinstance(value, Mapping):
+            lines += _flat(value, f"{prefix}{key}.")
+        elif value is not None and value != []:
+            lines.append((f"{prefix}{key}", shown(value)))
+    return lines

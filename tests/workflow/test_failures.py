@@ -1,0 +1,103 @@
+"""A bad file, a missing file, a fault of colonnade, a full disk: that test fails alone, and why is told."""
+
+from __future__ import annotations
+
+import errno
+import os
+
+import pytest
+
+from colonnade.errors import StoreError
+from colonnade.stages import rocking
+from colonnade.store import files
+from colonnade.store.layout import Layout
+
+
+def failures(result):
+    return {stage.subject: stage for stage in result.stages if stage.action == "failed"}
+
+
+def test_a_bad_file_fails_its_test_alone_with_the_reason(untouched):
+    untouched.raw("pulse-01").write_bytes(b"\x00\x01 not a recording")
+    result = untouched.run(until="report")
+    assert result.failed
+    assert list(failures(result)) == ["pulse-01"]
+    tests = untouched.summary()["tests"]
+    assert [test["status"] for test in tests.values()] == ["done", "done", "failed", "done"]
+    assert "pulse-01.csv" in tests["pulse-01"]["reason"]
+    stored = files.read(untouched.layout.stage("pulse-01", "ingest"))
+    assert (stored.attrs["status"], len(stored.variables)) == ("failed", 0)
+    assert result.report is not None
+    assert "pulse-01.csv" in result.report.read_text(encoding="utf-8")
+
+
+def test_a_failure_is_not_tried_again_but_still_counts(untouched):
+    untouched.raw("pulse-01").write_bytes(b"nothing to read")
+    untouched.run(until="report")
+    before = untouched.files()
+    again = untouched.run(until="report")
+    assert again.failed
+    assert all(not stage.because for stage in again.stages)
+    assert untouched.files() == before
+
+
+def test_a_missing_file_fails_its_test_until_it_comes(untouched):
+    raw = untouched.raw("pulse-02").read_bytes()
+    untouched.raw("pulse-02").unlink()
+    assert "pulse-02.csv" in failures(untouched.run())["pulse-02"].reason
+    untouched.raw("pulse-02").write_bytes(raw)
+    assert not untouched.run().failed
+    assert untouched.summary()["tests"]["pulse-02"]["status"] == "done"
+
+
+def test_a_failed_free_vibration_leaves_the_specimen_to_the_others(untouched):
+    untouched.raw("free-01").write_text("time,top\n")
+    untouched.run()
+    assert untouched.summary()["specimens"]["prism"]["restitution"]["tests"] == ["free-02"]
+
+
+def test_nothing_stays_behind_a_failure(small):
+    small.raw("pulse-01").write_text("time,top\n")
+    small.run()
+    assert [path.name for path in small.layout.test("pulse-01").iterdir()] == ["recorded.nc"]
+
+
+def test_a_fault_of_colonnade_is_told_as_such_and_the_others_go_on(untouched, monkeypatch):
+    real = rocking.rocking
+
+    def faulty(conditioned, instructions):
+        if conditioned.attrs["test"] == "pulse-01":
+            raise ZeroDivisionError("division by zero")
+        return real(conditioned, instructions)
+
+    monkeypatch.setattr(rocking, "rocking", faulty)
+    failed = failures(untouched.run())
+    assert list(failed) == ["pulse-01"]
+    assert "Internal error in rocking, ZeroDivisionError" in failed["pulse-01"].reason
+    log = untouched.layout.error_log("pulse-01").read_text(encoding="utf-8")
+    assert log.startswith("Traceback")
+    assert "division by zero" in log
+
+
+def test_a_full_disk_is_told_and_the_test_is_tried_again(untouched, monkeypatch):
+    sync = os.fsync
+    refuse = Layout(untouched.folder).stage("pulse-01", "condition").parent
+
+    def full(descriptor):
+        if any(refuse.glob(".conditioned.nc.*")):
+            raise OSError(errno.ENOSPC, "No space left on device")
+        sync(descriptor)
+
+    monkeypatch.setattr(os, "fsync", full)
+    failed = failures(untouched.run())
+    assert list(failed) == ["pulse-01"]
+    assert "the disk is full" in failed["pulse-01"].reason
+    monkeypatch.setattr(os, "fsync", sync)
+    assert untouched.redone()["pulse-01", "condition"] == "never run"
+    assert untouched.summary()["tests"]["pulse-01"]["status"] == "done"
+
+
+def test_a_folder_that_cannot_be_written_is_told(untouched):
+    untouched.layout.processed.write_text("a file is in the way")
+    with pytest.raises(StoreError, match="results cannot be written here"):
+        untouched.run()

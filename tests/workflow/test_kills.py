@@ -1,0 +1,97 @@
+"""Kills at random instants of an ingest: every file is whole, and the next run gives the undisturbed values."""
+
+from __future__ import annotations
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+# Modules are loaded and the session is its own before the clock starts, so that kills fall on the ingest itself.
+INGEST = """
+import sys
+import colonnade.workflow, colonnade.stages.ingest, colonnade.readers.delimited
+print("ready", flush=True)
+sys.stdin.readline()
+colonnade.workflow.run(sys.argv[1], until="ingest", workers=int(sys.argv[2]))
+print("ended", flush=True)
+"""
+
+
+class Ingest:
+    """An ingest in a process that waits for the start."""
+
+    def __init__(self, folder: Path, workers: int) -> None:
+        self.process = subprocess.Popen(
+            [sys.executable, "-c", INGEST, str(folder), str(workers)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+            start_new_session=True,
+        )
+        assert self.process.stdout.readline() == "ready\n"
+
+    def begin(self) -> None:
+        self.process.stdin.write("\n")
+        self.process.stdin.flush()
+
+    def end(self) -> None:
+        """Wait for its end."""
+        assert self.process.stdout.readline() == "ended\n"
+        self.clean()
+
+    def kill(self) -> None:
+        """Kill it with all its workers, as a machine that loses its power."""
+        os.killpg(self.process.pid, signal.SIGKILL)
+        self.clean()
+
+    def clean(self) -> None:
+        self.process.stdout.close()
+        self.process.stdin.close()
+        self.process.wait()
+
+
+def kill_and_compare(small, undisturbed, kills: int, workers: int, seed: int) -> dict[str, int]:
+    """Kill so many ingests; return how many fell before, inside and after the writing of results."""
+    expected = {name: content for name, content in undisturbed.contents().items() if name.endswith("recorded.nc")}
+    chance = random.Random(seed)
+    whole = Ingest(small.folder, workers)
+    began = time.perf_counter()
+    whole.begin()
+    whole.end()
+    duration = time.perf_counter() - began
+    fell = {"before": 0, "inside": 0, "after": 0}
+    for _ in range(kills):
+        shutil.rmtree(small.layout.processed)
+        ingest = Ingest(small.folder, workers)
+        ingest.begin()
+        time.sleep(chance.uniform(0.0, duration))
+        ingest.kill()
+        there = small.contents()
+        assert there.items() <= expected.items()
+        half = len(list(small.layout.processed.rglob(".*.partial")))
+        fell["after" if there == expected else "inside" if there or half else "before"] += 1
+        small.layout.processed.mkdir(exist_ok=True)
+        assert not small.run(until="ingest").failed
+        assert small.contents() == expected
+        assert not list(small.layout.processed.rglob(".*.partial"))
+    return fell
+
+
+def test_an_ingest_that_is_killed_is_taken_up_again(untouched, undisturbed):
+    assert sum(kill_and_compare(untouched, undisturbed, 5, workers=1, seed=1).values()) == 5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("workers", "kills"), [(1, 70), (2, 30)])
+def test_a_hundred_kills_leave_no_half_file(untouched, undisturbed, workers, kills):
+    fell = kill_and_compare(untouched, undisturbed, kills, workers, seed=workers)
+    print(f"{workers} workers: {fell}")  # noqa: T201
+    assert fell["inside"] > 0.2 * kills

@@ -1,0 +1,43 @@
+"""until, start_from and only: what is run, what is not, and what a slip of the pen is told."""
+
+from __future__ import annotations
+
+import pytest
+
+from colonnade.errors import CampaignError
+
+
+def test_until_stops_after_a_stage_and_the_rest_is_pending(untouched):
+    result = untouched.run(until="condition")
+    assert {stage.stage for stage in result.stages} == {"ingest", "condition"}
+    assert {test["status"] for test in untouched.summary()["tests"].values()} == {"pending"}
+    assert result.report is None
+
+
+def test_only_runs_the_tests_that_are_named_and_the_rest_is_pending(untouched):
+    result = untouched.run(only=["pulse-01"], until="rocking")
+    assert {stage.subject for stage in result.stages} == {"pulse-01"}
+    assert not untouched.layout.test("pulse-02").exists()
+    assert untouched.summary()["tests"]["pulse-02"]["status"] == "pending"
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"until": "restitutoin"}, 'Did you mean "restitution"?'),
+        ({"start_from": "ingets"}, 'Did you mean "ingest"?'),
+        ({"only": ["puls-01"]}, 'Did you mean "pulse-01"?'),
+    ],
+)
+def test_a_slip_is_refused_with_the_nearest_name_and_nothing_is_written(untouched, options, said):
+    with pytest.raises(CampaignError) as caught:
+        untouched.run(**options)
+    assert said in str(caught.value)
+    assert not untouched.layout.processed.exists()
+
+
+def test_progress_tells_each_stage_that_ended(untouched):
+    told = []
+    result = untouched.run(progress=lambda stage, done, total: told.append((stage, done, total)))
+    assert {stage for stage, _, _ in told} >= {stage for stage in result.stages if stage.subject != "prism"}
+    assert all(0 < done <= total for _, done, total in told)

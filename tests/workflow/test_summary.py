@@ -1,0 +1,52 @@
+"""summary.json and summary.csv: the contract's form, and the results' own numbers."""
+
+from __future__ import annotations
+
+import csv
+
+import pytest
+
+from colonnade.campaign.summary import Summary
+from colonnade.store import files
+
+
+def test_the_summary_has_the_contracts_form(undisturbed):
+    Summary.model_validate_json(undisturbed.layout.summary_json.read_text(encoding="utf-8"))
+    summary = undisturbed.summary()
+    assert list(summary) == ["schema", "campaign", "colonnade", "specimens", "tests"]
+    assert summary["tests"]["pulse-02"]["outcome"] == "overturned"
+    assert summary["tests"]["pulse-02"]["peak_ratio"] is None
+
+
+def test_the_summary_says_what_the_results_say(undisturbed):
+    test = undisturbed.summary()["tests"]["pulse-01"]
+    rocking = files.read(undisturbed.layout.stage("pulse-01", "rocking"))
+    compared = files.read(undisturbed.layout.stage("pulse-01", "compare"))
+    assert test["peak_ratio"] == float(rocking["peak_ratio"])
+    assert test["pga"] == float(rocking["peak_ground_acceleration"])
+    assert test["impacts"] == rocking.sizes["impact"]
+    assert test["predicted"]["linear"]["nrmse"] == float(compared["nrmse"].sel(model="linear"))
+
+
+def test_the_specimens_restitution_is_the_true_one_with_its_interval(undisturbed):
+    restitution = undisturbed.summary()["specimens"]["prism"]["restitution"]
+    assert restitution["source"] == "identified"
+    assert restitution["tests"] == ["free-01", "free-02"]
+    assert restitution["low"] < 0.93 < restitution["high"]
+    assert restitution["value"] == pytest.approx(0.93, abs=0.002)  # by which the raw files were written
+
+
+def test_the_table_has_a_row_a_test_with_the_same_numbers(undisturbed):
+    rows = list(csv.DictReader(undisturbed.layout.summary_csv.read_text(encoding="utf-8").splitlines()))
+    assert [row["test"] for row in rows] == ["free-01", "free-02", "pulse-01", "pulse-02"]
+    assert float(rows[2]["peak_ratio"]) == undisturbed.summary()["tests"]["pulse-01"]["peak_ratio"]
+    assert rows[3]["peak_ratio"] == ""
+
+
+def test_warnings_of_stages_are_the_tests_warnings(small):
+    text = small.raw("pulse-01").read_text(encoding="utf-8").splitlines()
+    text[50] = "0.245000,OVERFLOW,0.0"
+    small.raw("pulse-01").write_text("\n".join(text) + "\n", encoding="utf-8")
+    small.run()
+    assert any("OVERFLOW" in warning for warning in small.summary()["tests"]["pulse-01"]["warnings"])
+    assert small.summary()["tests"]["pulse-02"]["warnings"] == []
