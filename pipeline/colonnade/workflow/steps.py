@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from colonnade.campaign import Campaign, Test
-from colonnade.errors import ReadError
 from colonnade.store.layout import Layout
 
 if TYPE_CHECKING:
@@ -144,11 +143,6 @@ def _ingest(paths: Mapping[str, Path], read: Any) -> xr.Dataset:
 
     recordings = {}
     for recorder, path in paths.items():
-        if not path.is_file():
-            raise ReadError(
-                f"{path.name}: there is no such file in {path.parent}. The raw file of recorder {recorder} was "
-                "expected there; put it in place, or correct the test's `file`."
-            )
         how = read.files[recorder]
         recordings[recorder] = read_recording(path, how["format"], how["options"])
     return ingest(recordings, read)
