@@ -7,8 +7,8 @@ import os
 
 import pytest
 
-from colonnade.errors import StoreError
-from colonnade.stages import rocking
+from colonnade.errors import StageError, StoreError
+from colonnade.stages import rocking, specimen
 from colonnade.store import files
 from colonnade.store.layout import Layout
 
@@ -101,3 +101,37 @@ def test_a_folder_that_cannot_be_written_is_told(untouched):
     untouched.layout.processed.write_text("a file is in the way")
     with pytest.raises(StoreError, match="results cannot be written here"):
         untouched.run()
+
+
+def fails(error):
+    def work(*arguments):
+        raise error
+
+    return work
+
+
+def test_a_specimen_that_fails_is_no_fault_of_its_tests(untouched, monkeypatch):
+    monkeypatch.setattr(specimen, "specimen", fails(StageError("No two free vibrations agree.")))
+    assert "prism" in failures(untouched.run())
+    assert not any("Internal error" in (test["reason"] or "") for test in untouched.summary()["tests"].values())
+
+
+def test_a_machine_that_was_short_of_memory_is_tried_again(untouched, monkeypatch):
+    with monkeypatch.context() as short:
+        short.setattr(rocking, "rocking", fails(MemoryError()))
+        assert untouched.run().failed
+    assert not untouched.run().failed
+
+
+def test_the_log_of_an_internal_error_goes_when_the_error_does(untouched, monkeypatch):
+    with monkeypatch.context() as faulty:
+        faulty.setattr(rocking, "rocking", fails(ZeroDivisionError()))
+        untouched.run()
+    assert not untouched.run(start_from="rocking").failed
+    assert not untouched.layout.error_log("pulse-01").exists()
+
+
+def test_nothing_stays_behind_a_failure_where_the_run_stops_there(small):
+    small.raw("pulse-01").write_text("time,top\n")
+    small.run(until="ingest")
+    assert [path.name for path in small.layout.test("pulse-01").iterdir()] == ["recorded.nc"]

@@ -120,6 +120,13 @@ def test_a_damaged_result_is_made_anew(small):
     assert small.contents() == before
 
 
-def test_a_damaged_index_of_raw_files_costs_a_hash_and_nothing_else(small):
-    small.layout.raw_index.write_text('{"raw/pulse')
+@pytest.mark.parametrize(
+    "text",
+    [
+        '{"raw/pulse',
+        "[]",
+    ],
+)
+def test_a_damaged_index_of_raw_files_costs_a_hash_and_nothing_else(small, text):
+    small.layout.raw_index.write_text(text)
     assert small.redone() == {}

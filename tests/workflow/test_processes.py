@@ -12,10 +12,12 @@ from pathlib import Path
 import pytest
 
 RUN = """
-import sys, time
+import sys
 import colonnade
+def told(stage, done, total):
+    print("going", flush=True)
 try:
-    colonnade.run(sys.argv[1], workers=2, until="compare", progress=lambda stage, done, total: print("going", flush=True))
+    colonnade.run(sys.argv[1], workers=2, until="compare", progress=told)
 except KeyboardInterrupt:
     sys.exit(130)
 """
@@ -76,25 +78,25 @@ def left_after(session: int, seconds: float) -> set[int]:
     return there
 
 
-@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="processes are found in /proc, which is Linux's")
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL], ids=["Ctrl-C", "kill"])
-def test_no_worker_outlives_its_run(going, untouched, undisturbed, number):
-    if number == signal.SIGINT:
-        os.killpg(going.pid, number)
-        assert going.wait(20) == 130
-    else:
-        going.kill()
-        going.wait()
-    left = left_after(going.pid, 3.0)
-    for process in left:
-        os.kill(process, signal.SIGKILL)
-    assert left == set()
+in_proc = pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="processes are found in Linux's /proc")
+
+
+@in_proc
+def test_ctrl_c_ends_the_workers_quietly_and_the_next_run_goes_on(going, untouched, undisturbed):
+    os.killpg(going.pid, signal.SIGINT)
+    assert going.wait(20) == 130
+    assert "Traceback" not in going.stderr.read()
+    assert left_after(going.pid, 5.0) == set()
     assert untouched.contents().items() <= undisturbed.contents().items()
     assert not untouched.run().failed
     assert untouched.contents() == undisturbed.contents()
 
 
-def test_ctrl_c_says_nothing_of_the_workers(going):
-    os.killpg(going.pid, signal.SIGINT)
-    assert going.wait(20) == 130
-    assert "Traceback" not in going.stderr.read()
+@in_proc
+def test_no_worker_outlives_a_run_that_is_killed(going):
+    going.kill()
+    going.wait()
+    left = left_after(going.pid, 3.0)
+    for process in left:
+        os.kill(process, signal.SIGKILL)
+    assert left == set()

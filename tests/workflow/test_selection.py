@@ -41,3 +41,16 @@ def test_progress_tells_each_stage_that_ended(untouched):
     result = untouched.run(progress=lambda stage, done, total: told.append((stage, done, total)))
     assert {stage for stage, _, _ in told} >= {stage for stage in result.stages if stage.subject != "prism"}
     assert all(0 < done <= total for _, done, total in told)
+
+
+def test_only_an_earthquake_takes_the_restitution_of_its_specimens_free_vibrations(untouched, undisturbed):
+    untouched.run(only=["pulse-01"])
+    predicted = [small.summary()["tests"]["pulse-01"]["predicted"]["linear"] for small in (untouched, undisturbed)]
+    assert predicted[0] == predicted[1]
+
+
+@pytest.mark.parametrize("options", [{"only": ["pulse-01"]}, {"until": "ingest"}], ids=["only", "until"])
+def test_a_test_whose_results_are_out_of_date_is_pending(small, options):
+    small.edit("456 mm", "400 mm")
+    small.run(**options)
+    assert small.summary()["tests"]["pulse-02"]["status"] == "pending"

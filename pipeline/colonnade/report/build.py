@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from itertools import groupby
 from pathlib import Path
 from typing import NamedTuple
@@ -14,7 +14,7 @@ from colonnade import __version__
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.settings import Setting, settings
 from colonnade.report import charts, results, rows, wording
-from colonnade.report.results import Results
+from colonnade.report.results import NOTHING, Results
 from colonnade.store import files
 from colonnade.store.layout import Layout
 
@@ -29,7 +29,7 @@ class SpanGroup(NamedTuple):
     chart: Markup
 
 
-def build(campaign: Campaign, layout: Layout) -> Path:
+def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = ()) -> Path:
     """
     Write the report of a campaign.
 
@@ -38,6 +38,8 @@ def build(campaign: Campaign, layout: Layout) -> Path:
     campaign : Campaign
     layout : Layout
         Where its results lie. Tests that failed or were never run are reported as such.
+    outdated : collection of str, optional
+        Tests whose stored results are not of this campaign any more: they are pending, and not shown.
 
     Returns
     -------
@@ -50,13 +52,16 @@ def build(campaign: Campaign, layout: Layout) -> Path:
         If the page cannot be written.
     """
     layout.report.parent.mkdir(parents=True, exist_ok=True)
-    files.write_text(layout.report, render(campaign, layout))
+    files.write_text(layout.report, render(campaign, layout, outdated))
     return layout.report
 
 
-def render(campaign: Campaign, layout: Layout) -> str:
+def render(campaign: Campaign, layout: Layout, outdated: Collection[str] = ()) -> str:
     """Return the page as text."""
-    stored: Stored = [(test, results.of_test(campaign, layout, test)) for test in campaign.tests.values()]
+    stored: Stored = [
+        (test, NOTHING if test.id in outdated else results.of_test(campaign, layout, test))
+        for test in campaign.tests.values()
+    ]
     tests = [rows.of_test(campaign, test, found) for test, found in stored]
     pooled = {name: results.of_specimen(layout, name) for name in campaign.specimens}
     specimens = [

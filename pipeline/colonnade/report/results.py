@@ -71,6 +71,10 @@ class Results:
         return str(dataset.attrs.get(name, "")) if dataset is not None else ""
 
 
+NOTHING = Results({}, (), ())
+"""Of a test that was never run, or whose results are not of this campaign any more."""
+
+
 def of_test(campaign: Campaign, layout: Layout, test: Test) -> Results:
     """Read what is stored of a test; a damaged file counts as a failure of its stage."""
     return _gather(_files_of(campaign, layout, test))

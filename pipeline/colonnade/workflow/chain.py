@@ -20,6 +20,11 @@ from colonnade.workflow.steps import STAGES, Step, measuring_steps, predicting_s
 
 Phase = Literal["measuring", "predicting"]
 
+_SHORT_OF_MEMORY = (
+    "The machine ran short of memory. What was finished is kept; run again with fewer workers (`--workers 1` takes the "
+    "least), or with less else open."
+)
+
 
 @dataclass(frozen=True)
 class Chain:
@@ -63,15 +68,22 @@ class Chain:
 def walk(chain: Chain) -> list[StageRun]:
     """Bring a chain up to date, up to the first step that fails; what lies behind a failure is taken away."""
     runs: list[StageRun] = []
-    steps = chain.steps()
-    for number, step in enumerate(steps):
+    for step in chain.steps():
         run = advance(chain.campaign, chain.test, step, redo_from=chain.redo_from, raw=chain.raw)
         runs.append(run)
         if run.action == "failed":
-            for later in steps[number + 1 :]:
-                later.path.unlink(missing_ok=True)
-            break
+            clear_behind(chain.campaign, chain.test, step.order)
+            return runs
+    Layout(chain.campaign.folder).error_log(chain.test).unlink(missing_ok=True)
     return runs
+
+
+def clear_behind(campaign: Campaign, test: str, order: int) -> None:
+    """Take away a test's results of stages after the one of this order: nothing may follow from a failure."""
+    for build in (measuring_steps, predicting_steps):
+        for step in build(campaign, campaign.tests[test]):
+            if step.order > order:
+                step.path.unlink(missing_ok=True)
 
 
 def is_fresh(chain: Chain) -> list[StageRun] | None:
@@ -103,10 +115,10 @@ def advance(
             upstream = {name: files.read(path) for name, path in step.upstream.items()}
         result = step.work(upstream, step.instructions)
         files.write(result, step.path, attributes=attributes)
-    except StoreError as error:
-        # The disk, not the data: nothing is known of the result, so nothing is stored.
+    except (StoreError, MemoryError) as error:
+        # The machine, not the data: nothing is known of the result, so nothing is stored and the next run tries again.
         step.path.unlink(missing_ok=True)
-        reason = str(error)
+        reason = str(error) if isinstance(error, StoreError) else _SHORT_OF_MEMORY
     except ColonnadeError as error:
         reason = _store_failure(step, str(error), attributes)
     except Exception as error:  # a defect of ours: told as such, the other tests go on

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -64,7 +64,7 @@ def why_stale(stored: Mapping[str, Any], made_from: Mapping[str, Any], *, from_r
     return "settings changed" if before.get("settings") != made_from["settings"] else "code changed"
 
 
-def report_key(campaign: Campaign, layout: Layout) -> str:
+def report_key(campaign: Campaign, layout: Layout, outdated: Collection[str]) -> str:
     """Hash of all that the report shows: the campaign as read, the results that are stored, and the code."""
     results = sorted((*layout.tests.glob("*/*.nc"), *layout.specimens.glob("*.nc")))
     shown = {
@@ -73,7 +73,14 @@ def report_key(campaign: Campaign, layout: Layout) -> str:
         ]
         for path in results
     }
-    return hash_of({"code": source_hash(without=("cli", "laboratory")), "campaign": repr(campaign), "results": shown})
+    return hash_of(
+        {
+            "code": source_hash(without=("cli", "laboratory")),
+            "campaign": repr(campaign),
+            "results": shown,
+            "outdated": sorted(outdated),
+        }
+    )
 
 
 class RawIndex:
@@ -91,9 +98,10 @@ class RawIndex:
         self._layout, self._verify = layout, verify
         self._seen: dict[str, str | None] = {}
         try:
-            self._known: dict[str, Any] = json.loads(layout.raw_index.read_text(encoding="utf-8"))
+            known = json.loads(layout.raw_index.read_text(encoding="utf-8"))
         except (OSError, ValueError):
-            self._known = {}
+            known = None
+        self._known: dict[str, Any] = known if isinstance(known, dict) else {}
 
     def hashes(self, paths: Iterable[Path]) -> dict[str, str | None]:
         """SHA-256 of each file by its path from the campaign's folder; None where it cannot be read."""
@@ -110,9 +118,10 @@ class RawIndex:
     def _look(self, name: str, path: Path) -> str | None:
         try:
             status = path.stat()
-            known = self._known.get(name, {})
-            if not self._verify and (known.get("size"), known.get("time")) == (status.st_size, status.st_mtime_ns):
-                return str(known["sha256"])
+            known = self._known.get(name)
+            seen = (known.get("size"), known.get("time")) if isinstance(known, dict) and "sha256" in known else None
+            if not self._verify and seen == (status.st_size, status.st_mtime_ns):
+                return str(self._known[name]["sha256"])
             digest = hashlib.sha256()
             with path.open("rb") as stream:
                 while chunk := stream.read(_CHUNK):

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence, Set
+from dataclasses import replace
 from pathlib import Path
 
 from colonnade.campaign import Campaign, load
 from colonnade.errors import CampaignError, nearest
 from colonnade.store.files import write_text
 from colonnade.store.layout import Layout
-from colonnade.workflow.chain import Chain, advance, is_fresh
+from colonnade.workflow.chain import Chain, Phase, advance, clear_behind, is_fresh
 from colonnade.workflow.freshness import RawIndex, report_key, stored_attributes
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.processes import execute
@@ -40,7 +41,7 @@ def run(
     until, start_from : str, optional
         Last stage; stage from which on results are made again whatever their state. One of `STAGES`.
     only : sequence of str, optional
-        Ids of the tests to run; default all. Specimens are pooled from all results that are there.
+        Ids of the tests to run; default all. Free vibrations of their specimens are run with them, as far as their e.
     workers : int, optional
         Processes; default one a core.
     verify : bool, optional
@@ -65,34 +66,44 @@ def run(
     layout = Layout(loaded.folder)
     with only_run(layout):
         index = RawIndex(layout, verify=verify)
-        raw = {test: index.hashes(loaded.tests[test].files.values()) for test in tests}
+        raw = {name: index.hashes(test.files.values()) for name, test in loaded.tests.items()}
         index.save()
 
-        def chains(names: Iterable[str], phase: str) -> list[Chain]:
-            return [Chain.of(loaded, name, phase=phase, until=last, redo_from=first, raw=raw[name]) for name in names]
+        def chains(names: Iterable[str], phase: Phase, until: str = last) -> list[Chain]:
+            return [Chain.of(loaded, name, phase=phase, until=until, redo_from=first, raw=raw[name]) for name in names]
 
         runs = list(_walked(chains(tests, "measuring"), workers, progress))
+        if STAGES.index(last) >= STAGES.index("predict"):
+            asked = set(tests)
+            needed = [name for name in _free_vibrations(loaded, tests) if name not in asked]
+            runs += _walked(chains(needed, "measuring"), workers, progress)
         if STAGES.index(last) >= STAGES.index("restitution"):
             runs += _pool(loaded, layout, first)
+        failed = {stage.subject: stage.reason for stage in runs if stage.action == "failed"}
         if STAGES.index(last) >= STAGES.index("predict"):
-            failed = {stage.subject for stage in runs if stage.action == "failed"}
-            for test in failed & set(tests):
-                for stale in (*layout.test(test).glob("predicted-*.nc"), layout.stage(test, "compare")):
-                    stale.unlink(missing_ok=True)
-            runs += _walked(chains([test for test in tests if test not in failed], "predicting"), workers, progress)
-        write_summary(loaded, layout)
-        report = _report(loaded, layout) if last == "report" else None
+            ready = []
+            for name in tests:
+                if loaded.tests[name].specimen in failed:
+                    clear_behind(loaded, name, STAGES.index("restitution"))
+                elif name not in failed:
+                    ready.append(name)
+            runs += _walked(chains(ready, "predicting"), workers, progress)
+        failed |= {stage.subject: stage.reason for stage in runs if stage.action == "failed"}
+        whole = (*chains(loaded.tests, "measuring", "report"), *chains(loaded.tests, "predicting", "report"))
+        outdated = {chain.test for chain in whole if is_fresh(replace(chain, redo_from=None)) is None} - failed.keys()
+        write_summary(loaded, layout, outdated=outdated, failed=failed)
+        report = _report(loaded, layout, outdated) if last == "report" else None
     return RunResult(tuple(runs), layout.summary_json, report)
 
 
-def _report(campaign: Campaign, layout: Layout) -> Path:
+def _report(campaign: Campaign, layout: Layout, outdated: Set[str]) -> Path:
     """Build the page, unless the one that is there shows just this."""
-    key = report_key(campaign, layout)
+    key = report_key(campaign, layout, outdated)
     if layout.report.is_file() and layout.report_key.is_file() and layout.report_key.read_text(encoding="utf-8") == key:
         return layout.report
     from colonnade.report import build
 
-    page = build(campaign, layout)
+    page = build(campaign, layout, outdated)
     write_text(layout.report_key, key)
     return page
 
@@ -108,6 +119,14 @@ def _chosen(campaign: Campaign, only: Sequence[str]) -> list[str]:
         if name not in campaign.tests:
             raise CampaignError(f'{campaign.path.name} has no test "{name}".{nearest(name, campaign.tests)}')
     return [name for name in campaign.tests if not only or name in only]
+
+
+def _free_vibrations(campaign: Campaign, tests: Sequence[str]) -> list[str]:
+    """Ids of the free vibrations of these tests' specimens: predictions take their restitution."""
+    specimens = {campaign.tests[name].specimen for name in tests}
+    return [
+        name for name, test in campaign.tests.items() if test.kind == "free-vibration" and test.specimen in specimens
+    ]
 
 
 def _walked(chains: Sequence[Chain], workers: int | None, progress: Progress | None) -> Iterator[StageRun]:

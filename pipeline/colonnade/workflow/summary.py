@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from collections.abc import Collection, Mapping
 from typing import Any, Literal
 
 import numpy as np
@@ -16,27 +17,41 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 
 
-def write_summary(campaign: Campaign, layout: Layout) -> None:
+def write_summary(
+    campaign: Campaign, layout: Layout, *, outdated: Collection[str] = (), failed: Mapping[str, str] | None = None
+) -> None:
     """
     Write both summaries, where their content changed.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    layout : Layout
+    outdated : collection of str, optional
+        Tests whose stored results are not of this campaign file, these raw files or this program; they are pending.
+    failed : mapping of str to str, optional
+        Reasons of the tests that failed in this run, stored or not.
 
     Raises
     ------
     StoreError
         If they cannot be written.
     """
-    summary = summarise(campaign, layout)
+    summary = summarise(campaign, layout, outdated=outdated, failed=failed or {})
     files.write_text(layout.summary_json, summary.text())
     files.write_text(layout.summary_csv, _table(summary))
 
 
-def summarise(campaign: Campaign, layout: Layout) -> Summary:
-    """Gather a record a specimen and a test from what is stored."""
+def summarise(campaign: Campaign, layout: Layout, *, outdated: Collection[str], failed: Mapping[str, str]) -> Summary:
+    """Gather a record a specimen and a test from what is stored; see `write_summary`."""
     return Summary(
         campaign=campaign.campaign,
         colonnade=colonnade.__version__,
         specimens={name: _specimen(campaign, layout, name) for name in campaign.specimens},
-        tests={name: _test(campaign, layout, test) for name, test in campaign.tests.items()},
+        tests={
+            name: _test(campaign, layout, test, is_outdated=name in outdated, failure=failed.get(name))
+            for name, test in campaign.tests.items()
+        },
     )
 
 
@@ -76,16 +91,18 @@ def _specimen(campaign: Campaign, layout: Layout, name: str) -> SpecimenSummary:
     )
 
 
-def _test(campaign: Campaign, layout: Layout, test: Test) -> TestSummary:
+def _test(campaign: Campaign, layout: Layout, test: Test, *, is_outdated: bool, failure: str | None) -> TestSummary:
     models = campaign.processing.predict.models
     paths = {
         stage: layout.stage(test.id, stage) for stage in ("ingest", "condition", "rocking", "restitution", "compare")
     }
     paths |= {f"predict-{model}": layout.stage(test.id, "predict", model) for model in models}
-    results = {stage: _stored(path) for stage, path in paths.items()}
+    results = {stage: None if is_outdated else _stored(path) for stage, path in paths.items()}
     reasons = [str(each) for each in results.values() if isinstance(each, StoreError)]
     sound = {stage: each for stage, each in results.items() if each is not None and not isinstance(each, StoreError)}
     reasons += [f"{stage}: {each.attrs['reason']}" for stage, each in sound.items() if each.attrs["status"] == "failed"]
+    if failure is not None and not reasons:
+        reasons = [failure]
     done = {stage: each for stage, each in sound.items() if each.attrs["status"] == "done"}
     warnings = [warning for each in done.values() for warning in each.attrs.get("warnings", [])]
     status: Literal["done", "failed", "pending"] = "failed" if reasons else "done" if "compare" in done else "pending"
