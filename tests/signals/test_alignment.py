@@ -1,8 +1,10 @@
 import numpy as np
 import pytest
 
-from colonnade.signals.alignment import find_offset
+from colonnade.signals.alignment import find_offset, link
 from colonnade.signals.filters import lowpass, second_derivative
+from colonnade.signals.quality import Flag
+from colonnade.signals.record import even_record
 
 INTERVAL = 0.0025
 TIME = np.arange(0, 10, INTERVAL)
@@ -43,6 +45,7 @@ def test_a_displacement_and_an_acceleration_are_aligned_to_a_millisecond(motion,
     assert offset.is_determined
     assert abs(offset.seconds - delay) < 1e-3
     assert offset.standard_error < 1e-3
+    assert offset.rival is None
 
 
 def test_the_stated_error_is_the_scatter_of_the_offset():
@@ -60,3 +63,53 @@ def test_records_without_a_common_motion_are_not_aligned():
     noise = [lowpass(rng.normal(size=TIME.size), INTERVAL, 10.0) for _ in range(2)]
     assert not find_offset(*noise, INTERVAL, longest=1.0, bandwidth_hz=10.0).is_determined
     assert not find_offset(np.zeros(50), np.zeros(50), INTERVAL, longest=1.0, bandwidth_hz=10.0).is_determined
+
+
+def _record(time, values):
+    return even_record(time, values, np.full(time.size, Flag.GOOD, dtype=np.int8))
+
+
+@pytest.mark.parametrize("delay", [0.02, -0.15, 0.2])
+@pytest.mark.parametrize("frequency", [1.0, 3.0, 7.0])
+def test_a_steady_sine_has_a_rival_one_period_off(delay, frequency):
+    rng = np.random.default_rng(0)
+    first, second = np.arange(0, 12, 1 / 500), np.arange(0, 12, 1 / 400)
+    records = [
+        _record(time, 2 * np.sin(2 * np.pi * frequency * (time - late)) + rng.normal(0, 0.01, time.size))
+        for time, late in ((first, 0.0), (second, delay))
+    ]
+    found = link(*records, longest=1.1, sign=1.0, second_derivatives=(False, False))
+    assert found.rival is not None
+    periods = (found.rival - found.seconds) * frequency
+    assert round(periods) != 0
+    assert periods == pytest.approx(round(periods), abs=0.02)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_sine_that_begins_has_no_rival(seed):
+    rng = np.random.default_rng(seed)
+    first, second = np.arange(0, 12, 1 / 500), np.arange(0, 12, 1 / 400)
+    records = [
+        _record(
+            time,
+            2 * np.sin(6 * np.pi * (time - late)) * np.clip(time - late - 1, 0, 1) + rng.normal(0, 0.01, time.size),
+        )
+        for time, late in ((first, 0.0), (second, 0.2))
+    ]
+    found = link(*records, longest=1.0, sign=1.0, second_derivatives=(False, False))
+    assert found.rival is None
+    assert abs(found.seconds - 0.2) < 1e-3
+
+
+def test_channels_that_point_against_each_other_are_linked_with_their_sign():
+    displacement, acceleration = _earthquake(0.0), np.gradient(np.gradient(_earthquake(0.02), INTERVAL), INTERVAL)
+    pair = _record(TIME, displacement), _record(TIME, -acceleration)
+    found = link(*pair, longest=1.0, sign=-1.0, second_derivatives=(True, False))
+    assert found.is_determined
+    assert abs(found.seconds - 0.02) < 1e-4
+
+
+def test_records_that_share_no_time_are_refused():
+    pair = _record(TIME, np.sin(TIME)), _record(TIME + 50, np.sin(TIME))
+    with pytest.raises(ValueError, match="share 0 samples"):
+        link(*pair, longest=1.0, sign=1.0, second_derivatives=(False, False))

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.signals.filters import bridge, lowpass, noise_below, second_derivative
+from colonnade.signals.filters import default_lowpass, lowpass, noise_below, second_derivative
 
 TIME = np.arange(0, 4, 0.002)
 
@@ -48,16 +48,16 @@ def test_the_second_derivative_of_a_displacement_is_its_acceleration():
     np.testing.assert_allclose(acceleration[300:-300], expected[300:-300], atol=2e-3 * np.abs(expected).max())
 
 
-def test_bad_samples_are_bridged_by_straight_lines_and_held_at_the_ends():
-    values = np.array([9.0, 1.0, 9.0, 3.0, 9.0])
-    bad = np.array([True, False, True, False, True])
-    assert bridge(np.arange(5.0), values, bad).tolist() == [1.0, 1.0, 2.0, 3.0, 3.0]
-    with pytest.raises(ValueError, match="no sample"):
-        bridge(np.arange(5.0), values, np.ones(5, dtype=bool))
+def test_the_default_cut_off_follows_the_specimen_and_stays_below_the_sampling_rate():
+    assert default_lowpass(5.631, 500.0) == pytest.approx(35.0, abs=0.2)
+    assert default_lowpass(5.631, 50.0) == 20.0
 
 
 def test_noise_left_below_the_cut_off_is_what_the_filter_leaves():
     noise = np.random.default_rng(0).normal(0, 1.0, 20_000)
     left = lowpass(noise, 0.002, 35.0).std()
     signal = 50 * np.sin(2 * np.pi * np.arange(20_000) * 0.002)
-    assert noise_below(noise + signal, 0.002, 35.0) == pytest.approx(left, rel=0.1)
+    recorded = np.arange(noise.size) < 9_000
+    bridged = np.where(recorded, noise + signal, 0.0)
+    assert noise_below(noise + signal, 0.002, 35.0, 4, noise < np.inf) == pytest.approx(left, rel=0.1)
+    assert noise_below(bridged, 0.002, 35.0, 4, recorded) == pytest.approx(left, rel=0.1)

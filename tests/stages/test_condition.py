@@ -1,16 +1,176 @@
 import numpy as np
 import pytest
+import xarray as xr
 
+from colonnade import campaign as campaigns
 from colonnade.errors import StageError
 from colonnade.signals.quality import Flag
 from colonnade.stages import condition as conditioning
-from colonnade.stages.condition import condition, default_lowpass
+from colonnade.stages.condition import condition
 from colonnade.stages.ingest import ingest, instructions
 
 
 def _conditioned(campaign, test, recordings, **changes):
     read = conditioning.instructions(campaign, test)
     return condition(ingest(recordings, instructions(campaign, test)), read.model_copy(update=changes))
+
+
+OFFSET = 0.02
+"""s, by which the second recorder is late."""
+
+
+def _shaking(time, frequency=3.0):
+    return 2 * np.sin(2 * np.pi * frequency * time) * np.clip(np.minimum(time - 1, 7 - time), 0, 1)
+
+
+def _two_recorders(first, second, *, noise=1e-3):
+    """Accelerations of the table, (values on 500 Hz, values on 400 Hz), as the result of `ingest`."""
+    rng = np.random.default_rng(0)
+    variables = {}
+    for name, dimension, values in (("first", "elapsed", first), ("second", "elapsed_daq2", second)):
+        variables[name] = (dimension, values + rng.normal(0, noise, values.size))
+        variables[f"{name}_quality"] = (dimension, np.full(values.size, Flag.GOOD, dtype=np.int8))
+    clocks = {"elapsed": ("elapsed", FIRST), "elapsed_daq2": ("elapsed_daq2", SECOND)}
+    return xr.Dataset(variables, coords=clocks)
+
+
+FIRST, SECOND = np.arange(0, 9, 1 / 500), np.arange(0, 9, 1 / 400)
+
+
+@pytest.fixture
+def linked(small_campaign):
+    """Instructions for the two recorders above."""
+    read = conditioning.instructions(small_campaign, small_campaign.tests["shake-01"])
+    return read.model_copy(
+        update={
+            "channels": {"first": ("acceleration", "table", "main"), "second": ("acceleration", "table", "daq2")},
+            "delays": {"first": 0.0, "second": 0.0},
+            "links": {"daq2": ("first", "second", 1.0)},
+        }
+    )
+
+
+@pytest.mark.parametrize(("of_first", "of_second"), [(0.0, 0.0), (0.0, 0.01), (0.004, 0.0), (0.004, 0.01)])
+def test_a_delay_and_a_clock_offset_are_each_taken_off_once(linked, of_first, of_second):
+    recorded = _two_recorders(_shaking(FIRST - of_first), _shaking(SECOND - OFFSET - of_second))
+    result = condition(recorded, linked.model_copy(update={"delays": {"first": of_first, "second": of_second}}))
+    assert result["second"].attrs["clock_offset"] == pytest.approx(OFFSET + of_second, abs=2e-4)
+    assert result["first"].attrs["clock_offset"] == of_first
+    for name in ("first", "second"):
+        np.testing.assert_allclose(result[name], _shaking(result["elapsed"].to_numpy()), atol=2e-2)
+
+
+def test_linked_channels_that_point_against_each_other_are_aligned(linked):
+    recorded = _two_recorders(_shaking(FIRST), -_shaking(SECOND - OFFSET))
+    result = condition(recorded, linked.model_copy(update={"links": {"daq2": ("first", "second", -1.0)}}))
+    assert result["second"].attrs["clock_offset"] == pytest.approx(OFFSET, abs=2e-4)
+    assert result["second"].attrs["clock_offset_standard_error"] < 1e-3
+    assert result.attrs["warnings"] == []
+
+
+@pytest.mark.parametrize(
+    ("directions", "sign"),
+    [(("[1, 0, 0]", "[-1, 0, 0]"), -1.0), (("[1, 0, 0]", "[1, 0, 0]"), 1.0), (("[0, -1, 0]", "[0, 1, 0]"), -1.0)],
+)
+def test_the_sign_of_a_link_is_that_of_the_directions(tmp_path, small_campaign, directions, sign):
+    setup = """
+[setups.frame.recorders.daq2]
+clock = {align = ["table_acceleration", "second"]}
+
+[setups.frame.channels.second]
+column = "ACC"
+recorder = "daq2"
+quantity = "acceleration"
+unit = "g"
+on = "table"
+"""
+    text = small_campaign.path.read_text(encoding="utf-8")
+    head, tail = text.split("[setups.frame.channels.table_acceleration]")
+    own, tests = tail.split("[[tests]]", 1)
+    own = own.replace("[1, 0, 0]", directions[0])
+    path = tmp_path / "two.toml"
+    channels = f"{head}[setups.frame.channels.table_acceleration]{own}{setup}direction = {directions[1]}\n\n"
+    path.write_text(f"{channels}[[tests]]{tests}", encoding="utf-8")
+    campaign = campaigns.load(path)
+    read = conditioning.instructions(campaign, campaign.tests["shake-01"])
+    assert read.links == {"daq2": ("table_acceleration", "second", sign)}
+
+
+def test_an_offset_that_a_steady_sine_leaves_open_is_warned_of(linked):
+    recorded = _two_recorders(np.sin(6 * np.pi * FIRST), np.sin(6 * np.pi * (SECOND - 0.2)))
+    result = condition(recorded, linked)
+    assert any("fits as well" in warning for warning in result.attrs["warnings"])
+    assert "clock_offset_standard_error" not in result["second"].attrs
+
+
+def test_an_offset_that_is_not_determined_has_no_standard_error(linked):
+    result = condition(_two_recorders(np.zeros(FIRST.size), np.zeros(SECOND.size)), linked)
+    assert result["second"].attrs["clock_offset"] == 0.0
+    assert "clock_offset_standard_error" not in result["second"].attrs
+    assert any("taken to start with the main one" in warning for warning in result.attrs["warnings"])
+
+
+def test_a_channel_of_another_quantity_links_recorders_but_is_not_conditioned(linked):
+    pulse = np.where((FIRST > 3) & (FIRST < 3.5), 5.0, 0.0), np.where((SECOND > 3.02) & (SECOND < 3.52), 5.0, 0.0)
+    recorded = _two_recorders(*pulse)
+    for name, dimension, values in (
+        ("base", "elapsed", _shaking(FIRST)),
+        ("late", "elapsed_daq2", _shaking(SECOND - OFFSET)),
+    ):
+        recorded[name] = (dimension, values)
+        recorded[f"{name}_quality"] = (dimension, np.full(values.size, Flag.GOOD, dtype=np.int8))
+    channels = {name: ("other", None, recorder) for name, (_, _, recorder) in linked.channels.items()}
+    channels |= {"base": ("acceleration", "table", "main"), "late": ("acceleration", "table", "daq2")}
+    delays = dict.fromkeys(channels, 0.0)
+    result = condition(recorded, linked.model_copy(update={"channels": channels, "delays": delays}))
+    assert set(result.data_vars) == {"base", "base_quality", "late", "late_quality"}
+    assert result["late"].attrs["clock_offset"] == pytest.approx(OFFSET, abs=1e-3)
+
+
+def test_nothing_above_the_cut_off_is_folded_into_a_lower_sampling_rate(linked):
+    recorded = _two_recorders(_shaking(FIRST) + 0.3 * np.sin(2 * np.pi * 195 * FIRST), _shaking(SECOND - OFFSET))
+    result = condition(recorded, linked.model_copy(update={"sampling_rate": 200.0}))
+    error = result["first"].to_numpy() - _shaking(result["elapsed"].to_numpy())
+    assert np.sqrt(np.mean(error[50:-50] ** 2)) < 5e-3
+
+
+def test_shaking_before_the_table_is_at_rest_is_warned_of(small_campaign, shaken):
+    recordings, time, _, _ = shaken
+    recordings["main"].channel("ACC").values[:] += np.where(time > 0.1, 0.05 * np.sin(20 * time), 0.0)
+    result = _conditioned(small_campaign, small_campaign.tests["shake-01"], recordings)
+    assert "at the start of the record: table_acceleration moves" in result.attrs["warnings"][0]
+
+
+def test_missing_cells_stay_missing(small_campaign, free_vibration):
+    recordings, _, _, _ = free_vibration
+    recordings["main"].channel("LVDT 1").values[1500:1680] = np.nan
+    recordings["main"].channel("LVDT 1").values[2000:2003] = np.nan
+    result = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
+    assert np.flatnonzero(np.isnan(result["top"])).tolist() == list(range(1500, 1680))
+    assert (result["top_quality"][1500:1680] == Flag.MISSING).all()
+    assert (result["top_quality"][2000:2003] == Flag.SUSPECT).all()
+    assert np.isfinite(result["bottom"]).all()
+
+
+def test_a_channel_without_values_where_zero_is_taken_is_left_out(small_campaign, free_vibration):
+    recordings, _, _, _ = free_vibration
+    recordings["main"].channel("LVDT 1").values[-300:] = np.nan
+    result = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
+    assert "top" not in result
+    assert any("channel top is left out: it has no value from" in warning for warning in result.attrs["warnings"])
+    assert result["elapsed"][-1] == pytest.approx(11.998)
+
+
+def test_rounded_times_give_the_clock_behind_them(small_campaign, free_vibration):
+    recordings, time, _, _ = free_vibration
+    exact = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
+    for channel in recordings["main"].channels:
+        channel.time[:] = np.round(time, 2)
+    result = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
+    assert np.diff(result["elapsed"]) == pytest.approx(0.002, rel=1e-4)
+    expected = np.interp(result["elapsed"], exact["elapsed"], exact["top"])
+    # The clock is known to a fraction of the last digit that was written.
+    np.testing.assert_allclose(result["top"], expected, atol=2e-4)
 
 
 def test_a_free_vibration_that_starts_tilted_is_zeroed_at_its_end(small_campaign, free_vibration):
@@ -71,13 +231,8 @@ def test_a_delay_is_taken_off(small_campaign, shaken):
     np.testing.assert_allclose(np.interp(onto, late["elapsed"], late["table_acceleration"]), expected, atol=5e-3)
 
 
-def test_the_default_cut_off_follows_the_specimen_and_stays_below_the_sampling_rate():
-    assert default_lowpass(5.631, 500.0) == pytest.approx(35.0, abs=0.2)
-    assert default_lowpass(5.631, 50.0) == 20.0
-
-
 def test_a_cut_off_above_half_the_sampling_rate_is_refused_by_its_key(small_campaign, free_vibration):
-    with pytest.raises(StageError, match=r"processing\.lowpass is 300 Hz; below 250 Hz"):
+    with pytest.raises(StageError, match=r"processing\.lowpass is 300 Hz; below 250 Hz.*channel top"):
         _conditioned(small_campaign, small_campaign.tests["free-01"], free_vibration[0], lowpass=300.0)
 
 
@@ -86,4 +241,4 @@ def test_a_channel_without_a_value_is_left_out_and_said(small_campaign, free_vib
     recordings["main"].channel("LVDT 2").values[:] = np.nan
     result = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
     assert "bottom" not in result
-    assert any("channel bottom is left out" in warning for warning in result.attrs["warnings"])
+    assert any("channel bottom is left out: it has no usable sample" in warning for warning in result.attrs["warnings"])

@@ -108,10 +108,35 @@ def test_a_dead_accelerometer_on_the_specimen_is_flagged_beside_a_moving_table(s
     channels = tuple(RecordedChannel(name, "g", each, time) for name, each in values.items())
     read = instructions(small_campaign, small_campaign.tests["shake-01"])
     table = read.channels["table_acceleration"]
-    both = {"table": table, "block": table.model_copy(update={"column": "block", "on": "specimen"})}
+    block = table.model_copy(update={"column": "block", "on": "specimen"})
+    both = {"table": table, "block": block, "across": block.model_copy(update={"direction": (0.0, 0.0, 1.0)})}
     recorded = ingest(
         {"main": Recording(Path("a.csv"), "delimited", channels)}, read.model_copy(update={"channels": both})
     )
     assert (recorded["block_quality"] == Flag.SUSPECT).all()
     assert any("channel block: the channel is practically dead" in warning for warning in recorded.attrs["warnings"])
     assert (recorded["table_quality"] == Flag.GOOD).all()
+    assert (recorded["across_quality"] == Flag.GOOD).all()
+
+
+@pytest.mark.parametrize(("rate", "digits"), [(400, 3), (909, 3), (400, 2)])
+def test_rounded_times_are_kept_and_said_and_flag_no_sample(small_campaign, rate, digits):
+    time = np.round(np.arange(4000) / rate, digits)
+    values = np.random.default_rng(0).normal(size=(3, time.size))
+    names = ("LVDT 1", "LVDT 2", "ACC")
+    channels = tuple(RecordedChannel(name, None, each, time) for name, each in zip(names, values, strict=True))
+    read = instructions(small_campaign, small_campaign.tests["shake-01"])
+    recorded = ingest({"main": Recording(Path("a.csv"), "delimited", channels)}, read)
+    np.testing.assert_array_equal(recorded["elapsed"], time)
+    assert (recorded["bottom_quality"] == Flag.GOOD).all()
+    said = f"a.csv: the times are rounded to {10 ** (3 - digits)} ms; an even clock of {rate}"
+    assert [warning for warning in recorded.attrs["warnings"] if warning.startswith(said)]
+    assert len(recorded.attrs["warnings"]) == 1
+
+
+def test_one_wild_time_stamp_costs_one_sample(small_campaign, free_vibration):
+    recordings, _, _, _ = free_vibration
+    for channel in recordings["main"].channels:
+        channel.time[9] = 1e6
+    recorded = ingest(recordings, instructions(small_campaign, small_campaign.tests["free-01"]))
+    assert np.flatnonzero(recorded["top_quality"] != Flag.GOOD).tolist() == [9]

@@ -30,15 +30,17 @@ class Ingest:
     """An ingest in a process that waits for the start."""
 
     def __init__(self, folder: Path, warming: Path, workers: int) -> None:
-        self.process = subprocess.Popen(
-            [sys.executable, "-c", INGEST, str(folder), str(warming), str(workers)],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            text=True,
-            start_new_session=True,
-        )
-        assert self.process.stdout.readline() == "ready\n"
+        complaints = warming.with_name("complaints.txt")
+        with complaints.open("w") as stderr:
+            self.process = subprocess.Popen(
+                [sys.executable, "-c", INGEST, str(folder), str(warming), str(workers)],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=stderr,
+                text=True,
+                start_new_session=True,
+            )
+        assert self.process.stdout.readline() == "ready\n", complaints.read_text()
 
     def begin(self) -> None:
         self.process.stdin.write("\n")

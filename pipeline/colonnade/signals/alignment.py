@@ -8,10 +8,23 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from colonnade.signals.clock import resample, uniform_clock
+from colonnade.signals.filters import lowpass, second_derivative
+from colonnade.signals.record import Record
+
 Array = NDArray[np.float64]
 
 WEAKEST_CORRELATION = 0.7
 """Two records that agree less than this are not of the same motion, or there was none."""
+
+BANDWIDTH = 10.0
+"""Hz; recorders are aligned on what their linked channels share below it, where a displacement's noise is no matter."""
+
+FEWEST_SAMPLES = 16
+"""That two records have to share."""
+
+RIVAL_EVIDENCE = 10.0
+"""Log-likelihood by which one delay has to be better than another to be told from it."""
 
 
 @dataclass(frozen=True)
@@ -27,11 +40,14 @@ class Offset:
         s.
     correlation : float
         Of the two records once aligned, 0 to 1.
+    rival : float or None
+        Another delay, s, that fits as well where both records have values.
     """
 
     seconds: float
     standard_error: float
     correlation: float
+    rival: float | None = None
 
     @property
     def is_determined(self) -> bool:
@@ -62,7 +78,8 @@ def find_offset(reference: Array, values: Array, interval: float, *, longest: fl
     Notes
     -----
     The correlation is over the whole of both records, not over their overlap, so that the beginning and end of a motion
-    tell one period of a sine from the next. The standard error is that of a shift fitted by least squares.
+    tell one period of a sine from the next. The standard error is that of a shift fitted by least squares. A steady
+    sine that began before the records and outlasts them fits as well one period off: see `Offset.rival`.
     """
     first, second = reference - reference.mean(), values - values.mean()
     power = float(np.sqrt((first @ first) * (second @ second)))
@@ -82,4 +99,61 @@ def find_offset(reference: Array, values: Array, interval: float, *, longest: fl
     independent = max(2 * bandwidth_hz * interval * first.size, 1.0)
     residual = float(np.sqrt(max(1 / max(agreement, 1e-3) ** 2 - 1, 0.0)) * first.std())
     error = residual / max(float(np.sqrt((slope**2).mean())), 1e-300) / np.sqrt(independent)
-    return Offset(shift * interval, float(error), max(agreement, 0.0))
+    rival = _rival(first, second, window, best, independent)
+    return Offset(shift * interval, float(error), max(agreement, 0.0), None if rival is None else rival * interval)
+
+
+def _rival(first: Array, second: Array, correlation: Array, best: int, independent: float) -> int | None:
+    """Shift, in samples, of a further peak of the correlation that fits the overlap as well as the best one."""
+    reach = correlation.size // 2
+    misfit = _misfit(first, second, best - reach)
+    inner = correlation[1:-1]
+    peaks = 1 + np.flatnonzero((inner > correlation[:-2]) & (inner >= correlation[2:]) & (inner > 0))
+    for peak in sorted(peaks[peaks != best], key=lambda index: -float(correlation[index])):
+        ratio = _misfit(first, second, int(peak) - reach) / max(misfit, 1e-12)
+        if 0.5 * independent * np.log(max(ratio, 1e-12)) < RIVAL_EVIDENCE:
+            return int(peak) - reach
+    return None
+
+
+def _misfit(first: Array, second: Array, shift: int) -> float:
+    """Share of the power in the overlap that the shifted record does not explain, one minus the correlation squared."""
+    size = first.size - abs(shift)
+    one, other = first[max(-shift, 0) :][:size], second[max(shift, 0) :][:size]
+    power = float((one @ one) * (other @ other))
+    return 1.0 - max(float(one @ other), 0.0) ** 2 / power if power > 0 else 1.0
+
+
+def link(
+    reference: Record, record: Record, *, longest: float, sign: float, second_derivatives: tuple[bool, bool]
+) -> Offset:
+    """
+    Find how late one recorder is against another from a channel of each.
+
+    Parameters
+    ----------
+    reference, record : Record
+        The same motion, each with its delay taken off its times.
+    longest : float
+        Largest delay of either sign that is looked for, s.
+    sign : float
+        -1 where the two channels point against each other, otherwise 1.
+    second_derivatives : (bool, bool)
+        Whether each is to be differentiated twice, as a displacement beside an acceleration.
+
+    Raises
+    ------
+    ValueError
+        If the records share too few samples; the message completes "channels a and b ".
+    """
+    interval = max(reference.interval, record.interval)
+    start, stop = max(reference.time[0], record.time[0]), min(reference.time[-1], record.time[-1])
+    clock = uniform_clock(start, stop, interval)
+    if clock.size < FEWEST_SAMPLES:
+        raise ValueError(f"share {clock.size} samples; at least {FEWEST_SAMPLES} were expected")
+    bandwidth = min(BANDWIDTH, 0.2 / interval)
+    shared = []
+    for each, differentiated in zip((reference, record), second_derivatives, strict=True):
+        smooth = second_derivative if differentiated else lowpass
+        shared.append(resample(each.time, smooth(each.values, each.interval, bandwidth), clock, each.interval)[0])
+    return find_offset(shared[0], sign * shared[1], interval, longest=longest, bandwidth_hz=bandwidth)

@@ -1,12 +1,40 @@
-"""Zero-phase filters, bridging of bad samples, and derivatives."""
+"""Zero-phase filters, their cut-off, the noise that they leave, and derivatives."""
 
 from __future__ import annotations
+
+from math import acosh
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
 Array = NDArray[np.float64]
+
+SMALL_AMPLITUDE = 0.02
+"""|θ|/α whose rocking frequency, the highest of interest, sets the default cut-off."""
+
+HARMONICS = 5.0
+"""Default cut-off over that frequency: the arcs' third harmonic passes, see the notes of `default_lowpass`."""
+
+
+def default_lowpass(p: float, rate: float) -> float:
+    """
+    Cut-off for channels on the specimen, Hz.
+
+    Parameters
+    ----------
+    p : float
+        rad/s.
+    rate : float
+        Sampling rate, Hz.
+
+    Notes
+    -----
+    A block rocks at p / (4 acosh(1/(1 − |θ|/α))) Hz (Housner 1963). Its history is close to a row of alternating
+    parabolas, whose harmonics fall with the cube of their number; five times the frequency at 0.02 α lets the third
+    pass whole.
+    """
+    return min(HARMONICS * p / (4 * acosh(1 / (1 - SMALL_AMPLITUDE))), 0.4 * rate)
 
 
 def lowpass(values: Array, interval: float, cutoff_hz: float, order: int = 4) -> Array:
@@ -67,24 +95,7 @@ def second_derivative(values: Array, interval: float, cutoff_hz: float) -> Array
     return derivative
 
 
-def bridge(time: Array, values: Array, bad: NDArray[np.bool_]) -> Array:
-    """
-    Replace bad samples by straight lines between their good neighbours; the ends are held.
-
-    Raises
-    ------
-    ValueError
-        If no sample is good.
-    """
-    if not bad.any():
-        return values
-    good = ~bad
-    if not good.any():
-        raise ValueError("no sample of the channel is good")
-    return np.where(bad, np.interp(time, time[good], values[good]), values)
-
-
-def noise_below(values: Array, interval: float, cutoff_hz: float, order: int = 4) -> float:
+def noise_below(values: Array, interval: float, cutoff_hz: float, order: int, counted: NDArray[np.bool_]) -> float:
     """
     Standard deviation of what noise a low-pass leaves, taken the noise is white.
 
@@ -94,8 +105,10 @@ def noise_below(values: Array, interval: float, cutoff_hz: float, order: int = 4
         Before the filter.
     interval, cutoff_hz, order
         As for `lowpass`.
+    counted : ndarray of bool, shape (n,)
+        Samples that were recorded: bridges have no noise.
     """
-    above = values - lowpass(values, interval, cutoff_hz, order)
+    above = (values - lowpass(values, interval, cutoff_hz, order))[counted]
     kept = min(2 * cutoff_hz * interval, 0.9)
     spread = 1.4826 * float(np.median(np.abs(above - np.median(above))))
     return spread * float(np.sqrt(kept / (1 - kept)))

@@ -8,7 +8,7 @@ from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import maximum_filter, percentile_filter
+from scipy.ndimage import percentile_filter
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -61,7 +61,7 @@ def check_missing(time: Array, values: Array) -> Verdict:
     where = ~(np.isfinite(values) & np.isfinite(time))
     if not where.any():
         return Verdict.good(values.size)
-    return Verdict(Flag.MISSING, where, f"{_counted(where)} without a value{_at(time, where)}")
+    return Verdict(Flag.MISSING, where, f"{counted(where)} without a value{first_at(time, where)}")
 
 
 def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
@@ -73,12 +73,13 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
     time, values : ndarray, shape (n,)
         s; in the unit of `full_scale`.
     full_scale : float
-        Largest magnitude that the recorder or transducer can give. The last of 16 bits counts as reached.
+        Largest magnitude that the recorder or transducer can give. The top code of 12 bits, 2047/2048 of it, counts as
+        reached.
     """
-    where = np.abs(values) >= full_scale * (1 - 2.0**-14)
+    where = np.abs(values) >= full_scale * (1 - 5e-4)
     if not where.any():
         return Verdict.good(values.size)
-    reason = f"{_counted(where)} at the end of the range (±{full_scale:g}){_at(time, where)}: the value was larger"
+    reason = f"{counted(where)} at the end of the range (±{full_scale:g}){first_at(time, where)}: the value was larger"
     return Verdict(Flag.SUSPECT, where, reason)
 
 
@@ -94,7 +95,7 @@ def check_flat(time: Array, values: Array, *, duration: float) -> Verdict:
         where[start : stop + 1] = True
     if where.all():
         return Verdict(Flag.SUSPECT, where, f"the channel is dead: every sample is {values[0]:g}")
-    return Verdict(Flag.SUSPECT, where, f"{_counted(where)} flat for more than {duration:g} s{_at(time, where)}")
+    return Verdict(Flag.SUSPECT, where, f"{counted(where)} flat for more than {duration:g} s{first_at(time, where)}")
 
 
 def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
@@ -106,80 +107,54 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
     time, values : ndarray, shape (n,)
         s; any unit.
     threshold : float
-        In robust standard deviations, of the whole record and of the neighbourhood, whichever is larger.
+        In robust standard deviations of the second difference, of the whole record and of the neighbourhood, whichever
+        is larger.
 
     Notes
     -----
-    A sample stands out by its distance from the median of the second to fourth neighbours on both sides (a Hampel
-    identifier that leaves out what a spike of two samples touches): on a steep flank that median is the flank's own
-    height, and two bad samples among six do not move it. A step makes a run of samples stand out, and passes.
+    A spike stands out, to one side, from the line through the two samples before it and from the line through the two
+    after it, and these samples agree. At an impact, where a record may have a cusp, a sample lies on one of the lines;
+    a step lies on one as well, and passes.
     """
     finite = np.isfinite(values)
     if finite.sum() < 15:
         return Verdict.good(values.size)
     filled = np.interp(np.arange(values.size), np.flatnonzero(finite), values[finite])
-    padded = np.pad(filled, 4, mode="reflect")
-    neighbours = [padded[4 + shift : 4 + shift + filled.size] for shift in (-4, -3, -2, 2, 3, 4)]
-    distance = np.abs(filled - np.median(neighbours, axis=0))
-    # The upper tenth, not the median: a motion recorded at few samples a period is rough now and then all along.
-    local = percentile_filter(distance, 90, size=min(201, values.size), mode="nearest") / 1.645
-    steps = np.abs(np.diff(filled))
+    bend, steps = np.abs(np.diff(filled, 2)), np.abs(np.diff(filled))
     # A coarse converter gives mostly zeros: its step is then the least that can be told.
     resolution = float(steps[steps > 0].min()) if (steps > 0).any() else 0.0
-    typical = 1.4826 * float(np.median(distance))
-    where = finite & (distance > threshold * np.maximum(local, max(typical, resolution)))
-    # Beside a spike its neighbours stand out a little as well.
-    where &= distance > 0.5 * maximum_filter(distance, size=9, mode="nearest")
-    where &= _isolated(filled, where)
+    typical = max(1.4826 * float(np.median(bend)), resolution)
+    # The upper tenth, not the median: a motion recorded at few samples a period is rough now and then all along.
+    local = percentile_filter(bend, 90, size=min(201, bend.size), mode="nearest") / 1.645
+    least = threshold * np.pad(np.maximum(local, typical), 1, mode="edge")
+    # Lines carried over two samples are less certain.
+    single, double = _standing_out(filled, least, 1), _standing_out(filled, 1.5 * least, 2)
+    where = finite & (single | double | np.roll(double, 1))
     if not where.any():
         return Verdict.good(values.size)
-    return Verdict(Flag.FAIL, where, f"spikes on {_counted(where)}{_at(time, where)}")
+    return Verdict(Flag.FAIL, where, f"spikes on {counted(where)}{first_at(time, where)}")
 
 
-def _isolated(values: Array, candidates: Mask) -> Mask:
-    """Keep runs of at most two candidates whose neighbours on either side agree within half of the jump."""
-    kept = np.zeros_like(candidates)
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], candidates.astype(np.int8), [0]))))
-    for start, stop in zip(edges[::2], edges[1::2], strict=True):
-        before, after = values[max(start - 1, 0)], values[min(stop, values.size - 1)]
-        jump = np.abs(values[start:stop] - 0.5 * (before + after)).min()
-        kept[start:stop] = stop - start <= 2 and abs(after - before) < 0.5 * jump
+def _standing_out(values: Array, least: Array, width: int) -> Mask:
+    """First samples of runs of `width` that stand out from the lines on both sides by more than `least`."""
+    padded = np.pad(values, 4, mode="edge")
+
+    def after(shift: int) -> Array:
+        return padded[4 + shift : 4 + shift + values.size]
+
+    before, behind = after(-1), after(width)
+    kept = np.ones(values.size, dtype=bool)
+    height = np.full(values.size, np.inf)
+    for place in range(width):
+        sample = after(place)
+        from_left = sample - (before + (place + 1) * (before - after(-2)))
+        from_right = sample - (behind + (width - place) * (behind - after(width + 1)))
+        kept &= (from_left * from_right > 0) & (np.minimum(np.abs(from_left), np.abs(from_right)) > least)
+        height = np.minimum(height, np.abs(sample - 0.5 * (before + behind)))
+    kept &= np.abs(behind - before) < 0.5 * height
+    # At the ends there are no lines.
+    kept[:3] = kept[-4:] = False
     return kept
-
-
-def check_gaps(time: Array, *, interval: float, factor: float) -> Verdict:
-    """Flag the samples on either side of a step of the clock longer than `factor` intervals (s)."""
-    steps = np.diff(time)
-    after = np.flatnonzero(steps > factor * interval)
-    if after.size == 0:
-        return Verdict.good(time.size)
-    where = np.zeros(time.size, dtype=bool)
-    where[after] = where[after + 1] = True
-    lost = int(np.rint(steps[after] / interval - 1).sum())
-    reason = f"{after.size} gap{'s' if after.size > 1 else ''} in time, about {lost} samples lost{_at(time, where)}"
-    return Verdict(Flag.SUSPECT, where, reason)
-
-
-def check_order(time: Array) -> Verdict:
-    """Flag samples whose time is not later than that of all samples before."""
-    latest = np.fmax.accumulate(time)
-    where = np.zeros(time.size, dtype=bool)
-    where[1:] = time[1:] <= latest[:-1]
-    if not where.any():
-        return Verdict.good(time.size)
-    return Verdict(Flag.FAIL, where, f"{_counted(where)} whose time does not increase{_at(time, where)}")
-
-
-def check_jitter(time: Array, *, interval: float, share: float, factor: float) -> Verdict:
-    """Flag samples whose step differs from the interval (s) by more than `share` of it, gaps (`factor`) apart."""
-    steps = np.diff(time)
-    uneven = (np.abs(steps - interval) > share * interval) & (steps <= factor * interval) & (steps > 0)
-    if not uneven.any():
-        return Verdict.good(time.size)
-    where = np.concatenate(([False], uneven))
-    spread = float(np.abs(steps[uneven] - interval).max())
-    reason = f"{_counted(where)} up to {1e3 * spread:.3g} ms off an even clock of {1e3 * interval:.6g} ms"
-    return Verdict(Flag.SUSPECT, where, reason)
 
 
 def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:
@@ -189,7 +164,7 @@ def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:
     Parameters
     ----------
     values, reference : ndarray, shapes (n,) and (m,)
-        Same quantity and unit, as the acceleration of the specimen and of its table.
+        Same quantity, unit and axis, as the acceleration of the specimen and of its table.
     share : float
         Smallest standard deviation over that of the reference.
     """
@@ -203,11 +178,13 @@ def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:
     return Verdict(Flag.SUSPECT, np.ones(values.size, dtype=bool), reason)
 
 
-def _counted(where: Mask) -> str:
+def counted(where: Mask) -> str:
+    """Say how many samples."""
     count = int(where.sum())
     return f"{count} sample{'s' if count > 1 else ''}"
 
 
-def _at(time: Array, where: Mask) -> str:
+def first_at(time: Array, where: Mask) -> str:
+    """Say when the first of these samples was; empty where its time is not known."""
     known = time[where & np.isfinite(time)]
     return f", the first at {known[0]:.4g} s" if known.size else ""

@@ -9,12 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.signals.clock import sampling_interval
-from colonnade.signals.quality import Flag, Mask, Verdict, counted, first_at
+from colonnade.signals.quality import Flag, Verdict, counted, first_at
 
 Array = NDArray[np.float64]
 
 ROUNDING = 0.75
 """Of the last digit; times that lie closer to an even clock than this were rounded (or cut off) from it."""
+
+COARSEST = 0.01
+"""Of a record's length; from times of fewer digits its interval cannot be told."""
 
 LAG = 200
 """Samples over which the interval of rounded times is first taken."""
@@ -65,7 +68,7 @@ def read_clock(stamps: Array) -> Clock:
     """
     kept = _in_order(stamps, repeats=True)
     resolution = _resolution(stamps[kept])
-    if kept.size >= 3 and resolution > 0:
+    if kept.size > 2 and 0 < resolution <= COARSEST * np.ptp(stamps[kept]):
         even, interval = _even(kept, stamps[kept], resolution)
         misfit = float(np.abs(even - stamps[kept]).max())
         if 1e-6 * interval < misfit <= ROUNDING * resolution and (np.diff(even) > 0).all():
@@ -79,7 +82,11 @@ def check_order(stamps: Array, clock: Clock) -> Verdict:
     where = np.isfinite(stamps) & ~np.isfinite(clock.time)
     if not where.any():
         return Verdict.good(stamps.size)
-    return Verdict(Flag.FAIL, where, f"{counted(where)} whose time is out of order, the first being sample {int(np.argmax(where)) + 1}")
+    return Verdict(
+        Flag.FAIL,
+        where,
+        f"{counted(where)} whose time is out of order, the first being sample {int(np.argmax(where)) + 1}",
+    )
 
 
 def check_gaps(clock: Clock, *, factor: float) -> Verdict:

@@ -14,8 +14,7 @@ from colonnade import units
 from colonnade.campaign import Campaign, Test
 from colonnade.errors import StageError, UnitError
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.signals import quality
-from colonnade.signals.clock import sampling_interval
+from colonnade.signals import quality, timing
 from colonnade.store.variables import variable_name
 
 Array = NDArray[np.float64]
@@ -23,9 +22,12 @@ Array = NDArray[np.float64]
 DEAD_SHARE = 0.08
 """An accelerometer on the specimen that moves less than this share of the table's is practically dead."""
 
+SAME_AXIS = 0.9
+"""Smallest product of two directions with which they are compared."""
+
 
 class ChannelInstructions(BaseModel):
-    """One channel: where it is in the file, how it becomes SI, and its range."""
+    """One channel: where it is in the file, how it becomes SI, its range, what it is on and its direction."""
 
     model_config = ConfigDict(frozen=True)
 
@@ -39,6 +41,7 @@ class ChannelInstructions(BaseModel):
     full_scale: float | None
     range_recorded: float | None
     on: str | None
+    direction: tuple[float, float, float] | None
 
 
 class Instructions(BaseModel):
@@ -120,7 +123,9 @@ def ingest(recordings: Mapping[str, Recording], instructions: Instructions) -> x
         warnings += _unit_warnings(recording, column, name, channel)
         time, values = _windowed(column, name, instructions)
         clock = _clock_name(clocks, time, name, channel)
-        clocks.setdefault(clock, time)
+        if clock not in clocks:
+            clocks[clock] = time
+            warnings += _rounding(recording, timing.read_clock(time), instructions)
         dataset = dataset.assign(_variables(name, channel, clock, time, values, column, instructions, warnings))
     dataset = dataset.assign_coords({clock: (clock, time) for clock, time in clocks.items()})
     dataset = _judge_against_the_table(dataset, instructions, warnings)
@@ -173,7 +178,7 @@ def _windowed(column: RecordedChannel, name: str, instructions: Instructions) ->
         low, high = instructions.window
         inside = (time >= low) & (time <= high)
         time, values = time[inside], values[inside]
-    if time.size < 2 or not np.isfinite(sampling_interval(time)):
+    if time.size < 2 or not np.isfinite(timing.read_clock(time).interval):
         within = (
             ""
             if instructions.window is None
@@ -184,6 +189,15 @@ def _windowed(column: RecordedChannel, name: str, instructions: Instructions) ->
             "Look at the file's time column and at the test's `window`."
         )
     return time, values
+
+
+def _rounding(recording: Recording, clock: timing.Clock, instructions: Instructions) -> list[str]:
+    if clock.resolution <= instructions.jitter * clock.interval:
+        return []
+    return [
+        f"{recording.path.name}: the times are rounded to {1e3 * clock.resolution:g} ms; an even clock of "
+        f"{1 / clock.interval:.5g} Hz meets them all and is used."
+    ]
 
 
 def _clock_name(clocks: dict[str, Array], time: Array, name: str, channel: ChannelInstructions) -> str:
@@ -208,12 +222,12 @@ def _variables(
     warnings: list[str],
 ) -> dict[str, Any]:
     physical = values * channel.factor + channel.offset
-    interval = sampling_interval(time)
+    stamps = timing.read_clock(time)
     verdicts = [
         quality.check_missing(time, values),
-        quality.check_order(time),
-        quality.check_gaps(time, interval=interval, factor=instructions.gap),
-        quality.check_jitter(time, interval=interval, share=instructions.jitter, factor=instructions.gap),
+        timing.check_order(time, stamps),
+        timing.check_gaps(stamps, factor=instructions.gap),
+        timing.check_jitter(stamps, share=instructions.jitter, factor=instructions.gap),
         quality.check_flat(time, values, duration=instructions.flat_duration),
         quality.check_spikes(time, values, threshold=instructions.spike_threshold),
     ]
@@ -240,18 +254,20 @@ def _variables(
 
 
 def _judge_against_the_table(dataset: xr.Dataset, instructions: Instructions, warnings: list[str]) -> xr.Dataset:
-    """Flag accelerometers on the specimen that are practically dead beside the table's."""
+    """Flag accelerometers on the specimen that are practically dead beside those of the table along their axis."""
     accelerometers = {
         name: channel for name, channel in instructions.channels.items() if channel.quantity == "acceleration"
     }
-    table = [name for name, channel in accelerometers.items() if channel.on == "table"]
-    if not table:
-        return dataset
-    reference = max((dataset[variable_name(name)].to_numpy() for name in table), key=np.nanstd)
     for name, channel in accelerometers.items():
-        if channel.on != "specimen":
+        references = [
+            dataset[variable_name(other)].to_numpy()
+            for other, table in accelerometers.items()
+            if table.on == "table" and _same_axis(channel, table)
+        ]
+        if channel.on != "specimen" or not references:
             continue
         variable = variable_name(name)
+        reference = max(references, key=np.nanstd)
         verdict = quality.check_dead(dataset[variable].to_numpy(), reference, share=DEAD_SHARE)
         if verdict.reason:
             flags = dataset[f"{variable}_quality"]
@@ -260,3 +276,9 @@ def _judge_against_the_table(dataset: xr.Dataset, instructions: Instructions, wa
             report = dataset[variable].attrs.get("quality_report", "")
             dataset[variable].attrs["quality_report"] = "; ".join(filter(None, (report, verdict.reason)))
     return dataset
+
+
+def _same_axis(first: ChannelInstructions, second: ChannelInstructions) -> bool:
+    if first.direction is None or second.direction is None:
+        return False
+    return bool(abs(np.dot(first.direction, second.direction)) > SAME_AXIS)

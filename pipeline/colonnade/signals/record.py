@@ -1,0 +1,128 @@
+"""One channel's record on an even clock of its own, and from there on the clock of a test."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.signals.clock import LONGEST_BRIDGE, resample, uniform_clock
+from colonnade.signals.filters import lowpass, noise_below
+from colonnade.signals.quality import Flag
+from colonnade.signals.timing import read_clock
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.int8]
+
+EMPTIEST = 100
+"""Intervals a sample; a clock with fewer samples is not worth to be made even (nor would it fit into memory)."""
+
+
+@dataclass(frozen=True)
+class Record:
+    """
+    A channel on an even clock.
+
+    Attributes
+    ----------
+    time, values : ndarray, shape (n,)
+        s, at equal steps; any unit. Short runs of bad samples are bridged, those at the ends held.
+    missing : ndarray of bool, shape (n,)
+        Samples in runs too long to be bridged; their values are straight lines that keep filters quiet.
+    interval : float
+        s.
+    stamps, flags : ndarray, shape (m,)
+        Times (s) and quality of the samples as recorded.
+    bad : ndarray of bool, shape (m,)
+        Which of them were not used.
+    """
+
+    time: Array
+    values: Array
+    missing: NDArray[np.bool_]
+    interval: float
+    stamps: Array
+    flags: Flags
+    bad: NDArray[np.bool_]
+
+
+def even_record(stamps: Array, values: Array, flags: Flags) -> Record:
+    """
+    Put a channel on an even clock.
+
+    Parameters
+    ----------
+    stamps, values : ndarray, shape (n,)
+        s, as in the file; any unit; NaN where missing.
+    flags : ndarray of int8, shape (n,)
+
+    Raises
+    ------
+    ValueError
+        If fewer than two samples are usable, or the times are too far apart; the message completes "channel x ".
+    """
+    clock = read_clock(stamps)
+    timed = np.isfinite(clock.time)
+    bad = ((flags >= Flag.FAIL) | ~np.isfinite(values))[timed]
+    if (~bad).sum() < 2:
+        raise ValueError(f"has no usable sample among its {values.size}")
+    known, interval = clock.time[timed], clock.interval
+    span = float(known[-1] - known[0])
+    if span > EMPTIEST * interval * known.size:
+        raise ValueError(f"has {known.size} samples at {1 / interval:.4g} Hz over {span:.4g} s; look at its times")
+    time = uniform_clock(known[0], known[-1], interval)
+    used = known[~bad]
+    even, missing = resample(used, values[timed][~bad], time, interval)
+    reach = (LONGEST_BRIDGE + 0.5) * interval
+    held = ((time < used[0]) & (used[0] - time[0] < reach)) | ((time > used[-1]) & (time[-1] - used[-1] < reach))
+    return Record(time, even, missing & ~held, interval, known, flags[timed].astype(np.int8), bad)
+
+
+def smoothed(record: Record, cutoff_hz: float, order: int) -> tuple[Array, float]:
+    """
+    Low-pass a record on its own clock, before any resampling could fold what is high into what is low.
+
+    Returns
+    -------
+    values : ndarray, shape (n,)
+        On the record's clock.
+    noise : float
+        Standard deviation that is left.
+    """
+    noise = noise_below(record.values, record.interval, cutoff_hz, order, ~record.missing)
+    return lowpass(record.values, record.interval, cutoff_hz, order), noise
+
+
+def on_clock(record: Record, values: Array, clock: Array) -> tuple[Array, Flags]:
+    """
+    Bring values of a record's own clock to another one.
+
+    Parameters
+    ----------
+    record : Record
+    values : ndarray, shape (n,)
+        On the record's clock.
+    clock : ndarray, shape (m,)
+        s, on the record's time axis: with its clock offset added.
+
+    Returns
+    -------
+    brought : ndarray, shape (m,)
+        NaN where missing.
+    flags : ndarray of int8, shape (m,)
+        Of the nearest sample as recorded. Bridged samples are suspect, not failed.
+    """
+    brought, outside = resample(record.time, values, clock, record.interval)
+    lost = outside | record.missing[_nearest(record.time, clock)]
+    near = _nearest(record.stamps, clock)
+    flags = record.flags[near].copy()
+    bridged = record.bad[near] | (np.abs(record.stamps[near] - clock) > 0.75 * record.interval)
+    flags[bridged] = Flag.SUSPECT
+    flags[lost] = Flag.MISSING
+    return np.where(lost, np.nan, brought), flags
+
+
+def _nearest(times: Array, wanted: Array) -> NDArray[np.intp]:
+    after = np.clip(np.searchsorted(times, wanted), 1, times.size - 1)
+    return np.where(wanted - times[after - 1] < times[after] - wanted, after - 1, after)
