@@ -46,10 +46,12 @@ class Ingest:
         self.process.stdin.write("\n")
         self.process.stdin.flush()
 
-    def end(self) -> None:
-        """Wait for its end."""
+    def end(self) -> float:
+        """Wait for its end; return when that was."""
         assert self.process.stdout.readline() == "ended\n"
+        ended = time.perf_counter()
         self.clean()
+        return ended
 
     def kill(self) -> None:
         """Kill it with all its workers, as a machine that loses its power."""
@@ -70,8 +72,7 @@ def kill_and_compare(small, undisturbed, kills: int, workers: int, seed: int) ->
     whole = Ingest(small.folder, warming, workers)
     began = time.perf_counter()
     whole.begin()
-    whole.end()
-    duration = time.perf_counter() - began
+    duration = whole.end() - began
     fell = {"before": 0, "inside": 0, "after": 0}
     for _ in range(kills):
         shutil.rmtree(small.layout.processed)

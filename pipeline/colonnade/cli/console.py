@@ -75,13 +75,13 @@ def show_fields(fields: Iterable[tuple[str, str]]) -> None:
 
 
 def shown(value: object) -> str:
-    """Write a value for people: nothing for None, four digits for a number, a list with commas."""
+    """Write a value for people: nothing for None, four digits for a number, a list in one line."""
     if value is None:
         return ""
     if isinstance(value, float):
         return f"{value:.4g}"
     if isinstance(value, (list, tuple)):
-        return ", ".join(shown(item) for item in value)
+        return "; ".join(shown(item) for item in value)
     return str(value)
 
 

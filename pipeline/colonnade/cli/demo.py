@@ -86,7 +86,7 @@ def _tell(comparison: dict[str, Any]) -> None:
         say(f"e: {restitution['reason'] or restitution['source']}; true is {true:g}")
     else:
         held = "holds" if low <= true <= high else "misses"
-        say(f"e identified: {format_uncertain(value, (high - low) / 2)}, an interval of {restitution['level']:.0%}")
+        say(f"e identified: {format_uncertain(value, (high - low) / 2)} ({restitution['level']:.0%} interval)")
         say(f"e true: {true:g}, which the interval {held}")
     say()
     rows = []

@@ -46,8 +46,9 @@ def test_records(known: KnownCampaign) -> dict[str, Record]:
     """Each test as in summary.json; as pending where it has not been run."""
     summarised = known.summary.get("tests", {})
     return {
-        name: NEVER_RUN
-        | {"kind": test.kind, "specimen": test.specimen, "span": test.span, "observed_outcome": test.observed_outcome}
+        name: {"kind": test.kind, "specimen": test.specimen, "span": test.span}
+        | NEVER_RUN
+        | {"observed_outcome": test.observed_outcome}
         | summarised.get(name, {})
         for name, test in known.campaign.tests.items()
     }
