@@ -10,6 +10,9 @@ INTERVAL = 0.0025
 TIME = np.arange(0, 10, INTERVAL)
 
 
+ACCELERATIONS = ("acceleration", "acceleration")
+
+
 def _sine(frequency):
     ramp = np.clip(np.minimum(TIME - 1, 9 - TIME), 0, 1)
     return lambda delay: (
@@ -78,8 +81,9 @@ def test_a_steady_sine_has_a_rival_one_period_off(delay, frequency):
         _record(time, 2 * np.sin(2 * np.pi * frequency * (time - late)) + rng.normal(0, 0.01, time.size))
         for time, late in ((first, 0.0), (second, delay))
     ]
-    found = link(*records, longest=1.1, sign=1.0, second_derivatives=(False, False))
+    found = link(*records, quantities=ACCELERATIONS, longest=1.1, sign=1.0)
     assert found.rival is not None
+    assert "fits as well as" in found.doubt
     periods = (found.rival - found.seconds) * frequency
     assert round(periods) != 0
     assert periods == pytest.approx(round(periods), abs=0.02)
@@ -96,15 +100,16 @@ def test_a_sine_that_begins_has_no_rival(seed):
         )
         for time, late in ((first, 0.0), (second, 0.2))
     ]
-    found = link(*records, longest=1.0, sign=1.0, second_derivatives=(False, False))
+    found = link(*records, quantities=ACCELERATIONS, longest=1.0, sign=1.0)
     assert found.rival is None
+    assert found.doubt == ""
     assert abs(found.seconds - 0.2) < 1e-3
 
 
 def test_channels_that_point_against_each_other_are_linked_with_their_sign():
     displacement, acceleration = _earthquake(0.0), np.gradient(np.gradient(_earthquake(0.02), INTERVAL), INTERVAL)
     pair = _record(TIME, displacement), _record(TIME, -acceleration)
-    found = link(*pair, longest=1.0, sign=-1.0, second_derivatives=(True, False))
+    found = link(*pair, quantities=("displacement", "acceleration"), longest=1.0, sign=-1.0)
     assert found.is_determined
     assert abs(found.seconds - 0.02) < 1e-4
 
@@ -112,4 +117,4 @@ def test_channels_that_point_against_each_other_are_linked_with_their_sign():
 def test_records_that_share_no_time_are_refused():
     pair = _record(TIME, np.sin(TIME)), _record(TIME + 50, np.sin(TIME))
     with pytest.raises(ValueError, match="share 0 samples"):
-        link(*pair, longest=1.0, sign=1.0, second_derivatives=(False, False))
+        link(*pair, quantities=ACCELERATIONS, longest=1.0, sign=1.0)

@@ -27,6 +27,7 @@ def test_only_runs_the_tests_that_are_named_and_the_rest_is_pending(untouched):
         ({"until": "restitutoin"}, 'Did you mean "restitution"?'),
         ({"start_from": "ingets"}, 'Did you mean "ingest"?'),
         ({"only": ["puls-01"]}, 'Did you mean "pulse-01"?'),
+        ({"start_from": "predict", "until": "rocking"}, "comes before the one to start from"),
     ],
 )
 def test_a_slip_is_refused_with_the_nearest_name_and_nothing_is_written(untouched, options, said):
@@ -54,3 +55,8 @@ def test_a_test_whose_results_are_out_of_date_is_pending(small, options):
     small.edit("456 mm", "400 mm")
     small.run(**options)
     assert small.summary()["tests"]["pulse-02"]["status"] == "pending"
+
+
+def test_one_test_may_be_named_without_a_list(untouched):
+    result = untouched.run(only="pulse-01", until="ingest")
+    assert {stage.subject for stage in result.stages} == {"pulse-01"}

@@ -54,6 +54,21 @@ class Offset:
         """Whether the records agree well enough for the delay to mean something."""
         return self.correlation >= WEAKEST_CORRELATION
 
+    @property
+    def doubt(self) -> str:
+        """What speaks against the delay; empty where nothing does."""
+        if not self.is_determined:
+            return (
+                f"the two agree by {self.correlation:.2f} only ({WEAKEST_CORRELATION:g} is needed), as they do where "
+                "the table hardly moves"
+            )
+        if self.rival is not None:
+            return (
+                f"{1e3 * self.rival:.4g} ms fits as well as the {1e3 * self.seconds:.4g} ms taken, as in a steady "
+                "sine. Record the start or the end of the motion, or set processing.longest_offset below half a period"
+            )
+        return ""
+
 
 def find_offset(reference: Array, values: Array, interval: float, *, longest: float, bandwidth_hz: float) -> Offset:
     """
@@ -124,9 +139,7 @@ def _misfit(first: Array, second: Array, shift: int) -> float:
     return 1.0 - max(float(one @ other), 0.0) ** 2 / power if power > 0 else 1.0
 
 
-def link(
-    reference: Record, record: Record, *, longest: float, sign: float, second_derivatives: tuple[bool, bool]
-) -> Offset:
+def link(reference: Record, record: Record, *, quantities: tuple[str, str], longest: float, sign: float) -> Offset:
     """
     Find how late one recorder is against another from a channel of each.
 
@@ -134,12 +147,12 @@ def link(
     ----------
     reference, record : Record
         The same motion, each with its delay taken off its times.
+    quantities : (str, str)
+        Of both; a "displacement" beside an "acceleration" is differentiated twice.
     longest : float
         Largest delay of either sign that is looked for, s.
     sign : float
         -1 where the two channels point against each other, otherwise 1.
-    second_derivatives : (bool, bool)
-        Whether each is to be differentiated twice, as a displacement beside an acceleration.
 
     Raises
     ------
@@ -153,7 +166,7 @@ def link(
         raise ValueError(f"share {clock.size} samples; at least {FEWEST_SAMPLES} were expected")
     bandwidth = min(BANDWIDTH, 0.2 / interval)
     shared = []
-    for each, differentiated in zip((reference, record), second_derivatives, strict=True):
-        smooth = second_derivative if differentiated else lowpass
+    for each, quantity in zip((reference, record), quantities, strict=True):
+        smooth = second_derivative if quantity == "displacement" and "acceleration" in quantities else lowpass
         shared.append(resample(each.time, smooth(each.values, each.interval, bandwidth), clock, each.interval)[0])
     return find_offset(shared[0], sign * shared[1], interval, longest=longest, bandwidth_hz=bandwidth)

@@ -56,7 +56,7 @@ def find_rest(time: Array, channels: dict[str, tuple[Array, float]], *, end: boo
         if spread > QUIET * noise:
             restless.append(f"{name} moves by {spread:.2g} against a noise of {noise:.2g} (SI)")
     place = "end" if end else "start"
-    reason = f"the specimen is not at rest at the {place} of the record: {'; '.join(restless)}" if restless else ""
+    reason = f"specimen or table is not at rest at the {place} of the record: {'; '.join(restless)}" if restless else ""
     return RestWindow(float(start), float(stop), not restless, reason)
 
 

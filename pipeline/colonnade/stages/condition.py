@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -66,14 +67,7 @@ def instructions(campaign: Campaign, test: Test) -> Instructions:
     return Instructions(
         channels={name: (channel.quantity, channel.on, channel.recorder) for name, channel in setup.channels.items()},
         delays={name: channel.delay for name, channel in setup.channels.items()},
-        links={
-            name: (
-                clock.channel,
-                clock.own_channel,
-                _sign(setup.channels[clock.channel], setup.channels[clock.own_channel]),
-            )
-            for name, clock in aligned.items()
-        },
+        links={name: _link(setup.channels, clock) for name, clock in aligned.items()},
         sampling_rate=settings.sampling_rate,
         lowpass=settings.lowpass,
         base_lowpass=settings.base_lowpass,
@@ -86,10 +80,10 @@ def instructions(campaign: Campaign, test: Test) -> Instructions:
     )
 
 
-def _sign(channel: Channel, own_channel: Channel) -> float:
-    if channel.direction is None or own_channel.direction is None:
-        return 1.0
-    return -1.0 if np.dot(channel.direction, own_channel.direction) < 0 else 1.0
+def _link(channels: Mapping[str, Channel], clock: Align) -> tuple[str, str, float]:
+    one, other = channels[clock.channel].direction, channels[clock.own_channel].direction
+    against = one is not None and other is not None and float(np.dot(one, other)) < 0
+    return clock.channel, clock.own_channel, -1.0 if against else 1.0
 
 
 def condition(recorded: xr.Dataset, instructions: Instructions) -> xr.Dataset:
@@ -169,34 +163,24 @@ def _offsets(records: dict[str, Record], instructions: Instructions, warnings: l
         if channel not in records or own_channel not in records:
             warnings.append(f"recorder {recorder} could not be aligned, as {channel} or {own_channel} is not usable.")
             continue
-        quantities = [instructions.channels[name][0] for name in (channel, own_channel)]
-        differentiated = [quantity == "displacement" and "acceleration" in quantities for quantity in quantities]
         try:
             found = link(
                 records[channel],
                 records[own_channel],
+                quantities=(instructions.channels[channel][0], instructions.channels[own_channel][0]),
                 longest=instructions.longest_offset,
                 sign=sign,
-                second_derivatives=(differentiated[0], differentiated[1]),
             )
         except ValueError as error:
             raise StageError(
                 f"channels {channel} and {own_channel} {error}, as recorders are aligned on what both saw. "
                 "Look at the times in their files."
             ) from error
-        if not found.is_determined:
-            warnings.append(
-                f"recorder {recorder} was taken to start with the main one: {channel} and {own_channel} agree by "
-                f"{found.correlation:.2f} only (0.7 is needed), as they do where the table hardly moves."
-            )
-            continue
-        if found.rival is not None:
-            warnings.append(
-                f"recorder {recorder}: a clock offset of {1e3 * found.rival:.4g} ms fits as well as the "
-                f"{1e3 * found.seconds:.4g} ms taken, as in a steady sine. Record the start or the end of the motion, "
-                "or set processing.longest_offset below half a period."
-            )
-        offsets[recorder] = found
+        if found.is_determined:
+            offsets[recorder] = found
+        if found.doubt:
+            state = "aligned" if found.is_determined else "taken to start with the main one"
+            warnings.append(f"recorder {recorder} was {state} by {channel} and {own_channel}: {found.doubt}.")
     return offsets
 
 

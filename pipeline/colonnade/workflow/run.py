@@ -26,7 +26,7 @@ def run(
     *,
     until: str | None = None,
     start_from: str | None = None,
-    only: Sequence[str] = (),
+    only: Sequence[str] | str = (),
     workers: int | None = None,
     verify: bool = False,
     progress: Progress | None = None,
@@ -40,7 +40,7 @@ def run(
         A campaign.toml or its folder.
     until, start_from : str, optional
         Last stage; stage from which on results are made again whatever their state. One of `STAGES`.
-    only : sequence of str, optional
+    only : str or sequence of str, optional
         Ids of the tests to run; default all. Free vibrations of their specimens are run with them, as far as their e.
     workers : int, optional
         Processes; default one a core.
@@ -62,7 +62,9 @@ def run(
     """
     loaded = load(Path(campaign))
     last, first = _known_stage("until", until) or "report", _known_stage("start_from", start_from)
-    tests = _chosen(loaded, only)
+    if first is not None and STAGES.index(first) > STAGES.index(last):
+        raise CampaignError(f"from {first} until {last}: the stage to stop at comes before the one to start from.")
+    tests = _chosen(loaded, (only,) if isinstance(only, str) else only)
     layout = Layout(loaded.folder)
     with only_run(layout):
         index = RawIndex(layout, verify=verify)
