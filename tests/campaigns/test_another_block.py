@@ -1,5 +1,5 @@
 """
-A laboratory of another kind: a tall stone block, string-free transducers fixed to the ground, volts with gain and
+A laboratory of another kind: a tall stone block, transducers fixed to the ground, volts with gain and
 offset, decimal commas, a free vibration that starts tilted, and a test in which the block overturns onto its frame.
 """
 
