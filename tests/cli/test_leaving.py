@@ -84,3 +84,36 @@ def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign,
     assert "Interrupted" in complaints
     assert "Traceback" not in complaints
     assert colonnade("run", "--workers", "1").returncode == 0
+
+
+INSIDE_EXEC = """
+def invoke(arguments):
+    exec("os.kill(os.getpid(), signal.SIGTERM); time.sleep(9)")
+"""
+INSIDE_COMPILED_MODULE = """
+def invoke(arguments):
+    try:
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(9)
+    except KeyboardInterrupt as error:
+        raise ImportError("initialization failed") from error
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+@pytest.mark.parametrize(
+    "invoke",
+    [
+        pytest.param(INSIDE_EXEC, id="within exec of a text, where Python would end by SIGINT"),
+        pytest.param(INSIDE_COMPILED_MODULE, id="within a compiled module, which makes an ImportError of it"),
+    ],
+)
+def test_an_interrupt_during_imports_is_130_too(tmp_path, invoke):
+    (tmp_path / "interrupted.py").write_text(
+        f"import os, signal, time\nfrom colonnade import cli\n{invoke}\ncli.invoke = invoke\ncli.main()\n"
+    )
+    ended = subprocess.run(
+        [sys.executable, "-m", "interrupted"], cwd=tmp_path, capture_output=True, encoding="utf-8", timeout=60
+    )
+    assert ended.returncode == 130
+    assert "Traceback" not in ended.stderr

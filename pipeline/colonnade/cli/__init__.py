@@ -11,6 +11,7 @@ from typing import NoReturn
 
 INTERRUPTED = 130
 """Exit code of Ctrl-C and of a polite kill; click's own is 1, which means here that a test failed."""
+INTERRUPTION = "Interrupted. What is finished is kept; the same command goes on from there."
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
@@ -23,11 +24,29 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         if isinstance(stream, io.TextIOWrapper):
             # A console that cannot show θ or ± gets a question mark, not a traceback.
             stream.reconfigure(errors="replace")
-    signal.signal(signal.SIGTERM, _interrupt)
+    interrupted = False
+
+    def interrupt(signum: int, frame: FrameType | None) -> None:
+        nonlocal interrupted
+        interrupted = True
+        raise KeyboardInterrupt
+
+    signal.signal(signal.SIGTERM, interrupt)
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # not where a shell has it ignored
+        signal.signal(signal.SIGINT, interrupt)
     try:
         code = invoke(arguments)
     except KeyboardInterrupt:  # before there was anything to say it with
         code = INTERRUPTED
+    except Exception:
+        if not interrupted:
+            raise
+        # The import of a compiled module makes an ImportError of an interrupt.
+        sys.stderr.write(f"{INTERRUPTION}\n")
+        code = INTERRUPTED
+    # An interrupt within `exec` of a text, as dataclasses do at import, makes Python end itself by SIGINT although it
+    # was caught (its `unhandled_keyboard_interrupt`); another such `exec` makes it forget.
+    exec("")
     sys.exit(code)
 
 
@@ -52,7 +71,7 @@ def invoke(arguments: Sequence[str] | None = None) -> int:
         error.show(sys.stderr)
         return error.exit_code
     except (KeyboardInterrupt, click.Abort):
-        complain("Interrupted. What is finished is kept; the same command goes on from there.")
+        complain(INTERRUPTION)
         return INTERRUPTED
     except CampaignError as error:
         complain(str(error))
@@ -66,7 +85,3 @@ def invoke(arguments: Sequence[str] | None = None) -> int:
     finally:
         close_output()
     return int(code or 0)
-
-
-def _interrupt(signum: int, frame: FrameType | None) -> None:
-    raise KeyboardInterrupt
