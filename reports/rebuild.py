@@ -75,7 +75,7 @@ def table_1() -> str:
 
 def demo_numbers(truth: dict[str, Any], summary: dict[str, Any]) -> dict[str, Any]:
     """Return the demo campaign's results beside its truth."""
-    found = summary["specimens"][truth["specimen"]["id"]]["restitution"]
+    found = summary["specimens"]["prism"]["restitution"]
     tests = {}
     for name, true in truth["tests"].items():
         test = summary["tests"][name]
@@ -89,7 +89,9 @@ def demo_numbers(truth: dict[str, Any], summary: dict[str, Any]) -> dict[str, An
             },
             "nrmse": _rounded(predicted["nrmse"]),
         }
-    restitution = {"true": truth["restitution"]} | {key: _rounded(found[key], 5) for key in ("value", "low", "high")}
+    restitution = {"true": truth["specimens"]["prism"]["restitution"]} | {
+        key: _rounded(found[key], 5) for key in ("value", "low", "high")
+    }
     return {"seed": truth["seed"], "restitution": restitution, "tests": tests}
 
 
@@ -121,19 +123,19 @@ def draw(campaign: Campaign, folder: Path, picture: Path | None) -> None:
     block = campaign.block("prism")
     layout = Layout(campaign.folder)
     stored = {name: results.of_test(campaign, layout, test) for name, test in campaign.tests.items()}
-    spans = [(test, stored[name]) for name, test in campaign.tests.items() if test.kind == "earthquake"]
-    frees = [(test, stored[name]) for name, test in campaign.tests.items() if test.kind == "free-vibration"]
+    panels, described, series = [], [], []
+    for test in campaign.tests.values():
+        if test.kind == "earthquake":
+            panels.append(charts.span_panel(test, stored[test.id], block))
+            described.append(f"{panels[-1].title}: {charts.seen(stored[test.id])}")
+        if test.kind == "free-vibration" and (found := charts.peak_series(test, stored[test.id])) is not None:
+            series.append(found)
     title = "Measured and predicted rocking at three Spans"
-    (folder / "demo-spans.svg").write_text(charts.spans("demo-spans", title, spans, block), encoding="utf-8")
-    (folder / "demo-peaks.svg").write_text(charts.peaks("demo-peaks", frees, block), encoding="utf-8")
+    spans = charts.spans("demo-spans", title, " ".join(described), panels)
+    (folder / "demo-spans.svg").write_text(spans, encoding="utf-8")
+    (folder / "demo-peaks.svg").write_text(charts.peaks("demo-peaks", series, block), encoding="utf-8")
     if picture is not None:
-        panels = [
-            figures.SpanPanel(
-                f"Span {test.span}", charts.measured_ratio(found, block), charts.predicted_ratios(found, block)
-            )
-            for test, found in spans
-        ]
-        figures.spans_together(panels).savefig(picture, dpi=150, metadata={"Software": None})
+        figures.spans_side_by_side(panels).savefig(picture, dpi=150, metadata={"Software": None})
 
 
 def _rounded(value: float | None, digits: int = 4) -> float | None:

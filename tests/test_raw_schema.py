@@ -7,6 +7,7 @@ import tomllib
 from pathlib import Path
 
 import jsonschema
+import numpy as np
 import pytest
 
 from colonnade.campaign import load
@@ -15,7 +16,7 @@ from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.channel import Channel
 from colonnade.campaign.schema import json_schema, schema_text
 from colonnade.campaign.setup import Setup
-from colonnade.errors import CampaignError
+from colonnade.errors import CampaignError, ReadError
 from colonnade.readers.registry import formats, read
 from colonnade.stages import condition, ingest, restitution, rocking
 
@@ -24,7 +25,7 @@ RAW_SCHEMA = ROOT / "raw_schema"
 CONTRACT = tomllib.loads((ROOT / "tests" / "campaign" / "contract.toml").read_text(encoding="utf-8"))
 
 
-@pytest.mark.parametrize("name", ["campaign", "summary"])
+@pytest.mark.parametrize("name", ["campaign", "summary", "review"])
 def test_schema_file_is_what_the_models_say(name):
     written = (RAW_SCHEMA / f"{name}.schema.json").read_text(encoding="utf-8")
     assert json.loads(written) == json_schema(name), (
@@ -85,6 +86,57 @@ def test_the_data_dictionary_names_every_key(table):
 
 def test_every_format_has_a_worked_example():
     assert {path.parent.name for path in (RAW_SCHEMA / "examples").glob("*/campaign.toml")} == set(formats())
+
+
+def example(name):
+    """Ingest the one test of a worked example."""
+    campaign = load(RAW_SCHEMA / "examples" / name)
+    (test,) = campaign.tests.values()
+    file = campaign.setups[test.setup].file
+    recording = read(test.files["main"], file.format, file.options)
+    assert read(test.files["main"]).format == name, "it is recognised without being told"
+    return ingest.ingest({"main": recording}, ingest.instructions(campaign, test))
+
+
+@pytest.mark.parametrize(
+    "name", ["catman", "diadem", "excel", "famos", "lvm", "matlab", "mdf", "mts", "netcdf", "tdms", "uff"]
+)
+def test_the_free_vibration_is_the_same_in_every_format(name):
+    if not formats()[name].is_installed:
+        pytest.skip(formats()[name].installation)
+    recorded, reference = example(name), example("delimited")
+    assert recorded.sizes["elapsed"] == 801
+    np.testing.assert_allclose(recorded["elapsed"], reference["elapsed"], atol=1e-6)
+    for channel, rounding in (("top", 1e-8), ("bottom", 1e-8), ("table_acceleration", 1e-5)):
+        np.testing.assert_allclose(recorded[channel], reference[channel], rtol=2e-7, atol=rounding)
+
+
+@pytest.mark.parametrize("name", ["bhrc", "cosmos", "peer", "waveform"])
+def test_the_pulse_is_the_same_in_every_format(name):
+    if not formats()[name].is_installed:
+        pytest.skip(formats()[name].installation)
+    recorded = example(name)
+    time = np.arange(601) / 200
+    np.testing.assert_allclose(recorded["elapsed"], time, atol=1e-6)
+    moving = (time >= 0.5) & (time <= 2.5)
+    pulse = 0.05 * np.sin(4 * np.pi * (time - 0.5)) * np.sin(np.pi * (time - 0.5) / 2)
+    np.testing.assert_allclose(recorded["table_acceleration"], 9.80665 * np.where(moving, pulse, 0), atol=1e-7)
+
+
+def test_the_format_of_the_readme_works_as_it_stands(tmp_path):
+    text = (RAW_SCHEMA / "README.md").read_text(encoding="utf-8")
+    module = {}
+    exec(text.split("```python\n")[1].split("```")[0], module)
+    path = tmp_path / "record.bbx"
+    path.write_bytes(b"BBX1" + np.array([200, 0.5, -0.25, 1], dtype="<f4").tobytes())
+    blackbox = module["FORMAT"]
+    assert blackbox.recognise(path).yes
+    channel = blackbox.read(path, blackbox.options()).channel("signal")
+    assert (channel.values.tolist(), channel.unit) == ([0.5, -0.25, 1.0], "V")
+    assert channel.time.tolist() == [0.0, 0.005, 0.01]
+    path.write_bytes(b"BBX1")
+    with pytest.raises(ReadError, match="cut off"):
+        blackbox.read(path, blackbox.options())
 
 
 def test_the_delimited_example_gives_the_restitution_it_was_made_with():

@@ -9,6 +9,8 @@ from colonnade.campaign import Channel
 
 DISPLACEMENT = {"column": "LVDT", "quantity": "displacement", "on": "table", "direction": [1, 0, 0]}
 
+SPECIMEN = {"unit": "mm", "on": "specimen", "at": ["43 mm", "0 mm", "440 mm"], "relative_to": "table"}
+
 
 def channel(**keys: object) -> Channel:
     return Channel.model_validate(DISPLACEMENT | keys)
@@ -89,8 +91,13 @@ def problems(**keys: object) -> dict[str, str]:
         ),
         ({"unit": "mm", "delay": "2 mm"}, "delay", "A time was expected"),
         ({"unit": "mm", "column": ""}, "column", "column's name, or its number from 1"),
-        ({"unit": "mm", "sensing": "surface"}, "normal", "needs the normal of the face"),
+        ({"unit": "mm", "sensing": "surface"}, "sensing", "is for a displacement of the specimen"),
         ({"unit": "mm", "sensing": "wire"}, "anchor", "needs its fixed end"),
+        ({"unit": "mm", "normal": [1, 0, 0]}, "normal", 'goes with sensing = "surface"'),
+        ({"unit": "mm", "anchor": ["1 m", "0 m", "0 m"]}, "anchor", 'goes with sensing = "wire"'),
+        (SPECIMEN | {"sensing": "surface", "normal": [0, 0, 1]}, "normal", "runs along this face"),
+        (SPECIMEN | {"sensing": "wire", "anchor": ["43 mm", "0 mm", "1 m"]}, "anchor", "runs across `direction`"),
+        (SPECIMEN | {"sensing": "wire", "anchor": ["43 mm", "0 mm", "440 mm"]}, "anchor", "has no length"),
     ],
 )
 def test_a_channel_that_does_not_fit_together_is_told_at_its_key(keys, key, words):
@@ -106,3 +113,16 @@ def test_several_problems_of_one_channel_are_told_together():
         "gain",
         "relative_to",
     }
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"sensing": "surface", "normal": [1, 0, 0]},
+        {"sensing": "surface"},
+        {"sensing": "wire", "anchor": ["-500 mm", "50 mm", "440 mm"]},
+    ],
+    ids=["laser on a face", "laser on a round side", "string pot"],
+)
+def test_lines_of_sight_and_wires_that_see_the_specimen_are_taken(keys):
+    assert channel(**SPECIMEN | keys).sensing == keys["sensing"]

@@ -317,3 +317,16 @@ def test_a_mutated_campaign_is_read_or_refused_with_a_place_never_a_traceback(tm
     except CampaignError as error:
         told = str(error)
     assert all(line.startswith("campaign.toml") for line in told.splitlines())
+
+
+@pytest.mark.parametrize(("specimen", "told"), [("prism", True), ("statue", True), ("cylinder", False)])
+def test_a_laser_needs_the_normal_of_its_face_unless_the_specimen_is_round(specimen, told, contract, load_text):
+    laser = """laser = {column = "L", quantity = "displacement", unit = "mm", on = "specimen", sensing = "surface",
+        at = ["48.5 mm", "0 mm", "400 mm"], direction = [1, 0, 0], relative_to = "table"}"""
+    text = contract.replace("[processing]", f"{' '.join(laser.split())}\n\n[processing]")
+    text = text.replace('specimen = "prism"', f'specimen = "{specimen}"')
+    if told:
+        with pytest.raises(CampaignError, match=r"channels\.laser\.normal.*outward normal of the face"):
+            load_text(text)
+    else:
+        assert load_text(text).setups["frame"].channels["laser"].normal is None

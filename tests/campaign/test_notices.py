@@ -7,9 +7,6 @@ import pytest
 
 def test_keys_without_a_stage_are_told_once_with_the_first_place(contract, load_text):
     assert load_text(contract).warnings == (
-        "scale is understood but not yet used (specimens.prism and 1 more).",
-        "table_tilt is understood but not yet used (setups.frame).",
-        "time_scale is understood but not yet used (tests[span-2.0]).",
         'tests[span-2.0] has no file of recorder "daq2"; its channels are absent in this test.',
     )
 
@@ -28,17 +25,14 @@ CHANNEL = {
 @pytest.mark.parametrize(
     ("keys", "told"),
     [
-        ({"sensing": '"surface"', "normal": "[1, 0, 0]"}, 'sensing = "surface" is understood but not yet used'),
-        ({"sensing": '"wire"', "anchor": '["1 m", "0 m", "0 m"]'}, "anchor is understood but not yet used"),
-        ({"quantity": '"acceleration"', "unit": '"g"'}, 'quantity = "acceleration" on the specimen is understood'),
-        ({"quantity": '"angular_velocity"', "unit": '"deg/s"'}, 'quantity = "angular_velocity" on the specimen'),
-        ({"direction": "[0, 1, 0]"}, "a displacement out of the plane of rocking is understood but not yet used"),
+        ({"quantity": '"velocity"', "unit": '"m/s"'}, 'quantity = "velocity" on the specimen is understood'),
         ({"on": '"ground"'}, 'quantity = "displacement" on the ground is understood'),
-        ({"on": '"table"', "direction": "[0, 0, 1]"}, "a motion of the table that is not along x"),
+        ({"on": '"table"', "direction": "[1, 0, 1]"}, "a motion of the table that is along none of x, y and z"),
+        ({"quantity": '"acceleration"', "unit": '"g"', "at": None}, "an accelerometer on the specimen without `at`"),
     ],
 )
 def test_a_channel_without_a_stage_is_told(keys, told, contract, load_text):
-    channel = ", ".join(f"{key} = {value}" for key, value in (CHANNEL | keys).items())
+    channel = ", ".join(f"{key} = {value}" for key, value in (CHANNEL | keys).items() if value)
     text = contract.replace("[processing]", f"extra = {{{channel}}}\n\n[processing]")
     assert any(warning.startswith(told) for warning in load_text(text).warnings)
 
@@ -56,3 +50,30 @@ def test_a_sine_without_frequency_and_a_campaign_without_tests_are_told(contract
     sine = contract.replace('kind = "earthquake"', 'kind = "sine"')
     assert any("sine test without frequency" in warning for warning in load_text(sine).warnings)
     assert "There is no test yet." in load_text(contract[: contract.index("[[tests]]")]).warnings
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"sensing": '"surface"', "normal": "[1, 0, 0]"},
+        {"sensing": '"wire"', "anchor": '["1 m", "0 m", "0 m"]'},
+        {"quantity": '"angle"', "unit": '"deg"', "direction": "[0, 1, 0]"},
+        {"quantity": '"angular_velocity"', "unit": '"deg/s"', "direction": "[0, 1, 0]"},
+        {"quantity": '"acceleration"', "unit": '"g"'},
+        {"direction": "[0, 1, 0]"},
+        {"on": '"table"', "direction": "[0, 0, 1]"},
+    ],
+    ids=["laser", "string pot", "inclinometer", "gyroscope", "accelerometer", "across", "vertical table"],
+)
+def test_transducers_of_all_kinds_are_used_without_a_word(keys, contract, load_text):
+    channel = ", ".join(f"{key} = {value}" for key, value in (CHANNEL | keys).items())
+    text = contract.replace("[processing]", f"extra = {{{channel}}}\n\n[processing]")
+    assert not any("extra" in warning for warning in load_text(text).warnings)
+
+
+@pytest.mark.parametrize(("at", "told"), [('["48.5 mm", "0 mm", "400 mm"]', 0), ('["0 mm", "0 mm", "400 mm"]', 1)])
+def test_a_line_of_sight_that_starts_off_a_round_side_is_told(at, told, contract, load_text):
+    channel = ", ".join(f"{key} = {value}" for key, value in (CHANNEL | {"sensing": '"surface"', "at": at}).items())
+    text = contract.replace("[processing]", f"extra = {{{channel}}}\n\n[processing]")
+    text = text.replace('specimen = "prism"', 'specimen = "cylinder"')
+    assert sum("from the axis of cylinder" in warning for warning in load_text(text).warnings) == told

@@ -6,7 +6,7 @@ offset, decimal commas, a free vibration that starts tilted, and a test in which
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Trial
+from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import Flavour
 from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.programme import write
@@ -48,10 +48,7 @@ def _plan():
     return Plan(
         campaign="stone-block",
         title="Rocking of a stone block",
-        specimen="stone",
-        shape=SHAPE,
-        block=STONE,
-        restitution=RESTITUTION,
+        specimens={"stone": Specimen(SHAPE, STONE, RESTITUTION)},
         setups={"frame": Setup({MAIN: Recorder(transducers, 250.0, flavour)}, catch=CATCH)},
         trials=(
             Trial("let-go", "free-vibration", "frame", 24.0, theta0=-0.6 * STONE.critical_angle, release=2.0),

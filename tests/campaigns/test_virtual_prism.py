@@ -25,7 +25,7 @@ def test_twenty_campaigns_give_the_true_restitution_outcomes_and_angles(tmp_path
         written = write_campaign(tmp_path / str(seed), seed=seed)
         outcome = run_campaign(written.path, until="compare")
         pooled.append(outcome.summary["specimens"]["prism"]["restitution"])
-        critical_angle = written.truth["specimen"]["critical_angle"]
+        critical_angle = written.truth["specimens"]["prism"]["critical_angle"]
         for name, true in written.truth["tests"].items():
             errors.append(outcome.angle_error(name, critical_angle))
             found = outcome.test(name)["outcome"]

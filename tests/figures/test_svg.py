@@ -7,7 +7,7 @@ import matplotlib
 import numpy as np
 import pytest
 
-from colonnade.figures import Curve, SpanPanel, history_with_base, spans_together, to_svg
+from colonnade.figures import Curve, Quantity, SpanPanel, spans_side_by_side, to_svg, whole_record
 
 TEXT = 'Test <a> & "b"'
 
@@ -16,7 +16,9 @@ def long_figure(samples: int = 60_000):
     time = np.arange(samples) / 1000
     noise = np.random.default_rng(5)
     measured, linear, base = (Curve(time, noise.normal(size=samples)) for _ in range(3))
-    return history_with_base(measured, {"linear": linear, "nonlinear": measured, "contact": linear}, base)
+    return whole_record(
+        measured, {"linear": linear, "nonlinear": measured, "contact": linear}, base=[Quantity("base\n(m/s²)", base)]
+    )
 
 
 def svg(identity: str = "one", figure=None) -> str:
@@ -71,7 +73,7 @@ def test_it_holds_no_date_no_script_no_style_sheet_and_no_outside_link():
 
 def test_text_stays_text_and_dollar_signs_are_no_formula():
     panels = [SpanPanel("costs $2 and $3", Curve(np.arange(3.0), np.arange(3.0)), {})]
-    assert "costs $2 and $3" in to_svg(spans_together(panels), identity="one", title="", description="")
+    assert "costs $2 and $3" in to_svg(spans_side_by_side(panels), identity="one", title="", description="")
 
 
 @pytest.mark.parametrize("identity", ["", "2.0", "a b", 'a"b', "é"])

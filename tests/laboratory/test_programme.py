@@ -13,7 +13,7 @@ from colonnade import campaign
 from colonnade.dynamics.block import Block
 from colonnade.errors import CampaignError, StoreError
 from colonnade.laboratory import write_campaign
-from colonnade.laboratory.experiment import Plan, Recorder, Setup, Trial
+from colonnade.laboratory.experiment import Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import GERMAN
 from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.programme import WrittenCampaign, write
@@ -53,10 +53,11 @@ def statue_plan() -> Plan:
     return Plan(
         campaign="statue-1",
         title='A "statue", shaken',
-        specimen="statue.a",
-        shape={"shape": "cylinder", "diameter": "120 mm", "height": "500 mm", "mass": "40 kg"},
-        block=block,
-        restitution=0.93,
+        specimens={
+            "statue.a": Specimen(
+                {"shape": "cylinder", "diameter": "120 mm", "height": "500 mm", "mass": "40 kg"}, block, 0.93
+            )
+        },
         setups={"frame": Setup({"main": Recorder(transducers, 250.0, GERMAN)}, catch=0.4)},
         trials=(
             Trial("tilted", "free-vibration", "frame", 12.0, theta0=0.5 * block.critical_angle, release=1.2),
@@ -92,7 +93,7 @@ def test_the_prisms_outcomes_are_those_of_the_programme(prism: WrittenCampaign) 
         "sine-2Hz": "overturned",
         **dict.fromkeys(["span-2.0", "span-2.5", "span-3.0"], "rocking"),
     }
-    assert prism.truth["restitution"] == 0.976
+    assert prism.truth["specimens"]["prism"]["restitution"] == 0.976
     assert json.loads(prism.truth_path.read_text()) == prism.truth
 
 
@@ -100,8 +101,8 @@ def test_its_campaign_file_loads_with_the_block_that_was_simulated(prism: Writte
     loaded = campaign.load(prism.path)
     assert list(loaded.tests) == list(prism.truth["tests"])
     block = loaded.specimens["prism"].block(loaded.gravity)
-    assert block.critical_angle == pytest.approx(prism.truth["specimen"]["critical_angle"], rel=1e-12)
-    assert block.p == pytest.approx(prism.truth["specimen"]["p"], rel=1e-12)
+    assert block.critical_angle == pytest.approx(prism.truth["specimens"]["prism"]["critical_angle"], rel=1e-12)
+    assert block.p == pytest.approx(prism.truth["specimens"]["prism"]["p"], rel=1e-12)
 
 
 def test_every_raw_file_is_read_without_a_warning_with_its_own_clock(prism: WrittenCampaign) -> None:
@@ -188,7 +189,9 @@ def test_a_campaign_of_ones_own_reads_back_in_si(tmp_path: Path) -> None:
     loaded = campaign.load(written.path)
     assert loaded.gravity == 9.8
     assert loaded.title == 'A "statue", shaken'
-    assert loaded.specimens["statue.a"].block(loaded.gravity).p == pytest.approx(statue_plan().block.p, rel=1e-12)
+    assert loaded.specimens["statue.a"].block(loaded.gravity).p == pytest.approx(
+        statue_plan().specimens["statue.a"].block.p, rel=1e-12
+    )
     assert written.truth["tests"]["fallen"]["outcome"] == "overturned"
     assert written.truth["tests"]["tilted"]["outcome"] == "rocking"
     table = statue_plan().trials[1].table
@@ -226,3 +229,9 @@ def test_a_folder_that_is_not_free_is_refused_and_left_alone(
     with pytest.raises(error, match=said):
         write(statue_plan(), tmp_path)
     assert tree(tmp_path) == before
+
+
+def test_several_processes_write_what_one_writes(tmp_path: Path) -> None:
+    for folder, workers in (("one", 1), ("two", 2)):
+        write(statue_plan(), tmp_path / folder, seed=1, workers=workers)
+    assert tree(tmp_path / "one") == tree(tmp_path / "two")

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.motion import Motion
-from colonnade.laboratory.record import el_centro
 from colonnade.laboratory.table import TableMotion, ramped_sine, recorded, still
+from colonnade.readers.el_centro import el_centro
 
 RECORD_STEP = 0.02 / 20**0.5
 START = 100 * RECORD_STEP

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from colonnade.errors import ReadError
 from colonnade.readers.registry import read
 
 
@@ -44,24 +43,7 @@ def test_the_first_samples_of_a_file_without_header_are_kept(shared_data: Path) 
     assert recording.channel(2).values[:3].tolist() == [0.009, 0.0262, 0.0434]
 
 
-def test_a_german_file_with_a_long_preamble_and_decimal_commas(shared_data: Path) -> None:
-    recording = read(shared_data / "mts" / "emodul_specimen.dat")
-    assert [channel.unit for channel in recording.channels] == ["d", "s", "kN", "kN", "mm", "mm", "mm", "mm"]
-    force = recording.channel("Ch 1 Kraft")
-    assert force.values[0] == -1.0232348
-    assert np.nanmax(np.abs(force.values)) == pytest.approx(147.2, abs=0.1)
-    assert force.time is not None
-    assert np.nanmedian(np.diff(force.time)) == pytest.approx(0.5, abs=1e-3)
-    assert any("line" in warning for warning in recording.warnings)  # the file goes on with other blocks
-
-
 def test_a_record_as_two_columns(shared_data: Path) -> None:
     recording = read(shared_data / "motion" / "elcentro_chopra_xy.dat")
     assert recording.channel("Y").values.size == 1560
     assert np.abs(recording.channel("y").values).max() == pytest.approx(0.3188, abs=5e-5)
-
-
-@pytest.mark.parametrize("name", ["tdms/raw1.tdms", "shaketable/grashorn_testingData.mat", "imc/datasetA_1.raw"])
-def test_a_binary_file_is_refused_with_the_reason(shared_data: Path, name: str) -> None:
-    with pytest.raises(ReadError, match=r"delimited: .*not printable"):
-        read(shared_data / name)

@@ -19,7 +19,12 @@ PREAMBLES = [
     ["Erdbebensimulator, Prüfstand 3"],
     ["# recorded by: a logger", "# rate: 200 Hz", ""],
     ["Sampling rate;200", "Channels;3", "Operator;N. N.", "Date;26.04.2013", ""],
-    ["", "", "Title: rocking of a prism", "Remark, with, many, commas, in, it"],
+    [
+        "",
+        "",
+        "Title: rocking of a prism",
+        "Remark, with, so, many, commas, in, it, that, no, table, here, is, as, wide",
+    ],
 ]
 NAMES = ["LVDT 1", "Kraft oben", "ACC-X", "µ-strain", "Table accel XXXX", "1281068", "top"]
 UNITS = ["mm", "V", "kN", "m/s²", "g", "°", "Volts"]

@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
+import struct
+import subprocess
+import sys
+import tomllib
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
+from pydantic import BaseModel, ConfigDict
 
 from colonnade.errors import ReadError
-from colonnade.readers.registry import formats, read
+from colonnade.readers import registry
+from colonnade.readers.delimited import FORMAT as DELIMITED
+from colonnade.readers.recording import Recording
+from colonnade.readers.registry import Format, Recognition, formats, read
 
 
 def test_delimited_text_is_always_known_and_asked_last() -> None:
@@ -48,3 +59,105 @@ def test_a_folder_is_no_raw_file(tmp_path: Path) -> None:
 def test_an_unknown_format_is_told_with_the_nearest_name(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match=r'There is no format "delimitted". Did you mean "delimited"'):
         read(tmp_path / "record.csv", "delimitted")
+
+
+class NoOptions(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+
+
+def stumbling(error: Exception, **told: Any) -> Format:
+    """A format whose parser stumbles over every file."""
+
+    def read(path: Path, options: NoOptions) -> Recording:
+        raise error
+
+    return Format("odd", "", (), NoOptions, lambda path: Recognition(True, "always"), read, **told)
+
+
+@pytest.fixture
+def only(monkeypatch: pytest.MonkeyPatch) -> Callable[[Format], None]:
+    def use(format: Format) -> None:
+        monkeypatch.setattr(registry, "formats", lambda: {format.name: format})
+
+    return use
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        struct.error("unpack requires 4 bytes"),
+        KeyError("x"),
+        RecursionError(),
+        AssertionError(),
+        OSError("not an MSEED"),
+    ],
+    ids=lambda error: type(error).__name__,
+)
+def test_whatever_a_parser_stumbles_over_is_told_with_the_file_and_what_to_do(
+    tmp_path: Path, only: Callable[[Format], None], error: Exception
+) -> None:
+    only(stumbling(error))
+    with pytest.raises(ReadError, match=rf'r.bin: it cannot be read as "odd" \({type(error).__name__}.*Copy it from'):
+        read(tmp_path / "r.bin")
+
+
+def test_lack_of_memory_is_no_fault_of_the_file(tmp_path: Path, only: Callable[[Format], None]) -> None:
+    only(stumbling(MemoryError()))
+    with pytest.raises(MemoryError):
+        read(tmp_path / "r.bin")
+
+
+def test_a_file_that_may_not_be_read_is_told_as_such(tmp_path: Path, only: Callable[[Format], None]) -> None:
+    only(stumbling(PermissionError(13, "Permission denied")))
+    with pytest.raises(ReadError, match=r"it cannot be opened \(Permission denied\)"):
+        read(tmp_path / "r.bin")
+
+
+def test_a_recogniser_that_stumbles_leaves_the_others_their_turn(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def recognise(path: Path) -> Recognition:
+        raise struct.error("unpack requires 8 bytes")
+
+    odd = replace(stumbling(ValueError()), recognise=recognise)
+    monkeypatch.setattr(registry, "formats", lambda: {"odd": odd, "delimited": DELIMITED})
+    path = tmp_path / "record.csv"
+    path.write_text("a;b\n1;2\n3;4\n")
+    assert read(path).format == "delimited"
+    path.write_text("words\n")
+    with pytest.raises(ReadError, match=r"odd: it could not be looked at \(error: unpack requires 8 bytes\)"):
+        read(path)
+
+
+def test_a_missing_package_is_told_with_the_command_that_installs_it(
+    tmp_path: Path, only: Callable[[Format], None]
+) -> None:
+    format = stumbling(ImportError("no"), package="no_such_package_anywhere", extra="seismic")
+    only(format)
+    assert not format.is_installed
+    with pytest.raises(
+        ReadError, match=r'needs the package no_such_package_anywhere, .* pip install "colonnade\[seismic\]"'
+    ):
+        read(tmp_path / "r.bin")
+
+
+def test_every_extra_of_a_format_is_one_of_the_project() -> None:
+    project = Path(__file__).resolve().parents[2] / "pyproject.toml"
+    extras = tomllib.loads(project.read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    for format in formats().values():
+        assert bool(format.package) == bool(format.extra)
+        if format.extra:
+            assert any(needed.startswith(format.package) for needed in extras[format.extra])
+            assert format.extra in extras["formats"][0]
+
+
+def test_looking_at_a_file_loads_none_of_the_heavy_packages(tmp_path: Path) -> None:
+    path = tmp_path / "record.bin"
+    path.write_bytes(bytes(range(256)) * 20)
+    code = (
+        "import sys; from pathlib import Path; from colonnade.readers.registry import formats; "
+        f"[format.recognise(Path({str(path)!r})) for format in formats().values()]; "
+        "print(*sorted({'obspy', 'asammdf', 'pandas', 'scipy', 'h5py', 'matplotlib'} & sys.modules.keys()))"
+    )
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert told.stdout.split() == []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ import xarray as xr
 from scipy.signal import butter, sosfiltfilt
 
 from colonnade.campaign import Campaign, load
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.restitution import identify_restitution
@@ -38,6 +40,7 @@ width = "86 mm"
 depth = "86 mm"
 height = "456 mm"
 mass = "26.10 kg"
+scale = 20
 
 [specimens.statue]
 shape = "measured"
@@ -91,8 +94,20 @@ def _tests() -> str:
     return text
 
 
+SETTINGS = {
+    "ingest": {"limits": {"spike_threshold": 8.0, "flat_duration": 0.5, "gap": 1.5, "jitter": 0.05}},
+    "condition": {"channels": {"top": {"on": "specimen"}}, "lowpass": 25.0, "base_lowpass": "auto", "filter_order": 4,
+                  "zero": "auto", "rest_duration": 0.5, "longest_offset": 1.0},
+    "restitution": {"lowest_amplitude": 0.02, "level": 0.95},
+    "predict": {"rest_angle": 1e-6},
+}  # fmt: skip
+
+
 def _attributes(stage: str, subject: str) -> dict[str, str]:
-    return global_attributes(campaign="prism-2013", title="Prism", facility=None, stage=stage, test=subject)
+    settings = SETTINGS.get(stage, {}) | ({"filter_order": 2} if subject == "span-3.0" else {})
+    return {"settings": json.dumps(settings)} | global_attributes(
+        campaign="prism-2013", title="Prism", facility=None, stage=stage, test=subject
+    )
 
 
 def _write(dataset: xr.Dataset, path: Path, stage: str, subject: str, warnings: list[str] | None = None) -> None:
@@ -125,14 +140,26 @@ def _rocking(history: Any, base: np.ndarray[Any, Any] | None, noise: float, seed
     }
     if base is not None:
         values["base_acceleration"] = ("elapsed", base)
+        values["slide"] = ("elapsed", 1e-5 * np.arange(angle.size) / angle.size)
+        values["slide_standard_error"] = ((), 2e-6)
+        values["residual_to_noise"] = ("transducer", [1.2])
+        values["residual_to_reading"] = ("transducer", [0.013])
     return xr.Dataset(
         values,
-        coords={"elapsed": history.time},
+        coords={"elapsed": history.time, "transducer": ("transducer", np.array(["top"], dtype=object))},
         attrs={"outcome": history.outcome, "separation": "one transducer: rotation alone, the slide is taken as nil"},
     )
 
 
-def _predicted(history: Any, base: np.ndarray[Any, Any] | None, source: str) -> xr.Dataset:
+def _predictions(block: Block, base: np.ndarray[Any, Any] | None, source: str, **given: Any) -> dict[str, xr.Dataset]:
+    motion = None if base is None else Motion(base * given.pop("stronger", 1.0), INTERVAL)
+    return {
+        model: _predicted(rock(block, motion, model=model, **given), base, source, model)
+        for model in ("linear", "nonlinear")
+    }
+
+
+def _predicted(history: Any, base: np.ndarray[Any, Any] | None, source: str, model: str) -> xr.Dataset:
     return xr.Dataset(
         {
             "rocking_angle": ("elapsed", history.angle),
@@ -146,37 +173,50 @@ def _predicted(history: Any, base: np.ndarray[Any, Any] | None, source: str) -> 
             "impact_count": ((), history.impact_times.size),
         },
         coords={"elapsed": history.time},
-        attrs={"outcome": history.outcome, "model": "linear", "restitution_source": source},
+        attrs={"outcome": history.outcome, "model": model, "restitution_source": source},
     )
 
 
-def _compared(measured: xr.Dataset, predicted: xr.Dataset, nrmse: float) -> xr.Dataset:
-    ratio = float(predicted["peak_ratio"])
-    return xr.Dataset(
-        {
-            "nrmse": ("model", [nrmse]),
-            "compared_until": ("model", [5.0]),
-            "predicted_peak_ratio": ("model", [ratio]),
-            "peak_ratio_error": ("model", [0.01]),
-            "predicted_outcome": ("model", np.array([predicted.attrs["outcome"]], dtype=object)),
-            "measured_peak_ratio": ((), float(measured["peak_ratio"]) if "peak_ratio" in measured else np.nan),
-        },
-        coords={"model": ("model", np.array(["linear"], dtype=object))},
-        attrs={"outcome_measured": measured.attrs["outcome"]},
-    )
+def _compared(measured: xr.Dataset, predicted: dict[str, xr.Dataset], nrmse: float, order: str) -> xr.Dataset:
+    models = list(predicted)
+    ratios = [float(each["peak_ratio"]) for each in predicted.values()]
+    outcomes = [each.attrs["outcome"] for each in predicted.values()]
+    values: dict[str, Any] = {
+        "nrmse": ("model", [nrmse, nrmse / 2]),
+        "compared_until": ("model", [5.0, 5.0]),
+        "predicted_peak_ratio": ("model", ratios),
+        "peak_ratio_error": ("model", [0.01, -0.02]),
+        "predicted_outcome": ("model", np.array(outcomes, dtype=object)),
+        "measured_peak_ratio": ((), float(measured["peak_ratio"]) if "peak_ratio" in measured else np.nan),
+    }
+    if order:
+        values |= {
+            "forcing_frequency": ((), 3.001),
+            "frequency_ratio": ((), 3.348),
+            "amplitude_ratio": ((), 3.784),
+            "predicted_response_order": ("model", np.array(["1", order], dtype=object)),
+        }
+    attributes = {"outcome_measured": measured.attrs["outcome"], "response_order": order}
+    return xr.Dataset(values, coords={"model": ("model", np.array(models, dtype=object))}, attrs=attributes)
 
 
 def _recorded(name: str) -> xr.Dataset:
-    flags, values = np.ones(10, np.int8), np.arange(10.0)
+    top = {"channel": "top", "quantity": "displacement", "column": "LVDT <1>", "recorded_unit": "mm"}
+    top["quality_report"] = "3 samples are spikes, the first at 1.204 s"
+    flags, values = np.array([1, 1, 1, 4, 4, 1, 1, 1, 1, 1], np.int8), np.arange(10.0)
     return xr.Dataset(
         {
-            "top": ("elapsed", values, {"channel": "top", "quantity": "displacement", "on": "specimen",
-                                        "quality_report": "3 samples are spikes, the first at 1.204 s"}),
+            "top": ("elapsed", values, top),
             "top_recorded": ("elapsed", values),
             "top_quality": ("elapsed", flags),
         },
         coords={"elapsed": values},
-        attrs={"raw_files": [f"raw/{name}.csv"], "raw_sha256": [sha256(name.encode()).hexdigest()]},
+        attrs={
+            "raw_files": [f"raw/{name}.csv"],
+            "raw_sha256": [sha256(name.encode()).hexdigest()],
+            "notes": f"{name}.csv: delimiter <;>; {name}.csv: names on line 1",
+            "review": [f"2013-04-26, N. N.: top flagged: {MARKUP}"] if name == "span-2.5" else [],
+        },
     )  # fmt: skip
 
 
@@ -193,10 +233,10 @@ def _conditioned() -> xr.Dataset:
 def _fill(campaign: Campaign, layout: Layout) -> None:
     block = campaign.specimens["prism"].block(campaign.gravity)
     for seed, name in enumerate(FREE):
-        truth = rock(block, restitution=0.976, theta0=0.5 * block.critical_angle, duration=8.0)
-        model = rock(block, restitution=0.974, theta0=0.5 * block.critical_angle, duration=8.0)
-        measured, predicted = _rocking(truth, None, 3e-4, seed), _predicted(model, None, "identified")
-        _test(layout, name, measured, predicted, 0.012)
+        start = {"theta0": 0.5 * block.critical_angle, "duration": 8.0}
+        truth = rock(block, restitution=0.976, **start)
+        measured = _rocking(truth, None, 3e-4, seed)
+        _test(layout, name, measured, _predictions(block, None, "identified", restitution=0.974, **start), 0.012)
         found = identify_restitution(truth.time, measured["rocking_angle"].to_numpy(), block, noise=3e-4)
         refused = name == "free-refused"
         used = np.zeros(found.peaks.used.size, np.int8) if refused else found.peaks.used.astype(np.int8)
@@ -213,22 +253,24 @@ def _fill(campaign: Campaign, layout: Layout) -> None:
                 "peak_angle_standard_error": ("peak", found.peaks.standard_error),
                 "fitted_angle": ("peak", found.peaks.fitted_angle * (np.nan if refused else 1.0)),
                 "peak_used": ("peak", used),
+                "restitution_history": ("model", [0.97511, np.nan]),
+                "restitution_history_low": ("model", [0.97411, np.nan]),
+                "restitution_history_high": ("model", [0.97611, np.nan]),
             },
+            coords={"model": ("model", np.array(["linear", "nonlinear"], dtype=object))},
             attrs={"method": found.method, "reason": f"The peaks do not decay. {MARKUP}" if refused else ""},
         )
         _write(identified, layout.stage(name, "restitution"), "restitution", name)
     for seed, (name, span) in enumerate(SPANS.items()):
         base = _earthquake(1.35 * span)
-        motion = Motion(base, INTERVAL)
-        measured = _rocking(rock(block, motion, restitution=0.976), base, 3e-4, seed)
-        stronger = Motion(base * (2.0 if span == 3.0 else 1.004), INTERVAL)
-        predicted = _predicted(rock(block, stronger, restitution=0.974), base, "identified")
+        measured = _rocking(rock(block, Motion(base, INTERVAL), restitution=0.976), base, 3e-4, seed)
+        predicted = _predictions(block, base, "identified", restitution=0.974, stronger=2.0 if span == 3.0 else 1.004)
         _test(layout, name, measured, predicted, 0.031, [f"3 spikes bridged. {MARKUP}"])
     time = np.arange(1600) * INTERVAL
     base = 7.0 * np.sin(2 * np.pi * 3 * time) * np.clip(time / 2, 0, 1)
     strong = "sine-3hz-too-strong-for-the-block-1"
-    fallen = rock(block, Motion(base, INTERVAL), restitution=0.976)
-    _test(layout, strong, _rocking(fallen, base, 3e-4, 9), _predicted(fallen, base, "identified"), 0.004)
+    measured = _rocking(rock(block, Motion(base, INTERVAL), restitution=0.976), base, 3e-4, 9)
+    _test(layout, strong, measured, _predictions(block, base, "identified", restitution=0.976), 0.004, order="3")
     path = layout.stage("sine-dead", "condition")
     _write(_recorded("sine-dead"), layout.stage("sine-dead", "ingest"), "ingest", "sine-dead")
     files.write_failed(path, DEAD, attributes=_attributes("condition", "sine-dead"))
@@ -244,7 +286,7 @@ def _fill(campaign: Campaign, layout: Layout) -> None:
         layout,
         "watched",
         seen,
-        _predicted(rock(statue, Motion(base, INTERVAL), restitution=0.9), base, "given"),
+        _predictions(statue, base, "given", restitution=0.9),
         np.nan,
     )
     _specimens(campaign, layout)
@@ -254,15 +296,17 @@ def _test(
     layout: Layout,
     name: str,
     measured: xr.Dataset,
-    predicted: xr.Dataset,
+    predicted: dict[str, xr.Dataset],
     nrmse: float,
     warnings: list[str] | None = None,
+    order: str = "",
 ) -> None:
     _write(_recorded(name), layout.stage(name, "ingest"), "ingest", name, warnings)
     _write(_conditioned(), layout.stage(name, "condition"), "condition", name)
     _write(measured, layout.stage(name, "rocking"), "rocking", name)
-    _write(predicted, layout.stage(name, "predict", "linear"), "predict", name)
-    _write(_compared(measured, predicted, nrmse), layout.stage(name, "compare"), "compare", name)
+    for model, each in predicted.items():
+        _write(each, layout.stage(name, "predict", model), "predict", name)
+    _write(_compared(measured, predicted, nrmse, order), layout.stage(name, "compare"), "compare", name)
 
 
 def _specimens(campaign: Campaign, layout: Layout) -> None:

@@ -1,15 +1,21 @@
 from __future__ import annotations
 
 import re
+import shutil
 from collections import Counter
 from html.parser import HTMLParser
+from pathlib import Path
+from posixpath import dirname, join, normpath
 
 import pytest
 
-from colonnade.report import build
+from colonnade.campaign import Campaign
+from colonnade.report import build, charts
 from colonnade.store import files
+from colonnade.store.layout import Layout
 
 VOID = {"meta", "img", "br", "hr", "input", "link", "col", "wbr"}
+STRONG = "sine-3hz-too-strong-for-the-block-1"
 
 
 class Page(HTMLParser):
@@ -29,7 +35,7 @@ class Page(HTMLParser):
 
     def handle_starttag(self, tag, attrs):
         self.tags[tag] += 1
-        self.words += " " if tag in ("td", "th", "li") else ""
+        self.words += " " if tag in ("td", "th", "li", "dd", "dt", "br") else ""
         if tag not in VOID:
             self._open.append(tag)
         self._attributes(attrs)
@@ -54,152 +60,313 @@ class Page(HTMLParser):
                 self.links.append(value)
 
 
-@pytest.fixture(scope="module")
-def text(filled_campaign) -> str:
-    return build(*filled_campaign).read_text(encoding="utf-8")
+def written(layout: Layout) -> dict[str, str]:
+    """Text of every page by its address in the report's folder."""
+    folder = layout.report.parent
+    paths = sorted(folder.rglob("*.html"))
+    return {path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8") for path in paths}
+
+
+def words_of(text: str) -> str:
+    return " ".join(Page(text).words.split())
 
 
 @pytest.fixture(scope="module")
-def page(text) -> Page:
-    return Page(text)
+def texts(filled_campaign) -> dict[str, str]:
+    build(*filled_campaign)
+    return written(filled_campaign[1])
 
 
-def row(text: str, test: str) -> str:
-    """Words of a test's row in the table of all tests."""
-    table = text[text.index('<section id="all-tests">') :]
-    start = table.index(f'<a href="#test-{test}"')
-    return " ".join(re.sub(r"<[^>]+>", " ", table[start : table.index("</tr>", start)].partition(">")[2]).split())
+@pytest.fixture(scope="module")
+def overview(texts) -> str:
+    return texts["index.html"]
 
 
-def section(text: str, test: str) -> str:
-    start = text.index(f'<article id="test-{test}">')
-    return text[start : text.index("</article>", start)]
+def test_there_is_a_page_a_test_a_specimen_and_of_each_kind(texts, filled_campaign):
+    campaign = filled_campaign[0]
+    assert set(texts) == {
+        *("index.html", "quality.html", "problems.html", "methods.html"),
+        *(f"tests/{name}.html" for name in campaign.tests),
+        *(f"specimens/{name}.html" for name in campaign.specimens),
+    }
 
 
-def test_the_page_stands_alone(text, page):
-    assert not page.tags["script"]
-    assert not page.tags["link"]
-    assert not page.tags["img"]
-    assert all(link.startswith("#") for link in page.links)
-    assert not re.search(r"@import|url\((?!#)", text)
+def test_every_page_stands_alone(texts):
+    for address, text in texts.items():
+        page = Page(text)
+        assert not page.tags["script"], address
+        assert not page.tags["img"], address
+        assert not re.search(r"@import|url\((?!#)|https?://(?!www\.w3\.org)", text), address
+        assert len(text.encode()) < 400_000, address
 
 
-def test_ids_are_unique_and_every_link_leads_somewhere(text, page):
-    assert [name for name, times in Counter(page.ids).items() if times > 1] == []
-    referred = {link[1:] for link in page.links} | set(re.findall(r"url\(#([^)]+)\)", text))
-    assert referred <= set(page.ids)
+def test_ids_are_unique_and_every_link_leads_somewhere(texts):
+    ids = {address: Page(text).ids for address, text in texts.items()}
+    for address, text in texts.items():
+        assert [name for name, times in Counter(ids[address]).items() if times > 1] == []
+        assert set(re.findall(r"url\(#([^)]+)\)", text)) <= set(ids[address])
+        for link in Page(text).links:
+            if link == "data:,":
+                continue
+            assert not re.match(r"/|[a-z]+:", link), (address, link)  # a report may be copied elsewhere
+            target, _, anchor = link.partition("#")
+            target = normpath(join(dirname(address), target)) if target else address
+            assert target in texts, (address, link)
+            assert not anchor or anchor in ids[target], (address, link)
 
 
-def test_what_people_wrote_is_escaped(page, text):
-    assert "<script>alert('title')</script>" in page.words
-    assert '<img src=x onerror="alert(1)"> & 5 < 6' in page.words
-    assert "channel <top>: the largest value" in page.words
-    assert not page.attributes["onerror"]
-    assert "<script" not in text
+def test_what_people_wrote_is_shown_as_text_on_every_page(texts):
+    for address, text in texts.items():
+        assert "<script" not in text, address
+        assert not Page(text).attributes["onerror"], address
+        assert "<script>alert('title')</script>" in Page(text).words, address
+    assert '<img src=x onerror="alert(1)"> & 5 < 6' in words_of(texts["tests/span-2.5.html"])
+    assert "channel <top>: the largest value" in words_of(texts["problems.html"])
+    assert "LVDT <1> (mm)" in words_of(texts["tests/span-2.0.html"])
 
 
-def test_the_summary_counts_tests_and_gives_each_restitution(page):
-    words = " ".join(page.words.split())
+def test_failures_come_first_with_stage_and_whole_reason(texts, overview):
+    assert overview.index('id="failures"') < overview.index('id="summary"')
+    for text in (overview, texts["tests/sine-dead.html"], texts["problems.html"]):
+        assert "condition:</span> channel &lt;top&gt;: the largest value is 0.2 % of its range." in text
+        assert "is the sensor plugged in?" in text
+
+
+def test_the_summary_counts_tests_and_gives_each_restitution(overview):
+    words = words_of(overview)
     assert "10 tests: 8 done, 1 failed, 1 not yet run to the end." in words
     assert "The linear model predicts the outcome of 7 of the 8 tests" in words
-    assert "Specimen prism: e = 0.9761 ± 0.0008 (95 % interval), identified from free vibrations" in words
-    assert "a rigid body without bounce has 0.9485" in words
-    assert "Specimen statue: e = 0.9, given in the campaign file" in words
+    assert "prism 0.9761 ± 0.0008 (95 % interval) identified from free vibrations 0.9485" in words
+    assert "statue 0.9 given in the campaign file" in words
 
 
 @pytest.mark.parametrize(
     ("test", "expected"),
     [
-        (
-            "span-2.0",
-            r"span-2.0 earthquake prism done 1 warning 2.7 m/s² .* rocking 0\.\d+ rocking 0\.\d+ 0.031",
-        ),
-        ("span-3.0", r"span-3.0 .* rocking 0\.\d+ overturned ≠ measured – 0.031"),
-        ("sine-3hz-too-strong-for-the-block-1", r".* done .* overturned – overturned – 0.004"),
-        ("sine-dead", r"sine-dead sine prism failed in condition – – – – – –"),
-        ("later", r"later sine prism pending – – – – – –"),
-        ("watched", r"watched earthquake statue done .* – seen: not-overturned – no-rocking 0 –"),
+        ("span-2.0", r"done 1 warning 2.7 m/s² \(.*\) rocking 0\.\d+ rocking 0\.\d+ 0.031 rocking 0\.\d+ 0.015"),
+        ("span-2.5", r"done 1 warning.* rocking .*"),
+        ("span-3.0", r"done .* rocking 0\.\d+ overturned ≠ measured – 0.031 .*"),
+        ("sine-dead", r"failed in condition( –)+"),
+        ("later", r"pending( –)+"),
+        ("watched", r"done .* – seen: not-overturned – no-rocking 0 – .*"),
     ],
 )
-def test_the_table_gives_each_test_its_row(text, test, expected):
-    assert re.fullmatch(expected, row(text, test)), row(text, test)
+def test_the_table_gives_each_test_its_row(overview, test, expected):
+    table = overview[overview.index('<section id="all-tests">') :]
+    start = table.index(f'<a href="tests/{test}.html"')
+    cells = re.sub(r"<[^>]+>", " ", table[start : table.index("</tr>", start)].partition("</a>")[2])
+    assert re.fullmatch(expected, " ".join(cells.split())), cells
 
 
-def test_failures_are_told_with_stage_and_whole_reason(text):
-    for part in (text[text.index('id="failures"') :], section(text, "sine-dead")):
-        assert "condition:</span> channel &lt;top&gt;: the largest value is 0.2 % of its range." in part
-        assert "is the sensor plugged in?" in part
+def test_sine_tests_stand_by_frequency_and_amplitude(texts, overview):
+    for text in (overview, texts["specimens/prism.html"]):
+        ladder = text[text.index('<table class="ladder">') :]
+        assert words_of(ladder[: ladder.index("</table>") + 8]) == (
+            "frequency Ω tests by rising A 3 Hz 3.348 A 3.78 overturned 1/3"
+        )
 
 
-def test_warnings_are_told_in_full_where_the_test_is(text):
-    assert "3 spikes bridged. &lt;img src=x" in section(text, "span-2.5")
+def test_the_measured_map_is_drawn_with_its_boundaries(texts, overview):
+    assert 'id="map-prism"' in overview
+    assert "3.348 below 3.784 below 3.784 no test without rocking" in words_of(texts["specimens/prism.html"])
 
 
-def test_each_test_has_its_overlay_and_its_channels(text):
-    assert "<svg" in section(text, "span-2.0")
-    assert "of base (m/s²)" in section(text, "span-2.0")
-    assert "of base" not in section(text, "free-01")
-    for expected in ("1.23 mm", "25 Hz", "20.10 ms ± 0.20 ms", "3 samples are spikes"):
-        assert expected in section(text, "span-2.0")
-
-
-def test_a_test_without_results_has_no_picture_and_no_empty_table(text):
-    assert "<svg" not in section(text, "later")
-    assert "<table" not in section(text, "later")
-
-
-def test_spans_stand_together_in_their_order(text):
-    spans = text[text.index('<section id="spans">') : text.index('<section id="restitution">')]
+def test_spans_stand_side_by_side_in_their_order(overview):
+    spans = overview[overview.index('<section id="spans">') :]
     assert spans.count("<svg") == 1
-    assert spans.index("Span 2.0</text>") < spans.index("Span 2.5</text>") < spans.index("Span 3.0</text>")
+    assert spans.index(">Span 2.0</text>") < spans.index(">Span 2.5</text>") < spans.index(">Span 3.0</text>")
+    assert "nonlinear model" in spans
 
 
-def test_a_refused_restitution_says_why(text):
-    part = text[text.index('<section id="restitution">') : text.index('<section id="each-test">')]
-    assert "The peaks do not decay. &lt;img" in part
-    assert "peak left out" in part
+def test_a_test_says_what_was_done_and_found(texts):
+    words = words_of(texts["tests/span-2.0.html"])
+    for expected in (
+        "motion El Centro 1940 NS",
+        "time scale 0.224",
+        "raw/span-2.0.csv SHA-256",
+        "delimiter <;>",
+        "standard error of θ 0.3 mrad",
+        "largest slide 0.00999 mm, standard error 0.002 mm",
+        "at prototype scale, 1:20 duration 35.8 s, largest slide 0.2 mm",
+    ):
+        assert expected in words, expected
 
 
-def test_settings_and_provenance_are_given(page):
-    words = " ".join(page.words.split())
+def test_a_test_compares_each_model(texts):
+    words = words_of(texts["tests/span-2.0.html"])
+    assert re.search(r"linear model rocking 0\.\d+ \S+ s \+0.01 0.031 5 s \d+ 0.976 \(identified\)", words)
+    assert re.search(r"nonlinear model rocking 0\.\d+ \S+ s -0.02 0.015 5 s \d+ 0.976 \(identified\)", words)
+
+
+def test_the_order_of_a_response_stands_beside_the_models(texts):
+    words = words_of(texts[f"tests/{STRONG}.html"])
+    assert "Ω = ω/p 3.348 A = a/(g tan α) 3.784" in words
+    assert re.search(r"measured overturned – \S+ s – – – \d+ 1/3", words)
+    assert re.search(r"linear model overturned .* harmonic 0.976 \(identified\)", words)
+
+
+def test_a_test_shows_how_its_channels_were_treated(texts):
+    words = words_of(texts["tests/span-2.0.html"])
+    assert "top LVDT <1> (mm) displacement 10 at 1 Hz 20 % failed 3 samples are spikes, the first at 1.204 s" in words
+    assert "top 1.23 mm – 0.021 mm 25 Hz – 1.2 × noise, 1.3 % of the reading" in words
+    assert "20.10 ms ± 0.20 ms" in words
+
+
+def test_each_test_has_its_figure(texts):
+    assert "base" in texts["tests/span-2.0.html"][texts["tests/span-2.0.html"].index("<svg") :]
+    assert ">base" not in texts["tests/free-01.html"]
+    assert texts["tests/free-01.html"].count("<svg") == 2
+
+
+def test_a_test_without_results_has_no_picture_and_no_empty_table(texts):
+    assert "<svg" not in texts["tests/later.html"]
+    assert "<table" not in texts["tests/later.html"]
+    assert "has not been run to the end" in words_of(texts["tests/later.html"])
+
+
+def test_what_people_decided_is_told(texts):
+    assert "Reviewed by hand 2013-04-26, N. N.: top flagged:" in words_of(texts["tests/span-2.5.html"])
+    assert "Reviewed by hand" not in texts["tests/span-2.0.html"]
+
+
+def test_tests_lead_to_the_one_before_and_after(texts):
+    assert texts["tests/span-2.5.html"].count('href="../tests/span-2.0.html"') == 2
+    assert texts["tests/span-2.5.html"].count('href="../tests/span-3.0.html"') == 2
+    assert "←" not in texts["tests/free-01.html"]
+
+
+def test_a_specimen_gives_its_properties_at_both_scales(texts):
+    words = words_of(texts["specimens/prism.html"])
+    assert "critical angle α – 0.1864 rad 0.1864 rad 0.1864 rad" in words
+    assert "pole distance R – 232 mm 232 mm 4.64 m" in words
+    assert "frequency parameter p – 5.631 rad/s 5.631 rad/s 1.259 rad/s" in words
+    measured = words_of(texts["specimens/statue.html"])
+    assert "critical angle α 0.21 rad and 0.23 rad – 0.21 rad" in measured
+    assert "prototype" not in measured
+
+
+def test_a_specimen_gives_each_restitution_and_why_one_was_refused(texts):
+    text = texts["specimens/prism.html"]
+    words = words_of(text)
+    assert "e over the rigid body's 1.029" in words
+    assert re.search(r"free-01 0\.97\d+ ± 0\.0\d+ \(95 % interval\) 0.9751 ± 0.0010 \(95 % interval\) –", words)
+    assert "The peaks do not decay. &lt;img" in text
+    assert "peak left out" in text
+
+
+def test_quality_lists_every_channel_of_every_test(texts):
+    words = words_of(texts["quality.html"])
+    assert words.count("top displacement 10 at 1 Hz 20 % failed 0.021 mm –") == 8
+    assert words.count("20.10 ms ± 0.20 ms") == 8
+
+
+def test_warnings_of_the_same_words_stand_together(texts):
+    words = words_of(texts["problems.html"])
+    assert words.count("3 spikes bridged.") == 1
+    assert "3 times, the first in full; numbers may differ: span-2.0, span-2.5, span-3.0" in words
+    assert "Not yet run to the end later" in words
+
+
+def test_methods_tell_what_was_really_used_and_where_tests_differ(texts):
+    words = words_of(texts["methods.html"])
+    assert "by more than 8 robust standard deviations" in words
+    assert "was 25 Hz on the specimen (setting: 25 Hz) and 40 Hz on the table (setting: auto)" in words
+    assert "2 (span-3.0)" in words
+    assert "filter order 4 free-01" in words
     assert "processing.lowpass 25 Hz" in words
     assert "(changed in the campaign file)" in words
-    assert "raw/span-2.0.csv" in words
-    assert len(re.findall(r"\b[0-9a-f]{64}\b", words)) == 9
-    assert "later not ingested" in words
+    assert "Housner, G. W. (1963)" in words
+    assert re.search(r"made with colonnade \d\S*, Python 3\.\d+", words)
 
 
-def test_the_same_results_give_the_same_bytes_and_no_new_file(filled_campaign, text):
-    path = filled_campaign[1].report
-    before = path.stat().st_mtime_ns
-    assert build(*filled_campaign) == path
-    assert path.stat().st_mtime_ns == before
-    assert path.read_text(encoding="utf-8") == text
+@pytest.fixture
+def two_tests(filled_campaign, tmp_path) -> tuple[Campaign, Layout]:
+    """The campaign with the results of two of its tests alone."""
+    campaign, layout = filled_campaign[0], Layout(tmp_path)
+    for name in ("span-2.0", "span-2.5"):
+        shutil.copytree(filled_campaign[1].test(name), layout.test(name))
+    return campaign, layout
+
+
+def test_the_same_results_give_the_same_bytes_and_no_new_file(two_tests):
+    folder = build(*two_tests).parent
+    texts, before = written(two_tests[1]), {path: path.stat().st_mtime_ns for path in folder.rglob("*.html")}
+    build(*two_tests)
+    assert written(two_tests[1]) == texts
+    assert {path: path.stat().st_mtime_ns for path in folder.rglob("*.html")} == before
+
+
+def test_a_page_is_drawn_again_only_where_its_test_or_the_program_changed(two_tests, monkeypatch):
+    drawn: list[str] = []
+    record = charts.record
+    monkeypatch.setattr(charts, "record", lambda test, *rest: drawn.append(test.id) or record(test, *rest))
+
+    def drawn_now(code: str) -> list[str]:
+        drawn.clear()
+        build(*two_tests, code=code)
+        return [name for name in drawn if name.startswith("span-2")]
+
+    assert drawn_now("one") == ["span-2.0", "span-2.5"]
+    texts = written(two_tests[1])
+    assert drawn_now("one") == []
+    assert written(two_tests[1]) == texts
+    path = two_tests[1].stage("span-2.0", "compare")
+    compared = files.read(path)
+    compared["nrmse"] = compared["nrmse"] * 2
+    files.write(compared.drop_attrs(deep=False), path, attributes={"stage": "compare"})
+    assert drawn_now("one") == ["span-2.0"]
+    assert drawn_now("two") == ["span-2.0", "span-2.5"]
+
+
+def test_outdated_results_are_pending_and_not_shown(two_tests):
+    build(*two_tests, outdated={"span-2.0"})
+    texts = written(two_tests[1])
+    assert "pending" in words_of(texts["tests/span-2.0.html"])
+    assert "<svg" not in texts["tests/span-2.0.html"]
+    assert "<svg" in texts["tests/span-2.5.html"]
+
+
+def test_pages_of_what_is_no_longer_there_are_removed(empty_campaign, tmp_path):
+    campaign, layout = empty_campaign[0], Layout(tmp_path)
+    build(campaign, layout)
+    strangers = [layout.report.parent / place for place in ("tests/gone.html", "specimens/gone.html")]
+    own = layout.report.parent / "tests" / "notes.txt"
+    for path in (*strangers, own):
+        path.write_text("old", encoding="utf-8")
+    build(campaign, layout)
+    assert not any(path.exists() for path in strangers)
+    assert own.exists()
 
 
 def test_a_campaign_without_any_result_has_a_report(empty_campaign):
-    text = build(*empty_campaign).read_text(encoding="utf-8")
-    words = " ".join(Page(text).words.split())
+    build(*empty_campaign)
+    texts = written(empty_campaign[1])
+    words = words_of(texts["index.html"])
     assert "10 tests: 0 done, none failed, 10 not yet run to the end." in words
-    assert "Specimen prism: no coefficient of restitution yet; a rigid body without bounce has 0.9485." in words
-    assert "<svg" not in text
+    assert "prism – not yet known 0.9485" in words
+    assert not [address for address, text in texts.items() if "<svg" in text]
+    assert "No result is stored yet." in words_of(texts["methods.html"])
 
 
 def test_a_campaign_in_which_everything_failed_has_a_report(empty_campaign, tmp_path):
-    campaign, layout = empty_campaign[0], type(empty_campaign[1])(tmp_path)
-    for name in campaign.tests:
+    campaign, layout = empty_campaign[0], Layout(tmp_path)
+    for name in [*campaign.tests]:
         files.write_failed(
             layout.stage(name, "ingest"), f"{name}: the file is empty <b>", attributes={"stage": "ingest"}
         )
     text = build(campaign, layout).read_text(encoding="utf-8")
     assert "10 failed" in Page(text).words
-    assert text.count("the file is empty &lt;b&gt;") == 20
+    assert text.count("the file is empty &lt;b&gt;") == 10
 
 
 def test_a_damaged_result_is_told_as_a_failure(empty_campaign, tmp_path):
-    campaign, layout = empty_campaign[0], type(empty_campaign[1])(tmp_path)
+    campaign, layout = empty_campaign[0], Layout(tmp_path)
     layout.test("free-01").mkdir(parents=True)
     layout.stage("free-01", "rocking").write_bytes(b"no NetCDF")
     text = build(campaign, layout).read_text(encoding="utf-8")
     assert "rocking:</span>" in text[text.index('id="failures"') :]
     assert "1 failed" in Page(text).words
+
+
+def test_the_overviews_path_is_returned(empty_campaign, tmp_path):
+    assert build(empty_campaign[0], Layout(tmp_path)) == Path(tmp_path) / "report" / "index.html"

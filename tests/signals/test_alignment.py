@@ -118,3 +118,39 @@ def test_records_that_share_no_time_are_refused():
     pair = _record(TIME, np.sin(TIME)), _record(TIME + 50, np.sin(TIME))
     with pytest.raises(ValueError, match="share 0 samples"):
         link(*pair, quantities=ACCELERATIONS, longest=1.0, sign=1.0)
+
+
+def _linked(delay, *, sign=1.0, longest=1.0, frequency=None):
+    rng = np.random.default_rng(1)
+    first, second = np.arange(0, 12, 1 / 500), np.arange(0, 12, 1 / 400)
+    motion = _ramped(frequency) if frequency else lambda time: np.interp(time, TIME, SHAKEN)
+    records = [
+        _record(time, factor * motion(time - late) + 0.3 + rng.normal(0, 0.01, time.size))
+        for time, late, factor in ((first, 0.0, 1.0), (second, delay, sign))
+    ]
+    return link(*records, quantities=ACCELERATIONS, longest=longest, sign=1.0)
+
+
+def _ramped(frequency):
+    return lambda time: 2 * np.sin(2 * np.pi * frequency * time) * np.clip(np.minimum(time - 1, 9 - time), 0, 1)
+
+
+SHAKEN = np.gradient(np.gradient(_earthquake(0.0), INTERVAL), INTERVAL)
+
+
+@pytest.mark.parametrize("delay", [1.3, -1.2])
+def test_a_delay_beyond_what_is_looked_for_is_said(delay):
+    found = _linked(delay)
+    assert found.beyond == pytest.approx(delay, abs=5e-3)
+    assert f"agree better at {1e3 * found.beyond:.4g} ms, beyond what was looked for" in found.doubt
+    assert "processing.longest_offset" in found.doubt
+    assert _linked(delay, longest=2.0).doubt == ""
+
+
+@pytest.mark.parametrize("frequency", [None, 1.0, 3.0, 7.0], ids=["earthquake", "1", "3", "7 Hz"])
+def test_a_wrong_sign_is_told_from_half_a_period(frequency):
+    found = _linked(0.02, sign=-1.0, frequency=frequency)
+    assert found.opposed
+    assert "only with the sign of one turned" in found.doubt
+    assert abs(found.seconds - 0.02) < 1e-3
+    assert not _linked(0.02, frequency=frequency).opposed

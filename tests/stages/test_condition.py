@@ -6,6 +6,7 @@ from colonnade import campaign as campaigns
 from colonnade.errors import StageError
 from colonnade.signals.quality import Flag
 from colonnade.stages import condition as conditioning
+from colonnade.stages.clocks import ClockInstructions
 from colonnade.stages.condition import condition
 from colonnade.stages.ingest import ingest, instructions
 
@@ -37,6 +38,11 @@ def _two_recorders(first, second, *, noise=1e-3):
 FIRST, SECOND = np.arange(0, 9, 1 / 500), np.arange(0, 9, 1 / 400)
 
 
+def _with(read, **changes):
+    """The same instructions with other clocks."""
+    return read.model_copy(update={"clocks": read.clocks.model_copy(update=changes)})
+
+
 @pytest.fixture
 def linked(small_campaign):
     """Instructions for the two recorders above."""
@@ -44,8 +50,9 @@ def linked(small_campaign):
     return read.model_copy(
         update={
             "channels": {"first": ("acceleration", "table", "main"), "second": ("acceleration", "table", "daq2")},
-            "delays": {"first": 0.0, "second": 0.0},
-            "links": {"daq2": ("first", "second", 1.0)},
+            "clocks": ClockInstructions(
+                delays={"first": 0.0, "second": 0.0}, links={"daq2": ("first", "second", 1.0)}, longest_offset=1.0
+            ),
         }
     )
 
@@ -53,7 +60,7 @@ def linked(small_campaign):
 @pytest.mark.parametrize(("of_first", "of_second"), [(0.0, 0.0), (0.0, 0.01), (0.004, 0.0), (0.004, 0.01)])
 def test_a_delay_and_a_clock_offset_are_each_taken_off_once(linked, of_first, of_second):
     recorded = _two_recorders(_shaking(FIRST - of_first), _shaking(SECOND - OFFSET - of_second))
-    result = condition(recorded, linked.model_copy(update={"delays": {"first": of_first, "second": of_second}}))
+    result = condition(recorded, _with(linked, delays={"first": of_first, "second": of_second}))
     assert result["second"].attrs["clock_offset"] == pytest.approx(OFFSET + of_second, abs=2e-4)
     assert result["first"].attrs["clock_offset"] == of_first
     for name in ("first", "second"):
@@ -62,7 +69,7 @@ def test_a_delay_and_a_clock_offset_are_each_taken_off_once(linked, of_first, of
 
 def test_linked_channels_that_point_against_each_other_are_aligned(linked):
     recorded = _two_recorders(_shaking(FIRST), -_shaking(SECOND - OFFSET))
-    result = condition(recorded, linked.model_copy(update={"links": {"daq2": ("first", "second", -1.0)}}))
+    result = condition(recorded, _with(linked, links={"daq2": ("first", "second", -1.0)}))
     assert result["second"].attrs["clock_offset"] == pytest.approx(OFFSET, abs=2e-4)
     assert result["second"].attrs["clock_offset_standard_error"] < 1e-3
     assert result.attrs["warnings"] == []
@@ -90,10 +97,11 @@ on = "table"
     own = own.replace("[1, 0, 0]", directions[0])
     path = tmp_path / "two.toml"
     channels = f"{head}[setups.frame.channels.table_acceleration]{own}{setup}direction = {directions[1]}\n\n"
+    tests = tests.replace('"shake.csv"', '{main = "shake.csv", daq2 = "shake-2.csv"}')
     path.write_text(f"{channels}[[tests]]{tests}", encoding="utf-8")
     campaign = campaigns.load(path)
     read = conditioning.instructions(campaign, campaign.tests["shake-01"])
-    assert read.links == {"daq2": ("table_acceleration", "second", sign)}
+    assert read.clocks.links == {"daq2": ("table_acceleration", "second", sign)}
 
 
 def test_an_offset_that_a_steady_sine_leaves_open_is_warned_of(linked):
@@ -122,7 +130,7 @@ def test_a_channel_of_another_quantity_links_recorders_but_is_not_conditioned(li
     channels = {name: ("other", None, recorder) for name, (_, _, recorder) in linked.channels.items()}
     channels |= {"base": ("acceleration", "table", "main"), "late": ("acceleration", "table", "daq2")}
     delays = dict.fromkeys(channels, 0.0)
-    result = condition(recorded, linked.model_copy(update={"channels": channels, "delays": delays}))
+    result = condition(recorded, _with(linked.model_copy(update={"channels": channels}), delays=delays))
     assert set(result.data_vars) == {"base", "base_quality", "late", "late_quality"}
     assert result["late"].attrs["clock_offset"] == pytest.approx(OFFSET, abs=1e-3)
 
@@ -223,8 +231,9 @@ def test_the_noise_that_is_left_is_told(small_campaign, free_vibration):
 
 def test_a_delay_is_taken_off(small_campaign, shaken):
     test = small_campaign.tests["shake-01"]
-    delays = conditioning.instructions(small_campaign, test).delays | {"table_acceleration": 0.01}
-    late = _conditioned(small_campaign, test, shaken[0], delays=delays)
+    clocks = conditioning.instructions(small_campaign, test).clocks
+    clocks = clocks.model_copy(update={"delays": clocks.delays | {"table_acceleration": 0.01}})
+    late = _conditioned(small_campaign, test, shaken[0], clocks=clocks)
     whole = _conditioned(small_campaign, test, shaken[0])
     onto = late["elapsed"].to_numpy()[100:-100]
     expected = np.interp(onto + 0.01, whole["elapsed"], whole["table_acceleration"])

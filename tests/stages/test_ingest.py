@@ -95,6 +95,36 @@ def test_channels_with_other_times_get_a_clock_of_their_own(small_campaign, free
     assert recorded["top"].dims == ("elapsed",)
 
 
+def test_channels_never_share_a_row_because_they_share_an_index(small_campaign, free_vibration):
+    recordings, time, _, _ = free_vibration
+    main = recordings["main"]
+    read = instructions(small_campaign, small_campaign.tests["free-01"])
+    channel = read.channels["bottom"]
+    # Four channels of as many samples, three of them with starts of their own, two with names of a recorder's clock.
+    starts = {"LVDT 2": 0.0, "a": 0.5, "b": 0.25, "c": 0.125}
+    values = main.channel("LVDT 2").values
+    columns = tuple(RecordedChannel(name, "mm", values, time + start) for name, start in starts.items())
+    channels = {
+        "daq": channel,
+        "first": channel.model_copy(update={"column": "a", "recorder": "daq"}),
+        "second": channel.model_copy(update={"column": "b", "recorder": "daq"}),
+        "daq.first": channel.model_copy(update={"column": "c"}),
+    }
+    both = replace(main, channels=columns)
+    recorded = ingest({"main": both, "daq": both}, read.model_copy(update={"channels": channels}))
+    for variable, start in (("daq", 0.0), ("first", 0.5), ("second", 0.25), ("daq_first", 0.125)):
+        np.testing.assert_array_equal(recorded[str(recorded[variable].dims[0])], time + start)
+    assert len({recorded[name].dims for name in ("daq", "first", "second", "daq_first")}) == 4
+
+
+def test_channels_of_a_recorder_that_was_not_running_are_absent(small_campaign):
+    test = small_campaign.tests["free-01"]
+    setup = small_campaign.setups["frame"]
+    channels = setup.channels | {"extra": setup.channels["bottom"].model_copy(update={"recorder": "daq2"})}
+    changed = replace(small_campaign, setups={"frame": setup.model_copy(update={"channels": channels})})
+    assert "extra" not in instructions(changed, test).channels
+
+
 def test_an_unnamed_recorder_is_told(small_campaign, free_vibration):
     read = instructions(small_campaign, small_campaign.tests["free-01"])
     channels = read.channels | {"top": read.channels["top"].model_copy(update={"recorder": "daq2"})}

@@ -43,12 +43,33 @@ def test_restitution_of_a_free_vibration_is_the_true_one(identified):
     np.testing.assert_allclose(fitted, seen, atol=2e-4)
 
 
+def test_the_whole_history_agrees_with_the_peaks_and_stands_beside_them(identified):
+    assert identified["model"].to_numpy().tolist() == ["linear", "nonlinear"]
+    nonlinear = identified.sel(model="nonlinear")  # the truth's own model
+    assert float(nonlinear["restitution_history"]) == pytest.approx(0.93, abs=3e-4)
+    assert float(nonlinear["restitution_history_low"]) < float(nonlinear["restitution_history"])
+    assert float(nonlinear["restitution_history_residual"]) < 1e-3 * 0.186
+    assert float(identified.sel(model="linear")["restitution_history"]) == pytest.approx(0.93, abs=2e-3)
+    assert identified.attrs["history_reason"] == ""
+    assert identified.attrs["warnings"] == []
+
+
+def test_a_whole_history_that_disagrees_with_the_peaks_is_warned_of(small_campaign, measured):
+    read = identifying.instructions(small_campaign, small_campaign.tests["free-01"])
+    block = read.block.override(inertia=1.05 * read.block.inertia)
+    result = identifying.restitution(measured["free-01"], read.model_copy(update={"block": block}))
+    assert float(result["restitution"]) == pytest.approx(0.93, abs=1e-3)
+    assert any("standard errors apart" in warning for warning in result.attrs["warnings"])
+
+
 def test_a_record_without_peaks_gives_a_reason_and_no_number(small_campaign, measured):
     still = measured["free-01"].assign(rocking_angle=measured["free-01"]["rocking_angle"] * 0)
     result = identifying.restitution(still, identifying.instructions(small_campaign, small_campaign.tests["free-01"]))
     assert np.isnan(float(result["restitution"]))
     assert "0 peaks" in result.attrs["reason"]
     assert result.attrs["warnings"]
+    assert np.isnan(result["restitution_history"]).all()
+    assert "no value to start from" in result.attrs["history_reason"]
 
 
 def test_a_free_vibration_without_transducers_is_refused(small_campaign, measured):
@@ -132,3 +153,17 @@ def test_a_base_motion_with_a_hole_is_refused_with_its_place(small_campaign, mea
         predicting.predict(broken, pooled, read)
     with pytest.raises(StageError, match="no record of the table"):
         predicting.predict(broken.drop_vars("base_acceleration"), pooled, read)
+
+
+def test_a_tilted_table_is_felt_as_a_base_acceleration_the_other_way(small_campaign, measured, pooled):
+    read = predicting.instructions(small_campaign, small_campaign.tests["shake-01"], "linear")
+    tilt = 0.3 * read.block.critical_angle
+    level = predicting.predict(measured["shake-01"], pooled, read)
+    tilted = predicting.predict(measured["shake-01"], pooled, read.model_copy(update={"tilt": tilt}))
+    pushed = measured["shake-01"].copy()
+    pushed["base_acceleration"] = pushed["base_acceleration"] - read.block.gravity * np.sin(tilt)
+    other = predicting.predict(pushed, pooled, read)
+    np.testing.assert_array_equal(tilted["rocking_angle"], other["rocking_angle"])
+    # With its +x side lower the specimen leans, and rocks further, to θ > 0.
+    assert float(tilted["rocking_angle"].max()) > float(level["rocking_angle"].max())
+    np.testing.assert_array_equal(tilted["base_acceleration"], level["base_acceleration"])

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -15,8 +17,12 @@ def conditioned(campaign, test, recordings):
 
 def _rocking(campaign, name, recordings, **changes):
     test = campaign.tests[name]
-    read = rocking_stage.instructions(campaign, test).model_copy(update=changes)
+    read = _with_channels(rocking_stage.instructions(campaign, test), **changes)
     return rocking(conditioned(campaign, test, recordings), read)
+
+
+def _with_channels(read, **changes):
+    return read.model_copy(update={"transducers": read.transducers.model_copy(update=changes)})
 
 
 def test_the_angle_of_a_free_vibration_is_the_true_one(small_campaign, free_vibration):
@@ -66,16 +72,16 @@ def test_ground_relative_transducers_have_the_tables_displacement_taken_off(smal
     )
     ground["table"] = ("elapsed", moved, ready["top"].attrs)
     read = rocking_stage.instructions(small_campaign, test)
-    transducers = {name: each.model_copy(update={"relative_to": "ground"}) for name, each in read.transducers.items()}
-    own = read.model_copy(update={"transducers": transducers})
+    positions = {name: replace(each, on_ground=True) for name, each in read.transducers.positions.items()}
+    own = _with_channels(read, positions=positions)
     with pytest.raises(StageError, match="relative to the ground"):
         rocking(ground, own)
-    result = rocking(ground, own.model_copy(update={"displacements": {"table": 1.0}}))
+    result = rocking(ground, _with_channels(own, displacements={"table": (1.0, 0.0, 0.0)}))
     np.testing.assert_allclose(result["rocking_angle"], rocking(ready, read)["rocking_angle"], atol=1e-12)
 
 
 def test_a_specimen_without_transducers_still_has_its_base_motion(small_campaign, shaken):
-    result = _rocking(small_campaign, "shake-01", shaken[0], transducers={})
+    result = _rocking(small_campaign, "shake-01", shaken[0], positions={})
     assert "rocking_angle" not in result
     assert result.attrs["outcome"] == ""
     assert float(result["peak_ground_acceleration"]) > 1
@@ -83,7 +89,7 @@ def test_a_specimen_without_transducers_still_has_its_base_motion(small_campaign
 
 def test_nothing_usable_at_all_is_refused(small_campaign, shaken):
     with pytest.raises(StageError, match="at least one of the two was expected"):
-        _rocking(small_campaign, "shake-01", shaken[0], transducers={}, accelerations={})
+        _rocking(small_campaign, "shake-01", shaken[0], positions={}, accelerations={})
 
 
 def test_a_lost_transducer_leaves_the_angle_to_the_other_and_is_said(small_campaign, free_vibration):

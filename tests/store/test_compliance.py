@@ -73,8 +73,13 @@ RESULTS = {
             },
             **scalars("restitution", "restitution_low", "restitution_high", "restitution_standard_error", "level"),
             **scalars("zero_offset"),
+            **{
+                f"restitution_history{part}": ("model", np.ones(2))
+                for part in ("", "_low", "_high", "_standard_error", "_residual")
+            },
         },
-        attrs={"method": "peaks", "reason": ""},
+        coords={"model": np.array(["linear", "nonlinear"], dtype=object)},
+        attrs={"method": "peaks", "reason": "", "history_method": "whole history", "history_reason": ""},
     ),
     "specimen": xr.Dataset(
         {
@@ -101,9 +106,14 @@ RESULTS = {
                 for name in ("nrmse", "predicted_peak_ratio", "peak_ratio_error", "compared_until")
             },
             "predicted_outcome": ("model", np.array(["rocking"], dtype=object)),
-            **scalars("measured_peak_ratio"),
+            "predicted_response_order": ("model", np.array(["3"], dtype=object)),
+            "response_misfit": ("order", np.ones(4)),
+            **scalars("measured_peak_ratio", "forcing_frequency", "forcing_amplitude", "forcing_amplitude_spread"),
+            **scalars("forcing_distortion", "steady_start", "steady_stop", "frequency_ratio", "amplitude_ratio"),
+            **scalars("impacts_per_cycle"),
         },
         coords={"model": np.array(["linear"], dtype=object)},
+        attrs={"response_order": "3", "response_order_reason": "The angle repeats every 3 periods of the table."},
     ),
     "failed": None,
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+from dataclasses import replace
 
 import pytest
 
@@ -135,3 +136,36 @@ def test_nothing_stays_behind_a_failure_where_the_run_stops_there(small):
     small.raw("pulse-01").write_text("time,top\n")
     small.run(until="ingest")
     assert [path.name for path in small.layout.test("pulse-01").iterdir()] == ["recorded.nc"]
+
+
+def test_a_share_that_drops_while_a_file_is_read_is_not_kept_against_it(untouched, monkeypatch):
+    from colonnade.readers import registry
+
+    def dropped(*arguments):
+        raise OSError(errno.EIO, "Input/output error")
+
+    known = registry.formats()["delimited"]
+    monkeypatch.setattr(registry, "_recognised", lambda path: (replace(known, read=dropped), "a look"))
+    told = failures(untouched.run())
+    assert "Input/output error" in told["pulse-01"].reason
+    monkeypatch.undo()
+    assert not untouched.run().failed
+
+
+def test_a_file_that_changes_while_it_is_read_is_read_again(untouched, monkeypatch):
+    from colonnade.workflow import steps
+
+    ingest = steps._ingest
+
+    def still_writing(paths, read):
+        result = ingest(paths, read)
+        with untouched.raw("pulse-01").open("a", encoding="utf-8") as stream:
+            stream.write("99.0,0.0,0.0\n")
+        return result
+
+    monkeypatch.setattr(steps, "_ingest", still_writing)
+    told = failures(untouched.run(only="pulse-01"))
+    assert "changed while it was read" in told["pulse-01"].reason
+    assert not untouched.layout.stage("pulse-01", "ingest").exists()
+    monkeypatch.undo()
+    assert not untouched.run(only="pulse-01").failed

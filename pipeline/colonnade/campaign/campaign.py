@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from colonnade.campaign.channel import Channel
+from colonnade.campaign.decision import Review
 from colonnade.campaign.fields import Gravity, Text, shown
 from colonnade.campaign.identifier import Identifier
+from colonnade.campaign.motions import ReferenceMotion
 from colonnade.campaign.settings import Processing
 from colonnade.campaign.setup import Setup
 from colonnade.campaign.specimen import AnySpecimen, Specimen
@@ -45,6 +47,8 @@ class CampaignFile(Table):
     """Specimens, by id."""
     setups: dict[Identifier, Setup] = Field(min_length=1)
     """Setups, by id."""
+    motions: dict[Text, ReferenceMotion] = Field(default={})
+    """Reference motions, by the names that tests give them: files that recorded table motions are held against."""
     processing: Processing = Processing()
     """Settings of the processing, each with a default."""
     tests: tuple[Test, ...] = ()
@@ -65,11 +69,15 @@ class Campaign:
         m/s².
     specimens, setups, tests : dict
         By id, in the order of the file.
+    motions : dict
+        Reference motions by name.
     processing : Processing
     path, folder : Path
         The campaign file and its folder, absolute and resolved.
     warnings : tuple of str
         What is accepted but not yet used, and what looks odd.
+    reviews : dict of str to Review
+        What people decided in review.toml, of the tests that it names.
     """
 
     schema: int
@@ -79,11 +87,17 @@ class Campaign:
     gravity: float
     specimens: dict[str, Specimen]
     setups: dict[str, Setup]
+    motions: dict[str, ReferenceMotion]
     processing: Processing
     tests: dict[str, Test]
     path: Path
     folder: Path
     warnings: tuple[str, ...] = ()
+    reviews: dict[str, Review] = field(default_factory=dict)
+
+    def review(self, test: str) -> Review:
+        """Decisions of the manual review about a test; those of a test that has none change nothing."""
+        return self.reviews.get(test, Review())
 
     def block(self, specimen: str) -> Block:
         """Block of a specimen, with the campaign's gravity."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from math import hypot
 from typing import Annotated, Any, Self
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
@@ -17,6 +18,17 @@ MAIN = "main"
 """The recorder that a setup has without saying so."""
 
 _NEEDS_DIRECTION = {"displacement", "velocity", "acceleration", "angle", "angular_velocity"}
+
+
+ALONG = 0.9
+"""Smallest part of a channel's direction along an axis with which it counts as a record of the motion along it."""
+
+LEAST_COSINE = 0.1
+"""Of a line of sight to the normal of its face, and of a wire to its direction: below it, next to nothing is seen."""
+
+
+def _cosine(one: tuple[float, ...], other: tuple[float, ...]) -> float:
+    return sum(here * there for here, there in zip(one, other, strict=True)) / (hypot(*one) * hypot(*other))
 
 
 def _gain(value: object) -> str:
@@ -99,9 +111,9 @@ class Channel(Table):
     delay: Delay = Field(default=0.0, json_schema_extra={"unit": "s"})
     """How late its values are, such as "2 ms"."""
     sensing: Annotated[str, *one_of("point", "surface", "wire")] = "point"
-    """What it follows: "point", "surface" or "wire"."""
+    """What it follows: a material "point", the "surface" in a fixed line of sight (laser), the length of a "wire"."""
     normal: Direction | None = None
-    """Outward normal of the face that a "surface" transducer looks at."""
+    """Outward normal of the flat face that a "surface" transducer looks at; none for the side of a round specimen."""
     anchor: Position | None = None
     """Fixed end of a "wire"."""
 
@@ -144,10 +156,34 @@ class Channel(Table):
                 )
             if self.relative_to is None:
                 told["relative_to"] = 'It is missing. "table" or "ground" was expected: where the transducer is fixed.'
-        if self.sensing == "surface" and self.normal is None:
-            told["normal"] = 'It is missing. A "surface" transducer needs the normal of the face, such as [1, 0, 0].'
+        return told | self._wrong_sight()
+
+    def _wrong_sight(self) -> dict[str, str]:
+        """Tell what is wrong with the line of sight or the wire."""
+        told: dict[str, str] = {}
+        if self.sensing != "point" and not (self.quantity == "displacement" and self.on == "specimen"):
+            told["sensing"] = f'"{self.sensing}" is for a displacement of the specimen. Leave it out here.'
+        for key, sensing in (("normal", "surface"), ("anchor", "wire")):
+            if getattr(self, key) is not None and self.sensing != sensing:
+                told[key] = (
+                    f'It goes with sensing = "{sensing}", and sensing is "{self.sensing}" here. Correct one of them.'
+                )
         if self.sensing == "wire" and self.anchor is None:
             told["anchor"] = 'It is missing. A "wire" needs its fixed end, such as ["500 mm", "0 mm", "440 mm"].'
+        if told or self.direction is None:
+            return told
+        if self.normal is not None and abs(_cosine(self.normal, self.direction)) < LEAST_COSINE:
+            told["normal"] = (
+                "The line of sight runs along this face. A face that it hits was expected; compare direction."
+            )
+        if self.anchor is not None and self.at is not None:
+            wire = tuple(there - here for here, there in zip(self.at, self.anchor, strict=True))
+            if not any(wire):
+                told["anchor"] = "It is where `at` is, so that the wire has no length. Its fixed end was expected."
+            elif abs(_cosine(wire, self.direction)) < LEAST_COSINE:
+                told["anchor"] = (
+                    "The wire runs across `direction`. An anchor before or behind `at` along it was expected."
+                )
         return told
 
     @property

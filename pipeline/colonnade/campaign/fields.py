@@ -53,6 +53,8 @@ def quantity(dimension: str, *, above_zero: bool = False, example: str = "") -> 
     def convert(value: object) -> float:
         if not isinstance(value, str):
             raise ValueError(f'{shown(value)} has no unit. A quantity in quotes was expected, such as "{example}".')
+        if "?" in value:
+            raise ValueError(f'{shown(value)} is still to be filled in: a quantity such as "{example}" was expected.')
         try:
             number = units.to_si(value, dimension)
         except UnitError as error:

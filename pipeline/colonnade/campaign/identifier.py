@@ -65,13 +65,17 @@ def clashes(ids: Iterable[str], *, as_variables: bool = False) -> list[tuple[int
     seen: dict[str, str] = {}
     found = []
     for index, name in enumerate(ids):
-        folded = name.casefold().rstrip(".")
-        if as_variables:
-            folded = re.sub(r"[.-]", "_", folded)
-        if folded in seen:
-            found.append((index, name, seen[folded]))
-        seen.setdefault(folded, name)
+        same = folded(name, as_variables=as_variables)
+        if same in seen:
+            found.append((index, name, seen[same]))
+        seen.setdefault(same, name)
     return found
+
+
+def folded(name: str, *, as_variables: bool = False) -> str:
+    """Reduce an id to what has to differ from other ids'; see `clashes`."""
+    plain = name.casefold().rstrip(".")
+    return re.sub(r"[.-]", "_", plain) if as_variables else plain
 
 
 Identifier = Annotated[str, BeforeValidator(identifier), WithJsonSchema({"type": "string", "pattern": ID_PATTERN})]

@@ -1,8 +1,7 @@
-"""Reads campaign.toml: text to tables, tables to models, and every problem told at once."""
+"""Reads campaign.toml and review.toml: text to tables, tables to models, and every problem told at once."""
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,11 +9,13 @@ from typing import Any
 from pydantic import ValidationError
 
 from colonnade.campaign.campaign import Campaign, CampaignFile, resolved
+from colonnade.campaign.document import parse, place_of, read_text
 from colonnade.campaign.fields import one_line
 from colonnade.campaign.notices import notices
 from colonnade.campaign.places import Place, Source, key_lines
 from colonnade.campaign.rawpath import inside
 from colonnade.campaign.references import dangling
+from colonnade.campaign.review import read_review
 from colonnade.campaign.specimen import SHAPES
 from colonnade.campaign.testlog import Log, read_log
 from colonnade.errors import CampaignError
@@ -39,11 +40,11 @@ def load(path: Path | str) -> Campaign:
     Raises
     ------
     CampaignError
-        If the file or its test log cannot be used; its text has a paragraph for each problem.
+        If the file, its test log or the review beside it cannot be used; its text has a paragraph for each problem.
     """
     path = _found(Path(path))
-    text = _text(path)
-    document, source, log = _parsed(text, path.name), Source(path.name, key_lines(text)), Log()
+    text = read_text(path)
+    document, source, log = parse(text, path.name), Source(path.name, key_lines(text)), Log()
     if isinstance(document.get("tests"), str):
         log = _log(document["tests"], path.parent, source)
         document = document | {"tests": list(log.tests)}
@@ -53,7 +54,8 @@ def load(path: Path | str) -> Campaign:
     told = [*log.problems, *(source.paragraph(place, message, document) for place, message in problems)]
     if told or written is None:
         raise CampaignError("\n".join(dict.fromkeys(map(one_line, told))))
-    return resolved(written, path, (*log.warnings, *notices(written)))
+    campaign = resolved(written, path, (*log.warnings, *notices(written)))
+    return replace(campaign, reviews=read_review(path.parent, campaign.tests, campaign.setups))
 
 
 def _found(path: Path) -> Path:
@@ -71,28 +73,6 @@ def _found(path: Path) -> Path:
         f"{path.name}: there is no such file in {path.parent}.{hint} "
         f"The path of a {FILE_NAME}, or of the folder that holds it, was expected."
     )
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_bytes().decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise CampaignError(
-            f"{path.name}: byte {error.start + 1} is not UTF-8 text. "
-            "Save the file as UTF-8; editors offer it as the encoding."
-        ) from None
-    except OSError as error:
-        raise CampaignError(f"{path.name}: it cannot be read ({error.strerror}).") from None
-
-
-def _parsed(text: str, name: str) -> dict[str, Any]:
-    try:
-        return tomllib.loads(text.replace("\r\n", "\n"))
-    except (ValueError, RecursionError) as error:  # a number of thousands of digits is a plain ValueError
-        said = "tables or lists are nested too deeply" if isinstance(error, RecursionError) else str(error)
-        raise CampaignError(
-            f"{name}: this is not TOML: {said}. Text stands in quotes, lists in [ ], and each key once in its table."
-        ) from None
 
 
 def _log(written: str, folder: Path, source: Source) -> Log:
@@ -114,7 +94,7 @@ def _validated(document: dict[str, Any], folder: Path) -> tuple[CampaignFile | N
 
 def _place(location: Place) -> Place:
     """A key's place: pydantic's, without its marks for a key and for the shape that it chose."""
-    place = tuple(part for part in location if part != "[key]")
+    place = place_of(location)
     if place[:1] == ("specimens",) and len(place) > 2 and place[2] in SHAPES:
         place = (*place[:2], *place[3:])
     return place

@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import hypot
 
 from colonnade.campaign.campaign import CampaignFile
-from colonnade.campaign.channel import Channel
+from colonnade.campaign.channel import ALONG, Channel
+from colonnade.campaign.setup import Setup
+from colonnade.campaign.specimen import AnySpecimen, Cone, Cylinder
 
-_ALONG_X = 1e-6
+OFF_SIDE = 0.02
+"""Fraction of its radius by which the point of a line of sight may lie off the side of a round specimen."""
+
+_USED = {
+    "specimen": {"displacement", "angle", "angular_velocity", "acceleration"},
+    "table": {"displacement", "acceleration"},
+}
 
 
 def notices(campaign: CampaignFile) -> tuple[str, ...]:
@@ -25,7 +34,7 @@ def notices(campaign: CampaignFile) -> tuple[str, ...]:
     unused: dict[str, list[str]] = {}
     for what, where in _unused(campaign):
         unused.setdefault(what, []).append(where)
-    return (*(_not_yet(what, places) for what, places in unused.items()), *_odd(campaign))
+    return (*(_not_yet(what, places) for what, places in unused.items()), *dict.fromkeys(_odd(campaign)))
 
 
 def _not_yet(what: str, places: list[str]) -> str:
@@ -34,38 +43,21 @@ def _not_yet(what: str, places: list[str]) -> str:
 
 
 def _unused(campaign: CampaignFile) -> Iterator[tuple[str, str]]:
-    for name, specimen in campaign.specimens.items():
-        if specimen.scale is not None:
-            yield "scale", f"specimens.{name}"
     for name, setup in campaign.setups.items():
-        if setup.table_tilt is not None:
-            yield "table_tilt", f"setups.{name}"
         for channel_name, channel in setup.channels.items():
             for what in _unused_of_channel(channel):
                 yield what, f"setups.{name}.channels.{channel_name}"
-    for test in campaign.tests:
-        if test.time_scale is not None:
-            yield "time_scale", f"tests[{test.id}]"
 
 
 def _unused_of_channel(channel: Channel) -> Iterator[str]:
-    if channel.sensing != "point":
-        yield f'sensing = "{channel.sensing}"'
-    if channel.normal is not None:
-        yield "normal"
-    if channel.anchor is not None:
-        yield "anchor"
-    used = {"displacement"} if channel.on == "specimen" else {"displacement", "acceleration"}
     if channel.quantity == "other":
         return
-    if channel.quantity not in used or channel.on == "ground":
+    if channel.quantity not in _USED.get(channel.on or "", ()):
         yield f'quantity = "{channel.quantity}" on the {channel.on or "setup"}'
-    elif channel.direction is not None:
-        across, along = abs(channel.direction[1]), abs(channel.direction[0])
-        if channel.on == "specimen" and across > _ALONG_X:
-            yield "a displacement out of the plane of rocking"
-        if channel.on == "table" and along < _ALONG_X:
-            yield "a motion of the table that is not along x"
+    elif channel.on == "specimen" and channel.quantity == "acceleration" and channel.at is None:
+        yield "an accelerometer on the specimen without `at`"
+    elif channel.on == "table" and channel.direction is not None and max(map(abs, channel.direction)) < ALONG:
+        yield "a motion of the table that is along none of x, y and z"
 
 
 def _odd(campaign: CampaignFile) -> Iterator[str]:
@@ -74,10 +66,33 @@ def _odd(campaign: CampaignFile) -> Iterator[str]:
             yield f"specimens.{name}.{deviation}"
     for test in campaign.tests:
         if test.kind == "sine" and test.frequency is None:
-            yield f"tests[{test.id}] is a sine test without frequency, so it gets no frequency ratio."
+            yield f"tests[{test.id}] is a sine test without frequency; the table's recorded motion alone will tell it."
         setup = campaign.setups[test.setup]
+        yield from _off_side(test.setup, setup, test.specimen, campaign.specimens[test.specimen])
         for recorder in setup.recorders:
             if recorder not in test.files:
                 yield f'tests[{test.id}] has no file of recorder "{recorder}"; its channels are absent in this test.'
     if not campaign.tests:
         yield "There is no test yet."
+
+
+def _off_side(setup_name: str, setup: Setup, specimen_name: str, specimen: AnySpecimen) -> Iterator[str]:
+    """Tell of lines of sight at the side of a round specimen whose point is not on it."""
+    for name, channel in setup.channels.items():
+        if channel.sensing != "surface" or channel.normal is not None or channel.at is None:
+            continue
+        x, y, z = channel.at
+        match specimen:
+            case Cylinder():
+                radius = specimen.diameter / 2
+            case Cone():
+                taper = (specimen.top_diameter - specimen.base_diameter) / specimen.height
+                radius = (specimen.base_diameter + taper * z) / 2
+            case _:
+                continue
+        if abs(hypot(x, y) - radius) > OFF_SIDE * radius:
+            yield (
+                f"setups.{setup_name}.channels.{name}.at is {1e3 * hypot(x, y):.4g} mm from the axis of "
+                f"{specimen_name}, whose side is {1e3 * radius:.4g} mm from it there; the point where the line of "
+                "sight meets it was expected."
+            )

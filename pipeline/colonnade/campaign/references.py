@@ -33,7 +33,9 @@ def dangling(document: Mapping[str, Any]) -> Iterator[Problem]:
     for name, setup in setups.items():
         yield from _setup(("setups", name), _table(setup))
     tests = document.get("tests")
-    yield from _tests(tests if isinstance(tests, list) else [], specimens, setups)
+    listed = tests if isinstance(tests, list) else []
+    yield from _tests(listed, specimens, setups)
+    yield from _faces(listed, specimens, setups)
 
 
 def _table(value: object) -> dict[str, Any]:
@@ -96,3 +98,23 @@ def _tests(tests: list[Any], specimens: Mapping[str, Any], setups: Mapping[str, 
                         ("tests", index, "file", recorder),
                         f'Setup "{test["setup"]}" has no recorder of this name.{hint}',
                     )
+
+
+def _faces(tests: list[Any], specimens: Mapping[str, Any], setups: Mapping[str, Any]) -> Iterator[Problem]:
+    """Find transducers that look at the face of a specimen that is not round, without its normal."""
+    told = set()
+    for test in map(_table, tests):
+        setup_name, specimen_name = test.get("setup"), test.get("specimen")
+        if not isinstance(setup_name, str) or not isinstance(specimen_name, str):
+            continue
+        if _table(specimens.get(specimen_name)).get("shape") not in ("prism", "measured"):
+            continue
+        for name, channel in _table(_table(setups.get(setup_name)).get("channels")).items():
+            place = ("setups", setup_name, "channels", name, "normal")
+            if _table(channel).get("sensing") == "surface" and "normal" not in channel and place not in told:
+                told.add(place)
+                yield (
+                    place,
+                    f'It is missing. Specimen "{specimen_name}" is not round, so that a "surface" transducer needs the '
+                    "outward normal of the face that it looks at, such as [1, 0, 0].",
+                )

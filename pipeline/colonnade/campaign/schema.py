@@ -1,4 +1,4 @@
-"""JSON Schemas of campaign.toml and summary.json, made from the models that read and write them."""
+"""JSON Schemas of campaign.toml, review.toml and summary.json, made from the models that read and write them."""
 
 from __future__ import annotations
 
@@ -6,11 +6,12 @@ import json
 from typing import Any
 
 from colonnade.campaign.campaign import CampaignFile
+from colonnade.campaign.review import ReviewFile
 from colonnade.campaign.summary import Summary
 from colonnade.errors import CampaignError, nearest
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
-NAMES = ("campaign", "summary")
+NAMES = ("campaign", "summary", "review")
 
 
 def json_schema(name: str) -> dict[str, Any]:
@@ -19,8 +20,8 @@ def json_schema(name: str) -> dict[str, Any]:
 
     Parameters
     ----------
-    name : {"campaign", "summary"}
-        Of campaign.toml as written, where quantities are text with a unit; or of processed/summary.json.
+    name : {"campaign", "summary", "review"}
+        Of campaign.toml as written, where quantities are text with a unit; of processed/summary.json; of review.toml.
 
     Returns
     -------
@@ -36,6 +37,11 @@ def json_schema(name: str) -> dict[str, Any]:
         return _campaign()
     if name == "summary":
         return {"$schema": DIALECT} | Summary.model_json_schema(by_alias=True, mode="serialization")
+    if name == "review":
+        schema: dict[str, Any] = _tidied(ReviewFile.model_json_schema(by_alias=True, mode="validation"))
+        for kind in ("exclude", "trim", "flag", "correct"):
+            schema["properties"][kind].pop("default", None)
+        return {"$schema": DIALECT} | schema
     raise CampaignError(f'There is no schema "{name}".{nearest(name, NAMES)}')
 
 

@@ -11,7 +11,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema
 from colonnade.campaign.fields import Duration, number, quantity, shown
 from colonnade.campaign.table import Table
 
-MODELS = ("linear",)
+MODELS = ("linear", "nonlinear")
 """Models that `predict` runs."""
 
 
@@ -84,7 +84,7 @@ class RestitutionSettings(Table):
 class PredictSettings(Table):
     """What the predictions take."""
 
-    models: Models = _setting(("linear",))
+    models: Models = _setting(MODELS)
     """Models of rocking that are run on the recorded base motion."""
     rest_angle: Annotated[float, *_bounded(0.0, 0.1)] = _setting(1e-6, "of α")
     """An arc after an impact that stays below this fraction of the critical angle is taken as rest."""

@@ -146,7 +146,7 @@ class Setup(Table):
     catch: PositiveAngle | None = None
     """Rotation at which the safety frame catches the specimen, such as "0.3 rad"."""
     table_tilt: Angle | None = None
-    """Tilt of the table at rest, such as "0.1 deg"."""
+    """Tilt of the table at rest, such as "0.1 deg": rotation about +y, positive where its +x side is the lower one."""
     channels: dict[Identifier, Channel] = Field(min_length=1)
     """The channels, by id."""
 

@@ -26,6 +26,9 @@ LARGEST_DEVIATION = 0.01
 SLIP_TOLERANCE = 0.003
 """A value this near to a known slip is told to be one; tables print three digits."""
 
+OUTER_DIMENSIONS = ("width", "depth", "diameter", "base_diameter", "top_diameter", "height")
+"""Keys of lengths that shapes have."""
+
 _MEASURED = {"critical_angle": ("rad", 1.0), "pole_distance": ("mm", 1e3), "inertia": ("kg m²", 1.0)}
 
 
@@ -46,6 +49,10 @@ class Specimen(Table):
     """Moment of inertia about the pole, such as "1.873 kg m^2"."""
     restitution: SidedRestitution | None = None
     """Coefficient of restitution, a plain number such as 0.976; without it the identified one is used."""
+
+    def sizes(self) -> dict[str, float]:
+        """Outer dimensions by their keys, m; none where the specimen has no dimensions."""
+        return {name: float(getattr(self, name)) for name in OUTER_DIMENSIONS if hasattr(self, name)}
 
     @model_validator(mode="after")
     def _is_a_block(self) -> Self:

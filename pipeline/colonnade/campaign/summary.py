@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 Outcome = Literal["no-rocking", "rocking", "overturned"]
+Order = int | Literal["irregular"] | None
 
 
 def _known(value: Any) -> Any:
@@ -45,6 +46,23 @@ class RestitutionSummary(_Record):
     """Free vibrations it was identified from."""
 
 
+class SpecimenPrototype(_Record):
+    """The specimen at prototype scale: length × s, time × √s, same density."""
+
+    scale: float
+    """s of the 1:s model."""
+    p: float
+    """Frequency parameter, rad/s."""
+    pole_distance: float
+    """R, m."""
+    mass: float
+    """kg."""
+    inertia: float
+    """I₀ about the pole, kg m²."""
+    sizes: dict[str, float]
+    """Outer dimensions by their keys in the campaign file, m."""
+
+
 class SpecimenSummary(_Record):
     """A specimen; of one that is not symmetric the side with the smaller critical angle."""
 
@@ -58,6 +76,8 @@ class SpecimenSummary(_Record):
     """I₀ about the pole, kg m²."""
     restitution: RestitutionSummary
     """Coefficient of restitution."""
+    prototype: SpecimenPrototype | None = None
+    """At prototype scale, where the campaign file gives the specimen's scale."""
 
 
 class PredictionSummary(_Record):
@@ -69,6 +89,49 @@ class PredictionSummary(_Record):
     """max |θ| / α; null when overturned."""
     nrmse: Known = None
     """RMS of predicted − measured, over α, until either first passes α."""
+    order: Order = None
+    """Predicted order of a sine test's response; see the test's own."""
+
+
+class HistorySummary(_Record):
+    """e of a free vibration from its whole history, by one model."""
+
+    value: Known = None
+    """The e with which the model follows the measured angle most closely; null where refused."""
+    low: Known = None
+    """Lower end of its interval."""
+    high: Known = None
+    """Upper end of its interval."""
+    residual: Known = None
+    """RMS of measured − simulated angle, rad."""
+
+
+class IdentifiedSummary(_Record):
+    """e of one free vibration."""
+
+    value: Known = None
+    """By its peaks, which is the one that is pooled; null where refused."""
+    low: Known = None
+    """Lower end of its interval."""
+    high: Known = None
+    """Upper end of its interval."""
+    reason: str | None = None
+    """Why it was refused."""
+    whole_history: dict[str, HistorySummary] = {}
+    """Beside it that of the whole history, by model."""
+
+
+class TestPrototype(_Record):
+    """A test at prototype scale; accelerations and angles are those of the model."""
+
+    duration: float
+    """Length of the record, s."""
+    frequency: Known = None
+    """Of a sine test, Hz."""
+    peak_time: Known = None
+    """Time of the peak, s."""
+    peak_slide: Known = None
+    """Largest slide, m."""
 
 
 class TestSummary(_Record):
@@ -77,7 +140,7 @@ class TestSummary(_Record):
     status: Literal["done", "failed", "pending"]
     """Whether its stages have run."""
     reason: str | None = None
-    """Why it failed."""
+    """Why it failed, or is left out by the manual review."""
     warnings: tuple[str, ...] = ()
     """What its stages warned of."""
     kind: str
@@ -96,14 +159,28 @@ class TestSummary(_Record):
     """Time of the peak, s."""
     pga: Known = None
     """Peak acceleration of the table, m/s²."""
+    duration: Known = None
+    """Length of the record, s."""
+    peak_slide: Known = None
+    """Largest slide of the base on the table while the specimen stands, m; null where not measured."""
     impacts: int | None = None
     """Impacts followed by a peak above noise and 0.001 α."""
+    frequency: Known = None
+    """Of a sine test, as recorded on the table, Hz; as given where the record does not show it."""
     frequency_ratio: Known = None
     """Ω = ω / p of a sine test."""
     amplitude_ratio: Known = None
-    """A = a / (g tan α) of a sine test."""
-    order: Known = None
-    """Order of a sine test's response."""
+    """A = a / (g tan α) of a sine test, a the amplitude while the table's recorded motion is steady."""
+    order: Order = None
+    """Order of a sine test's response: 1 harmonic, n sub-harmonic 1/n, or irregular; null where it cannot be told."""
+    order_reason: str | None = None
+    """What the order was judged by, or why it cannot be told."""
+    impacts_per_cycle: Known = None
+    """Impacts a period of the table, of a sine test."""
+    restitution: IdentifiedSummary | None = None
+    """What a free vibration says."""
+    prototype: TestPrototype | None = None
+    """At prototype scale, where the campaign file gives the specimen's scale."""
     predicted: dict[str, PredictionSummary] = {}
     """By model."""
 

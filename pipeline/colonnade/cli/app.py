@@ -9,13 +9,14 @@ from colonnade.cli.check import check
 from colonnade.cli.demo import demo
 from colonnade.cli.identify import identify
 from colonnade.cli.ingest import ingest
+from colonnade.cli.init import init
 from colonnade.cli.predict import predict
 from colonnade.cli.report import report
 from colonnade.cli.run import run
 from colonnade.cli.schema import schema
 from colonnade.cli.show import show
 
-COMMANDS = (demo, check, run, ingest, identify, predict, report, show, schema)
+COMMANDS = (demo, init, check, run, ingest, identify, predict, report, show, schema)
 
 
 class InOrder(click.RichGroup):
@@ -36,8 +37,9 @@ def app() -> None:
     """
     From the recordings of a shake-table test on a free-standing column to measured over predicted.
 
-    Start with `colonnade demo`: it writes a virtual campaign and runs all of it. Most commands take a CAMPAIGN: a
-    campaign.toml or its folder, by default the one you stand in. Results and paths go to stdout, progress to stderr.
+    Start with `colonnade demo`: it writes a virtual campaign and runs all of it. With recordings of your own,
+    `colonnade init` drafts their campaign.toml. Most commands take a CAMPAIGN: a campaign.toml or its folder, by
+    default the one you stand in. Results and paths go to stdout, progress to stderr.
     """
 
 

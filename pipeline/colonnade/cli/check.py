@@ -63,6 +63,11 @@ def _examine(campaign: Campaign) -> dict[str, Finding]:
     with counting("Reading raw files", len(campaign.tests)) as advance:
         for name, test in campaign.tests.items():
             finding, recordings = Finding(), {}
+            findings[name] = finding
+            if excluded := campaign.review(name).excluded:
+                finding.warnings.append(f"{excluded} (review.toml).")
+                advance()
+                continue
             for recorder, path in test.files.items():
                 try:
                     recordings[recorder] = recording(path, test.setup, recorder)
@@ -75,7 +80,6 @@ def _examine(campaign: Campaign) -> dict[str, Finding]:
                     finding.warnings += recorded.attrs["warnings"]
                 except (ReadError, StageError) as error:
                     finding.problems.append(str(error))
-            findings[name] = finding
             advance()
     return findings
 

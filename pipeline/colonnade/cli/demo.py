@@ -24,25 +24,28 @@ from colonnade.cli.work import failed_rows, run_with_progress
     metavar="FILE",
     help="Earthquake record to play; El Centro 1940 NS by default.",
 )
+@click.option("--short", is_flag=True, help="Ten tests of the prism instead of the whole programme.")
 @workers_option
 @json_option
-def demo(folder: Path, seed: int, motion: Path | None, workers: int | None, as_json: bool) -> int:
+def demo(folder: Path, seed: int, motion: Path | None, short: bool, workers: int | None, as_json: bool) -> int:
     """
     Write a virtual campaign with known truth, run all of it, and tell how near it came.
 
-    Free vibrations, sines and an earthquake at three Spans, of a steel prism on a virtual shake table with imperfect
-    instruments. DIR, by default demo/, is made; it may also be a former demo, which is then written anew. Open
-    DIR/report/index.html afterwards, and have a look at DIR/campaign.toml: your own will look like it.
+    Free vibrations, sines from 1 to 7 Hz and an earthquake at three Spans, of a steel prism, a cylinder and a truncated
+    cone on a virtual shake table with imperfect instruments, recorded in text, TDMS and MATLAB files. DIR, by default
+    demo/, is made; it may also be a former demo, which is then written anew. Open DIR/report/index.html afterwards, and
+    have a look at DIR/campaign.toml: your own will look like it.
     """
     from colonnade.errors import ReadError
-    from colonnade.laboratory import write_campaign
+    from colonnade.laboratory import paper_programme, prism_programme, write_campaign
     from colonnade.laboratory.campaign_file import FILE_NAME
 
     if folder.is_dir() and any(folder.iterdir()) and not (folder / FILE_NAME).is_file():
         raise click.UsageError(f"{folder} holds other files. Name one that is empty, not there yet, or a former demo.")
     complain(f"Shaking the virtual table into {folder}")
     try:
-        written = write_campaign(folder, seed=seed, motion=motion)
+        programme = prism_programme if short else paper_programme
+        written = write_campaign(folder, seed=seed, motion=motion, programme=programme, workers=workers)
     except ReadError as error:
         raise click.UsageError(str(error)) from error
     result = run_with_progress(folder, workers=workers)
@@ -60,10 +63,12 @@ def demo(folder: Path, seed: int, motion: Path | None, workers: int | None, as_j
 def _comparison(truth: dict[str, Any], summary_path: Path) -> dict[str, Any]:
     """Lay what was found beside what is true."""
     summary = json.loads(summary_path.read_text(encoding="utf-8"))
-    restitution = summary["specimens"][truth["specimen"]["id"]]["restitution"]
     found = {name: summary["tests"][name] for name in truth["tests"]}
     return {
-        "restitution": {"true": truth["restitution"]} | restitution,
+        "restitution": {
+            name: {"true": true["restitution"]} | summary["specimens"][name]["restitution"]
+            for name, true in truth["specimens"].items()
+        },
         "tests": {
             name: {
                 "true_outcome": true["outcome"],
@@ -80,14 +85,14 @@ def _comparison(truth: dict[str, Any], summary_path: Path) -> dict[str, Any]:
 def _tell(comparison: dict[str, Any]) -> None:
     from colonnade.units import format_uncertain
 
-    restitution = comparison["restitution"]
-    true, value, low, high = (restitution[key] for key in ("true", "value", "low", "high"))
-    if value is None or low is None:
-        say(f"e: {restitution['reason'] or restitution['source']}; true is {true:g}")
-    else:
-        held = "holds" if low <= true <= high else "misses"
-        say(f"e identified: {format_uncertain(value, (high - low) / 2)} ({restitution['level']:.0%} interval)")
-        say(f"e true: {true:g}, which the interval {held}")
+    for specimen, restitution in comparison["restitution"].items():
+        true, value, low, high = (restitution[key] for key in ("true", "value", "low", "high"))
+        if value is None or low is None:
+            say(f"{specimen}: {restitution['reason'] or restitution['source']}; true is {true:g}")
+        else:
+            held = "holds" if low <= true <= high else "misses"
+            found = f"e identified as {format_uncertain(value, (high - low) / 2)} ({restitution['level']:.0%} interval)"
+            say(f"{specimen}: {found}; true is {true:g}, which the interval {held}")
     say()
     rows = []
     for name, test in comparison["tests"].items():
@@ -100,3 +105,4 @@ def _tell(comparison: dict[str, Any]) -> None:
         ratios = (shown(test["peak_ratio"]), shown(test["true_peak_ratio"]))
         rows.append((name, shown(test["outcome"]), test["true_outcome"], right, *ratios, predicted))
     show_table(("test", "outcome", "true", "", "|θ|/α", "true", "predicted"), rows)
+    say(f"{sum(row[3] == 'right' for row in rows)} of {len(rows)} outcomes are right")

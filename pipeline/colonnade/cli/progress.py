@@ -23,6 +23,14 @@ def counting(what: str, total: int) -> Iterator[Callable[[], None]]:
 
 
 @contextmanager
+def looking(what: str) -> Iterator[Callable[[int, int], None]]:
+    """Show work that finds out its own length; the callable takes how much is done, and of how much."""
+    with progress_bar() as bar:
+        task = bar.add_task(what, total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+@contextmanager
 def following() -> Iterator[Callable[[StageRun, int, int], None]]:
     """Show a run as it goes on; the callable that is given takes each stage that ended, and how many of all have."""
     with progress_bar() as bar:

@@ -19,6 +19,6 @@ def report(campaign: Path, only: tuple[str, ...], workers: int | None, verify: b
 
     CAMPAIGN is a campaign.toml or its folder, by default the one you stand in.
 
-    Writes report/index.html beside campaign.toml; also where tests failed.
+    Writes report/index.html beside campaign.toml, with a page a test and a specimen; also where tests failed.
     """
     return work(campaign, until="report", only=only, workers=workers, verify=verify, as_json=as_json)

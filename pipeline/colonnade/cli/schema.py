@@ -1,4 +1,4 @@
-"""`colonnade schema`: the JSON Schemas of the two contracts."""
+"""`colonnade schema`: the JSON Schemas of the contracts."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from colonnade.cli.console import show_json
 
 
 @click.command(epilog="Example: colonnade schema campaign > campaign.schema.json")
-@click.argument("contract", type=click.Choice(("campaign", "summary")))
+@click.argument("contract", type=click.Choice(("campaign", "summary", "review")))
 def schema(contract: str) -> int:
     """
-    Write the JSON Schema of campaign.toml or of processed/summary.json.
+    Write the JSON Schema of campaign.toml, of processed/summary.json or of review.toml.
 
     Editors that know TOML schemas complete and check a campaign.toml with it; loggers and scripts in any language can
     hold what they write and read against it.

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
 from colonnade.cli.console import show_fields, show_json, show_table, shown
 from colonnade.cli.options import json_option
 from colonnade.cli.records import KnownCampaign, Record, specimen_records, test_records
+
+if TYPE_CHECKING:
+    from colonnade.readers.registry import Format
 
 campaign_and_id = click.argument("arguments", nargs=-1, metavar="[CAMPAIGN] [ID]")
 
@@ -72,7 +75,7 @@ def settings(campaign: Path | None, as_json: bool) -> int:
 @show.command(epilog="Example: colonnade show formats --json")
 @json_option
 def formats(as_json: bool) -> int:
-    """Show the raw formats that can be read, and the options of each."""
+    """Show the raw formats that can be read, what has to be installed for them, and the options of each."""
     from colonnade.readers.registry import formats as all_formats
 
     known = all_formats().values()
@@ -82,16 +85,30 @@ def formats(as_json: bool) -> int:
                 each.name: {
                     "summary": each.summary,
                     "suffixes": each.suffixes,
-                    "options": each.options.model_json_schema()["properties"],
+                    "extra": each.extra or None,
+                    "installed": each.is_installed,
+                    "options": each.options.model_json_schema().get("properties", {}),
                 }
                 for each in known
             }
         )
-    for each in () if as_json else known:
-        show_table(("format", "usual endings", "what it is"), [(each.name, " ".join(each.suffixes), each.summary)])
-        options = [(f"  {name}", field.description or "") for name, field in each.options.model_fields.items()]
-        show_table(("  option", "what it says"), options)
+        return 0
+    cells = [(each.name, " ".join(each.suffixes), each.summary, _needed(each)) for each in known]
+    show_table(("format", "usual endings", "what it is", "needs"), cells)
+    options = [
+        (each.name, name, field.description or "")
+        for each in known
+        for name, field in each.options.model_fields.items()
+    ]
+    show_table(("format", "option", "what it says"), options)
     return 0
+
+
+def _needed(format: Format) -> str:
+    """What a format needs beside colonnade itself, and whether it is there."""
+    if not format.extra:
+        return ""
+    return f"{format.package} (installed)" if format.is_installed else format.installation
 
 
 def _campaign_and_id(arguments: tuple[str, ...]) -> tuple[Path, str | None]:

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from colonnade.figures.curve import Curve, envelope
-from colonnade.figures.histories import history_with_base, rocking_history
+from colonnade.figures.measured_map import measured_map
 from colonnade.figures.peaks import PeakSeries, peak_decay
-from colonnade.figures.spans import SpanPanel, spans_together
+from colonnade.figures.record import Peak, Quantity, whole_record
+from colonnade.figures.spans import SpanPanel, spans_side_by_side
 from colonnade.figures.svg import to_svg
 
 __all__ = [
     "Curve",
+    "Peak",
     "PeakSeries",
+    "Quantity",
     "SpanPanel",
     "envelope",
-    "history_with_base",
+    "measured_map",
     "peak_decay",
-    "rocking_history",
-    "spans_together",
+    "spans_side_by_side",
     "to_svg",
+    "whole_record",
 ]

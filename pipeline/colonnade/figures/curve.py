@@ -59,12 +59,18 @@ def envelope(curve: Curve, *, intervals: int = INTERVALS) -> Curve:
     starts = np.unique(np.concatenate(([0], np.searchsorted(time, edges))))
     starts = starts[starts < time.size]
     finite = np.isfinite(values)
-    ends = np.append(starts[1:], time.size)
-    kept = [0, time.size - 1]
-    for start, end in zip(starts, ends, strict=True):
-        if finite[start:end].any():
-            kept += [start + int(np.nanargmin(values[start:end])), start + int(np.nanargmax(values[start:end]))]
-        else:
-            kept.append(int(start))
-    index = np.unique(kept)
+    lowest = _first_equal(np.minimum.reduceat(np.where(finite, values, np.inf), starts), values, starts)
+    highest = _first_equal(np.maximum.reduceat(np.where(finite, values, -np.inf), starts), values, starts)
+    index = np.unique(np.concatenate(([0, time.size - 1], lowest, highest)))
     return Curve(time[index], values[index])
+
+
+def _first_equal(extremes: Array, values: Array, starts: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return the index of the first sample of each interval that is its extreme; its start where it has no value."""
+    ends = np.append(starts[1:], values.size)
+    interval = np.repeat(np.arange(starts.size), ends - starts)
+    hits = np.flatnonzero(values == extremes[interval])
+    found = starts.copy()
+    owners, first = np.unique(interval[hits], return_index=True)
+    found[owners] = hits[first]
+    return found

@@ -12,7 +12,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator, StrMethodFor
 from numpy.typing import NDArray
 
 from colonnade.dynamics.block import Block
-from colonnade.figures.histories import add_legend
+from colonnade.figures.panels import legend_outside
 from colonnade.figures.style import FIT, MEASURED, blank_figure, styled
 from colonnade.identification.restitution import released_energy
 
@@ -79,7 +79,7 @@ def peak_decay(series: Sequence[PeakSeries], block: Block, *, axes: Sequence[Axe
             _label_energies(one)
             figure = cast(Figure, one.get_figure(root=True))
         if own:
-            add_legend(figure, axes)
+            legend_outside(figure, axes)
     return figure
 
 

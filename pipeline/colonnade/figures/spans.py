@@ -1,37 +1,46 @@
-"""Earthquake tests of rising intensity together, on the same scales."""
+"""Earthquake tests of rising intensity side by side: each model on the measured angle, above the base motion."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
-from colonnade.figures.curve import Curve
-from colonnade.figures.histories import add_legend, limit_of, rocking_history, time_limits
-from colonnade.figures.style import blank_figure, styled
+from colonnade.figures.curve import Curve, envelope
+from colonnade.figures.histories import ANGLE_LABEL, draw_angle, largest_of, limit_of, time_limits
+from colonnade.figures.panels import COLUMNS, legend_above, side_by_side
+from colonnade.figures.style import BASE, styled
+
+ANGLE_HEIGHT, BASE_HEIGHT = 1.35, 0.8
+"""Heights of the panels, inches."""
+
+INTERVALS = 200
+"""Time intervals of a curve's envelope: a third of a figure's width shows no more."""
+
+
+THINNESS = 0.6
+"""Of the models' lines beside their usual width."""
 
 
 class SpanPanel(NamedTuple):
-    """One test: its title, and θ/α over time (s) as measured (None where it was not) and by each model."""
+    """One test: its title, θ/α over time (s) as measured (None where it was not) and by each model; base in m/s²."""
 
     title: str
     measured: Curve | None
     predicted: Mapping[str, Curve]
+    base: Curve | None = None
 
 
-def spans_together(panels: Sequence[SpanPanel], *, axes: Sequence[Axes] | None = None) -> Figure:
+def spans_side_by_side(panels: Sequence[SpanPanel]) -> Figure:
     """
-    Draw earthquake tests one below the other, all with the same θ/α and time axes.
+    Draw earthquake tests beside each other, a row of panels for each model, all with the same scales.
 
     Parameters
     ----------
     panels : sequence of SpanPanel
-        In the order in which they are drawn, from the top.
-    axes : sequence of Axes, optional
-        To draw into, one a panel; a new figure with its legend otherwise.
+        In the order in which they are drawn, from the left.
 
     Returns
     -------
@@ -44,18 +53,30 @@ def spans_together(panels: Sequence[SpanPanel], *, axes: Sequence[Axes] | None =
     """
     if not panels:
         raise ValueError("no test was given; at least one panel was expected")
+    models = list(dict.fromkeys(model for panel in panels for model in panel.predicted))
     curves = [curve for panel in panels for curve in (panel.measured, *panel.predicted.values()) if curve is not None]
-    limit, times = limit_of(curves), time_limits(curves)
+    bases = [panel.base for panel in panels if panel.base is not None]
+    limit, largest = limit_of(curves), largest_of(bases) or 1.0
+    rows = max(len(models), 1)
     with styled():
-        own = axes is None
-        if axes is None:
-            figure = blank_figure(0.6 + 1.6 * len(panels))
-            axes = list(np.atleast_1d(figure.subplots(len(panels), sharex=True, sharey=True)))
-        for one, panel in zip(axes, panels, strict=True):
-            figure = rocking_history(panel.measured, panel.predicted, axes=one, ratio_limit=limit)
-            one.set_title(panel.title)
-            one.set_xlim(*times)
-        axes[-1].set_xlabel("time (s)")
-        if own:
-            add_legend(figure, axes)
+        figure, grid = side_by_side(len(panels), [ANGLE_HEIGHT] * rows + [BASE_HEIGHT] * bool(bases))
+        for column, panel in zip(grid, panels, strict=True):
+            for one, model in zip(column, models or [""], strict=False):
+                predicted = {model: panel.predicted[model]} if model in panel.predicted else {}
+                draw_angle(one, panel.measured, predicted, limit, intervals=INTERVALS, thinness=THINNESS, limit_name="")
+                one.set_ylabel("")
+            column[0].set_title(panel.title)
+            if bases:
+                if panel.base is not None:
+                    column[-1].plot(*envelope(panel.base, intervals=INTERVALS), **BASE)
+                column[-1].set_ylim(-1.12 * largest, 1.12 * largest)
+                column[-1].yaxis.set_major_locator(MaxNLocator(nbins=4, symmetric=True, steps=[1, 2, 5, 10]))
+            column[-1].set_xlabel("time (s)")
+            column[0].set_xlim(*time_limits([*curves, *bases]))
+        for column in grid[::COLUMNS]:
+            for one in column[:rows]:
+                one.set_ylabel(ANGLE_LABEL)
+            if bases:
+                column[-1].set_ylabel("base\n(m/s²)")
+        legend_above(figure, [one for column in grid for one in column[:rows]])
     return figure

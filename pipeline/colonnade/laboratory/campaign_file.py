@@ -11,7 +11,7 @@ from colonnade import units
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.errors import CampaignError
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Trial, raw_path
-from colonnade.laboratory.files import Flavour
+from colonnade.laboratory.files import FileFormat
 from colonnade.laboratory.instruments import VOLTS, Transducer
 
 FILE_NAME = "campaign.toml"
@@ -26,7 +26,7 @@ _HEAD = (
 """
 )
 
-_SPECIMEN = """
+_SPECIMENS = """
 # What was tested. Critical angle, inertia and the rest follow from dimensions and mass; a measured value beside them
 # would win. No restitution is given here, so that it is identified from the free vibrations.
 """
@@ -44,9 +44,11 @@ _TESTS = """
 def campaign_text(plan: Plan) -> str:
     """Write out the campaign file of a plan."""
     lines = [_HEAD, "schema = 1", f"campaign = {_value(plan.campaign)}", f"title = {_value(plan.title)}"]
-    if plan.block.gravity != STANDARD_GRAVITY:
-        lines.append(f'gravity = "{plan.block.gravity} m/s^2"')
-    lines += [_SPECIMEN + "[specimens]", f"{_key(plan.specimen)} = {_inline(plan.shape)}"]
+    gravity = next(iter(plan.specimens.values())).block.gravity
+    if gravity != STANDARD_GRAVITY:
+        lines.append(f'gravity = "{gravity} m/s^2"')
+    lines.append(_SPECIMENS + "[specimens]")
+    lines += [f"{_key(name)} = {_inline(specimen.shape)}" for name, specimen in plan.specimens.items()]
     for number, (name, setup) in enumerate(plan.setups.items()):
         lines += _setup(name, setup, explained=number == 0)
     lines.append(_TESTS.rstrip())
@@ -86,11 +88,10 @@ def _setup(name: str, setup: Setup, *, explained: bool) -> list[str]:
     return lines
 
 
-def _file(flavour: Flavour) -> list[str]:
-    if not flavour.declared:
+def _file(flavour: FileFormat) -> list[str]:
+    said = flavour.declaration()
+    if not said:
         return ["# How its files are written is not said: delimiter, decimal sign, names and units are sniffed."]
-    said: dict[str, str | float] = {"format": "delimited", "delimiter": flavour.delimiter, "decimal": flavour.decimal}
-    said |= {"encoding": flavour.encoding, "time": flavour.heading(flavour.time_name, "s")}
     return [f"file = {_inline(said)}    # every key optional: sniffed where it is not given"]
 
 
@@ -128,8 +129,9 @@ def _channel(transducer: Transducer, recorder: str) -> dict[str, object]:
 
 def _trial(plan: Plan, trial: Trial) -> list[str]:
     recorders = plan.setups[trial.setup].recorders
-    paths = {name: raw_path(trial, name) for name in recorders}
-    entry: dict[str, object] = {"id": trial.name, "kind": trial.kind, "specimen": plan.specimen, "setup": trial.setup}
+    paths = {name: raw_path(trial, name, recorder) for name, recorder in recorders.items()}
+    entry: dict[str, object] = {"id": trial.name, "kind": trial.kind, "specimen": plan.specimen_of(trial)}
+    entry["setup"] = trial.setup
     entry["file"] = paths[MAIN] if len(paths) == 1 else paths
     return ["", "[[tests]]", *(f"{key} = {_value(value)}" for key, value in (entry | dict(trial.entry)).items())]
 

@@ -1,10 +1,11 @@
-"""Raw files as recorders write them: delimited text in several flavours."""
+"""Raw files as recorders write them: what every format has, and delimited text in several flavours."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,42 @@ from numpy.typing import NDArray
 from colonnade.errors import StoreError
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """
+    What one recorder has to write of one test.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s, from the recorder's own zero.
+    sampling_rate_hz : float
+    columns : mapping of str to (str, ndarray of shape (n,))
+        Unit and values by name.
+    begun : numpy.datetime64
+        When the test began.
+    """
+
+    time: Array
+    sampling_rate_hz: float
+    columns: Mapping[str, tuple[str, Array]]
+    begun: np.datetime64
+
+
+class FileFormat(Protocol):
+    """A way to write raw files."""
+
+    @property
+    def suffix(self) -> str:
+        """Ending of its files' names."""
+
+    def declaration(self) -> Mapping[str, str]:
+        """Keys of `file` in the campaign file; none where it is left to be sniffed."""
+
+    def content(self, sheet: Sheet) -> bytes:
+        """Bytes of a file; the same sheet gives the same bytes."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +76,22 @@ class Flavour:
     preamble: tuple[str, ...] = ()
     units_in_names: bool = False
     declared: bool = False
+
+    @property
+    def suffix(self) -> str:
+        """Ending of its files' names."""
+        return ".csv"
+
+    def declaration(self) -> Mapping[str, str]:
+        """Keys of `file` in the campaign file; none where it is left to be sniffed."""
+        if not self.declared:
+            return {}
+        said = {"format": "delimited", "delimiter": self.delimiter, "decimal": self.decimal, "encoding": self.encoding}
+        return said | {"time": self.heading(self.time_name, "s")}
+
+    def content(self, sheet: Sheet) -> bytes:
+        """Bytes of a file."""
+        return delimited_text(sheet.time, sheet.columns, self).encode(self.encoding)
 
     def heading(self, name: str, unit: str) -> str:
         """Name of a column as it stands in the file."""
@@ -92,16 +145,15 @@ def delimited_text(time: Array, columns: Mapping[str, tuple[str, Array]], flavou
     return "\n".join([*lines, *samples, ""])
 
 
-def put(path: Path, text: str, encoding: str = "utf-8") -> None:
+def put(path: Path, data: bytes) -> None:
     """
-    Write a file of a virtual campaign, unless it holds that text already.
+    Write a file of a virtual campaign, unless it holds these bytes already.
 
     Raises
     ------
     StoreError
         If it cannot be written.
     """
-    data = text.encode(encoding)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         if not path.is_file() or path.read_bytes() != data:

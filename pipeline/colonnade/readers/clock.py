@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from datetime import datetime, timedelta
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,6 +89,20 @@ def in_seconds(channel: RecordedChannel, unit: str | None) -> tuple[Array, str]:
     factor = TIME_UNITS.get((unit or "s").casefold(), 1.0)
     how = f"in {unit}" if unit else "without a unit, taken as seconds"
     return (channel.values if factor == 1.0 else channel.values * factor), how
+
+
+def even_times(count: int, step: float, begin: float = 0.0) -> Array:
+    """Give times in equal steps, s."""
+    times: Array = begin + step * np.arange(count, dtype=np.float64)
+    return times
+
+
+def moment_after(origin: datetime | None, seconds: float) -> datetime | None:
+    """Give the date and time so many seconds after another; None where either is not known or cannot be."""
+    try:
+        return None if origin is None else origin + timedelta(seconds=seconds)
+    except (ValueError, OverflowError):
+        return None
 
 
 def rising_share(values: Array) -> float:

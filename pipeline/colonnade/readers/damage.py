@@ -14,7 +14,6 @@ from colonnade.readers.body import sample_lines
 from colonnade.readers.cells import Dialect, decimals_of, kind_of, looks_like_numbers
 from colonnade.readers.first_sample import is_sample
 from colonnade.readers.samples import Array, Samples
-from colonnade.readers.text_encoding import ends_within_line
 
 Fault = Literal["comment", "text", "cut", "struck out", "long", "short"]
 
@@ -44,6 +43,10 @@ class Source:
         Name of each column and what it holds.
     trailing : int
         Nameless empty cells after these columns on every line, made by delimiters at its end.
+    skipped : int
+        Rows of the file that are not part of the table, at its start.
+    is_cut : bool
+        Whether the table ends with the file, and that within a line.
     """
 
     path: Path
@@ -52,6 +55,8 @@ class Source:
     headings: tuple[str, ...]
     kinds: tuple[str, ...]
     trailing: int = 0
+    skipped: int = 0
+    is_cut: bool = False
 
     def rows(self, wanted: NDArray[np.int64]) -> Iterator[Row]:
         """Find rows, given in rising order, in the file."""
@@ -59,7 +64,7 @@ class Source:
         sought = next(remaining, None)
         if sought is None:
             return
-        for row, (line, text) in enumerate(sample_lines(self.path, self.dialect, self.first)):
+        for row, (line, text) in enumerate(sample_lines(self.path, self.dialect, self.first), -self.skipped):
             if row == sought:
                 yield Row(row, line, text, self.dialect.split(text))
                 sought = next(remaining, None)
@@ -104,11 +109,10 @@ def find_damage(samples: Samples, source: Source) -> Damage:
     last cells: then these columns are shorter.
     """
     size = samples.columns[0].size
-    unfinished = ends_within_line(source.path)
-    wanted = np.union1d(samples.doubtful, [size - 1]) if unfinished else samples.doubtful
+    wanted = np.union1d(samples.doubtful, [size - 1]) if source.is_cut else samples.doubtful
     faults: dict[Fault, list[Row]] = {fault: [] for fault in get_args(Fault)}
     for row in source.rows(wanted):
-        fault = _fault(row, samples.columns, source, is_cut=unfinished and row.row == size - 1)
+        fault = _fault(row, samples.columns, source, is_cut=source.is_cut and row.row == size - 1)
         if fault is not None:
             faults[fault].append(row)
     notes, warnings = [], []
@@ -182,7 +186,7 @@ def unfinished_number(samples: Samples, source: Source) -> tuple[bool, str]:
     message : str
         Empty where the file ends with a line end or within an earlier cell.
     """
-    if not ends_within_line(source.path):
+    if not source.is_cut:
         return False, ""
     size, width = samples.columns[0].size, len(source.headings)
     *above, last = source.rows(np.arange(max(size - TAIL, 0), size))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Literal, Self
@@ -16,12 +15,20 @@ from colonnade.readers.clock import Clocks, find_clocks, in_seconds
 from colonnade.readers.damage import Damage, Source, find_damage, report_missing, unfinished_number
 from colonnade.readers.first_sample import column_kinds, find_first_sample
 from colonnade.readers.heading import Heading, HeadingLines, describe_columns, find_heading, unread_numbers
-from colonnade.readers.recording import TIME_UNITS, Array, RecordedChannel, Recording
+from colonnade.readers.recording import TIME_UNITS, Array, RecordedChannel, Recording, Window
 from colonnade.readers.registry import Format, Recognition
-from colonnade.readers.samples import Samples, read_samples
+from colonnade.readers.samples import Samples, Stretch, read_samples
 from colonnade.readers.sniffing import sniff
-from colonnade.readers.text_encoding import Encoding, detect_encoding, head_lines, looks_binary
+from colonnade.readers.text_encoding import (
+    Encoding,
+    detect_encoding,
+    ends_within_line,
+    head_lines,
+    known_encoding,
+    looks_binary,
+)
 from colonnade.readers.timestamps import past_midnight
+from colonnade.readers.values import TimeUnit
 
 DELIMITER_WORDS = {"comma": ",", "semicolon": ";", "tab": "\t", "\\t": "\t", "pipe": "|", "space": " ", "spaces": " "}
 
@@ -31,19 +38,6 @@ def _delimiter(text: str) -> str:
     if len(character) != 1 or character.isalnum() or character in '"+-.\r\n':
         raise ValueError('one character was expected, such as ";" or ",", or "tab" or "spaces"')
     return character
-
-
-def _encoding(name: str) -> str:
-    try:
-        return codecs.lookup(name).name
-    except LookupError:
-        raise ValueError('no such encoding; give for example "utf-8", "utf-16" or "latin-1"') from None
-
-
-def _time_unit(unit: str) -> str:
-    if unit.casefold() not in TIME_UNITS:
-        raise ValueError('a unit of time was expected: "s", "ms", "us", "min" or "h"')
-    return unit
 
 
 class DelimitedOptions(BaseModel):
@@ -58,7 +52,7 @@ class DelimitedOptions(BaseModel):
     thousands: Literal[".", ",", " ", "'"] | None = Field(
         default=None, description="Sign between groups of three digits."
     )
-    encoding: Annotated[str, AfterValidator(_encoding)] | None = Field(
+    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
         default=None, description='Of the text, such as "utf-8", "utf-16", "latin-1".'
     )
     skip_rows: int = Field(default=0, ge=0, description="Lines at the top of the file that are not looked at.")
@@ -69,9 +63,7 @@ class DelimitedOptions(BaseModel):
         default=None, ge=0, description="Line with the columns' units, from 1; 0 where there is none."
     )
     time: str | int | None = Field(default=None, description="Name or number, from 1, of the column that is the clock.")
-    time_unit: Annotated[str, AfterValidator(_time_unit)] | None = Field(
-        default=None, description="Unit of that column."
-    )
+    time_unit: TimeUnit | None = Field(default=None, description="Unit of that column.")
     comment: str | None = Field(default=None, min_length=1, description="What starts a line that is not a sample.")
     missing: tuple[str, ...] = Field(default=(), description='Texts that stand for a missing value, such as "-999".')
 
@@ -104,9 +96,16 @@ def recognise(path: Path) -> Recognition:
     return Recognition(True, f"text with rows of {len(header.source.headings)} numbers from line {first} on")
 
 
-def read(path: Path, options: DelimitedOptions) -> Recording:
+def read(path: Path, options: DelimitedOptions, window: Window | None = None) -> Recording:
     """
     Read a delimited text file.
+
+    Parameters
+    ----------
+    path : Path
+    options : DelimitedOptions
+    window : Window, optional
+        What is wanted of it; some samples on either side may come along. Default: all.
 
     Raises
     ------
@@ -114,8 +113,15 @@ def read(path: Path, options: DelimitedOptions) -> Recording:
         If it is not text or has no rows of numbers, or a column that the options name is not there.
     """
     header = read_header(path, options)
-    source = header.source
-    samples = read_samples(path, source.dialect, source.first, source.kinds, source.trailing, options.missing)
+    stretch = None if window is None else _stretch(header, options, window)
+    return _recording(header, _samples(header, options, stretch), options)
+
+
+def _recording(header: Header, samples: Samples, options: DelimitedOptions) -> Recording:
+    """Tell what the samples mean."""
+    path = header.source.path
+    is_cut = samples.reaches_end and ends_within_line(path)
+    source = replace(header.source, skipped=samples.skipped, is_cut=is_cut)
     damage = find_damage(samples, source)
     number_cut, message = unfinished_number(samples, source)
     absent = report_missing(samples.columns, source, damage)
@@ -149,6 +155,26 @@ def read(path: Path, options: DelimitedOptions) -> Recording:
             *absent,
         ),
     )
+
+
+def _samples(header: Header, options: DelimitedOptions, stretch: Stretch | None) -> Samples:
+    source = header.source
+    return read_samples(
+        source.path, source.dialect, source.first, source.kinds, source.trailing, options.missing, stretch
+    )
+
+
+def _stretch(header: Header, options: DelimitedOptions, window: Window) -> Stretch | None:
+    """Find the rows of a window; None, which is all of them, where the file has several clocks or timestamps."""
+    if window.sampling_rate_hz is not None:
+        return Stretch(window.low * window.sampling_rate_hz, window.high * window.sampling_rate_hz)
+    head = _recording(header, _samples(header, options, Stretch(0.0, 0.0)), options)
+    clocks = [number for number, channel in enumerate(head.channels) if channel.is_clock]
+    if len(clocks) != 1 or header.source.kinds[clocks[0]] != "number":
+        return None
+    unit = options.time_unit or head.channels[clocks[0]].unit or "s"
+    second = 1.0 / TIME_UNITS.get(unit.casefold(), 1.0)
+    return Stretch(window.low * second, window.high * second, clocks[0])
 
 
 def _mended(samples: Samples, source: Source, damage: Damage, number_cut: bool) -> list[Array]:
@@ -272,4 +298,5 @@ FORMAT = Format(
     options=DelimitedOptions,
     recognise=recognise,
     read=read,
+    read_window=read,
 )

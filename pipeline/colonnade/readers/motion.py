@@ -1,8 +1,9 @@
-"""Base motions from text files: time and acceleration in columns, or numbers running on from row to row."""
+"""Base motions from files of any format, and from text whose numbers run on from row to row."""
 
 from __future__ import annotations
 
 import re
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -46,8 +47,9 @@ def read_motion(
     Parameters
     ----------
     path : Path or str
-        Text with a column of times and one of accelerations, a single column of accelerations, or numbers that run
-        on from row to row below lines of text (as `8F10.5`).
+        Of any format that is known (PEER, COSMOS, K-NET, LabVIEW …), or text with a column of times and one of
+        accelerations, a single column of accelerations, or numbers that run on from row to row below lines of text
+        (as `8F10.5`).
     unit : str, optional
         Of the acceleration, such as "g" or "cm/s^2"; needed where the file does not tell it.
     dt : float, optional
@@ -64,9 +66,19 @@ def read_motion(
     ------
     ReadError
         If something has to be known that is neither given nor in the file, steps are unequal or a value is missing.
+
+    Warns
+    -----
+    UserWarning
+        If the file is not as its own header says, for example shorter.
     """
     path = Path(path)
-    recording = registry.read(path, "delimited")
+    recording = registry.read(path)
+    if recording.format != "delimited":
+        channel, step = _column(recording, column)
+        for told in recording.warnings:
+            warnings.warn(f"{path.name}: {told}", stacklevel=2)
+        return _motion(recording, channel.values, unit or channel.unit, dt or step)
     source = read_header(path, DelimitedOptions()).source
     lines, _ = head_lines(path, source.dialect.encoding)
     text = "\n".join(lines[: source.first])
@@ -78,26 +90,30 @@ def read_motion(
         channel, step = _column(recording, column)
         values, own_unit = channel.values, channel.unit
     unit = unit or own_unit or _first_group(UNIT_IN_TEXT, text)
+    step = dt or step or float(_first_group(STEP_IN_TEXT, text) or "nan")
+    return _motion(recording, values, unit, step)
+
+
+def _motion(recording: Recording, values: Array, unit: str | None, step: float | None) -> Motion:
+    """Make a motion of accelerations of which unit and step are known; say what is missing where they are not."""
+    name = recording.path.name
     if unit is None:
         raise ReadError(
-            f"{path.name}: the file does not tell the unit of its acceleration. Give it, for example "
-            f'read_motion("{path.name}", unit="g"), or "m/s^2".'
+            f"{name}: the file does not tell the unit of its acceleration. Give it, for example "
+            f'read_motion("{name}", unit="g"), or "m/s^2".'
         )
-    step = dt or step or float(_first_group(STEP_IN_TEXT, text) or "nan")
-    if not step > 0:
+    if step is None or not step > 0:
         raise ReadError(
-            f"{path.name}: the file has no column of times and does not tell its sampling interval. "
-            f'Give it in seconds, for example read_motion("{path.name}", dt=0.02).'
+            f"{name}: the file has no column of times and does not tell its sampling interval. "
+            f'Give it in seconds, for example read_motion("{name}", dt=0.02).'
         )
     if not np.isfinite(values).all():
         told = "; ".join(recording.warnings) or f"sample {int(np.argmin(np.isfinite(values))) + 1}"
-        raise ReadError(
-            f"{path.name}: accelerations are missing ({told}). A base motion has to be whole; mend the file."
-        )
+        raise ReadError(f"{name}: accelerations are missing ({told}). A base motion has to be whole; mend the file.")
     try:
         return Motion(values * units.factor_to_si(unit, "acceleration"), step)
     except UnitError as error:
-        raise ReadError(f"{path.name}: {error}") from error
+        raise ReadError(f"{name}: {error}") from error
 
 
 def _runs_on(recording: Recording, source: Source) -> bool:

@@ -6,16 +6,20 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
 from colonnade.errors import ReadError, nearest
-from colonnade.readers.recording import Recording
+from colonnade.readers.recording import Recording, Window
 
 GROUP = "colonnade.formats"
 """Entry points of this group are formats; other packages may add theirs."""
+
+LONG_FILE = 100_000_000
+"""Bytes from which on a file is not read further than it is needed."""
 
 # Known without an installed package too. It takes almost any text, so every other format is asked before it.
 MOST_GENERAL = EntryPoint(name="delimited", value="colonnade.readers.delimited:FORMAT", group=GROUP)
@@ -48,6 +52,11 @@ class Format:
         Path -> Recognition, from the head of the file.
     read : callable
         (Path, options) -> Recording; raises ReadError.
+    package, extra : str
+        The import package without which `read` cannot work, and the extra of colonnade that installs it; empty where
+        nothing more is needed. `recognise` works without it.
+    read_window : callable or None
+        (Path, options, Window) -> Recording that holds at least the window, in memory for little more than that.
     """
 
     name: str
@@ -56,6 +65,19 @@ class Format:
     options: type[BaseModel]
     recognise: Callable[[Path], Recognition]
     read: Callable[[Path, Any], Recording]
+    package: str = ""
+    extra: str = ""
+    read_window: Callable[[Path, Any, Window], Recording] | None = None
+
+    @property
+    def is_installed(self) -> bool:
+        """Whether all is there that `read` needs."""
+        return not self.package or find_spec(self.package) is not None
+
+    @property
+    def installation(self) -> str:
+        """The command that installs what `read` needs."""
+        return f'pip install "colonnade[{self.extra}]"'
 
 
 @cache
@@ -66,7 +88,13 @@ def formats() -> dict[str, Format]:
     return {point.name: point.load() for point in points}
 
 
-def read(path: Path | str, format: str | None = None, options: Mapping[str, Any] | None = None) -> Recording:
+def read(
+    path: Path | str,
+    format: str | None = None,
+    options: Mapping[str, Any] | None = None,
+    *,
+    window: Window | None = None,
+) -> Recording:
     """
     Read a raw file.
 
@@ -78,6 +106,8 @@ def read(path: Path | str, format: str | None = None, options: Mapping[str, Any]
         Name of its format; without it the first format that recognises the file is taken.
     options : mapping, optional
         Options of that format.
+    window : Window, optional
+        What is wanted; of a file longer than `LONG_FILE` the rest may be left out.
 
     Raises
     ------
@@ -88,10 +118,12 @@ def read(path: Path | str, format: str | None = None, options: Mapping[str, Any]
     path = Path(path)
     chosen, evidence = _named(format) if format is not None else _recognised(path)
     checked = check_options(chosen, options or {}, where=path.name)
-    try:
-        recording = chosen.read(path, checked)
-    except OSError as error:
-        raise ReadError(_unreachable(path, error)) from error
+    if not chosen.is_installed:
+        raise ReadError(
+            f'{path.name}: format "{chosen.name}" needs the package {chosen.package}, which is not installed here. '
+            f"Install it: {chosen.installation}"
+        )
+    recording = _guarded(chosen, path, checked, window)
     return recording if evidence is None else _with_note(recording, evidence)
 
 
@@ -121,6 +153,29 @@ def check_options(format: Format, options: Mapping[str, Any], where: str) -> Bas
         raise ReadError("\n".join(problems)) from error
 
 
+def _guarded(format: Format, path: Path, options: BaseModel, window: Window | None) -> Recording:
+    """Read a file; whatever a parser stumbles over in it becomes a message of what to do."""
+    try:
+        if window is not None and format.read_window is not None and path.stat().st_size > LONG_FILE:
+            return format.read_window(path, options, window)
+        return format.read(path, options)
+    except (ReadError, MemoryError):
+        raise
+    except Exception as error:
+        if isinstance(error, OSError) and error.errno is not None:
+            raise ReadError(_unreachable(path, error)) from error
+        raise ReadError(
+            f'{path.name}: it cannot be read as "{format.name}" ({_told(error)}). The file is damaged, was cut off, or '
+            "is of a version that is not known here. Copy it from the recorder again, or export it as text."
+        ) from error
+
+
+def _told(error: Exception) -> str:
+    """What a parser says of itself, in one line."""
+    said = " ".join(str(error).split())[:200]
+    return f"{type(error).__name__}: {said}" if said else type(error).__name__
+
+
 def _named(name: str) -> tuple[Format, None]:
     if name not in formats():
         raise ReadError(f'There is no format "{name}".{nearest(name, formats())}')
@@ -130,10 +185,7 @@ def _named(name: str) -> tuple[Format, None]:
 def _recognised(path: Path) -> tuple[Format, str]:
     refusals = []
     for format in formats().values():
-        try:
-            recognition = format.recognise(path)
-        except OSError as error:
-            raise ReadError(_unreachable(path, error)) from error
+        recognition = _recognition(format, path)
         if recognition.yes:
             return format, f'format "{format.name}" ({recognition.reason})'
         refusals.append(f"  {format.name}: {recognition.reason}")
@@ -141,6 +193,18 @@ def _recognised(path: Path) -> tuple[Format, str]:
         f"{path.name}: no format recognises this file.\n" + "\n".join(refusals) + "\n"
         '  If it is one of these nevertheless, say so: file = {format = "…"}.'
     )
+
+
+def _recognition(format: Format, path: Path) -> Recognition:
+    """Ask a format about a file; one that stumbles over it does not take it."""
+    try:
+        return format.recognise(path)
+    except MemoryError:
+        raise
+    except Exception as error:
+        if isinstance(error, OSError) and error.errno is not None:
+            raise ReadError(_unreachable(path, error)) from error
+        return Recognition(False, f"it could not be looked at ({_told(error)})")
 
 
 def _with_note(recording: Recording, note: str) -> Recording:

@@ -39,11 +39,46 @@ class Samples:
         Rows, from 0, that may have the wrong number of cells or may be no samples at all.
     start : datetime or None
         Of the first timestamp that has a date.
+    skipped : int
+        Rows of the file before the first of these.
+    reaches_end : bool
+        Whether the file's last row is among them.
     """
 
     columns: list[Array]
     doubtful: NDArray[np.int64]
     start: datetime | None = None
+    skipped: int = 0
+    reaches_end: bool = True
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """
+    The part of a long file that is wanted.
+
+    Attributes
+    ----------
+    low, high : float
+        Values of the clock, in its own unit, or numbers of rows from 0.
+    column : int or None
+        The clock; without it rows are counted.
+    """
+
+    low: float
+    high: float
+    column: int | None = None
+
+    def place(self, frame: pd.DataFrame, before: int, dialect: Dialect) -> int:
+        """Say whether a piece, with `before` rows in front, lies wholly ahead of it (-1) or behind it (1); else 0."""
+        if self.column is None:
+            first, last = float(before), float(before + len(frame) - 1)
+        else:
+            times = numbers_of(frame[self.column], dialect)
+            if np.isnan(times).all():
+                return 0
+            first, last = float(np.nanmin(times)), float(np.nanmax(times))
+        return -1 if last < self.low else 1 if first > self.high else 0
 
 
 @dataclass
@@ -56,10 +91,16 @@ class _Pieces:
 
 
 def read_samples(
-    path: Path, dialect: Dialect, first: int, kinds: Sequence[str], trailing: int, missing: Sequence[str]
+    path: Path,
+    dialect: Dialect,
+    first: int,
+    kinds: Sequence[str],
+    trailing: int,
+    missing: Sequence[str],
+    stretch: Stretch | None = None,
 ) -> Samples:
     """
-    Read all rows from the line of the first sample on.
+    Read the rows from the line of the first sample on.
 
     Parameters
     ----------
@@ -73,6 +114,8 @@ def read_samples(
         Empty cells after these columns on every line.
     missing : sequence of str
         Further texts that stand for a missing value, numbers such as "-999" among them.
+    stretch : Stretch, optional
+        Rows that are wanted; some before and after them come along. Default: all.
 
     Raises
     ------
@@ -84,12 +127,12 @@ def read_samples(
     widest = len(kinds) + trailing + 1
     try:
         # A quotation mark may hide the line end, so with these each line is looked at.
-        return _read(path, dialect, first, kinds, trailing, missing, widest if dialect.quoted else None)
+        return _read(path, dialect, first, kinds, trailing, missing, stretch, widest if dialect.quoted else None)
     except (ParserError, ParserWarning):
         # Some line has more cells than pandas was told of.
         pass
     try:
-        return _read(path, dialect, first, kinds, trailing, missing, widest)
+        return _read(path, dialect, first, kinds, trailing, missing, stretch, widest)
     except (ParserError, ParserWarning) as error:
         raise ReadError(
             f"{path.name}: the lines from {first + 1} on cannot be cut into cells ({str(error).strip()}). "
@@ -104,6 +147,7 @@ def _read(
     kinds: Sequence[str],
     trailing: int,
     missing: Sequence[str],
+    stretch: Stretch | None,
     widest: int | None,
 ) -> Samples:
     import pandas as pd
@@ -128,14 +172,27 @@ def _read(
         warnings.simplefilter("error", ParserWarning)  # pandas only warns where it drops cells
         separator = r"\s+" if body.separator == WHITESPACE else body.separator
         with pd.read_csv(body, sep=separator, **options) as frames:
+            skipped, reaches_end = 0, True
             for frame in frames:
+                place = 0 if stretch is None else stretch.place(frame, skipped + pieces.rows, dialect)
+                if place < 0 and not pieces.rows:
+                    skipped += len(frame)
+                    continue
+                if place > 0 and pieces.rows:
+                    reaches_end = False
+                    break
                 _take(frame, pieces, clocks, dialect, kinds)
+    if not pieces.rows:
+        raise ReadError(
+            f"{path.name}: none of its {skipped} samples lies within the test's window. Look at the file's times and "
+            "at the test's `window`, which counts from the file's own zero."
+        )
     columns = []
     for column in range(len(kinds)):
         columns.append(np.concatenate(pieces.columns[column]))
         pieces.columns[column].clear()
     starts = [clock.start for clock in clocks.values() if clock.start is not None]
-    return Samples(columns, np.concatenate(pieces.doubtful), starts[0] if starts else None)
+    return Samples(columns, np.concatenate(pieces.doubtful), starts[0] if starts else None, skipped, reaches_end)
 
 
 def _take(
@@ -153,7 +210,7 @@ def _take(
     outer = {0, max((column for column, kind in enumerate(kinds) if kind != "empty"), default=0)}
     for column, kind in enumerate(kinds):
         series = frame[column]
-        values = clocks[column].seconds(series) if kind == "time" else _numbers(series, dialect)
+        values = clocks[column].seconds(series) if kind == "time" else numbers_of(series, dialect)
         absent = np.isnan(values)
         nothing &= absent
         if column in outer:
@@ -163,7 +220,7 @@ def _take(
     pieces.rows += len(frame)
 
 
-def _numbers(series: pd.Series, dialect: Dialect) -> Array:
+def numbers_of(series: pd.Series, dialect: Dialect) -> Array:
     """Values of a column: a copy of what pandas has read as numbers, else each cell by itself."""
     if series.dtype.kind in "biuf":
         values = series.to_numpy(dtype=np.float64, copy=True)

@@ -69,6 +69,21 @@ def detect_encoding(path: Path) -> Encoding:
     return Encoding("utf-8", "valid so far as looked at")
 
 
+def known_encoding(name: str) -> str:
+    """
+    Give an encoding's own name.
+
+    Raises
+    ------
+    ValueError
+        If there is no such encoding.
+    """
+    try:
+        return codecs.lookup(name).name
+    except LookupError:
+        raise ValueError('no such encoding; give for example "utf-8", "utf-16" or "latin-1"') from None
+
+
 def open_text(path: Path, encoding: str) -> TextIO:
     """Open text for reading; line ends are left as they are, bytes that are no characters become U+FFFD."""
     return path.open(encoding=encoding, errors="replace", newline="")

@@ -1,4 +1,4 @@
-"""The report: one page from the store."""
+"""The report: pages from the store."""
 
 from __future__ import annotations
 

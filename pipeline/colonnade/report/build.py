@@ -1,35 +1,70 @@
-"""The report: one page that stands alone, made from the store whatever became of the tests."""
+"""The report: pages that stand alone, made from the store whatever became of the tests."""
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Collection, Iterator
-from itertools import groupby
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NamedTuple
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-from markupsafe import Markup
-
-from colonnade import __version__
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.settings import Setting, settings
-from colonnade.report import charts, results, rows, wording
+from colonnade.campaign.settings import settings
+from colonnade.figures import PeakSeries
+from colonnade.report import (
+    channels,
+    charts,
+    methods,
+    overview,
+    pages,
+    problems,
+    results,
+    rows,
+    specimens_page,
+    tests_page,
+    wording,
+)
+from colonnade.report.channels import ChannelRow
+from colonnade.report.methods import Used
+from colonnade.report.overview import SpanTest
+from colonnade.report.references import REFERENCES
 from colonnade.report.results import NOTHING, Results
+from colonnade.report.rows import TestRow
+from colonnade.report.specimens_page import FreeVibration
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.store.provenance import hash_of
 
-Stored = list[tuple[Test, Results]]
-
-
-class SpanGroup(NamedTuple):
-    """Earthquake tests of one specimen and motion, by rising Span."""
-
-    title: str
-    tests: tuple[str, ...]
-    chart: Markup
+_HEAD = 1000
+"""Characters of a page within which it says what it was made from."""
 
 
-def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = ()) -> Path:
+@dataclass
+class Gathered:
+    """What is kept of the tests for the pages about all of them, light enough for thousands."""
+
+    rows: list[TestRow] = field(default_factory=list)
+    channels: dict[str, tuple[ChannelRow, ...]] = field(default_factory=dict)
+    spans: list[SpanTest] = field(default_factory=list)
+    free_vibrations: defaultdict[str, list[FreeVibration]] = field(default_factory=lambda: defaultdict(list))
+    series: defaultdict[str, list[PeakSeries]] = field(default_factory=lambda: defaultdict(list))
+    used: Used = field(default_factory=Used)
+
+    def add(self, campaign: Campaign, test: Test, found: Results, row: TestRow) -> None:
+        """Keep of a test what the other pages show."""
+        self.rows.append(row)
+        self.channels[test.id] = channels.of_test(found)
+        self.used.gather(test.id, found)
+        if test.span is not None and any("rocking_angle" in dataset for dataset in found.datasets.values()):
+            panel = charts.span_panel(test, found, campaign.block(test.specimen))
+            self.spans.append(SpanTest(test, row, panel, charts.seen(found)))
+        if "restitution" in found.datasets:
+            self.free_vibrations[test.specimen].append(specimens_page.free_vibration(test.id, found))
+            series = charts.peak_series(test, found)
+            if series is not None:
+                self.series[test.specimen].append(series)
+
+
+def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *, code: str = "") -> Path:
     """
     Write the report of a campaign.
 
@@ -40,94 +75,114 @@ def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = ()) ->
         Where its results lie. Tests that failed or were never run are reported as such.
     outdated : collection of str, optional
         Tests whose stored results are not of this campaign any more: they are pending, and not shown.
+    code : str, optional
+        Hash of the program's sources. With it, pages of tests that would come out the same are not drawn again.
 
     Returns
     -------
-    page : Path
-        ``report/index.html``. The same results give the same bytes, and an unchanged page is not written again.
+    overview : Path
+        ``report/index.html``; the others lie beside it. The same results give the same bytes, and an unchanged page is
+        not written again. Pages of tests and specimens that are not in the campaign any more are removed.
 
     Raises
     ------
     StoreError
-        If the page cannot be written.
+        If a page cannot be written.
     """
-    layout.report.parent.mkdir(parents=True, exist_ok=True)
-    files.write_text(layout.report, render(campaign, layout, outdated))
+    folder = layout.report.parent
+    there = set()
+    for address, text in render(campaign, layout, outdated, code=code):
+        if text is not None:
+            files.write_text(folder / address, text)
+        there.add(folder / address)
+    for stale in {*folder.glob("tests/*.html"), *folder.glob("specimens/*.html")} - there:
+        files.remove(stale)
     return layout.report
 
 
-def render(campaign: Campaign, layout: Layout, outdated: Collection[str] = ()) -> str:
-    """Return the page as text."""
-    stored: Stored = [
-        (test, NOTHING if test.id in outdated else results.of_test(campaign, layout, test))
-        for test in campaign.tests.values()
-    ]
-    tests = [rows.of_test(campaign, test, found) for test, found in stored]
-    pooled = {name: results.of_specimen(layout, name) for name in campaign.specimens}
-    specimens = [
-        rows.of_specimen(campaign, name, found, _free_vibrations(stored, name)) for name, found in pooled.items()
-    ]
-    versions = {version for found in (*pooled.values(), *(found for _, found in stored)) for version in found.versions}
-    environment = Environment(
-        loader=PackageLoader("colonnade.report"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
-    environment.globals |= {"count": wording.count}
-    environment.filters["setting"] = _setting
-    return environment.get_template("page.html.jinja").render(
+def render(
+    campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *, code: str = ""
+) -> Iterator[tuple[str, str | None]]:
+    """Return each page's address within the report's folder and its text, None where it stands; the overview last."""
+    renderer = pages.Renderer(
         campaign=campaign,
-        gravity=wording.quantity(campaign.gravity, "m/s²", 5),
-        tests=tests,
         models=campaign.processing.predict.models,
-        specimens=specimens,
-        spans=list(_span_groups(campaign, stored)),
-        settings=list(settings(campaign.processing)),
-        agreement=_agreement(tests, campaign.processing.predict.models),
-        version=__version__,
-        versions=sorted(versions),
+        gravity=wording.quantity(campaign.gravity, "m/s²", 5),
+        version=methods.software()[0][1],
     )
+    gathered = Gathered()
+    yield from _tests(renderer, campaign, layout, outdated, code, gathered)
+    groups, maps = overview.by_specimen(campaign, gathered.rows), overview.measured_maps(campaign, gathered.rows)
+    specimens = []
+    for name in campaign.specimens:
+        pooled = results.of_specimen(layout, name)
+        gathered.used.versions |= dict.fromkeys(pooled.versions)
+        found = gathered.free_vibrations[name], gathered.series[name]
+        specimens.append(specimens_page.of_specimen(campaign, name, pooled, *found))
+        yield (
+            pages.of_specimen(name),
+            renderer.page(
+                "specimen",
+                pages.of_specimen(name),
+                specimen=specimens[-1],
+                groups=[group for group in groups if group.specimen == name],
+                maps=[drawn for drawn in maps if drawn.specimen == name],
+            ),
+        )
+    shown = {
+        "tests": gathered.rows,
+        "specimens": specimens,
+        "warnings": problems.warning_groups(gathered.rows, specimens),
+        "groups": groups,
+        "maps": maps,
+        "spans": overview.span_groups(gathered.spans),
+        "agreement": overview.agreement(gathered.rows, campaign.processing.predict.models),
+        "channels": gathered.channels,
+        "used": gathered.used,
+        "settings": list(settings(campaign.processing)),
+        "references": REFERENCES,
+        "software": methods.software(),
+    }
+    for template, address in pages.WHOLE.items():
+        yield address, renderer.page(template, address, **shown)
 
 
-def _free_vibrations(stored: Stored, specimen: str) -> Stored:
-    return [(test, found) for test, found in stored if test.specimen == specimen and test.kind == "free-vibration"]
-
-
-def _span_groups(campaign: Campaign, stored: Stored) -> Iterator[SpanGroup]:
-    def group(entry: tuple[Test, Results]) -> tuple[str, str, float]:
-        return entry[0].specimen, entry[0].motion or "", entry[0].time_scale or 1.0
-
-    drawn = [
-        (test, found)
-        for test, found in stored
-        if test.span is not None and any("rocking_angle" in dataset for dataset in found.datasets.values())
-    ]
-    for number, ((specimen, motion, scale), members) in enumerate(
-        groupby(sorted(drawn, key=group), key=group), start=1
-    ):
-        together = sorted(members, key=lambda entry: (entry[0].span or 0.0, entry[0].id))
-        if len(together) < 2:
+def _tests(
+    renderer: pages.Renderer,
+    campaign: Campaign,
+    layout: Layout,
+    outdated: Collection[str],
+    code: str,
+    gathered: Gathered,
+) -> Iterator[tuple[str, str | None]]:
+    """Render the page of each test whose page does not say that it was made from the same."""
+    ids = [None, *campaign.tests, None]
+    for before, test, after in zip(ids, campaign.tests.values(), ids[2:], strict=False):
+        found = NOTHING if test.id in outdated else results.of_test(campaign, layout, test)
+        row = rows.of_test(campaign, test, found)
+        gathered.add(campaign, test, found, row)
+        address = pages.of_test(test.id)
+        made_from = _made_from(campaign, test, found, code, (before, after)) if code else ""
+        if made_from and made_from in _head(layout.report.parent / address):
+            yield address, None
             continue
-        title = f"{motion or 'Base motion'}, {specimen}" + (f", time scale {scale:.4g}" if scale != 1.0 else "")
-        block = campaign.specimens[specimen].block(campaign.gravity)
-        chart = charts.spans(f"spans-{number}", title, together, block)
-        yield SpanGroup(title, tuple(test.id for test, _ in together), chart)
+        page = tests_page.of_test(campaign, test, found, row)
+        yield address, renderer.page("test", address, test=page, before=before, after=after, made_from=made_from)
 
 
-def _agreement(tests: list[rows.TestRow], models: tuple[str, ...]) -> dict[str, tuple[int, int]]:
-    """Count, for each model, the tests whose outcome it predicts rightly, and those where both are known."""
-    agreed = {model: [test.models[model].agrees for test in tests] for model in models}
-    return {model: (verdicts.count(True), len(verdicts) - verdicts.count(None)) for model, verdicts in agreed.items()}
+def _made_from(
+    campaign: Campaign, test: Test, found: Results, code: str, neighbours: tuple[str | None, str | None]
+) -> str:
+    """Hash of all that the page of a test shows."""
+    around = (campaign.title, campaign.gravity, tuple(campaign.specimens), campaign.processing.predict.models)
+    own = (test, campaign.specimens[test.specimen], campaign.review(test.id))
+    told = found.keys, found.failures, found.warnings, found.raw_files
+    return hash_of([code, repr((told, around, own, neighbours))])
 
 
-def _setting(setting: Setting) -> str:
-    """Write a setting's value with its unit."""
-    value = setting.value
-    if isinstance(value, (list, tuple)):
-        return ", ".join(map(str, value))
-    if isinstance(value, str):
-        return value
-    return f"{value:g} {setting.unit}".rstrip()
+def _head(page: Path) -> str:
+    try:
+        with page.open(encoding="utf-8", errors="replace") as stream:
+            return stream.read(_HEAD)
+    except OSError:
+        return ""

@@ -10,54 +10,100 @@ from markupsafe import Markup
 from colonnade import figures
 from colonnade.campaign import Test
 from colonnade.dynamics.block import Block
-from colonnade.figures import Curve
+from colonnade.figures import Curve, Peak, PeakSeries, Quantity, SpanPanel
+from colonnade.identification.boundaries import MapPoint
 from colonnade.report import wording
 from colonnade.report.results import Results
 
+MOTIONS = (
+    ("slide", "slide\n(mm)", 1e3),
+    ("uplift", "uplift\n(mm)", 1e3),
+    ("transverse_slide", "slide, y\n(mm)", 1e3),
+    ("out_of_plane_angle", "out of plane\n(mrad)", 1e3),
+    ("yaw", "yaw\n(mrad)", 1e3),
+)
+"""Motions of a specimen beside its rocking angle: variable, label, factor from SI."""
 
-def overlay(test: Test, results: Results, block: Block) -> Markup | None:
-    """Draw measured and predicted, except in a free vibration over the base motion; None where there is nothing."""
-    measured, predicted, base = measured_ratio(results, block), predicted_ratios(results, block), _base(results)
-    identity, title = f"overlay-{test.id}", f"{test.id}: rocking angle, measured and predicted"
-    if base is None or test.kind == "free-vibration":
-        if measured is None and not predicted:
-            return None
-        figure = figures.rocking_history(measured, predicted)
-    elif base[1] == "m/s²":
-        figure = figures.history_with_base(
-            measured, predicted, base[0], uplift=block.gravity * float(np.tan(block.critical_angle))
+BASE = (
+    ("base_acceleration", "base\n(m/s²)", 1.0),
+    ("base_displacement", "base\n(mm)", 1e3),
+    ("vertical_base_acceleration", "base, up\n(m/s²)", 1.0),
+    ("transverse_base_acceleration", "base, y\n(m/s²)", 1.0),
+)
+"""Motions of the base, likewise."""
+
+
+def record(test: Test, results: Results, block: Block) -> Markup | None:
+    """Draw a test over time: angle, misfit, other motions, in a forced test the base motion; None without anything."""
+    measured, predicted = measured_ratio(results, block), predicted_ratios(results, block)
+    base = [] if test.kind == "free-vibration" else _quantities(results, BASE, block)
+    if measured is None and not predicted and not base:
+        return None
+    figure = figures.whole_record(
+        measured,
+        predicted,
+        misfits=_misfits(results, measured, predicted),
+        motions=_quantities(results, MOTIONS, block),
+        base=base,
+        impacts=results.datasets["rocking"]["impact_time"].to_numpy() if _has(results, "impact_time") else None,
+        peak=_peak(results, measured),
+    )
+    title = f"{test.id}: rocking angle, measured and predicted"
+    return Markup(figures.to_svg(figure, identity=f"record-{test.id}", title=title, description=seen(results)))
+
+
+def span_panel(test: Test, results: Results, block: Block) -> SpanPanel:
+    """Return what the figure of all Spans shows of one test, thinned so that many fit into memory."""
+    measured, base = measured_ratio(results, block), None
+    if _has(results, "base_acceleration"):
+        rocking = results.datasets["rocking"]
+        base = figures.envelope(Curve(rocking["elapsed"].to_numpy(), rocking["base_acceleration"].to_numpy()))
+    return SpanPanel(
+        f"Span {test.span or 0.0}",
+        None if measured is None else figures.envelope(measured),
+        {model: figures.envelope(curve) for model, curve in predicted_ratios(results, block).items()},
+        base,
+    )
+
+
+def spans(identity: str, title: str, description: str, panels: Sequence[SpanPanel]) -> Markup:
+    """Draw earthquake tests of one motion side by side, in the order given."""
+    return Markup(
+        figures.to_svg(figures.spans_side_by_side(panels), identity=identity, title=title, description=description)
+    )
+
+
+def measured_map(identity: str, points: Sequence[MapPoint]) -> Markup:
+    """Draw the sine tests of a specimen by outcome over Ω and A."""
+    outcomes = [point.outcome for point in points]
+    described = ", ".join(f"{outcomes.count(outcome)} {outcome}" for outcome in dict.fromkeys(outcomes))
+    return Markup(
+        figures.to_svg(
+            figures.measured_map(points),
+            identity=identity,
+            title="Sine tests by outcome over frequency ratio Ω and amplitude ratio A",
+            description=f"{len(points)} tests: {described}.",
         )
-    else:
-        figure = figures.history_with_base(measured, predicted, base[0], base_label="displacement\nof base (mm)")
-    return Markup(figures.to_svg(figure, identity=identity, title=title, description=seen(results)))
+    )
 
 
-def spans(identity: str, title: str, tests: Sequence[tuple[Test, Results]], block: Block) -> Markup:
-    """Draw earthquake tests of one motion together, in the order given."""
-    panels = [
-        figures.SpanPanel(_span(test), measured_ratio(results, block), predicted_ratios(results, block))
-        for test, results in tests
-    ]
-    described = " ".join(f"{_span(test)}: {seen(results)}" for test, results in tests)
-    return Markup(figures.to_svg(figures.spans_together(panels), identity=identity, title=title, description=described))
+def peak_series(test: Test, results: Results) -> PeakSeries | None:
+    """Return the peaks of a free vibration, None where none were found."""
+    found = results.datasets.get("restitution")
+    if found is None or not found.sizes.get("peak", 0):
+        return None
+    return PeakSeries(
+        _short(test.id),
+        found["peak_angle"].to_numpy(),
+        found["peak_angle_standard_error"].to_numpy(),
+        found["fitted_angle"].to_numpy(),
+        found["peak_used"].to_numpy() == 1,
+    )
 
 
-def peaks(identity: str, tests: Sequence[tuple[Test, Results]], block: Block) -> Markup:
-    """Draw the peaks of a specimen's free vibrations with their fits."""
-    series, described = [], []
-    for test, results in tests:
-        found = results.datasets["restitution"]
-        used = found["peak_used"].to_numpy() == 1
-        series.append(
-            figures.PeakSeries(
-                _short(test.id),
-                found["peak_angle"].to_numpy(),
-                found["peak_angle_standard_error"].to_numpy(),
-                found["fitted_angle"].to_numpy(),
-                used,
-            )
-        )
-        described.append(f"{test.id}: {int(used.sum())} of {used.size} peaks used.")
+def peaks(identity: str, series: Sequence[PeakSeries], block: Block) -> Markup:
+    """Draw the peaks of free vibrations with their fits."""
+    described = [f"{one.title}: {int(one.used.sum())} of {one.used.size} peaks used." for one in series]
     return Markup(
         figures.to_svg(
             figures.peak_decay(series, block),
@@ -84,7 +130,7 @@ def predicted_ratios(results: Results, block: Block) -> Mapping[str, Curve]:
 
 
 def seen(results: Results) -> str:
-    """Say in words what an overlay shows."""
+    """Say in words what a test's figure shows."""
     parts = []
     for stage in ("rocking", *(stage for stage in results.datasets if stage.startswith("predict "))):
         if "rocking_angle" not in results.datasets.get(stage, ()):
@@ -105,17 +151,42 @@ def _ratio(results: Results, stage: str, block: Block) -> Curve | None:
     return Curve(dataset["elapsed"].to_numpy(), angle / critical)
 
 
-def _base(results: Results) -> tuple[Curve, str] | None:
-    dataset = results.datasets.get("rocking")
-    for name, factor, unit in (("base_acceleration", 1.0, "m/s²"), ("base_displacement", 1e3, "mm")):
-        if dataset is not None and name in dataset:
-            return Curve(dataset["elapsed"].to_numpy(), factor * dataset[name].to_numpy()), unit
-    return None
+def _misfits(results: Results, measured: Curve | None, predicted: Mapping[str, Curve]) -> dict[str, Curve]:
+    """Predicted minus measured θ/α as far as the two are compared."""
+    compared = results.datasets.get("compare")
+    if measured is None or compared is None:
+        return {}
+    until = dict(zip(compared["model"].to_numpy().tolist(), compared["compared_until"].to_numpy(), strict=True))
+    misfits = {}
+    for model, curve in predicted.items():
+        if curve.values.shape == measured.values.shape and np.isfinite(until.get(model, np.nan)):
+            within = curve.time <= until[model]
+            misfits[model] = Curve(curve.time[within], (curve.values - measured.values)[within])
+    return misfits
 
 
-def _span(test: Test) -> str:
-    """Write the table's setting as laboratories do, with a decimal."""
-    return f"Span {test.span or 0.0}"
+def _peak(results: Results, measured: Curve | None) -> Peak | None:
+    when = results.value("rocking", "peak_time")
+    if measured is None or when is None or not np.isfinite(results.value("rocking", "peak_ratio") or np.nan):
+        return None
+    return Peak(when, float(measured.values[int(np.argmin(np.abs(measured.time - when)))]))
+
+
+def _quantities(results: Results, wanted: Sequence[tuple[str, str, float]], block: Block) -> list[Quantity]:
+    quantities = []
+    for name, label, factor in wanted:
+        if _has(results, name):
+            rocking = results.datasets["rocking"]
+            curve = Curve(rocking["elapsed"].to_numpy(), factor * rocking[name].to_numpy())
+            uplift = block.uplift_acceleration if name == "base_acceleration" else None
+            if np.isfinite(curve.values).any():
+                quantities.append(Quantity(label, curve, uplift, "g tan α"))
+    return quantities
+
+
+def _has(results: Results, name: str) -> bool:
+    rocking = results.datasets.get("rocking")
+    return rocking is not None and name in rocking and rocking[name].ndim == 1
 
 
 def _short(name: str, longest: int = 26) -> str:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from colonnade.campaign import Campaign, Test
 from colonnade.errors import StoreError
@@ -16,6 +19,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 STAGES = ("ingest", "condition", "rocking", "restitution", "predict", "compare")
+GOOD = 1
+"""Quality flag of a sample that nothing speaks against."""
 
 
 @dataclass(frozen=True)
@@ -24,6 +29,15 @@ class Message:
 
     stage: str
     text: str
+
+
+@dataclass(frozen=True)
+class Samples:
+    """How many samples a channel has, its rate (Hz), and how many carry each flag but "good"."""
+
+    count: int
+    rate: float
+    flagged: Mapping[int, int]
 
 
 @dataclass(frozen=True)
@@ -44,6 +58,12 @@ class Results:
         Versions of colonnade that wrote these results.
     channels : mapping of str to mapping
         Attributes that `ingest` and `condition` gave each channel, by its id.
+    samples : mapping of str to Samples
+        Of each channel as recorded, by its id.
+    settings : mapping of str to mapping
+        What each stage read of the campaign, as stored with its result.
+    keys : tuple of str
+        Of each result, what identifies it: its key and the hash of its content.
     """
 
     datasets: Mapping[str, xr.Dataset]
@@ -52,6 +72,9 @@ class Results:
     raw_files: tuple[tuple[str, str], ...] = ()
     versions: tuple[str, ...] = ()
     channels: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    samples: Mapping[str, Samples] = field(default_factory=dict)
+    settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    keys: tuple[str, ...] = ()
 
     @property
     def status(self) -> str:
@@ -63,12 +86,32 @@ class Results:
     def value(self, stage: str, name: str) -> float | None:
         """Return a scalar result, None where it is not there."""
         dataset = self.datasets.get(stage)
-        return float(dataset[name]) if dataset is not None and name in dataset else None
+        return float(dataset[name]) if dataset is not None and name in dataset and dataset[name].ndim == 0 else None
+
+    def middle(self, stage: str, name: str) -> float | None:
+        """Return a scalar result, of a series its median, None where it is not there or has no value."""
+        dataset = self.datasets.get(stage)
+        if dataset is None or name not in dataset:
+            return None
+        values = dataset[name].to_numpy()
+        return float(np.nanmedian(values)) if np.isfinite(values).any() else None
+
+    def of(self, stage: str, name: str, along: str) -> dict[str, Any]:
+        """Return a result along a named dimension (model, transducer) by its names, empty where it is not there."""
+        dataset = self.datasets.get(stage)
+        if dataset is None or name not in dataset or dataset[name].dims != (along,) or along not in dataset.coords:
+            return {}
+        return dict(zip(map(str, dataset[along].to_numpy()), dataset[name].to_numpy().tolist(), strict=True))
 
     def text(self, stage: str, name: str) -> str:
         """Return a text attribute, empty where it is not there."""
         dataset = self.datasets.get(stage)
         return str(dataset.attrs.get(name, "")) if dataset is not None else ""
+
+    def texts(self, stage: str, name: str) -> list[str]:
+        """Return an attribute that is a list of text, empty where it is not there."""
+        dataset = self.datasets.get(stage)
+        return _listed(dataset.attrs.get(name)) if dataset is not None else []
 
 
 NOTHING = Results({}, (), ())
@@ -101,6 +144,9 @@ def _gather(paths: Iterator[tuple[str, Path]]) -> Results:
     raw: dict[str, str] = {}
     versions: dict[str, None] = {}
     channels: dict[str, dict[str, Any]] = {}
+    samples: dict[str, Samples] = {}
+    settings: dict[str, Mapping[str, Any]] = {}
+    keys: list[str] = []
     for stage, path in paths:
         if not path.is_file():
             continue
@@ -115,16 +161,48 @@ def _gather(paths: Iterator[tuple[str, Path]]) -> Results:
         versions |= dict.fromkeys(
             [str(dataset.attrs["colonnade_version"])] if "colonnade_version" in dataset.attrs else []
         )
+        keys += [f"{stage} {dataset.attrs.get('key')} {dataset.attrs.get('content')}"]
+        settings[stage] = _read_settings(dataset.attrs.get("settings"))
         if dataset.attrs.get("status") == "failed":
             failures.append(Message(stage, str(dataset.attrs.get("reason") or "no reason was stored")))
         elif stage in ("ingest", "condition"):
             for variable in dataset.data_vars.values():
-                if "channel" in variable.attrs:
-                    channels[variable.attrs["channel"]] = channels.get(variable.attrs["channel"], {}) | variable.attrs
+                name = variable.attrs.get("channel")
+                if name is not None:
+                    channels[name] = channels.get(name, {}) | variable.attrs
+                    if stage == "ingest":
+                        samples[name] = _samples(dataset, str(variable.name))
             datasets[stage] = dataset.drop_vars(list(dataset.variables))
         else:
             datasets[stage] = dataset
-    return Results(datasets, tuple(failures), tuple(warnings), tuple(raw.items()), tuple(versions), channels)
+    return Results(
+        datasets,
+        tuple(failures),
+        tuple(warnings),
+        tuple(raw.items()),
+        tuple(versions),
+        channels,
+        samples,
+        settings,
+        tuple(keys),
+    )
+
+
+def _samples(recorded: xr.Dataset, variable: str) -> Samples:
+    clock = str(recorded[variable].dims[0])
+    interval = float(np.nanmedian(np.diff(recorded[clock].to_numpy()))) if recorded.sizes[clock] > 1 else np.nan
+    flags = recorded.get(f"{variable}_quality")
+    values = np.empty(0, np.int8) if flags is None else flags.to_numpy()
+    flagged = {int(flag): int((values == flag).sum()) for flag in np.unique(values) if flag != GOOD}
+    return Samples(recorded.sizes[clock], 1 / interval if interval > 0 else np.nan, flagged)
+
+
+def _read_settings(stored: object) -> Mapping[str, Any]:
+    try:
+        settings = json.loads(str(stored))
+    except ValueError:
+        return {}
+    return settings if isinstance(settings, dict) else {}
 
 
 def _listed(attribute: object) -> list[str]:

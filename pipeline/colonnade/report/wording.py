@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isfinite
 
 from colonnade.units import format_quantity, format_uncertain, from_si
@@ -70,6 +71,47 @@ def interval(value: float | None, low: float, high: float, level: float) -> str:
     if not (isfinite(low) and isfinite(high)):
         return number(value, 4)
     return f"{format_uncertain(value, (high - low) / 2)} ({100 * level:g} % interval)"
+
+
+def share(part: int, whole: int) -> str:
+    """
+    Write a part of a whole in per cent; what is there is never rounded to nothing.
+
+    Examples
+    --------
+    >>> share(3, 40), share(3, 60000), share(0, 10)
+    ('7.5 %', '< 0.01 %', '0 %')
+    """
+    if part == 0:
+        return "0 %"
+    percent = 100 * part / whole
+    return "< 0.01 %" if percent < 0.01 else f"{percent:.2g} %"
+
+
+def listed(names: Sequence[str], longest: int = 8) -> str:
+    """
+    List names, the first few of them where they are many.
+
+    Examples
+    --------
+    >>> listed(["a", "b"]), listed(list("abcdefgh"), longest=3)
+    ('a, b', 'a, b, c and 5 more')
+    """
+    if len(names) <= longest:
+        return ", ".join(names)
+    return f"{', '.join(names[:longest])} and {len(names) - longest} more"
+
+
+def order(text: str) -> str:
+    """
+    Write the order of a response as it is stored.
+
+    Examples
+    --------
+    >>> order("1"), order("3"), order("irregular"), order("")
+    ('harmonic', '1/3', 'irregular', '')
+    """
+    return "harmonic" if text == "1" else f"1/{text}" if text.isdigit() else text
 
 
 def count(amount: int, one: str, several: str = "") -> str:

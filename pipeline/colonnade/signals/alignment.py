@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
+from scipy.interpolate import CubicSpline
 
 from colonnade.signals.clock import resample, uniform_clock
+from colonnade.signals.clock_rate import ClockRate, find_rate
 from colonnade.signals.filters import lowpass, second_derivative
 from colonnade.signals.record import Record
 
@@ -26,6 +28,9 @@ FEWEST_SAMPLES = 16
 RIVAL_EVIDENCE = 10.0
 """Log-likelihood by which one delay has to be better than another to be told from it."""
 
+OPPOSED = 2.0
+"""Times less that has to be left unexplained with the sign of one record turned, before the sign is doubted."""
+
 
 @dataclass(frozen=True)
 class Offset:
@@ -42,32 +47,57 @@ class Offset:
         Of the two records once aligned, 0 to 1.
     rival : float or None
         Another delay, s, that fits as well where both records have values.
+    beyond : float or None
+        A delay, s, longer than those looked for, with which the two agree better.
+    opposed : bool
+        Whether they agree only with the sign of one of them turned.
+    drift : ClockRate or None
+        How the delay changes, where it does; `seconds` is then that in the middle of the motion.
     """
 
     seconds: float
     standard_error: float
     correlation: float
     rival: float | None = None
+    beyond: float | None = None
+    opposed: bool = False
+    drift: ClockRate | None = None
 
     @property
     def is_determined(self) -> bool:
         """Whether the records agree well enough for the delay to mean something."""
         return self.correlation >= WEAKEST_CORRELATION
 
+    def at(self, time: Array) -> Array:
+        """Delay at times of the first recorder, s, of any shape."""
+        change = 0.0 if self.drift is None else self.drift.rate * (time - self.drift.middle)
+        return np.asarray(self.seconds + change + np.zeros_like(time))
+
     @property
     def doubt(self) -> str:
         """What speaks against the delay; empty where nothing does."""
-        if not self.is_determined:
-            return (
+        said = []
+        if self.beyond is not None:
+            said.append(
+                f"the two agree better at {1e3 * self.beyond:.4g} ms, beyond what was looked for; if the recorder can "
+                "start so late or early, set processing.longest_offset above it"
+            )
+        elif not self.is_determined:
+            said.append(
                 f"the two agree by {self.correlation:.2f} only ({WEAKEST_CORRELATION:g} is needed), as they do where "
                 "the table hardly moves"
             )
-        if self.rival is not None:
-            return (
+        if self.is_determined and self.rival is not None:
+            said.append(
                 f"{1e3 * self.rival:.4g} ms fits as well as the {1e3 * self.seconds:.4g} ms taken, as in a steady "
                 "sine. Record the start or the end of the motion, or set processing.longest_offset below half a period"
             )
-        return ""
+        if self.is_determined and self.opposed:
+            said.append(
+                f"the two agree, by {self.correlation:.2f}, only with the sign of one turned; look at the `direction` "
+                "of both and at the sign of their gains"
+            )
+        return "; ".join(said)
 
 
 def find_offset(reference: Array, values: Array, interval: float, *, longest: float, bandwidth_hz: float) -> Offset:
@@ -115,7 +145,31 @@ def find_offset(reference: Array, values: Array, interval: float, *, longest: fl
     residual = float(np.sqrt(max(1 / max(agreement, 1e-3) ** 2 - 1, 0.0)) * first.std())
     error = residual / max(float(np.sqrt((slope**2).mean())), 1e-300) / np.sqrt(independent)
     rival = _rival(first, second, window, best, independent)
-    return Offset(shift * interval, float(error), max(agreement, 0.0), None if rival is None else rival * interval)
+    beyond = _beyond(correlation, best in (0, window.size - 1), agreement, middle, reach, independent)
+    return Offset(
+        shift * interval,
+        float(error),
+        max(agreement, 0.0),
+        None if rival is None else rival * interval,
+        None if beyond is None else beyond * interval,
+    )
+
+
+def _beyond(
+    correlation: Array, at_border: bool, agreement: float, middle: int, reach: int, independent: float
+) -> int | None:
+    """Shift, in samples, beyond those looked for, with which the records agree better."""
+    best = int(np.argmax(correlation))
+    if abs(best - middle) <= reach or correlation[best] < WEAKEST_CORRELATION:
+        return None
+    better = _log_ratio(agreement, float(correlation[best]), independent) > RIVAL_EVIDENCE
+    return best - middle if at_border or better else None
+
+
+def _log_ratio(agreement: float, other: float, independent: float) -> float:
+    """Log-likelihood by which the second correlation is better than the first."""
+    left, right = (max(1 - max(each, 0.0) ** 2, 1e-12) for each in (agreement, other))
+    return 0.5 * independent * float(np.log(left / right))
 
 
 def _rival(first: Array, second: Array, correlation: Array, best: int, independent: float) -> int | None:
@@ -154,6 +208,11 @@ def link(reference: Record, record: Record, *, quantities: tuple[str, str], long
     sign : float
         -1 where the two channels point against each other, otherwise 1.
 
+    Returns
+    -------
+    offset : Offset
+        With its drift, where the clocks run at different rates.
+
     Raises
     ------
     ValueError
@@ -169,4 +228,27 @@ def link(reference: Record, record: Record, *, quantities: tuple[str, str], long
     for each, quantity in zip((reference, record), quantities, strict=True):
         smooth = second_derivative if quantity == "displacement" and "acceleration" in quantities else lowpass
         shared.append(resample(each.time, smooth(each.values, each.interval, bandwidth), clock, each.interval)[0])
-    return find_offset(shared[0], sign * shared[1], interval, longest=longest, bandwidth_hz=bandwidth)
+    first, second = shared[0] - shared[0].mean(), sign * (shared[1] - shared[1].mean())
+    offset = find_offset(first, second, interval, longest=longest, bandwidth_hz=bandwidth)
+    turned = find_offset(first, -second, interval, longest=longest, bandwidth_hz=bandwidth)
+    if turned.is_determined and turned.beyond is None and _is_better(turned, offset, clock, first, second, bandwidth):
+        offset, second = replace(turned, opposed=True), -second
+    if not offset.is_determined or offset.beyond is not None:
+        return offset
+    rate = find_rate(clock, first, second, delay=offset.seconds, bandwidth_hz=bandwidth)
+    if rate is None or not rate.is_significant:
+        return offset
+    return replace(offset, seconds=rate.seconds, standard_error=rate.seconds_error, drift=rate)
+
+
+def _is_better(turned: Offset, offset: Offset, time: Array, first: Array, second: Array, bandwidth_hz: float) -> bool:
+    """Whether two records agree much better with the sign of one turned, where both have values."""
+    spline = CubicSpline(time, second)
+
+    def unexplained(sign: float, shift: float) -> float:
+        shared = (time + shift >= time[0]) & (time + shift <= time[-1])
+        return _misfit(first[shared], sign * spline(time[shared] + shift), 0)
+
+    ratio = unexplained(1.0, offset.seconds) / max(unexplained(-1.0, turned.seconds), 1e-12)
+    independent = 2 * bandwidth_hz * float(time[-1] - time[0])
+    return ratio > OPPOSED and 0.5 * independent * float(np.log(ratio)) > RIVAL_EVIDENCE

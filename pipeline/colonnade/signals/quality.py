@@ -14,6 +14,16 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 
+ENOUGH = 100_000
+"""Samples from which a median is known well enough."""
+
+NEIGHBOURHOOD = 201
+"""Samples whose roughness a spike is held against."""
+
+FEW = 0.02
+"""Share of doubtful samples up to which their neighbourhoods are looked at one by one."""
+
+
 class Flag(IntEnum):
     """Quality of a sample: good and suspect samples are used, failed and missing ones are bridged."""
 
@@ -50,8 +60,8 @@ def combine(verdicts: Iterable[Verdict], size: int) -> tuple[NDArray[np.int8], l
     flags = np.full(size, Flag.GOOD, dtype=np.int8)
     reasons = []
     for verdict in verdicts:
-        flags[verdict.where] = np.maximum(flags[verdict.where], np.int8(verdict.flag))
         if verdict.reason:
+            flags[verdict.where] = np.maximum(flags[verdict.where], np.int8(verdict.flag))
             reasons.append(verdict.reason)
     return flags, reasons
 
@@ -85,9 +95,10 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
 
 def check_flat(time: Array, values: Array, *, duration: float) -> Verdict:
     """Flag stretches on which the value stays exactly the same for longer than `duration` (s)."""
-    edges = np.flatnonzero(np.diff(values) != 0)
-    starts, stops = np.concatenate(([0], edges + 1)), np.concatenate((edges, [values.size - 1]))
-    long = np.isfinite(values[starts]) & (time[stops] - time[starts] > duration)
+    # Runs of steps without a change, each from the sample before its first step to that after its last.
+    still = np.concatenate(([False], values[1:] == values[:-1], [False]))
+    starts, stops = np.flatnonzero(~still[:-1] & still[1:]), np.flatnonzero(still[:-1] & ~still[1:])
+    long = time[stops] - time[starts] > duration
     if not long.any():
         return Verdict.good(values.size)
     where = np.zeros(values.size, dtype=bool)
@@ -119,42 +130,56 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
     finite = np.isfinite(values)
     if finite.sum() < 15:
         return Verdict.good(values.size)
-    filled = np.interp(np.arange(values.size), np.flatnonzero(finite), values[finite])
+    filled = values if finite.all() else np.interp(np.arange(values.size), np.flatnonzero(finite), values[finite])
     bend, steps = np.abs(np.diff(filled, 2)), np.abs(np.diff(filled))
     # A coarse converter gives mostly zeros: its step is then the least that can be told.
     resolution = float(steps[steps > 0].min()) if (steps > 0).any() else 0.0
-    typical = max(1.4826 * float(np.median(bend)), resolution)
-    # The upper tenth, not the median: a motion recorded at few samples a period is rough now and then all along.
-    local = percentile_filter(bend, 90, size=min(201, bend.size), mode="nearest") / 1.645
-    least = threshold * np.pad(np.maximum(local, typical), 1, mode="edge")
+    typical = max(1.4826 * float(np.median(bend[:: max(1, bend.size // ENOUGH)])), resolution)
+    # A spike bends the line through the two samples before it by more than this; few others do.
+    doubtful = np.flatnonzero(bend > threshold * typical) + 2
+    doubtful = doubtful[(doubtful >= 3) & (doubtful < values.size - 4)]
+    if doubtful.size == 0:
+        return Verdict.good(values.size)
+    least = threshold * np.maximum(_roughness(bend, doubtful - 1), typical)
+    single = doubtful[_standing_out(filled, doubtful, least, 1)]
     # Lines carried over two samples are less certain.
-    single, double = _standing_out(filled, least, 1), _standing_out(filled, 1.5 * least, 2)
-    where = finite & (single | double | np.roll(double, 1))
+    double = doubtful[_standing_out(filled, doubtful, 1.5 * least, 2)]
+    where = np.zeros(values.size, dtype=bool)
+    where[np.concatenate((single, double, double + 1))] = True
+    where &= finite
     if not where.any():
         return Verdict.good(values.size)
     return Verdict(Flag.FAIL, where, f"spikes on {counted(where)}{first_at(time, where)}")
 
 
-def _standing_out(values: Array, least: Array, width: int) -> Mask:
-    """First samples of runs of `width` that stand out from the lines on both sides by more than `least`."""
-    padded = np.pad(values, 4, mode="edge")
+def _roughness(bend: Array, places: NDArray[np.intp]) -> Array:
+    """Spread of the second difference around some places."""
+    # The upper tenth, not the median: a motion recorded at few samples a period is rough now and then all along.
+    size = min(NEIGHBOURHOOD, bend.size)
+    if places.size > FEW * bend.size:
+        return np.asarray(percentile_filter(bend, 90, size=size, mode="nearest")[places]) / 1.645
+    half = size // 2
+    around = np.clip(places[:, None] + np.arange(-half, size - half), 0, bend.size - 1)
+    rank = int(0.9 * size)
+    return np.asarray(np.partition(bend[around], rank, axis=1)[:, rank]) / 1.645
+
+
+def _standing_out(values: Array, places: NDArray[np.intp], least: Array, width: int) -> Mask:
+    """Which places begin a run of `width` that stands out from the lines on both sides by more than `least`."""
 
     def after(shift: int) -> Array:
-        return padded[4 + shift : 4 + shift + values.size]
+        return values[places + shift]
 
     before, behind = after(-1), after(width)
-    kept = np.ones(values.size, dtype=bool)
-    height = np.full(values.size, np.inf)
+    kept = np.ones(places.size, dtype=bool)
+    height = np.full(places.size, np.inf)
     for place in range(width):
         sample = after(place)
         from_left = sample - (before + (place + 1) * (before - after(-2)))
         from_right = sample - (behind + (width - place) * (behind - after(width + 1)))
         kept &= (from_left * from_right > 0) & (np.minimum(np.abs(from_left), np.abs(from_right)) > least)
         height = np.minimum(height, np.abs(sample - 0.5 * (before + behind)))
-    kept &= np.abs(behind - before) < 0.5 * height
-    # At the ends there are no lines.
-    kept[:3] = kept[-4:] = False
-    return kept
+    return kept & (np.abs(behind - before) < 0.5 * height)
 
 
 def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:

@@ -12,21 +12,27 @@ from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import amplitude
 from colonnade.signals.metrics import nrmse
+from colonnade.stages.sine import Sine, sine
 
 
 class Instructions(BaseModel):
-    """What this stage reads of the campaign: the block, and the outcome that was seen."""
+    """What this stage reads of the campaign: the block, the outcome that was seen, and of a sine its frequency (Hz)."""
 
     model_config = ConfigDict(frozen=True)
 
     block: Block
     observed_outcome: str | None
+    is_sine: bool = False
+    frequency: float | None = None
 
 
 def instructions(campaign: Campaign, test: Test) -> Instructions:
     """Gather what `compare` reads for one test."""
     return Instructions(
-        block=campaign.specimens[test.specimen].block(campaign.gravity), observed_outcome=test.observed_outcome
+        block=campaign.specimens[test.specimen].block(campaign.gravity),
+        observed_outcome=test.observed_outcome,
+        is_sine=test.kind == "sine",
+        frequency=test.frequency,
     )
 
 
@@ -46,7 +52,8 @@ def compare(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], instructio
     -------
     compared : xr.Dataset
         On the dimension `model`: `nrmse`, RMS(predicted − measured)/α until either first passes α, `compared_until`
-        (s), `predicted_peak_ratio`, `peak_ratio_error` and `predicted_outcome`. NaN where nothing was measured.
+        (s), `predicted_peak_ratio`, `peak_ratio_error` and `predicted_outcome`. NaN where nothing was measured. Of a
+        sine test also what `sine` adds.
     """
     models = sorted(predicted)
     measured_ratio = float(rocking["peak_ratio"]) if "peak_ratio" in rocking else np.nan
@@ -56,6 +63,7 @@ def compare(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], instructio
     measured, observed = rocking.attrs["outcome"], instructions.observed_outcome
     if measured and observed and not _agree(measured, observed):
         warnings.append(f"The transducers say {measured}, the test log says {observed}: look at the record.")
+    steady = sine(rocking, predicted, instructions.block, instructions.frequency) if instructions.is_sine else Sine()
     return xr.Dataset(
         {
             "nrmse": ("model", np.array([row[0] for row in rows])),
@@ -67,9 +75,14 @@ def compare(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], instructio
                 np.array([predicted[model].attrs["outcome"] for model in models], dtype=object),
             ),
             "measured_peak_ratio": ((), measured_ratio),
-        },
+        }
+        | steady.variables,
         coords={"model": ("model", np.array(models, dtype=object))},
-        attrs={"outcome_measured": measured or observed or "", "warnings": warnings},
+        attrs={
+            "outcome_measured": measured or observed or "",
+            **steady.attributes,
+            "warnings": [*warnings, *steady.warnings],
+        },
     )
 
 

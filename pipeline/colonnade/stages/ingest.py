@@ -12,36 +12,21 @@ from pydantic import BaseModel, ConfigDict
 
 from colonnade import units
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.decision import Review
 from colonnade.errors import StageError, UnitError
-from colonnade.readers.recording import RecordedChannel, Recording
+from colonnade.readers.recording import RecordedChannel, Recording, Window
 from colonnade.signals import quality, timing
+from colonnade.stages.judging import (
+    ChannelInstructions,
+    Limits,
+    channel_verdicts,
+    clock_verdicts,
+    judge_against_the_table,
+    reviewed,
+)
 from colonnade.store.variables import variable_name
 
 Array = NDArray[np.float64]
-
-DEAD_SHARE = 0.08
-"""An accelerometer on the specimen that moves less than this share of the table's is practically dead."""
-
-SAME_AXIS = 0.9
-"""Smallest product of two directions with which they are compared."""
-
-
-class ChannelInstructions(BaseModel):
-    """One channel: where it is in the file, how it becomes SI, its range, what it is on and its direction."""
-
-    model_config = ConfigDict(frozen=True)
-
-    column: str | int
-    recorder: str
-    time: str | int | None
-    quantity: str
-    unit: str | None
-    factor: float
-    offset: float
-    full_scale: float | None
-    range_recorded: float | None
-    on: str | None
-    direction: tuple[float, float, float] | None
 
 
 class Instructions(BaseModel):
@@ -54,6 +39,8 @@ class Instructions(BaseModel):
         How each recorder's file is read: format and options, which the reader has used.
     sampling_rates : dict
         Hz by recorder, where the file has no time column.
+    review : Review
+        What people decided about the test; its corrections are in the channels' factors, its trim in the window.
     """
 
     model_config = ConfigDict(frozen=True)
@@ -62,27 +49,34 @@ class Instructions(BaseModel):
     sampling_rates: dict[str, float | None]
     channels: dict[str, ChannelInstructions]
     window: tuple[float, float] | None
-    spike_threshold: float
-    flat_duration: float
-    gap: float
-    jitter: float
+    review: Review = Review()
+    limits: Limits
+
+    def wanted(self, recorder: str) -> Window | None:
+        """Give the part of a recorder's file that the test is; None for all, as where channels have own clocks."""
+        if self.window is None or any(
+            channel.time is not None for channel in self.channels.values() if channel.recorder == recorder
+        ):
+            return None
+        return Window(*self.window, self.sampling_rates.get(recorder))
 
 
 def instructions(campaign: Campaign, test: Test) -> Instructions:
     """Gather what `ingest` reads for one test."""
-    setup, settings = campaign.setups[test.setup], campaign.processing
+    setup, settings, review = campaign.setups[test.setup], campaign.processing, campaign.review(test.id)
     return Instructions(
         files={name: recorder.file.model_dump() for name, recorder in setup.recorders.items()},
         sampling_rates={name: recorder.sampling_rate for name, recorder in setup.recorders.items()},
         channels={
-            name: ChannelInstructions(**{key: getattr(channel, key) for key in ChannelInstructions.model_fields})
-            for name, channel in setup.channels.items()
+            name: ChannelInstructions(
+                **{key: getattr(channel, key) for key in ChannelInstructions.model_fields}
+                | {"factor": channel.factor * review.factors.get(name, 1.0)}
+            )
+            for name, channel in campaign.channels(test).items()
         },
-        window=test.window,
-        spike_threshold=settings.spike_threshold,
-        flat_duration=settings.flat_duration,
-        gap=settings.gap,
-        jitter=settings.jitter,
+        window=review.within(test.window),
+        review=review,
+        limits=Limits(**{key: getattr(settings, key) for key in Limits.model_fields}),
     )
 
 
@@ -111,7 +105,8 @@ def ingest(recordings: Mapping[str, Recording], instructions: Instructions) -> x
     """
     warnings = [warning for recording in recordings.values() for warning in recording.warnings]
     dataset = xr.Dataset(attrs={"notes": "; ".join(_notes(recordings))})
-    clocks: dict[str, Array] = {}
+    stamps: dict[str, Array] = {}
+    timed: dict[str, list[quality.Verdict]] = {}
     for name, channel in instructions.channels.items():
         if channel.recorder not in recordings:
             raise StageError(
@@ -121,15 +116,36 @@ def ingest(recordings: Mapping[str, Recording], instructions: Instructions) -> x
         recording = recordings[channel.recorder]
         column = _column(recording, name, channel, instructions)
         warnings += _unit_warnings(recording, column, name, channel)
-        time, values = _windowed(column, name, instructions)
-        clock = _clock_name(clocks, time, name, channel)
-        if clock not in clocks:
-            clocks[clock] = time
-            warnings += _rounding(recording, timing.read_clock(time), instructions)
-        dataset = dataset.assign(_variables(name, channel, clock, time, values, column, instructions, warnings))
-    dataset = dataset.assign_coords({clock: (clock, time) for clock, time in clocks.items()})
-    dataset = _judge_against_the_table(dataset, instructions, warnings)
+        time, values = _windowed(column, instructions.window)
+        dimension = _dimension(stamps, time, name, channel)
+        if dimension not in stamps:
+            clock = timing.read_clock(time)
+            if not np.isfinite(clock.interval):
+                raise _too_short(name, time.size, instructions.window)
+            stamps[dimension], timed[dimension] = time, clock_verdicts(time, clock, instructions.limits)
+            warnings += _rounding(recording, clock, instructions)
+        physical = values * channel.factor + channel.offset
+        verdicts = channel_verdicts(time, values, physical, channel, instructions.limits)
+        flags, reasons = quality.combine([*timed[dimension], *verdicts], values.size)
+        warnings += [f"channel {name}: {reason}." for reason in reasons]
+        seen, decisions = quality.combine(reviewed(name, time, instructions.review), values.size)
+        variable = variable_name(name)
+        attributes = {
+            "channel": name,
+            "quantity": channel.quantity,
+            "recorder": channel.recorder,
+            "recorded_unit": channel.unit or column.unit or "",
+            "column": column.heading,
+            "quality_report": "; ".join([*reasons, *decisions]),
+        }
+        dataset[variable] = (dimension, physical, {key: value for key, value in attributes.items() if value})
+        dataset[f"{variable}_recorded"] = (dimension, values)
+        dataset[f"{variable}_quality"] = (dimension, np.maximum(flags, seen))
+    dataset = dataset.assign_coords({dimension: (dimension, time) for dimension, time in stamps.items()})
+    dataset = judge_against_the_table(dataset, instructions.channels, warnings)
     dataset.attrs["warnings"] = warnings
+    if instructions.review.told:
+        dataset.attrs["review"] = list(instructions.review.told)
     return dataset
 
 
@@ -171,28 +187,25 @@ def _unit_warnings(recording: Recording, column: RecordedChannel, name: str, cha
     ]
 
 
-def _windowed(column: RecordedChannel, name: str, instructions: Instructions) -> tuple[Array, Array]:
+def _windowed(column: RecordedChannel, window: tuple[float, float] | None) -> tuple[Array, Array]:
+    """Times and values of a channel that belong to the test."""
     time = column.time if column.time is not None else np.empty(0)
-    values = column.values
-    if instructions.window is not None:
-        low, high = instructions.window
-        inside = (time >= low) & (time <= high)
-        time, values = time[inside], values[inside]
-    if time.size < 2 or not np.isfinite(timing.read_clock(time).interval):
-        within = (
-            ""
-            if instructions.window is None
-            else f" between {instructions.window[0]:g} and {instructions.window[1]:g} s"
-        )
-        raise StageError(
-            f"channel {name} has {time.size} samples{within}; at least two at increasing times were expected. "
-            "Look at the file's time column and at the test's `window`."
-        )
-    return time, values
+    if window is None:
+        return time, column.values
+    inside = (time >= window[0]) & (time <= window[1])
+    return time[inside], column.values[inside]
+
+
+def _too_short(name: str, size: int, window: tuple[float, float] | None) -> StageError:
+    within = "" if window is None else f" between {window[0]:g} and {window[1]:g} s"
+    return StageError(
+        f"channel {name} has {size} samples{within}; at least two at increasing times were expected. "
+        "Look at the file's time column and at the test's `window`."
+    )
 
 
 def _rounding(recording: Recording, clock: timing.Clock, instructions: Instructions) -> list[str]:
-    if clock.resolution <= instructions.jitter * clock.interval:
+    if not clock.resolution > instructions.limits.jitter * clock.interval:
         return []
     return [
         f"{recording.path.name}: the times are rounded to {1e3 * clock.resolution:g} ms; an even clock of "
@@ -200,85 +213,12 @@ def _rounding(recording: Recording, clock: timing.Clock, instructions: Instructi
     ]
 
 
-def _clock_name(clocks: dict[str, Array], time: Array, name: str, channel: ChannelInstructions) -> str:
-    """Name of the dimension: channels share one only where their times are the same."""
-    base = "elapsed" if channel.recorder == "main" else f"elapsed_{variable_name(channel.recorder)}"
-    if channel.time is not None:
-        base = f"elapsed_{variable_name(name)}"
-    known = clocks.get(base)
-    if known is None or (known.size == time.size and np.array_equal(known, time, equal_nan=True)):
-        return base
-    return f"elapsed_{variable_name(name)}"
-
-
-def _variables(
-    name: str,
-    channel: ChannelInstructions,
-    clock: str,
-    time: Array,
-    values: Array,
-    column: RecordedChannel,
-    instructions: Instructions,
-    warnings: list[str],
-) -> dict[str, Any]:
-    physical = values * channel.factor + channel.offset
-    stamps = timing.read_clock(time)
-    verdicts = [
-        quality.check_missing(time, values),
-        timing.check_order(time, stamps),
-        timing.check_gaps(stamps, factor=instructions.gap),
-        timing.check_jitter(stamps, share=instructions.jitter, factor=instructions.gap),
-        quality.check_flat(time, values, duration=instructions.flat_duration),
-        quality.check_spikes(time, values, threshold=instructions.spike_threshold),
-    ]
-    if channel.range_recorded is not None:
-        verdicts.append(quality.check_clipping(time, values, full_scale=channel.range_recorded))
-    elif channel.full_scale is not None:
-        verdicts.append(quality.check_clipping(time, physical, full_scale=channel.full_scale))
-    flags, reasons = quality.combine(verdicts, values.size)
-    warnings += [f"channel {name}: {reason}." for reason in reasons]
-    variable = variable_name(name)
-    attributes = {
-        "channel": name,
-        "quantity": channel.quantity,
-        "recorder": channel.recorder,
-        "recorded_unit": channel.unit or column.unit or "",
-        "column": column.heading,
-        "quality_report": "; ".join(reasons),
-    }
-    return {
-        variable: (clock, physical, {key: value for key, value in attributes.items() if value}),
-        f"{variable}_recorded": (clock, values),
-        f"{variable}_quality": (clock, flags),
-    }
-
-
-def _judge_against_the_table(dataset: xr.Dataset, instructions: Instructions, warnings: list[str]) -> xr.Dataset:
-    """Flag accelerometers on the specimen that are practically dead beside those of the table along their axis."""
-    accelerometers = {
-        name: channel for name, channel in instructions.channels.items() if channel.quantity == "acceleration"
-    }
-    for name, channel in accelerometers.items():
-        references = [
-            dataset[variable_name(other)].to_numpy()
-            for other, table in accelerometers.items()
-            if table.on == "table" and _same_axis(channel, table)
-        ]
-        if channel.on != "specimen" or not references:
-            continue
-        variable = variable_name(name)
-        reference = max(references, key=np.nanstd)
-        verdict = quality.check_dead(dataset[variable].to_numpy(), reference, share=DEAD_SHARE)
-        if verdict.reason:
-            flags = dataset[f"{variable}_quality"]
-            dataset[f"{variable}_quality"] = (flags.dims, np.maximum(flags.to_numpy(), np.int8(verdict.flag)))
-            warnings.append(f"channel {name}: {verdict.reason}.")
-            report = dataset[variable].attrs.get("quality_report", "")
-            dataset[variable].attrs["quality_report"] = "; ".join(filter(None, (report, verdict.reason)))
-    return dataset
-
-
-def _same_axis(first: ChannelInstructions, second: ChannelInstructions) -> bool:
-    if first.direction is None or second.direction is None:
-        return False
-    return bool(abs(np.dot(first.direction, second.direction)) > SAME_AXIS)
+def _dimension(known: Mapping[str, Array], time: Array, name: str, channel: ChannelInstructions) -> str:
+    """Name of the channel's dimension: two share one only where their times are the same."""
+    own = f"elapsed_{variable_name(name)}"
+    wanted = "elapsed" if channel.recorder == "main" else f"elapsed_{variable_name(channel.recorder)}"
+    for candidate in (own,) if channel.time is not None else (wanted, own):
+        taken = known.get(candidate)
+        if taken is None or (taken.size == time.size and np.array_equal(taken, time, equal_nan=True)):
+            return candidate
+    return f"{own}_{len(known)}"

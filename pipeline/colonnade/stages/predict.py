@@ -19,7 +19,11 @@ Array = NDArray[np.float64]
 
 
 class Instructions(BaseModel):
-    """What this stage reads of the campaign: the block, the model, its rest rule, and whether the base is at rest."""
+    """
+    What this stage reads of the campaign: block, model, its rest rule, whether the base is at rest, and how it tilts.
+
+    `tilt` is the table's rotation about +y, rad: with it gravity pulls towards +x.
+    """
 
     model_config = ConfigDict(frozen=True)
 
@@ -27,6 +31,7 @@ class Instructions(BaseModel):
     model: str
     rest_angle: float
     free_vibration: bool
+    tilt: float = 0.0
 
 
 def instructions(campaign: Campaign, test: Test, model: str) -> Instructions:
@@ -36,6 +41,7 @@ def instructions(campaign: Campaign, test: Test, model: str) -> Instructions:
         model=model,
         rest_angle=campaign.processing.predict.rest_angle,
         free_vibration=test.kind == "free-vibration",
+        tilt=campaign.setups[test.setup].table_tilt or 0.0,
     )
 
 
@@ -66,9 +72,11 @@ def predict(rocking: xr.Dataset, specimen: xr.Dataset, instructions: Instruction
     negative, positive = (float(e) for e in specimen["side_restitution"].to_numpy())
     base = np.zeros_like(time) if instructions.free_vibration else _base_acceleration(rocking)
     first, theta0 = _start(rocking, instructions) if instructions.free_vibration else (0, 0.0)
+    # On a tilted table a part of gravity acts along x, as a base acceleration the other way would.
+    felt = base[first:] - instructions.block.gravity * np.sin(instructions.tilt)
     history = rock(
         instructions.block,
-        Motion(base[first:], float(time[1] - time[0])),
+        Motion(felt, float(time[1] - time[0])),
         restitution=(negative, positive),
         model=instructions.model,
         theta0=theta0,

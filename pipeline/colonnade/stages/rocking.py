@@ -1,4 +1,4 @@
-"""Rocking: conditioned transducers and geometry -> rocking angle, slide, base motion, outcome."""
+"""Rocking: conditioned transducers and geometry -> motion of the specimen, base motion, outcome."""
 
 from __future__ import annotations
 
@@ -10,40 +10,19 @@ import xarray as xr
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict
 
-from colonnade.campaign import Campaign, Channel, Test
+from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.history import NO_ROCKING_RATIO, amplitude
+from colonnade.dynamics.kinematics import Outline
 from colonnade.errors import StageError
-from colonnade.identification.angle import RockingFit, fit_rocking
-from colonnade.identification.arcs import find_impacts
-from colonnade.identification.outcome import judge
-from colonnade.signals.filters import second_derivative
-from colonnade.signals.rest import drift
-from colonnade.store.variables import variable_name
+from colonnade.identification.course import course
+from colonnade.identification.motion import SpecimenMotion, specimen_motion
+from colonnade.identification.readings import Circumstances, Table
+from colonnade.identification.separation import UnseenRotationError
+from colonnade.signals.quality import Flag
+from colonnade.stages.conditioned import LEAST_NOISE, axes, base_motion, group
+from colonnade.stages.transducers import Transducers, outline, transducers
 
 Array = NDArray[np.float64]
-
-NOISE_FACTOR = 6.0
-"""Standard errors of the angle below which a rotation is not told from noise, over records of some 10⁴ samples."""
-
-DRIFT_FACTOR = 1.5
-"""A specimen that stands has no angle: what differs between the rests before and after is the transducers' drift."""
-
-LARGEST_DRIFT = 0.02
-"""Fraction of α; a specimen that is further off at an end of its record is held tilted, or has overturned."""
-
-ALONG = 0.9
-"""Smallest part of a channel's direction along x with which it counts as a record of the motion along x."""
-
-
-class Transducer(BaseModel):
-    """A displacement transducer on the specimen."""
-
-    model_config = ConfigDict(frozen=True)
-
-    at: tuple[float, float, float]
-    direction: tuple[float, float, float]
-    relative_to: str
 
 
 class Instructions(BaseModel):
@@ -53,10 +32,9 @@ class Instructions(BaseModel):
     Attributes
     ----------
     block : Block
-    transducers : dict of str to Transducer
-        By the name of their variable.
-    accelerations, displacements : dict of str to float
-        Table channels along x: variable name to the x-part of their direction.
+    outline : Outline
+        Of the specimen: its base, and the side that transducers look at.
+    transducers : Transducers
     catch : float or None
         Angle of the safety frame, rad.
     """
@@ -64,9 +42,8 @@ class Instructions(BaseModel):
     model_config = ConfigDict(frozen=True)
 
     block: Block
-    transducers: dict[str, Transducer]
-    accelerations: dict[str, float]
-    displacements: dict[str, float]
+    outline: Outline
+    transducers: Transducers
     catch: float | None
     free_vibration: bool
     rest_duration: float
@@ -75,30 +52,16 @@ class Instructions(BaseModel):
 def instructions(campaign: Campaign, test: Test) -> Instructions:
     """Gather what `rocking` reads for one test."""
     setup = campaign.setups[test.setup]
-    channels = {variable_name(name): channel for name, channel in setup.channels.items()}
+    specimen = campaign.specimens[test.specimen]
+    block = specimen.block(campaign.gravity)
     return Instructions(
-        block=campaign.specimens[test.specimen].block(campaign.gravity),
-        transducers={
-            name: Transducer(at=channel.at, direction=channel.direction, relative_to=channel.relative_to)
-            for name, channel in channels.items()
-            if channel.on == "specimen" and channel.quantity == "displacement" and channel.sensing == "point"
-            if channel.at and channel.direction and channel.relative_to
-        },
-        accelerations=_table_channels(channels, "acceleration"),
-        displacements=_table_channels(channels, "displacement"),
+        block=block,
+        outline=outline(specimen, block),
+        transducers=transducers(campaign.channels(test)),
         catch=setup.catch,
         free_vibration=test.kind == "free-vibration",
         rest_duration=campaign.processing.rest_duration,
     )
-
-
-def _table_channels(channels: Mapping[str, Channel], quantity: str) -> dict[str, float]:
-    return {
-        name: float(channel.direction[0])
-        for name, channel in channels.items()
-        if channel.on == "table" and channel.quantity == quantity
-        if channel.direction and abs(channel.direction[0]) >= ALONG
-    }
 
 
 def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
@@ -114,9 +77,11 @@ def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     Returns
     -------
     motion : xr.Dataset
-        `rocking_angle` (rad), `slide` (m) where separated, `base_acceleration` (m/s²), `base_displacement` (m),
-        `impact_time` (s), scalars of the peak, and the attributes `outcome` and `separation`. Without a transducer on
-        the specimen, the base motion alone with an empty outcome.
+        `rocking_angle` (rad); where separated `slide`, `uplift`, `transverse_slide` (m), `out_of_plane_angle` and `yaw`
+        (rad), each with the median of its standard error; `angle_deviation` (rad) where the error is one of history;
+        `base_acceleration` (m/s²), `base_displacement` (m) and their like along y and z; `impact_time` (s), scalars of
+        the peak, residuals by transducer, and the attributes `outcome` and `separation`. Without a transducer on the
+        specimen, the base motion alone with an empty outcome.
 
     Raises
     ------
@@ -125,12 +90,12 @@ def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     """
     warnings: list[str] = []
     time = conditioned["elapsed"].to_numpy()
-    base = _base_motion(conditioned, instructions, warnings)
-    used = [name for name in instructions.transducers if name in conditioned]
-    fit = _fit(conditioned, instructions, used, base, warnings) if used else None
-    if fit is None and "base_acceleration" not in base:
+    base = base_motion(conditioned, instructions.transducers, warnings)
+    used = [name for name in instructions.transducers.on_specimen if name in conditioned]
+    motion = _motion(conditioned, instructions, used, base, warnings) if used else None
+    if motion is None and "base_acceleration" not in base:
         raise StageError(
-            "Neither a displacement transducer on the specimen nor a table channel along x is usable in this test; "
+            "Neither a transducer on the specimen nor a table channel along x is usable in this test; "
             "at least one of the two was expected. See the warnings of the stages before, and the set-up's channels."
         )
 
@@ -138,103 +103,90 @@ def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     acceleration = base.get("base_acceleration")
     peak_acceleration = np.nan if acceleration is None else float(np.nanmax(np.abs(acceleration)))
     variables["peak_ground_acceleration"] = ((), peak_acceleration)
-    attributes = {"outcome": "", "separation": "no displacement transducer on the specimen", "warnings": warnings}
-    if fit is not None:
-        variables |= _angle_variables(time, fit, conditioned, used, instructions, attributes)
+    attributes = {"outcome": "", "separation": "no transducer on the specimen", "warnings": warnings}
+    if motion is not None:
+        variables |= _motion_variables(time, motion, instructions, attributes)
+        variables |= _quality(conditioned, motion, used)
     return xr.Dataset(variables, coords={"elapsed": ("elapsed", time)}, attrs=attributes)
 
 
-def _base_motion(conditioned: xr.Dataset, instructions: Instructions, warnings: list[str]) -> dict[str, Array]:
-    """Average the table's channels along x; without an accelerometer, differentiate its displacement twice."""
-    base: dict[str, Array] = {}
-    for target, channels in (
-        ("base_acceleration", instructions.accelerations),
-        ("base_displacement", instructions.displacements),
-    ):
-        values = [conditioned[name].to_numpy() / part for name, part in channels.items() if name in conditioned]
-        if values:
-            base[target] = np.mean(values, axis=0)
-    if "base_acceleration" not in base and "base_displacement" in base:
-        interval = float(np.diff(conditioned["elapsed"].to_numpy()[:2])[0])
-        cutoff = min(
-            float(conditioned[name].attrs["cutoff_hz"]) for name in instructions.displacements if name in conditioned
-        )
-        base["base_acceleration"] = second_derivative(base["base_displacement"], interval, cutoff)
-        warnings.append(
-            "The base acceleration is the second derivative of the table's displacement, as no table accelerometer "
-            f"is usable: nothing above {cutoff:.3g} Hz is in it."
-        )
-    return base
-
-
-def _fit(
+def _motion(
     conditioned: xr.Dataset,
     instructions: Instructions,
     used: list[str],
     base: Mapping[str, Array],
     warnings: list[str],
-) -> RockingFit:
-    readings = []
-    for name in used:
-        reading, transducer = conditioned[name].to_numpy(), instructions.transducers[name]
-        if transducer.relative_to == "ground":
-            if "base_displacement" in base:
-                reading = reading - transducer.direction[0] * base["base_displacement"]
-            elif not instructions.free_vibration:
-                raise StageError(
-                    f"channel {conditioned[name].attrs['channel']} measures relative to the ground, and none gives "
-                    "the table's displacement along x; one was expected, so that it can be taken off. Add it to the "
-                    'set-up (on = "table", quantity = "displacement"), or say relative_to = "table" if that is so.'
-                )
-        readings.append(reading)
-    missing = sorted(set(instructions.transducers) - set(used))
+) -> SpecimenMotion:
+    known = instructions.transducers
+    missing = sorted(set(known.on_specimen) - set(used))
     if missing:
         warnings.append(f"The angle is from {', '.join(used)} alone; {', '.join(missing)} could not be used.")
-    transducers = [instructions.transducers[name] for name in used]
-    noise = [max(float(conditioned[name].attrs.get("noise", 0.0)), 1e-9) for name in used]
-    try:
-        return fit_rocking(
-            np.array(readings),
-            [transducer.at for transducer in transducers],
-            [transducer.direction for transducer in transducers],
-            instructions.block,
-            noise=noise,
+    on_ground = [name for name in used if name in known.positions and known.positions[name].on_ground]
+    if on_ground and "base_displacement" not in base and not instructions.free_vibration:
+        raise StageError(
+            f"channel {conditioned[on_ground[0]].attrs['channel']} measures relative to the ground, and none gives "
+            "the table's displacement along x; one was expected, so that it can be taken off. Add it to the "
+            'set-up (on = "table", quantity = "displacement"), or say relative_to = "table" if that is so.'
         )
-    except ValueError as error:
+    time, gravity = conditioned["elapsed"].to_numpy(), instructions.block.gravity
+    resting = instructions.free_vibration or "base_acceleration" in base
+    table = Table(axes(base, "displacement", time), axes(base, "acceleration", time) if resting else None)
+    circumstances = Circumstances(
+        float(time[1] - time[0]), instructions.rest_duration, ends_at_rest=instructions.free_vibration
+    )
+    try:
+        return specimen_motion(
+            group(conditioned, known.positions, gravity),
+            group(conditioned, known.gyroscopes, gravity),
+            group(conditioned, known.accelerometers, gravity),
+            table,
+            instructions.block,
+            instructions.outline,
+            circumstances,
+        )
+    except UnseenRotationError as error:
         raise StageError(f"{error} (channels {', '.join(used)}).") from error
 
 
-def _angle_variables(
-    time: Array,
-    fit: RockingFit,
-    conditioned: xr.Dataset,
-    used: list[str],
-    instructions: Instructions,
-    attributes: dict[str, Any],
+def _motion_variables(
+    time: Array, motion: SpecimenMotion, instructions: Instructions, attributes: dict[str, Any]
 ) -> dict[str, Any]:
-    block = instructions.block
-    drifted = drift(time, fit.angle, duration=instructions.rest_duration, noise=fit.standard_error)
-    if drifted > LARGEST_DRIFT * block.critical_angle:
-        drifted = 0.0
-    indistinct = NOISE_FACTOR * fit.standard_error + DRIFT_FACTOR * drifted
-    threshold = max(indistinct, NO_ROCKING_RATIO * block.critical_angle)
-    verdict = judge(time, fit.angle, block, threshold=threshold, catch=instructions.catch)
-    attributes |= {"outcome": verdict.outcome, "separation": fit.separation}
-    standing = time <= verdict.overturning_time if np.isfinite(verdict.overturning_time) else np.isfinite(time)
-    ratio = np.where(standing & np.isfinite(fit.angle), amplitude(fit.angle, block), -1.0)
-    peak = int(np.argmax(ratio))
-    quality = np.max([conditioned[f"{name}_quality"].to_numpy() for name in used], axis=0)
-    variables: dict[str, Any] = {
-        "rocking_angle": ("elapsed", fit.angle),
-        "rocking_angle_quality": ("elapsed", quality.astype(np.int8)),
-        "rocking_angle_standard_error": ((), float(np.hypot(fit.standard_error, drifted / np.sqrt(3)))),
-        "impact_time": ("impact", find_impacts(time[standing], fit.angle[standing], lowest=threshold)),
-        "peak_angle": ((), float(fit.angle[peak])),
-        "peak_ratio": ((), np.nan if verdict.outcome == "overturned" else float(ratio[peak])),
-        "peak_time": ((), float(time[peak])),
-        "overturning_time": ((), verdict.overturning_time),
-        "noise_threshold": ((), threshold),
+    median = {name: float(np.nanmedian(errors)) for name, errors in motion.standard_error.items()}
+    found = course(
+        time,
+        motion.angle,
+        median["rocking_angle"],
+        instructions.block,
+        rest_duration=instructions.rest_duration,
+        catch=instructions.catch,
+    )
+    attributes |= {"outcome": found.verdict.outcome, "separation": motion.separation}
+    variables: dict[str, Any] = {f"{name}_standard_error": ((), error) for name, error in median.items()}
+    variables |= {name: ("elapsed", values) for name, values in motion.values.items()}
+    if motion.is_integrated:
+        variables["angle_deviation"] = ("elapsed", motion.standard_error["rocking_angle"])
+    return variables | {
+        "rocking_angle_standard_error": ((), found.standard_error),
+        "impact_time": ("impact", found.impact_times),
+        "peak_angle": ((), found.peak_angle),
+        "peak_ratio": ((), found.peak_ratio),
+        "peak_time": ((), found.peak_time),
+        "overturning_time": ((), found.verdict.overturning_time),
+        "noise_threshold": ((), found.threshold),
     }
-    if fit.slide is not None:
-        variables["slide"] = ("elapsed", fit.slide)
-    return variables
+
+
+def _quality(conditioned: xr.Dataset, motion: SpecimenMotion, used: list[str]) -> dict[str, Any]:
+    """Flags of the angle: the worst of its transducers, suspect where one is missing and the others do; residuals."""
+    entered = [name for name, counts in zip(used, motion.entered, strict=True) if counts]
+    flags = np.max([conditioned[f"{name}_quality"].to_numpy() for name in entered], axis=0).astype(np.int8)
+    others = np.isfinite(motion.angle) & (flags == Flag.MISSING)
+    readings = [conditioned[name].to_numpy() for name in used]
+    moved = np.array([float(np.nanstd(values)) for values in readings])
+    noise = np.array([max(float(conditioned[name].attrs.get("noise", 0.0)), LEAST_NOISE) for name in used])
+    return {
+        "rocking_angle_quality": ("elapsed", np.where(others, np.int8(Flag.SUSPECT), flags)),
+        "transducer": ("transducer", [str(conditioned[name].attrs.get("channel", name)) for name in used]),
+        "residual_to_noise": ("transducer", motion.residual / noise),
+        "residual_to_reading": ("transducer", motion.residual / np.maximum(moved, 1e-300)),
+    }

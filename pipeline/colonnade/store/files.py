@@ -27,6 +27,9 @@ PARTIAL = ".partial"
 """Ending of temporary names; what is left of a killed run ends so."""
 
 _COMPRESSION = {"zlib": True, "complevel": 4, "shuffle": True}
+_LONG = 500_000
+"""Samples of a channel from which on it is stored as it is."""
+
 _LABEL = "_name"
 
 
@@ -165,10 +168,15 @@ def _to_bytes(dataset: xr.Dataset, path: Path) -> memoryview:
     for variable in prepared.variables.values():
         if variable.dtype.kind in "fiu":
             # Missing samples are NaN and flagged; a fill value on a clock would be against CF.
-            variable.encoding = {"_FillValue": None} | (_COMPRESSION if variable.ndim else {})
+            variable.encoding = {"_FillValue": None} | (_COMPRESSION if _is_worth_compressing(variable) else {})
     opened = netCDF4.Dataset(path.name, "w", memory=1024)
     prepared.dump_to_store(_backend(opened))
     return _trimmed(memoryview(opened.close()))
+
+
+def _is_worth_compressing(variable: xr.Variable) -> bool:
+    """Whether: zlib takes ten times as long for a noisy record as reading it, which matters for long ones only."""
+    return variable.ndim > 0 and (variable.dtype.kind in "iu" or variable.size <= _LONG)
 
 
 def _trimmed(image: memoryview) -> memoryview:

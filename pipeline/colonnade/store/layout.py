@@ -75,6 +75,11 @@ class Layout:
         return self.processed / "raw-files.json"
 
     @property
+    def catalogue(self) -> Path:
+        """What the results say of themselves, as last seen."""
+        return self.processed / "catalogue.json"
+
+    @property
     def report_key(self) -> Path:
         """Hash of what the report's page shows."""
         return self.processed / "report.key"

@@ -39,7 +39,7 @@ _CIRCUMSTANCES = frozenset(
         *("history", "date_created", "standard_name_vocabulary", "colonnade_version", "stage", "test", "specimen"),
         *("time_coverage_duration", "time_coverage_resolution", "time_coverage_start", "time_coverage_end"),
         *("status", "key", "ingredients", "settings", "content"),
-        *("raw_files", "raw_sha256", "notes", "warnings"),
+        *("raw_files", "raw_sha256", "notes", "warnings", "review"),
     }
 )
 
@@ -133,11 +133,12 @@ def content_hash(dataset: xr.Dataset) -> str:
     for name in sorted(map(str, dataset.variables)):
         variable = dataset.variables[name]
         values = np.asarray(variable.values)
+        data: bytes | memoryview
         if values.dtype.kind in "OUST":
             kind, data = "text", _canonical(values.tolist())
         else:
             values = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<"))
-            kind, data = values.dtype.str, values.tobytes()
+            kind, data = values.dtype.str, values.data
         attributes = {key: plain(value) for key, value in variable.attrs.items()}
         digest.update(_canonical([name, list(map(str, variable.dims)), list(values.shape), kind, attributes]))
         digest.update(data)

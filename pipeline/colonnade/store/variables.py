@@ -71,6 +71,8 @@ class Variable:
 
 
 _SIGN = "Rotation about +y: positive when the top moves to +x."
+_ABOUT_X = "Rotation about +x: positive when the top moves to -y."
+_ABOUT_Z = "Rotation about +z, right-handed."
 _OUTLINE = "Of the side with the smaller critical angle."
 
 VARIABLES: dict[str, Variable] = {
@@ -83,8 +85,26 @@ VARIABLES: dict[str, Variable] = {
     "rocking_angle_standard_error": Variable("standard error of the rocking angle", "rad", QUALITY),
     "slide": Variable("displacement of the active pole along x, relative to the table", "m", MEASURED),
     "slide_standard_error": Variable("standard error of the slide", "m", QUALITY),
+    "uplift": Variable("height of the lowest point of the base above the table", "m", MEASURED),
+    "uplift_standard_error": Variable("standard error of the uplift", "m", QUALITY),
+    "out_of_plane_angle": Variable("rotation out of the plane of rocking", "rad", MEASURED, comment=_ABOUT_X),
+    "out_of_plane_angle_standard_error": Variable("standard error of the out-of-plane angle", "rad", QUALITY),
+    "transverse_slide": Variable("displacement of the base's centre along y, relative to the table", "m", MEASURED),
+    "transverse_slide_standard_error": Variable("standard error of the transverse slide", "m", QUALITY),
+    "yaw": Variable("rotation about the vertical", "rad", MEASURED, comment=_ABOUT_Z),
+    "yaw_standard_error": Variable("standard error of the yaw", "rad", QUALITY),
+    "angle_deviation": Variable(
+        "standard error of the rocking angle at each time", "rad", QUALITY, comment="Where the angle is integrated."
+    ),
+    "transducer": Variable("transducer on the specimen", None, COORDINATE, dtype="str"),
+    "residual_to_noise": Variable("reading less fitted reading over the noise, by root mean square", "1", QUALITY),
+    "residual_to_reading": Variable("reading less fitted reading over the reading, by root mean square", "1", QUALITY),
     "base_acceleration": Variable("acceleration of the base along x", "m s-2", MEASURED),
+    "transverse_base_acceleration": Variable("acceleration of the base along y", "m s-2", MEASURED),
+    "vertical_base_acceleration": Variable("acceleration of the base along z", "m s-2", MEASURED),
     "base_displacement": Variable("displacement of the base along x", "m", MEASURED),
+    "transverse_base_displacement": Variable("displacement of the base along y", "m", MEASURED),
+    "vertical_base_displacement": Variable("displacement of the base along z", "m", MEASURED),
     "impact_time": Variable("time of each impact", "s", MEASURED),
     "impact_count": Variable("number of impacts followed by a peak above the threshold", "1", MEASURED, dtype="int32"),
     "peak_angle": Variable("peak rocking angle", "rad", MEASURED, comment=_SIGN),
@@ -101,6 +121,11 @@ VARIABLES: dict[str, Variable] = {
     "restitution_low": Variable("lower end of the interval of the coefficient of restitution"),
     "restitution_high": Variable("upper end of the interval of the coefficient of restitution"),
     "restitution_standard_error": Variable("standard error of the coefficient of restitution"),
+    "restitution_history": Variable("coefficient of restitution from the whole history, by model"),
+    "restitution_history_low": Variable("lower end of its interval, from the whole history"),
+    "restitution_history_high": Variable("upper end of its interval, from the whole history"),
+    "restitution_history_standard_error": Variable("standard error of the one from the whole history"),
+    "restitution_history_residual": Variable("root mean square of measured minus simulated angle", "rad", QUALITY),
     "side_restitution": Variable("coefficient of restitution that predictions take, for angles below and above zero"),
     "rigid_restitution": Variable("coefficient of restitution of a rigid body without bounce", comment=_OUTLINE),
     "level": Variable("confidence level of the interval"),
@@ -120,6 +145,18 @@ VARIABLES: dict[str, Variable] = {
     "peak_ratio_error": Variable("predicted minus measured peak ratio", "1", QUALITY),
     "compared_until": Variable("time up to which measured and predicted are compared", "s", QUALITY),
     "predicted_outcome": Variable("predicted outcome", None, MODELLED, dtype="str"),
+    "predicted_response_order": Variable("order of the predicted response", None, MODELLED, dtype="str"),
+    # sine tests
+    "forcing_frequency": Variable("frequency of the base motion while it is steady", "Hz", MEASURED),
+    "forcing_amplitude": Variable("amplitude of the base acceleration while it is steady", "m s-2", MEASURED),
+    "forcing_amplitude_spread": Variable("its standard deviation from period to period", "m s-2", QUALITY),
+    "forcing_distortion": Variable("what of the base motion is not the sine, over the sine, by root mean square"),
+    "steady_start": Variable("time from which the base motion is steady", "s", MEASURED),
+    "steady_stop": Variable("time up to which the base motion is steady", "s", MEASURED),
+    "frequency_ratio": Variable("angular frequency of the base motion over p", "1", MEASURED),
+    "amplitude_ratio": Variable("amplitude of the base acceleration over g tan α", "1", MEASURED),
+    "response_misfit": Variable("misfit of the orders 1, 2, 3 … of the response", "1", QUALITY),
+    "impacts_per_cycle": Variable("impacts a period of the base motion", "1", MEASURED),
 }
 
 _QUANTITY_UNITS = {

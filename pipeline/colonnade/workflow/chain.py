@@ -14,7 +14,7 @@ from colonnade.errors import ColonnadeError, StoreError
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import global_attributes
-from colonnade.workflow.freshness import ingredients, key_of, stored_attributes, why_stale
+from colonnade.workflow.freshness import Look, RawFile, ingredients, key_of, stored_attributes, why_stale
 from colonnade.workflow.results import StageRun
 from colonnade.workflow.steps import STAGES, Step, measuring_steps, predicting_steps
 
@@ -42,8 +42,8 @@ class Chain:
         Last stage.
     redo_from : str or None
         Stage from which on results are made again whatever their state.
-    raw : mapping of str to str
-        SHA-256 of the raw files by path; None where one cannot be read.
+    raw : mapping of str to RawFile
+        The raw files by path, as they were hashed.
     """
 
     campaign: Campaign
@@ -51,12 +51,13 @@ class Chain:
     phase: Phase
     until: str
     redo_from: str | None
-    raw: Mapping[str, str | None]
+    raw: Mapping[str, RawFile]
 
     @classmethod
     def of(cls, campaign: Campaign, test: str, **rest: Any) -> Chain:
         """Build the chain of one test."""
-        return cls(replace(campaign, tests={test: campaign.tests[test]}), test, **rest)
+        alone = replace(campaign, tests={test: campaign.tests[test]}, reviews={test: campaign.review(test)})
+        return cls(alone, test, **rest)
 
     def steps(self) -> list[Step]:
         """Return the steps up to `until`."""
@@ -86,11 +87,11 @@ def clear_behind(campaign: Campaign, test: str, order: int) -> None:
                 step.path.unlink(missing_ok=True)
 
 
-def is_fresh(chain: Chain) -> list[StageRun] | None:
-    """Return what `walk` would say of a chain that is up to date; None where there is something to do."""
+def is_fresh(chain: Chain, look: Look) -> list[StageRun] | None:
+    """Return what `walk` would say of a chain whose results, as `look` tells of them, are up to date; else None."""
     runs: list[StageRun] = []
     for step in chain.steps():
-        state = _state(step, chain.redo_from, chain.raw)
+        state = _state(step, chain.redo_from, chain.raw, look)
         if state.because:
             return None
         runs.append(_standing(chain.test, step, state.stored))
@@ -100,10 +101,10 @@ def is_fresh(chain: Chain) -> list[StageRun] | None:
 
 
 def advance(
-    campaign: Campaign, subject: str, step: Step, *, redo_from: str | None, raw: Mapping[str, str | None]
+    campaign: Campaign, subject: str, step: Step, *, redo_from: str | None, raw: Mapping[str, RawFile]
 ) -> StageRun:
     """Bring one result up to date."""
-    state = _state(step, redo_from, raw)
+    state = _state(step, redo_from, raw, stored_attributes)
     if not state.because:
         return _standing(subject, step, state.stored)
     started = time.perf_counter()
@@ -114,17 +115,38 @@ def advance(
         if not step.is_from_raw:
             upstream = {name: files.read(path) for name, path in step.upstream.items()}
         result = step.work(upstream, step.instructions)
+        if step.is_from_raw:
+            _expect_unchanged(campaign, raw)
         files.write(result, step.path, attributes=attributes)
-    except (StoreError, MemoryError) as error:
-        # The machine, not the data: nothing is known of the result, so nothing is stored and the next run tries again.
-        step.path.unlink(missing_ok=True)
-        reason = str(error) if isinstance(error, StoreError) else _SHORT_OF_MEMORY
-    except ColonnadeError as error:
-        reason = _store_failure(step, str(error), attributes)
-    except Exception as error:  # a defect of ours: told as such, the other tests go on
-        reason = _store_failure(step, _internal_error(campaign, subject, step, error), attributes)
+    except Exception as error:
+        if isinstance(error, ColonnadeError):
+            reason = str(error)
+        elif isinstance(error, MemoryError):
+            reason = _SHORT_OF_MEMORY
+        else:  # a defect of ours: told as such, the other tests go on
+            reason = _internal_error(campaign, subject, step, error)
+        if _is_of_the_machine(error):
+            step.path.unlink(missing_ok=True)
+        else:
+            reason = _store_failure(step, reason, attributes)
     seconds = time.perf_counter() - started
     return StageRun(subject, step.stage, "failed" if reason else "done", step.model, reason, state.because, seconds)
+
+
+def _is_of_the_machine(error: Exception) -> bool:
+    """Whether disk, memory or an interrupted import failed: that says nothing of the data, so the next run tries."""
+    if isinstance(error, (StoreError, MemoryError, ImportError)):
+        return True
+    cause = error.__cause__
+    return isinstance(cause, OSError) and cause.errno is not None and not isinstance(cause, FileNotFoundError)
+
+
+def _expect_unchanged(campaign: Campaign, raw: Mapping[str, RawFile]) -> None:
+    for name, file in raw.items():
+        if not file.is_still(campaign.folder / name):
+            raise StoreError(
+                f"{name}: it changed while it was read, perhaps as the recorder is still writing. Run again after that."
+            )
 
 
 @dataclass(frozen=True)
@@ -137,14 +159,15 @@ class _State:
     because: str
 
 
-def _state(step: Step, redo_from: str | None, raw: Mapping[str, str | None]) -> _State:
+def _state(step: Step, redo_from: str | None, raw: Mapping[str, RawFile], look: Look) -> _State:
+    upstream: dict[str, str | None]
     if step.is_from_raw:
-        upstream = dict(raw)
+        upstream = {name: file.sha256 for name, file in raw.items()}
     else:
-        upstream = {name: stored_attributes(path).get("content") for name, path in step.upstream.items()}
+        upstream = {name: look(path).get("content") for name, path in step.upstream.items()}
     made_from = ingredients(step.instructions.model_dump_json(), upstream)
     key = key_of(step.stage, made_from)
-    stored = stored_attributes(step.path)
+    stored = look(step.path)
     if redo_from is not None and step.order >= STAGES.index(redo_from):
         because = "asked for"
     else:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import functools
 import hashlib
 import json
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,9 @@ from colonnade.store.provenance import hash_of
 
 WITHOUT_RESULTS = ("cli", "figures", "report", "laboratory")
 """Rooms whose code changes no result."""
+
+Look = Callable[[Path], Mapping[str, Any]]
+"""Tells `key`, `status`, `reason` and `content` of a result."""
 
 _CHUNK = 1 << 20
 
@@ -64,13 +68,11 @@ def why_stale(stored: Mapping[str, Any], made_from: Mapping[str, Any], *, from_r
     return "settings changed" if before.get("settings") != made_from["settings"] else "code changed"
 
 
-def report_key(campaign: Campaign, layout: Layout, outdated: Collection[str]) -> str:
-    """Hash of all that the report shows: the campaign as read, the results that are stored, and the code."""
+def report_key(campaign: Campaign, layout: Layout, outdated: Collection[str], look: Look) -> str:
+    """Hash of all that the report shows: the campaign as read, the results as `look` tells of them, and the code."""
     results = sorted((*layout.tests.glob("*/*.nc"), *layout.specimens.glob("*.nc")))
     shown = {
-        path.relative_to(layout.processed).as_posix(): [
-            stored_attributes(path).get(part) for part in ("key", "status", "content")
-        ]
+        path.relative_to(layout.processed).as_posix(): [look(path).get(part) for part in ("key", "status", "content")]
         for path in results
     }
     return hash_of(
@@ -81,6 +83,22 @@ def report_key(campaign: Campaign, layout: Layout, outdated: Collection[str]) ->
             "outdated": sorted(outdated),
         }
     )
+
+
+@dataclass(frozen=True)
+class RawFile:
+    """A raw file as it was hashed: SHA-256, None where it could not be read, with size (bytes) and time (ns)."""
+
+    sha256: str | None
+    size: int = 0
+    time: int = 0
+
+    def is_still(self, path: Path) -> bool:
+        """Whether size and time are those of when it was hashed; a recorder may still be writing."""
+        if self.sha256 is None:
+            return True
+        status = path.stat()
+        return (status.st_size, status.st_mtime_ns) == (self.size, self.time)
 
 
 class RawIndex:
@@ -96,41 +114,41 @@ class RawIndex:
 
     def __init__(self, layout: Layout, *, verify: bool) -> None:
         self._layout, self._verify = layout, verify
-        self._seen: dict[str, str | None] = {}
+        self._seen: dict[str, RawFile] = {}
         try:
             known = json.loads(layout.raw_index.read_text(encoding="utf-8"))
         except (OSError, ValueError):
             known = None
         self._known: dict[str, Any] = known if isinstance(known, dict) else {}
 
-    def hashes(self, paths: Iterable[Path]) -> dict[str, str | None]:
-        """SHA-256 of each file by its path from the campaign's folder; None where it cannot be read."""
-        return {name: self._hash(name, path) for name, path in ((self._name(path), path) for path in paths)}
+    def look(self, paths: Iterable[Path]) -> dict[str, RawFile]:
+        """Look at each file; by its path from the campaign's folder."""
+        return {name: self._file(name, path) for name, path in ((self._name(path), path) for path in paths)}
 
     def _name(self, path: Path) -> str:
         return path.relative_to(self._layout.folder.resolve()).as_posix()
 
-    def _hash(self, name: str, path: Path) -> str | None:
+    def _file(self, name: str, path: Path) -> RawFile:
         if name not in self._seen:
-            self._seen[name] = self._look(name, path)
+            self._seen[name] = self._hashed(name, path)
         return self._seen[name]
 
-    def _look(self, name: str, path: Path) -> str | None:
+    def _hashed(self, name: str, path: Path) -> RawFile:
         try:
             status = path.stat()
             known = self._known.get(name)
             seen = (known.get("size"), known.get("time")) if isinstance(known, dict) and "sha256" in known else None
             if not self._verify and seen == (status.st_size, status.st_mtime_ns):
-                return str(self._known[name]["sha256"])
+                return RawFile(str(self._known[name]["sha256"]), status.st_size, status.st_mtime_ns)
             digest = hashlib.sha256()
             with path.open("rb") as stream:
                 while chunk := stream.read(_CHUNK):
                     digest.update(chunk)
         except OSError:
             self._known.pop(name, None)
-            return None
+            return RawFile(None)
         self._known[name] = {"size": status.st_size, "time": status.st_mtime_ns, "sha256": digest.hexdigest()}
-        return digest.hexdigest()
+        return RawFile(digest.hexdigest(), status.st_size, status.st_mtime_ns)
 
     def save(self) -> None:
         """Write the index, if it changed."""

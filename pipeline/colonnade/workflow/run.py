@@ -10,8 +10,9 @@ from colonnade.campaign import Campaign, load
 from colonnade.errors import CampaignError, nearest
 from colonnade.store.files import write_text
 from colonnade.store.layout import Layout
+from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.chain import Chain, Phase, advance, clear_behind, is_fresh
-from colonnade.workflow.freshness import RawIndex, report_key, stored_attributes
+from colonnade.workflow.freshness import RawIndex, report_key, source_hash
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.processes import execute
 from colonnade.workflow.results import RunResult, StageRun
@@ -68,19 +69,23 @@ def run(
     layout = Layout(loaded.folder)
     with only_run(layout):
         index = RawIndex(layout, verify=verify)
-        raw = {name: index.hashes(test.files.values()) for name, test in loaded.tests.items()}
+        raw = {name: index.look(test.files.values()) for name, test in loaded.tests.items()}
         index.save()
+        catalogue = Catalogue(layout, verify=verify)
+        for name in loaded.tests:
+            if loaded.review(name).excluded:
+                clear_behind(loaded, name, order=-1)
 
         def chains(names: Iterable[str], phase: Phase, until: str = last) -> list[Chain]:
             return [Chain.of(loaded, name, phase=phase, until=until, redo_from=first, raw=raw[name]) for name in names]
 
-        runs = list(_walked(chains(tests, "measuring"), workers, progress))
+        runs = list(_walked(chains(tests, "measuring"), catalogue, workers, progress))
         if STAGES.index(last) >= STAGES.index("predict"):
             asked = set(tests)
             needed = [name for name in _free_vibrations(loaded, tests) if name not in asked]
-            runs += _walked(chains(needed, "measuring"), workers, progress)
+            runs += _walked(chains(needed, "measuring"), catalogue, workers, progress)
         if STAGES.index(last) >= STAGES.index("restitution"):
-            runs += _pool(loaded, layout, first)
+            runs += _pool(loaded, layout, catalogue, first)
         failed = {stage.subject: stage.reason for stage in runs if stage.action == "failed"}
         if STAGES.index(last) >= STAGES.index("predict"):
             ready = []
@@ -89,23 +94,27 @@ def run(
                     clear_behind(loaded, name, STAGES.index("restitution"))
                 elif name not in failed:
                     ready.append(name)
-            runs += _walked(chains(ready, "predicting"), workers, progress)
+            runs += _walked(chains(ready, "predicting"), catalogue, workers, progress)
         failed |= {stage.subject: stage.reason for stage in runs if stage.action == "failed"}
-        whole = (*chains(loaded.tests, "measuring", "report"), *chains(loaded.tests, "predicting", "report"))
-        outdated = {chain.test for chain in whole if is_fresh(replace(chain, redo_from=None)) is None} - failed.keys()
-        write_summary(loaded, layout, outdated=outdated, failed=failed)
-        report = _report(loaded, layout, outdated) if last == "report" else None
+        kept = [name for name in loaded.tests if not loaded.review(name).excluded]
+        whole = (*chains(kept, "measuring", "report"), *chains(kept, "predicting", "report"))
+        look = catalogue.attributes
+        stale = {chain.test for chain in whole if is_fresh(replace(chain, redo_from=None), look) is None}
+        outdated = (stale - failed.keys()) | (loaded.tests.keys() - set(kept))
+        write_summary(loaded, layout, catalogue, outdated=outdated, failed=failed)
+        report = _report(loaded, layout, catalogue, outdated) if last == "report" else None
+        catalogue.save()
     return RunResult(tuple(runs), layout.summary_json, report)
 
 
-def _report(campaign: Campaign, layout: Layout, outdated: Set[str]) -> Path:
-    """Build the page, unless the one that is there shows just this."""
-    key = report_key(campaign, layout, outdated)
+def _report(campaign: Campaign, layout: Layout, catalogue: Catalogue, outdated: Set[str]) -> Path:
+    """Build the pages, unless those that are there show just this."""
+    key = report_key(campaign, layout, outdated, catalogue.attributes)
     if layout.report.is_file() and layout.report_key.is_file() and layout.report_key.read_text(encoding="utf-8") == key:
         return layout.report
     from colonnade.report import build
 
-    page = build(campaign, layout, outdated)
+    page = build(campaign, layout, outdated, code=source_hash(without=("cli", "laboratory")))
     write_text(layout.report_key, key)
     return page
 
@@ -120,23 +129,29 @@ def _chosen(campaign: Campaign, only: Sequence[str]) -> list[str]:
     for name in only:
         if name not in campaign.tests:
             raise CampaignError(f'{campaign.path.name} has no test "{name}".{nearest(name, campaign.tests)}')
-    return [name for name in campaign.tests if not only or name in only]
+        if excluded := campaign.review(name).excluded:
+            raise CampaignError(f"{name} is {excluded}. To run it again, take that [[exclude]] out of review.toml.")
+    return [name for name in campaign.tests if (not only or name in only) and not campaign.review(name).excluded]
 
 
 def _free_vibrations(campaign: Campaign, tests: Sequence[str]) -> list[str]:
     """Ids of the free vibrations of these tests' specimens: predictions take their restitution."""
     specimens = {campaign.tests[name].specimen for name in tests}
     return [
-        name for name, test in campaign.tests.items() if test.kind == "free-vibration" and test.specimen in specimens
+        name
+        for name, test in campaign.tests.items()
+        if test.kind == "free-vibration" and test.specimen in specimens and not campaign.review(name).excluded
     ]
 
 
-def _walked(chains: Sequence[Chain], workers: int | None, progress: Progress | None) -> Iterator[StageRun]:
+def _walked(
+    chains: Sequence[Chain], catalogue: Catalogue, workers: int | None, progress: Progress | None
+) -> Iterator[StageRun]:
     """Walk the chains, those with nothing to do here and the others in worker processes."""
     done = 0
     waiting = []
     for chain in chains:
-        standing = is_fresh(chain)
+        standing = is_fresh(chain, catalogue.attributes)
         if standing is None:
             waiting.append(chain)
             continue
@@ -154,12 +169,13 @@ def _told(runs: list[StageRun], done: int, total: int, progress: Progress | None
     return runs
 
 
-def _pool(campaign: Campaign, layout: Layout, redo_from: str | None) -> list[StageRun]:
+def _pool(campaign: Campaign, layout: Layout, catalogue: Catalogue, redo_from: str | None) -> list[StageRun]:
     """Bring the specimens up to date with the free vibrations that have been identified."""
     identified: dict[str, dict[str, Path]] = {name: {} for name in campaign.specimens}
     for test in campaign.tests.values():
         path = layout.stage(test.id, "restitution")
-        if test.kind == "free-vibration" and stored_attributes(path).get("status") == "done":
+        excluded = campaign.review(test.id).excluded
+        if test.kind == "free-vibration" and not excluded and catalogue.attributes(path).get("status") == "done":
             identified[test.specimen][test.id] = path
     return [
         advance(campaign, name, specimen_step(campaign, name, paths), redo_from=redo_from, raw={})

@@ -144,5 +144,5 @@ def _ingest(paths: Mapping[str, Path], read: Any) -> xr.Dataset:
     recordings = {}
     for recorder, path in paths.items():
         how = read.files[recorder]
-        recordings[recorder] = read_recording(path, how["format"], how["options"])
+        recordings[recorder] = read_recording(path, how["format"], how["options"], window=read.wanted(recorder))
     return ingest(recordings, read)

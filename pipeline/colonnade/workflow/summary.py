@@ -5,20 +5,27 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Collection, Mapping
+from pathlib import Path
 from typing import Any, Literal
-
-import numpy as np
 
 import colonnade
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.summary import PredictionSummary, RestitutionSummary, SpecimenSummary, Summary, TestSummary
+from colonnade.campaign.summary import RestitutionSummary, SpecimenSummary, Summary, TestSummary
 from colonnade.errors import StoreError
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.freshness import source_hash
+from colonnade.workflow.measured import measured, predicted, specimen_prototype
 
 
 def write_summary(
-    campaign: Campaign, layout: Layout, *, outdated: Collection[str] = (), failed: Mapping[str, str] | None = None
+    campaign: Campaign,
+    layout: Layout,
+    catalogue: Catalogue,
+    *,
+    outdated: Collection[str] = (),
+    failed: Mapping[str, str] | None = None,
 ) -> None:
     """
     Write both summaries, where their content changed.
@@ -27,6 +34,8 @@ def write_summary(
     ----------
     campaign : Campaign
     layout : Layout
+    catalogue : Catalogue
+        Spares reading the results of tests that are as they were.
     outdated : collection of str, optional
         Tests whose stored results are not of this campaign file, these raw files or this program; they are pending.
     failed : mapping of str to str, optional
@@ -37,19 +46,21 @@ def write_summary(
     StoreError
         If they cannot be written.
     """
-    summary = summarise(campaign, layout, outdated=outdated, failed=failed or {})
+    summary = summarise(campaign, layout, catalogue, outdated=outdated, failed=failed or {})
     files.write_text(layout.summary_json, summary.text())
     files.write_text(layout.summary_csv, _table(summary))
 
 
-def summarise(campaign: Campaign, layout: Layout, *, outdated: Collection[str], failed: Mapping[str, str]) -> Summary:
+def summarise(
+    campaign: Campaign, layout: Layout, catalogue: Catalogue, *, outdated: Collection[str], failed: Mapping[str, str]
+) -> Summary:
     """Gather a record a specimen and a test from what is stored; see `write_summary`."""
     return Summary(
         campaign=campaign.campaign,
         colonnade=colonnade.__version__,
         specimens={name: _specimen(campaign, layout, name) for name in campaign.specimens},
         tests={
-            name: _test(campaign, layout, test, is_outdated=name in outdated, failure=failed.get(name))
+            name: _remembered(campaign, layout, catalogue, test, name in outdated, failed.get(name))
             for name, test in campaign.tests.items()
         },
     )
@@ -88,15 +99,37 @@ def _specimen(campaign: Campaign, layout: Layout, name: str) -> SpecimenSummary:
         pole_distance=block.pole_distance,
         inertia=block.inertia,
         restitution=restitution,
+        prototype=specimen_prototype(campaign, name),
     )
 
 
-def _test(campaign: Campaign, layout: Layout, test: Test, *, is_outdated: bool, failure: str | None) -> TestSummary:
+def _remembered(
+    campaign: Campaign, layout: Layout, catalogue: Catalogue, test: Test, is_outdated: bool, failure: str | None
+) -> TestSummary:
+    """Record of a test: the last one where it was made from just these results, else a new one."""
+    paths = _paths(campaign, layout, test)
+    entry = [repr(test), repr(campaign.specimens[test.specimen]), campaign.gravity, campaign.review(test.id).excluded]
+    signature = catalogue.signature(paths.values(), *entry, is_outdated, failure, source_hash())
+    known = catalogue.record(test.id, signature)
+    if known is not None:
+        return TestSummary.model_validate_json(known)
+    record = _test(campaign, test, paths, is_outdated=is_outdated, failure=failure)
+    catalogue.remember(test.id, signature, record.model_dump_json())
+    return record
+
+
+def _paths(campaign: Campaign, layout: Layout, test: Test) -> dict[str, Path]:
+    stages = ("ingest", "condition", "rocking", "restitution", "compare")
     models = campaign.processing.predict.models
-    paths = {
-        stage: layout.stage(test.id, stage) for stage in ("ingest", "condition", "rocking", "restitution", "compare")
+    return {stage: layout.stage(test.id, stage) for stage in stages} | {
+        f"predict-{model}": layout.stage(test.id, "predict", model) for model in models
     }
-    paths |= {f"predict-{model}": layout.stage(test.id, "predict", model) for model in models}
+
+
+def _test(
+    campaign: Campaign, test: Test, paths: Mapping[str, Path], *, is_outdated: bool, failure: str | None
+) -> TestSummary:
+    models = campaign.processing.predict.models
     results = {stage: None if is_outdated else _stored(path) for stage, path in paths.items()}
     reasons = [str(each) for each in results.values() if isinstance(each, StoreError)]
     sound = {stage: each for stage, each in results.items() if each is not None and not isinstance(each, StoreError)}
@@ -108,39 +141,15 @@ def _test(campaign: Campaign, layout: Layout, test: Test, *, is_outdated: bool, 
     status: Literal["done", "failed", "pending"] = "failed" if reasons else "done" if "compare" in done else "pending"
     return TestSummary(
         status=status,
-        reason=" ".join(reasons) or None,
+        reason=" ".join(reasons) or campaign.review(test.id).excluded or None,
         warnings=tuple(dict.fromkeys(warnings)),
         kind=test.kind,
         specimen=test.specimen,
         span=test.span,
         observed_outcome=test.observed_outcome,
-        **_measured(campaign, test, done.get("rocking")),
-        predicted={model: _predicted(done, model) for model in models if f"predict-{model}" in done},
+        **measured(campaign, test, done),
+        predicted={model: predicted(done, model) for model in models if f"predict-{model}" in done},
     )
-
-
-def _measured(campaign: Campaign, test: Test, rocking: Any) -> dict[str, Any]:
-    if rocking is None:
-        return {}
-    block = campaign.block(test.specimen)
-    acceleration = float(rocking["peak_ground_acceleration"])
-    measured: dict[str, Any] = {"outcome": rocking.attrs["outcome"] or None, "pga": acceleration}
-    if "rocking_angle" in rocking:
-        measured |= {"peak_ratio": float(rocking["peak_ratio"]), "peak_time": float(rocking["peak_time"])}
-        measured["impacts"] = int(rocking.sizes.get("impact", 0))
-    if test.kind == "sine":
-        measured["amplitude_ratio"] = acceleration / block.uplift_acceleration
-        if test.frequency is not None:
-            measured["frequency_ratio"] = 2 * np.pi * test.frequency / block.p
-    return measured
-
-
-def _predicted(done: dict[str, Any], model: str) -> PredictionSummary:
-    predicted = done[f"predict-{model}"]
-    nrmse = None
-    if "compare" in done and model in done["compare"]["model"].to_numpy():
-        nrmse = float(done["compare"]["nrmse"].to_numpy()[list(done["compare"]["model"].to_numpy()).index(model)])
-    return PredictionSummary(outcome=predicted.attrs["outcome"], peak_ratio=float(predicted["peak_ratio"]), nrmse=nrmse)
 
 
 def _table(summary: Summary) -> str:
@@ -148,10 +157,18 @@ def _table(summary: Summary) -> str:
     rows = []
     for name, test in summary.tests.items():
         row: dict[str, Any] = {"test": name}
-        record = test.model_dump(exclude={"predicted"})
+        record = test.model_dump(exclude={"predicted", "restitution", "prototype"})
         row |= {column: "; ".join(value) if column == "warnings" else value for column, value in record.items()}
-        for model, predicted in test.predicted.items():
-            row |= {f"{model}_{column}": value for column, value in predicted.model_dump().items()}
+        for model, result in test.predicted.items():
+            row |= {f"{model}_{column}": value for column, value in result.model_dump().items()}
+        if test.restitution is not None:
+            found = test.restitution.model_dump(include={"value", "low", "high"})
+            row |= {f"restitution_{column}": value for column, value in found.items()}
+            for model, history in test.restitution.whole_history.items():
+                name = f"restitution_history_{model}"
+                row |= {f"{name}_{column}": value for column, value in history.model_dump().items()}
+        if test.prototype is not None:
+            row |= {f"prototype_{column}": value for column, value in test.prototype.model_dump().items()}
         rows.append(row)
     columns = list(dict.fromkeys(column for row in rows for column in row))
     text = io.StringIO()
@@ -162,4 +179,4 @@ def _table(summary: Summary) -> str:
 
 
 def _harmless(value: Any) -> Any:
-    return f"'{value}" if isinstance(value, str) and value[:1] in "=+-@\t\r" else value
+    return f"'{value}" if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")) else value

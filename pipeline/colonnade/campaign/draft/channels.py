@@ -1,0 +1,187 @@
+"""Channels of a setup that is being drafted: for each column what it is, why, and what has to be asked."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from colonnade import units
+from colonnade.campaign.channel import MAIN
+from colonnade.campaign.draft.lines import Line, comment, value
+from colonnade.campaign.draft.meaning import PLACE_OF, Meaning, meaning
+from colonnade.campaign.draft.naming import unique
+from colonnade.campaign.draft.survey import Column
+from colonnade.campaign.draft.vocabulary import AXES, plain, words
+
+MOST_UNKNOWN = 12
+"""Columns of which nothing is known are asked about one by one up to this many."""
+
+_FIRST_POINT = (
+    "the point that it follows, [x, y, z] from the centre of the specimen's base: "
+    'x along the shaking, y across, z up, such as ["43 mm", "0 mm", "440 mm"]'
+)
+_SENSING = {
+    "laser": (
+        ("sensing", '"surface"', "it follows its line of sight"),
+        ("normal", '"?"', "outward normal of the face that it looks at, such as [1, 0, 0]; none for a round specimen"),
+    ),
+    "wire": (
+        ("sensing", '"wire"', "it follows its wire"),
+        ("anchor", '["? mm", "0 mm", "? mm"]', "the fixed end of the wire"),
+    ),
+}
+_WIRES = {"seilzug": "wire", "stringpot": "wire", "string": "wire"}
+
+
+@dataclass(frozen=True)
+class DraftChannel:
+    """
+    A channel.
+
+    Attributes
+    ----------
+    id : str
+    recorder : str
+    meaning : Meaning
+    lines : tuple of Line or str
+        Its keys, and comments.
+    """
+
+    id: str
+    recorder: str
+    meaning: Meaning
+    lines: tuple[Line | str, ...]
+
+
+@dataclass(frozen=True)
+class DraftChannels:
+    """Channels of a setup, and the columns that are none of them: recorder, heading and reason."""
+
+    channels: tuple[DraftChannel, ...]
+    left_out: tuple[tuple[str, str, str], ...]
+
+
+def draft_channels(recorders: dict[str, Sequence[Column]]) -> DraftChannels:
+    """
+    Draft the channels of a setup.
+
+    Parameters
+    ----------
+    recorders : dict of str to sequence of Column
+        Columns of one file of each recorder, the main one under "main"; a column counts as dead if it is in all.
+    """
+    meanings = [(recorder, meaning(column)) for recorder, columns in recorders.items() for column in columns]
+    known = any(each.quantity is not None for _, each in meanings)
+    taken: list[tuple[str, Meaning]] = []
+    left_out = []
+    for recorder, each in meanings:
+        if each.left_out:
+            left_out.append((recorder, each.column.heading, each.left_out))
+        elif each.quantity is None and (known or len(taken) >= MOST_UNKNOWN):
+            unit = f'its unit is "{each.column.unit}" and its name' if each.column.unit else "its name"
+            left_out.append((recorder, each.column.heading, f"{unit} does not tell what it measures"))
+        else:
+            taken.append((recorder, each))
+    names = unique(("_".join(_id_parts(each.column.name)) for _, each in taken), "channel", as_variables=True)
+    called = {recorder: [column.name for column in columns] for recorder, columns in recorders.items()}
+    asked: set[str] = set()
+    channels = []
+    for name, (recorder, each) in zip(names, taken, strict=True):
+        alone = called[recorder].count(each.column.name) == 1
+        column = each.column.name if alone and each.column.name.strip() else each.column.number
+        channels.append(DraftChannel(name, recorder, each, tuple(_lines(each, recorder, column, asked))))
+    return DraftChannels(tuple(channels), tuple(left_out))
+
+
+def _id_parts(name: str) -> list[str]:
+    """
+    Split a name into its parts for an id.
+
+    Examples
+    --------
+    >>> _id_parts("LVDT 1"), _id_parts("Weg [oben]")
+    (['lvdt', '1'], ['weg', 'oben'])
+    """
+    return re.findall(r"[a-z0-9]+", plain(name))
+
+
+def _lines(each: Meaning, recorder: str, column: str | int, asked: set[str]) -> list[Line | str]:
+    lines: list[Line | str] = [Line("column", value(column))]
+    if recorder != MAIN:
+        lines.append(Line("recorder", value(recorder)))
+    if each.quantity is None:
+        choices = ", ".join(f'"{quantity}"' for quantity in units.QUANTITY_DIMENSIONS)
+        question = _once(asked, "quantity", f"what it measures: {choices}; or leave these lines out")
+        return [*lines, Line("quantity", '"?"', question=question), *_unit(each, asked), *_place(each, asked)]
+    lines.append(Line("quantity", value(each.quantity), each.because, each.conflict))
+    lines += _unit(each, asked)
+    return lines + _place(each, asked)
+
+
+def _unit(each: Meaning, asked: set[str]) -> list[Line]:
+    column = each.column
+    dimension = units.QUANTITY_DIMENSIONS[each.quantity or "other"]
+    if not column.unit:
+        usual = units.DIMENSIONS[dimension or "length"][1]
+        question = f'the file gives no unit: such as "{usual}", or "V" with a line gain = "10 {usual}/V" below it'
+        return [Line("unit", '"?"', question=_once(asked, f"unit {usual}", question))]
+    if not each.unit_known:
+        return [Line("unit", '"?"', question=f'the file says "{column.unit}", which is no unit known here')]
+    lines = [Line("unit", value(column.unit), "as in the file")]
+    if dimension is not None and not each.is_physical:
+        recorded = units.normalise_unit(column.unit)
+        below = f"({recorded})" if {"/", " "} & set(recorded) else recorded
+        gain = f"? {units.DIMENSIONS[dimension][1]}/{below}"
+        lines.append(Line("gain", value(gain), question=_once(asked, "gain", "of its calibration sheet")))
+    return lines
+
+
+def _place(each: Meaning, asked: set[str]) -> list[Line | str]:
+    if each.quantity == "force":
+        return []
+    place = each.place or (PLACE_OF.get(each.quantity, "specimen") if each.quantity else None)
+    if place is None:
+        question = _once(asked, "on", 'what it is fixed to or looks at: "specimen", "table" or "ground"')
+        return [Line("on", '"?"', question=question), _direction(each, asked)]
+    doubt = "" if each.place else 'or "table", "ground"' if place == "specimen" else 'or "specimen", "ground"'
+    lines: list[Line | str] = [Line("on", value(place), each.place_word, doubt)]
+    if each.quantity == "displacement" and place == "specimen":
+        lines.append(Line("at", '["? mm", "0 mm", "? mm"]', question=_once(asked, "at", _FIRST_POINT)))
+        fixed = _once(asked, "relative_to", 'where it is fixed: "table" where it moves with the table, else "ground"')
+        lines.append(Line("relative_to", '"?"', question=fixed))
+    if each.quantity == "acceleration" and place == "specimen":
+        where = "where it sits; two or more along x at different heights enter the angle"
+        lines.append(comment(f'at = ["43 mm", "0 mm", "440 mm"]      {where}'))
+    lines.append(_direction(each, asked))
+    if each.quantity == "displacement" and place == "specimen":
+        lines += _sensing(each)
+    return lines
+
+
+def _sensing(each: Meaning) -> list[Line]:
+    """Lines of a transducer whose name says that it follows no material point."""
+    for part in words(each.column.name):
+        kind = _WIRES.get(part, part)
+        if kind in _SENSING:
+            (key, content, because), (asked, unknown, question) = _SENSING[kind]
+            reason = f'from "{part}" in its name: {because}'
+            return [Line(key, content, reason), Line(asked, unknown, question=question)]
+    return []
+
+
+def _direction(each: Meaning, asked: set[str]) -> Line:
+    along = "axis" if each.quantity in ("angle", "angular_velocity") else "direction"
+    direction = AXES[each.axis] if each.axis else (0, 1, 0) if along == "axis" else (1, 0, 0)
+    reason = f'from "{each.axis}" in its name' if each.axis else ""
+    negative = ", ".join(str(-part or 0) for part in direction)
+    question = _once(asked, "direction", f"of a positive reading; [{negative}] where it is the other way round")
+    return Line("direction", value(direction), reason, question)
+
+
+def _once(asked: set[str], key: str, question: str) -> str:
+    """A question in full for the first channel, short for the others."""
+    if key in asked:
+        return "as above"
+    asked.add(key)
+    return question

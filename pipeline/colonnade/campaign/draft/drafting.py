@@ -1,0 +1,125 @@
+"""A campaign.toml to start from, guessed from a folder of raw files where it can be."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from colonnade.campaign.draft.layout import arrange
+from colonnade.campaign.draft.lines import Line
+from colonnade.campaign.draft.naming import as_id
+from colonnade.campaign.draft.survey import survey
+from colonnade.campaign.draft.writing import Draft, write
+from colonnade.campaign.loading import FILE_NAME
+from colonnade.errors import CampaignError
+
+RAW_FOLDERS = ("raw", "data", "rohdaten", "dati", "daten")
+"""Names of folders that say nothing of the campaign in them."""
+
+MOST_TOLD = 5
+
+
+@dataclass(frozen=True)
+class Question:
+    """Something a person has to fill in or look at: its line in the file, key, value and what is asked."""
+
+    line: int
+    key: str
+    value: str
+    asked: str
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it has to be filled in."""
+        return "?" in self.value
+
+
+@dataclass(frozen=True)
+class CampaignDraft:
+    """
+    A drafted campaign file.
+
+    Attributes
+    ----------
+    path : Path
+        Where it belongs; nothing is there yet.
+    text : str
+    tests, setups : int
+        How many.
+    open, doubts : tuple of Question
+        What has to be filled in, and guesses that ask for a look.
+    refused : tuple of (str, str)
+        Files that are not in it, with the reason.
+    """
+
+    path: Path
+    text: str
+    tests: int
+    setups: int
+    open: tuple[Question, ...]
+    doubts: tuple[Question, ...]
+    refused: tuple[tuple[str, str], ...]
+
+
+def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> CampaignDraft:
+    """
+    Draft the campaign file of a folder; nothing is written.
+
+    Parameters
+    ----------
+    folder : Path
+        With the raw files, or with folders of them.
+    progress : callable, optional
+        Called with how many files have been looked at, and of how many.
+
+    Raises
+    ------
+    CampaignError
+        If there is no such folder, it has a campaign file, or no file in it can be read.
+    """
+    folder = folder.resolve()
+    if not folder.is_dir():
+        raise CampaignError(f"{folder}: there is no such folder. The one with the raw files was expected.")
+    path = folder / FILE_NAME
+    if path.exists() or path.is_symlink():
+        raise CampaignError(
+            f"{path}: it is there already and is left as it is. To draft another one, move it away or give it another "
+            "name first; to go on with it, `colonnade check`."
+        )
+    found = survey(folder, progress)
+    if not found.files:
+        raise CampaignError(
+            "\n".join([f"{folder}: no file in it is a recording that I can read.", *_told(found.refused)])
+        )
+    setups, copies = arrange(found.files)
+    home = folder.parent if folder.name.casefold() in RAW_FOLDERS else folder
+    written = write(as_id(home.name, "campaign"), setups, copies, found.refused)
+    asked = list(_questions(written))
+    return CampaignDraft(
+        path,
+        written.text,
+        sum(len(setup.tests) for setup in setups),
+        len(setups),
+        tuple(each for each in asked if each.is_open),
+        tuple(each for each in asked if not each.is_open),
+        found.refused,
+    )
+
+
+def _questions(written: Draft) -> Iterator[Question]:
+    section = ""
+    for number, line in enumerate(written.lines, start=1):
+        if isinstance(line, Line):
+            section = f"tests[{line.value.strip(chr(34))}]" if section == "tests" and line.key == "id" else section
+            if line.question:
+                yield Question(number, f"{section}.{line.key}".lstrip("."), line.value, line.question)
+        elif line.startswith("["):
+            section = line.strip("[]")
+
+
+def _told(refused: tuple[tuple[str, str], ...]) -> list[str]:
+    lines = [f"  {name}: {reason}" for name, reason in refused[:MOST_TOLD]]
+    if len(refused) > MOST_TOLD:
+        lines.append(f"  and {len(refused) - MOST_TOLD} more")
+    return lines or ["  There is no file in it but documents. Name the folder with the raw files."]

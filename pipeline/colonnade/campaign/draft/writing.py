@@ -1,0 +1,214 @@
+"""The text of a campaign file that is being drafted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from colonnade.campaign.campaign import SCHEMA
+from colonnade.campaign.channel import MAIN
+from colonnade.campaign.draft.channels import DraftChannel, DraftChannels, draft_channels
+from colonnade.campaign.draft.kinds import kind_lines, largest_spreads, linked
+from colonnade.campaign.draft.layout import DraftSetup, DraftTest, names_of
+from colonnade.campaign.draft.lines import Line, comment, key, value
+from colonnade.campaign.draft.naming import unique
+from colonnade.campaign.draft.vocabulary import SHAPES, find, words
+
+_SIZES = {
+    "prism": {
+        "width": "along x, the direction of shaking",
+        "depth": "along y, across the shaking",
+        "height": "along z",
+    },
+    "cylinder": {"diameter": "", "height": ""},
+    "cone": {"base_diameter": "of the circle it stands on", "top_diameter": "", "height": ""},
+}
+
+
+@dataclass(frozen=True)
+class Draft:
+    """Lines of the file, each a key or plain text."""
+
+    lines: tuple[Line | str, ...]
+
+    @property
+    def text(self) -> str:
+        """The file."""
+        return "\n".join(line.text() if isinstance(line, Line) else line for line in self.lines) + "\n"
+
+
+@dataclass(frozen=True)
+class _NamedSetup:
+    name: str
+    setup: DraftSetup
+    drafted: DraftChannels
+
+
+def write(
+    name: str, setups: Sequence[DraftSetup], copies: Sequence[tuple[str, str]], refused: Sequence[tuple[str, str]]
+) -> Draft:
+    """
+    Write out what was found.
+
+    Parameters
+    ----------
+    name : str
+        Id of the campaign.
+    setups : sequence of DraftSetup
+    copies, refused : sequence of (str, str)
+        Files that are left out, with the file that is taken instead or the reason.
+    """
+    named = list(_named(setups))
+    tests = [test for setup in setups for test in setup.tests]
+    specimens = _specimens(tests)
+    lines: list[Line | str] = [
+        comment("Drafted by `colonnade init` from the raw files. Behind each # stands why a value is what it is."),
+        comment('A "?" in a value has to be filled in before anything runs; "# ?" is a guess that asks for a look.'),
+        comment("`colonnade check` tells what is still open, with its line."),
+        Line("schema", str(SCHEMA)),
+        Line("campaign", value(name), "from the name of the folder"),
+        Line("title", value(f"Campaign {name}"), "of the report; say it better"),
+        comment('facility = "…"         the laboratory and its table'),
+    ]
+    for specimen, shape in dict.fromkeys(specimens):
+        lines += _specimen(specimen, shape)
+    for each in named:
+        lines += _setup(each)
+    lines += _tests(named, dict(zip(map(id, tests), specimens, strict=True)))
+    if copies or refused:
+        lines += ["", comment("Files that are not in here:")]
+        lines += [comment(f"{file}: the same columns as {taken}, so taken for a copy of it") for file, taken in copies]
+        lines += [comment(f"{file}: {reason}") for file, reason in refused]
+    return Draft(tuple(lines))
+
+
+def _named(setups: Sequence[DraftSetup]) -> Iterator[_NamedSetup]:
+    """Setups with names and channels; a channel that an earlier one has too is asked about with a hint at it."""
+    first: dict[str, str] = {}
+    for number, setup in enumerate(setups, start=1):
+        name = "setup" if len(setups) == 1 else f"setup-{number}"
+        drafted = draft_channels({recorder: setup.columns(recorder) for recorder in setup.recorders})
+        channels = tuple(
+            _hinted(channel, first[channel.id])
+            if channel.id in first and not channel.id.startswith("column_")
+            else channel
+            for channel in drafted.channels
+        )
+        first |= {channel.id: name for channel in channels if channel.id not in first}
+        yield _NamedSetup(name, setup, replace(drafted, channels=channels))
+
+
+def _hinted(channel: DraftChannel, setup: str) -> DraftChannel:
+    hint = f"perhaps as in {setup}"
+    return replace(
+        channel,
+        lines=tuple(
+            replace(line, question=hint) if isinstance(line, Line) and line.question else line for line in channel.lines
+        ),
+    )
+
+
+def _specimens(tests: Sequence[DraftTest]) -> list[tuple[str, str]]:
+    """Specimen of each test, and its shape, where file names tell them; one for all tests of which nothing tells."""
+    found = [find(words(test.main.stem), SHAPES) for test in tests]
+    return [(each[0], each[0]) if each else ("specimen", "") for each in found]
+
+
+def _specimen(name: str, shape: str) -> list[Line | str]:
+    others = (
+        'or "cylinder" (diameter, height), "cone" (base_diameter, top_diameter, height), "measured" (critical_angle, '
+    )
+    others += "pole_distance, inertia)"
+    first = Line("shape", value(shape), "from the names of files") if shape else Line("shape", '"prism"', "", others)
+    sizes = [
+        Line(size, value("? mm"), question=said or f"its {size.replace('_', ' ')}")
+        for size, said in _SIZES[shape or "prism"].items()
+    ]
+    return ["", f"[specimens.{key(name)}]", first, *sizes, Line("mass", value("? kg"), question="weighed")]
+
+
+def _setup(named: _NamedSetup) -> list[Line | str]:
+    setup, drafted = named.setup, named.drafted
+    count = "1 test" if len(setup.tests) == 1 else f"{len(setup.tests)} tests, all recorded alike"
+    lines: list[Line | str] = ["", comment(f"The set-up of {count}: {_some(setup)}"), f"[setups.{key(named.name)}]"]
+    lines += _recorder_lines(setup, MAIN)
+    lines.append(comment('catch = "0.3 rad"      the rotation at which a safety frame catches the specimen'))
+    for recorder in setup.recorders[1:]:
+        pair = linked(drafted.channels, recorder)
+        lines += ["", f"[setups.{key(named.name)}.recorders.{key(recorder)}]", *_recorder_lines(setup, recorder)]
+        if pair:
+            reason = "both see the table move, which tells how late it started"
+            lines.append(Line("clock", value({"align": list(pair)}), reason, '"trigger" where both start together'))
+        else:
+            either = 'or {align = ["a channel of main", "a channel of this one that sees the same"]}'
+            lines.append(Line("clock", '"trigger"', "", either))
+    lines += [
+        "",
+        comment("A channel may also say offset, range and delay; `colonnade schema campaign` has all keys."),
+    ]
+    for channel in drafted.channels:
+        lines += ["", f"[setups.{key(named.name)}.channels.{key(channel.id)}]", *channel.lines]
+    return lines + _left_out(drafted)
+
+
+def _some(setup: DraftSetup) -> str:
+    files = [test.main.relative for test in setup.tests]
+    return ", ".join(files[:3]) + (f" … {files[-1]}" if len(files) > 3 else "")
+
+
+def _recorder_lines(setup: DraftSetup, recorder: str) -> list[Line]:
+    files = [test.files[recorder] for test in setup.tests]
+    lines = [Line("file", value({"format": files[0].format}), "recognised; all else is sniffed")]
+    if not any(column.has_clock for column in files[0].columns):
+        lines.append(Line("sampling_rate", value("? Hz"), question="no time column was recognised: samples per second"))
+    return lines
+
+
+def _left_out(drafted: DraftChannels) -> list[Line | str]:
+    if not drafted.left_out:
+        return []
+    by_reason: dict[str, list[str]] = {}
+    for _, heading, reason in drafted.left_out:
+        by_reason.setdefault(reason, []).append(f'"{heading}"')
+    lines: list[Line | str] = [
+        "",
+        comment("Columns that are left out; a table like those above takes one in:"),
+    ]
+    for reason, headings in by_reason.items():
+        some = ", ".join(headings[:4]) + (f" … {headings[-1]}" if len(headings) > 4 else "")
+        lines.append(comment(f"  {some}: {reason}"))
+    return lines
+
+
+def _tests(named: Sequence[_NamedSetup], specimens: dict[int, tuple[str, str]]) -> list[Line | str]:
+    tests = [(each, test) for each in named for test in each.setup.tests]
+    ids = unique(names_of(test for _, test in tests), "test")
+    largest = {each.name: largest_spreads(each.setup.tests, each.drafted.channels) for each in named}
+    asked: set[str] = set()
+    lines: list[Line | str] = []
+    for name, (each, test) in zip(ids, tests, strict=True):
+        channels = each.drafted.channels
+        paths = {recorder: file.relative for recorder, file in test.files.items()}
+        file = test.main
+        rate = f"{file.rate:.6g} Hz, {file.duration:.4g} s" if file.rate and file.duration else ""
+        lines += [
+            "",
+            "[[tests]]",
+            Line("id", value(name)),
+            *(_briefly(line, asked) for line in kind_lines(test, channels, largest[each.name])),
+            Line("specimen", value(specimens[id(test)][0])),
+            Line("setup", value(each.name)),
+            Line("file", value(paths[MAIN] if len(paths) == 1 else paths), rate),
+            *(comment(f"the file: {warning}") for warning in file.warnings[:3]),
+        ]
+    return lines
+
+
+def _briefly(line: Line | str, asked: set[str]) -> Line | str:
+    """Ask in full once only."""
+    if isinstance(line, str) or not line.question:
+        return line
+    if line.question in asked:
+        return replace(line, question="as above")
+    asked.add(line.question)
+    return line

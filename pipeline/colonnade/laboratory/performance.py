@@ -1,0 +1,188 @@
+"""A test of a virtual campaign is performed: simulated, measured, and written as raw files and their truth."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.laboratory.experiment import MAIN, Plan, Setup, Trial, raw_path
+from colonnade.laboratory.files import Sheet, put
+from colonnade.laboratory.instruments import measure
+from colonnade.laboratory.truth import Truth, simulate
+
+Array = NDArray[np.float64]
+
+START_SCATTER = 1e-3
+"""A recorder that starts late does so within ± this, s: no two starts are alike."""
+
+FIRST_TEST = np.datetime64("2013-05-14T09:00:00", "us")
+"""When the campaign began, by the recorders whose files say so."""
+BETWEEN_TESTS = np.timedelta64(6, "m")
+
+
+def perform_all(plan: Plan, folder: Path, seed: int, workers: int | None) -> dict[str, dict[str, Any]]:
+    """
+    Perform all tests of a plan, each with a seed of its own, in so many processes (None: one a core).
+
+    Returns
+    -------
+    records : dict
+        By test, what `perform` returns.
+    """
+    import joblib
+
+    seeds = np.random.SeedSequence(seed).spawn(len(plan.trials))
+    count = min(workers or joblib.cpu_count(), len(plan.trials))
+    jobs = [
+        joblib.delayed(perform)(plan, trial, folder, own_seed)
+        for trial, own_seed in zip(plan.trials, seeds, strict=True)
+    ]
+    performed = joblib.Parallel(n_jobs=count)(jobs)
+    return {trial.name: record for trial, record in zip(plan.trials, performed, strict=True)}
+
+
+def perform(plan: Plan, trial: Trial, folder: Path, seed: np.random.SeedSequence) -> dict[str, Any]:
+    """
+    Perform one test: write its raw files, and its true angle beside them.
+
+    Parameters
+    ----------
+    plan : Plan
+    trial : Trial
+    folder : Path
+        The campaign's folder; raw files go to `raw/`, the true angle to `truth/<name>.csv`.
+    seed : numpy.random.SeedSequence
+        Of this test alone.
+
+    Returns
+    -------
+    record : dict
+        What is true of the test, for truth.json.
+
+    Raises
+    ------
+    StoreError
+        If a file cannot be written.
+    """
+    generator = np.random.default_rng(seed)
+    setup = plan.setups[trial.setup]
+    specimen = plan.specimens[plan.specimen_of(trial)]
+    block = specimen.block
+    starts = {
+        name: recorder.late + (generator.uniform(-START_SCATTER, START_SCATTER) if recorder.late else 0.0)
+        for name, recorder in setup.recorders.items()
+    }
+    clocks = {
+        name: starts[name]
+        + np.arange(int((trial.duration - starts[name]) * recorder.sampling_rate_hz)) / recorder.sampling_rate_hz
+        for name, recorder in setup.recorders.items()
+    }
+    truth = simulate(
+        block,
+        np.unique(np.concatenate(list(clocks.values()))),
+        trial.table,
+        restitution=specimen.restitution,
+        theta0=trial.theta0,
+        release=trial.release,
+        catch=setup.catch or pi / 2,
+    )
+    spikes = _draw_spikes(trial, setup, clocks, generator)
+    begun = FIRST_TEST + plan.trials.index(trial) * BETWEEN_TESTS
+    errors = {}
+    for name, recorder in setup.recorders.items():
+        angle = truth.angle[np.searchsorted(truth.time, clocks[name])]
+        columns = {}
+        for transducer in recorder.transducers:
+            value = transducer.sense(block, trial.table, clocks[name], angle)
+            struck = spikes.get(transducer.channel, ())
+            volts, drawn = measure(value, transducer, plan.imperfections, generator, struck)
+            columns[transducer.column] = (transducer.recorded_unit, transducer.written(volts))
+            errors[transducer.channel] = {
+                "zero_volts": drawn.zero,
+                "drift_volts": drawn.drift,
+                "spikes": list(drawn.spikes),
+            }
+        sheet = Sheet(clocks[name] - starts[name], recorder.sampling_rate_hz, columns, begun)
+        put(folder / raw_path(trial, name, recorder), recorder.flavour.content(sheet))
+
+    main = np.searchsorted(truth.time, clocks[MAIN])
+    rows = "".join(f"{time:.6f},{angle:.9g}\n" for time, angle in zip(clocks[MAIN], truth.angle[main], strict=True))
+    put(folder / "truth" / f"{trial.name}.csv", ("time_s,angle_rad\n" + rows).encode())
+    return {
+        "kind": trial.kind,
+        "specimen": plan.specimen_of(trial),
+        **_facts(truth),
+        "pga": float(np.abs(trial.table.acceleration(clocks[MAIN])).max()),
+        "theta0": trial.theta0,
+        "release": trial.release,
+        "steady": None if trial.steady is None else list(trial.steady),
+        "recorder_starts": starts,
+        "channels": errors,
+    }
+
+
+def _draw_spikes(
+    trial: Trial, setup: Setup, clocks: Mapping[str, Array], generator: np.random.Generator
+) -> dict[str, tuple[int, ...]]:
+    """Samples with a spike, by channel: one in each of equal parts of the record, away from its ends."""
+    wired = [
+        (each.channel, clocks[name].size) for name, recorder in setup.recorders.items() for each in recorder.transducers
+    ]
+    drawn: dict[str, tuple[int, ...]] = {}
+    for part in range(trial.spikes):
+        channel, size = wired[int(generator.integers(len(wired)))]
+        sample = int((part + generator.uniform(0.1, 0.9)) / trial.spikes * size)
+        drawn[channel] = (*drawn.get(channel, ()), sample)
+    return drawn
+
+
+def _facts(truth: Truth) -> dict[str, Any]:
+    """Return outcome and figures, in JSON's terms."""
+    overturned = bool(np.isfinite(truth.overturning_time))
+    return {
+        "outcome": truth.outcome,
+        "peak_ratio": truth.peak_ratio,
+        "peak_time": None if overturned else float(truth.time[np.argmax(truth.amplitude)]),
+        "overturning_time": truth.overturning_time if overturned else None,
+        "impact_count": int(truth.impact_times.size),
+    }
+
+
+def write_truth(plan: Plan, records: Mapping[str, Mapping[str, Any]], folder: Path, seed: int) -> dict[str, Any]:
+    """
+    Write `truth/truth.json`: e and properties of each specimen, and what is true of each test.
+
+    Returns
+    -------
+    truth : dict
+        Its content.
+
+    Raises
+    ------
+    StoreError
+        If it cannot be written.
+    """
+    truth = {
+        "seed": seed,
+        "specimens": {
+            name: {
+                "restitution": specimen.restitution,
+                "critical_angle": specimen.block.critical_angle,
+                "pole_distance": specimen.block.pole_distance,
+                "inertia": specimen.block.inertia,
+                "p": specimen.block.p,
+            }
+            for name, specimen in plan.specimens.items()
+        },
+        "imperfections": asdict(plan.imperfections),
+        "tests": dict(records),
+    }
+    put(folder / "truth" / "truth.json", (json.dumps(truth, indent=1, ensure_ascii=False) + "\n").encode())
+    return truth

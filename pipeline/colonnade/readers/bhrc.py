@@ -1,0 +1,132 @@
+"""Strong-motion records of the Iranian network (BHRC, .V1): three components, each with a header, in one text."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict
+
+from colonnade.errors import ReadError
+from colonnade.readers.clock import even_times
+from colonnade.readers.numbered_lines import NumberedLines, first_lines
+from colonnade.readers.recording import Array, RecordedChannel, Recording
+from colonnade.readers.registry import Format, Recognition
+from colonnade.readers.running_numbers import read_running
+
+FIRST_LINE = "* VOL"
+COMPONENT = re.compile(r"\s*COMP\s+(?P<name>\S+)")
+SIZE = re.compile(r"\s*NO\. OF POINTS\s*=\s*(?P<points>\d+)\s+DURATION\s*=\s*(?P<duration>[\d.]+)")
+UNITS = re.compile(r"\s*UNITS ARE SECONDS AND\s+(?P<unit>\S+)")
+KNOWN_UNITS = {"g/10": ("g", 0.1), "g": ("g", 1.0), "cm/sec2": ("cm/s^2", 1.0), "cm/sec/sec": ("cm/s^2", 1.0)}
+"""Unit and factor of the units that a header names; a tenth of g has no sign of its own."""
+WHOLE_ROWS, REAL_ROWS = 8, 7
+"""Lines below that of the units: a blank one and seven of whole numbers, then seven of real ones."""
+RATE = 6
+"""Place, from 0, of the nominal sampling rate among the real numbers."""
+REALS_WIDTH = 13
+PER_ROW = 10
+
+
+class BhrcOptions(BaseModel):
+    """Nothing has to be said about a BHRC record: its headers tell all."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+@dataclass(frozen=True)
+class Component:
+    """One of the components, as far as it is there; `rate` is the header's nominal one, in Hz."""
+
+    name: str
+    unit: str
+    points: int
+    duration: float
+    rate: float
+    values: Array
+    line: int
+    warnings: tuple[str, ...]
+
+    @property
+    def step(self) -> float:
+        """Time step, s: the duration is that from the first to the last point."""
+        return self.duration / (self.points - 1)
+
+
+def recognise(path: Path) -> Recognition:
+    """Say whether the head is that of a BHRC record."""
+    head = first_lines(path, 13)
+    if head and head[0].startswith(FIRST_LINE) and any(COMPONENT.match(line) for line in head):
+        return Recognition(True, 'the first line is "* VOL…" and one below starts with COMP')
+    return Recognition(False, 'the first line is not "* VOL…", with COMP below')
+
+
+def read(path: Path, options: BhrcOptions) -> Recording:
+    """
+    Read a BHRC record.
+
+    Raises
+    ------
+    ReadError
+        If a header is not whole or in a unit that is not known, or no numbers follow.
+    """
+    with NumberedLines(path) as lines:
+        components = list(_components(path, lines))
+    if not any(component.values.size for component in components):
+        raise ReadError(f"{path.name}: no component with numbers was found: the file was cut off.")
+    channels = tuple(
+        RecordedChannel(
+            component.name, component.unit, component.values, even_times(component.values.size, component.step)
+        )
+        for component in components
+    )
+    notes = [
+        f'"{component.name}": {component.points} points over {component.duration:g} s are {1 / component.step:.3f} Hz '
+        f"(line {component.line}); the header's own rate is {component.rate:g} Hz"
+        for component in components
+    ]
+    warnings = [warning for component in components for warning in component.warnings]
+    return Recording(path, "bhrc", channels, notes=tuple(notes), warnings=tuple(warnings))
+
+
+def _components(path: Path, lines: NumberedLines) -> Iterator[Component]:
+    """Read component after component."""
+    name, size = "", None
+    for number, line in lines.rest():
+        if found := COMPONENT.match(line):
+            name = found["name"]
+        elif found := SIZE.match(line):
+            size = found
+        elif (found := UNITS.match(line)) and size is not None:
+            unit, factor = KNOWN_UNITS.get(found["unit"].casefold(), ("", 1.0))
+            points, duration = int(size["points"]), float(size["duration"])
+            if not unit or points < 2 or not duration > 0:
+                raise ReadError(
+                    f"{path.name}: the header above line {number} tells {points} points, {duration:g} s, unit "
+                    f'"{found["unit"]}"; two points or more and a unit among {", ".join(KNOWN_UNITS)} were expected.'
+                )
+            list(islice(lines.rest(), WHOLE_ROWS))
+            reals, _ = read_running(islice(lines.rest(), REAL_ROWS), width=REALS_WIDTH)
+            values, warnings = read_running(islice(lines.rest(), -(-points // PER_ROW)), width=REALS_WIDTH)
+            values = factor * values[:points]
+            if values.size < points:
+                warnings.append(
+                    f'"{name}": the header announces {points} points and {values.size} are there: '
+                    "the file ends too early"
+                )
+            rate = float(reals[RATE]) if reals.size > RATE else float("nan")
+            yield Component(name, unit, points, duration, rate, values, number, tuple(warnings))
+            size = None
+
+
+FORMAT = Format(
+    name="bhrc",
+    summary="Strong-motion records of the Iranian network (BHRC).",
+    suffixes=(".v1",),
+    options=BhrcOptions,
+    recognise=recognise,
+    read=read,
+)

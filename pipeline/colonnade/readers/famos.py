@@ -1,0 +1,262 @@
+"""imc FAMOS files (.raw, .dat): blocks between `|XX,` and `;` that describe the channels, and one of their bytes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from datetime import datetime, timedelta
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict
+
+from colonnade.errors import ReadError
+from colonnade.readers.clock import even_times, moment_after
+from colonnade.readers.recording import TIME_UNITS, Array, RecordedChannel, Recording
+from colonnade.readers.registry import Format, Recognition
+
+SIGNATURE = b"|CF,"
+NUMBERS = {1: "u1", 2: "i1", 3: "u2", 4: "i2", 5: "u4", 6: "i4", 7: "f4", 8: "f8", 11: "u2", 12: "u8", 14: "i8"}
+"""Kinds of numbers, by the block CP."""
+BYTE_ORDERS = {"1": "<", "2": ">"}
+"""Of the block CF: Intel, Motorola."""
+LARGEST_BLOCK_HEAD = 40
+
+Bytes = NDArray[np.uint8]
+
+
+class FamosOptions(BaseModel):
+    """Nothing has to be said about a FAMOS file: its blocks tell all."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+@dataclass
+class _Component:
+    """What the blocks say of one channel, as they come."""
+
+    step: float = 0.0
+    x_unit: str = ""
+    is_plain: bool = True
+    noted: datetime | None = None
+    name: str = ""
+    unit: str = ""
+    factor: float = 1.0
+    offset: float = 0.0
+    number: str | None = None
+    is_packed: bool = False
+    bytes_index: int = 0
+    bytes_from: int = 0
+    bytes_filled: int = 0
+    x0: float = 0.0
+    added: float = 0.0
+
+
+@dataclass
+class _File:
+    """All components, where the bytes of each block CS stand, and what the blocks that come now belong to."""
+
+    order: str = "<"
+    data_set: _Component = field(default_factory=_Component)
+    current: _Component = field(default_factory=_Component)
+    components: list[_Component] = field(default_factory=list)
+    bytes_at: dict[int, tuple[int, int]] = field(default_factory=dict)
+    warnings: list[str] = field(default_factory=list)
+
+
+class _Parameters:
+    """The parameters of a block, one after the other; texts are preceded by their length."""
+
+    def __init__(self, content: bytes) -> None:
+        self._content, self._place = content, 0
+
+    def text(self) -> str:
+        end = self._content.find(b",", self._place)
+        end = len(self._content) if end < 0 else end
+        found = self._content[self._place : end].decode("cp1252", "replace").strip()
+        self._place = end + 1
+        return found
+
+    def whole(self) -> int:
+        return int(self.text() or 0)
+
+    def number(self) -> float:
+        return float(self.text() or 0)
+
+    def counted(self) -> str:
+        length = self.whole()
+        found = self._content[self._place : self._place + max(length, 0)].decode("cp1252", "replace")
+        self._place += max(length, 0) + 1
+        return found
+
+    def skip(self, count: int) -> None:
+        for _ in range(count):
+            self.text()
+
+
+def recognise(path: Path) -> Recognition:
+    """Say whether the first bytes are those of a FAMOS file."""
+    with path.open("rb") as stream:
+        head = stream.read(len(SIGNATURE))
+    if head == SIGNATURE:
+        return Recognition(True, 'it starts with "|CF,"')
+    return Recognition(False, 'it does not start with "|CF,"')
+
+
+def read(path: Path, options: FamosOptions) -> Recording:
+    """
+    Read an imc FAMOS file.
+
+    Raises
+    ------
+    ReadError
+        If a block is damaged before the first channel, or no channel holds numbers.
+    """
+    content = np.memmap(path, dtype=np.uint8, mode="r")
+    file = _File()
+    for place, key, block in _blocks(content, file):
+        try:
+            _take(file, key, block)
+        except (ValueError, OverflowError):
+            file.warnings.append(f'the block {key} at byte {place} is damaged ("{_shown(block)}"); it is left out')
+    channels: list[RecordedChannel] = []
+    starts: list[datetime | None] = []
+    for component in file.components:
+        values = _values(component, file, content)
+        if values is None:
+            continue
+        time = None
+        if component.step > 0 and component.x_unit.casefold() in TIME_UNITS and component.is_plain:
+            scale = TIME_UNITS[component.x_unit.casefold()]
+            time = even_times(values.size, component.step * scale, component.x0 * scale)
+            starts.append(moment_after(component.noted, component.added + component.x0 * scale))
+        name = component.name or f"channel {len(channels) + 1}"
+        channels.append(RecordedChannel(name, component.unit or None, values, time))
+    if not channels:
+        told = "; ".join(file.warnings[:3]) or "no block CS with values was found"
+        raise ReadError(f"{path.name}: no channel holds numbers ({told}). The file was cut off or is damaged.")
+    notes = ["clock: each channel's own start and step" if starts else "no clock: x is no time"]
+    if not all(component.is_plain for component in file.components):
+        notes.append("a data set of pairs (x, y): both are channels, neither is taken for a clock")
+    return Recording(path, "famos", tuple(channels), starts[0] if starts else None, tuple(notes), tuple(file.warnings))
+
+
+def _blocks(content: Bytes, file: _File) -> Iterator[tuple[int, str, bytes]]:
+    """Go from block to block; of the block of bytes, CS, only its index is given."""
+    place, size = 0, content.size
+    while place < size:
+        gap = content[place : place + 4096].tobytes()
+        skipped = len(gap) - len(gap.lstrip(b" \t\r\n\0"))
+        if skipped == len(gap):
+            place += skipped
+            continue
+        place += skipped
+        head = content[place : place + LARGEST_BLOCK_HEAD].tobytes()
+        parts = head.split(b",", 3)
+        if head[:1] != b"|" or len(parts) < 4 or not parts[1].strip().isdigit() or not parts[2].strip().isdigit():
+            file.warnings.append(f"a block was expected at byte {place}: what follows is damaged and not read")
+            return
+        key, length = parts[0][1:].decode("latin-1"), int(parts[2])
+        begin = place + sum(len(part) + 1 for part in parts[:3])
+        if key == "CS":
+            index = content[begin : begin + 20].tobytes().split(b",", 1)
+            if len(index) < 2 or not index[0].strip().isdigit():
+                file.warnings.append(f"the block CS at byte {place} is damaged: what follows is not read")
+                return
+            first = begin + len(index[0]) + 1
+            file.bytes_at[int(index[0])] = (first, min(begin + length, size))
+        else:
+            yield place, key, content[begin : begin + length].tobytes()
+        if begin + length > size:
+            file.warnings.append(f"the file ends within the block {key} at byte {place}: it was cut off")
+        place = begin + length + 1
+
+
+def _take(file: _File, key: str, block: bytes) -> None:
+    """Add what a block says to the data set or the channel that it belongs to."""
+    told = _Parameters(block)
+    if key == "CF":
+        file.order = BYTE_ORDERS.get(told.text(), "<")
+    elif key == "CG":
+        told.skip(1)
+        file.data_set = file.current = _Component(is_plain=told.whole() == 1)
+    elif key == "CC":
+        file.current = replace(file.data_set)
+        file.components.append(file.current)
+    else:
+        _describe(file.current, key, told)
+
+
+def _describe(component: _Component, key: str, told: _Parameters) -> None:
+    if key == "CD":
+        component.step = told.number()
+        told.skip(1)
+        component.x_unit = told.counted()
+    elif key == "NT":
+        day, month, year, hour, minute = (told.whole() for _ in range(5))
+        component.noted = datetime(year, month, day, hour, minute) + timedelta(seconds=told.number())
+    elif key == "CP":
+        told.skip(1)
+        size, kind, bits, mask = (told.whole() for _ in range(4))
+        told.skip(2)
+        number = NUMBERS.get(kind)
+        component.number = number if number is not None and int(number[1]) == size else None
+        component.is_packed = told.whole() != 0 or mask != 0 or bits != 8 * size
+    elif key == "Cb":
+        told.skip(3)
+        component.bytes_index, component.bytes_from = told.whole(), told.whole()
+        told.skip(1)
+        component.bytes_from += told.whole()
+        component.bytes_filled = told.whole()
+        told.skip(1)
+        component.x0, component.added = told.number(), told.number()
+    elif key == "CR":
+        transforms = told.whole() == 1
+        factor, offset = told.number(), told.number()
+        told.skip(1)
+        component.unit = told.counted()
+        if transforms:
+            component.factor, component.offset = factor, offset
+    elif key == "CN" and not component.name:
+        told.skip(3)
+        component.name = told.counted()
+
+
+def _values(component: _Component, file: _File, content: Bytes) -> Array | None:
+    """Values of a channel; None where its bytes cannot be told."""
+    if not component.bytes_filled:
+        return None
+    label = f'"{component.name}"'
+    if component.number is None or component.is_packed:
+        file.warnings.append(f"{label}: its numbers are interleaved or of a kind that is not known here; left out")
+        return None
+    if component.bytes_index not in file.bytes_at:
+        file.warnings.append(f"{label}: the block with its values is not there: the file was cut off")
+        return None
+    first, end = file.bytes_at[component.bytes_index]
+    form = np.dtype(file.order + component.number)
+    begin = first + component.bytes_from
+    announced = component.bytes_filled // form.itemsize
+    there = max(min(announced, (end - begin) // form.itemsize), 0)
+    if there < announced:
+        file.warnings.append(f"{label}: the file ends after {there} of its {announced} values")
+    with np.errstate(invalid="ignore", over="ignore"):
+        values = content[begin : begin + there * form.itemsize].view(form).astype(np.float64)
+        values = values * component.factor + component.offset
+    values[~np.isfinite(values)] = np.nan
+    return values if values.size else None
+
+
+def _shown(block: bytes) -> str:
+    return "".join(character if character.isprintable() else " " for character in block[:30].decode("latin-1"))
+
+
+FORMAT = Format(
+    name="famos",
+    summary="imc FAMOS files (imc bus format).",
+    suffixes=(".raw", ".dat"),
+    options=FamosOptions,
+    recognise=recognise,
+    read=read,
+)

@@ -1,0 +1,121 @@
+"""Numbers of one channel within a binary file, as a header elsewhere describes them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path, PureWindowsPath
+
+import numpy as np
+
+from colonnade.errors import ReadError
+from colonnade.readers.clock import even_times
+from colonnade.readers.recording import Array
+
+
+@dataclass(frozen=True)
+class StoredNumbers:
+    """
+    Where a channel's numbers stand.
+
+    Attributes
+    ----------
+    name, unit : str
+        Of the channel; the unit is empty where it is not told.
+    file : str
+        Name of the file with the bytes, beside the header; empty for a channel that is not stored, but rises evenly.
+    form : str
+        As numpy spells it, `<f8`.
+    first : int
+        Byte of the first number.
+    count : int
+    stride : int
+        Bytes from one number to the next.
+    offset, factor : float
+        Value = number × factor + offset; of an even channel, the number is that of the row, from 0.
+    step : float
+        Time step, s; 0 where the channel has none of its own.
+    begin : float
+        Time of the first value, s, where there is a step.
+    missing : float or None
+        What stands for a missing value.
+    """
+
+    name: str
+    unit: str
+    file: str
+    form: str
+    first: int
+    count: int
+    stride: int
+    offset: float = 0.0
+    factor: float = 1.0
+    step: float = 0.0
+    begin: float = 0.0
+    missing: float | None = None
+
+
+def read_stored(header: Path, stored: StoredNumbers, *, longest: int) -> tuple[Array, list[str]]:
+    """
+    Read a channel's numbers.
+
+    Parameters
+    ----------
+    header : Path
+        The file that describes them; the bytes stand in a file of the same folder.
+    stored : StoredNumbers
+    longest : int
+        Values of the longest channel that is stored; one that rises evenly has no more, whatever its header says.
+
+    Returns
+    -------
+    values : ndarray, shape (n,)
+        As many as there are; NaN where one is missing.
+    warnings : list of str
+        Whether the file ends too early.
+
+    Raises
+    ------
+    ReadError
+        If the file with the bytes is not there.
+    """
+    if not stored.file:
+        return even_times(min(stored.count, longest), stored.factor, stored.offset), []
+    path = beside(header, stored.file)
+    size = path.stat().st_size
+    form = np.dtype(stored.form)
+    room = max(size - stored.first - form.itemsize, -1)
+    there = max(min(stored.count, room // stored.stride + 1), 0)
+    warnings = []
+    if there < stored.count:
+        warnings.append(f'"{stored.name}": {path.name} ends after {there} of its {stored.count} values')
+    if not there:
+        return np.empty(0), warnings
+    content = np.memmap(path, dtype=np.uint8, mode="r")
+    raw = np.ndarray(there, form, content, offset=stored.first, strides=(stored.stride,))
+    with np.errstate(invalid="ignore", over="ignore"):
+        values = raw.astype(np.float64) * stored.factor + stored.offset
+        if stored.missing is not None and form.kind == "f":
+            values[raw == form.type(stored.missing)] = np.nan  # as rounded to the file's precision
+    values[~np.isfinite(values)] = np.nan
+    return values, warnings
+
+
+def beside(header: Path, name: str) -> Path:
+    """
+    Find a file of the header's folder, whatever its case.
+
+    Raises
+    ------
+    ReadError
+        If it is not there; a path out of the folder is not followed.
+    """
+    bare = PureWindowsPath(name).name
+    exact = header.with_name(bare) if bare else header
+    if bare and exact.is_file():
+        return exact
+    for entry in header.parent.iterdir():
+        if entry.name.casefold() == bare.casefold() and entry.is_file():
+            return entry
+    raise ReadError(
+        f'{header.name}: its values stand in the file "{bare}", which is not in its folder. Copy that file beside it.'
+    )

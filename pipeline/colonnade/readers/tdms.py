@@ -1,0 +1,187 @@
+"""LabVIEW TDMS: every channel with the unit and the clock that its own properties give."""
+
+from __future__ import annotations
+
+import logging
+from collections import Counter
+from dataclasses import replace
+from io import BufferedReader, FileIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+from colonnade.errors import ReadError, nearest
+from colonnade.readers.heading import take_apart
+from colonnade.readers.magic import by_mark
+from colonnade.readers.recording import RecordedChannel, Recording
+from colonnade.readers.registry import Format, Recognition
+from colonnade.readers.tdms_clocks import Column, on_clocks, waveform
+from colonnade.readers.tdms_segments import missing_samples, walk
+from colonnade.readers.values import TimeUnit, as_values
+
+if TYPE_CHECKING:
+    from nptdms import TdmsChannel, TdmsFile
+
+UNIT_PROPERTIES = ("unit_string", "ni_unitdescription", "unit", "units")
+"""Names, in lower case, of the property that holds a channel's unit, the most usual first."""
+
+MUCH = 1 << 16
+"""Bytes from which on a read is held against what the file has."""
+
+
+class TdmsOptions(BaseModel):
+    """What can be said about a TDMS file."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    group: str | None = Field(default=None, description="The only group that is read; all of them otherwise.")
+    time: str | int | None = Field(
+        default=None, description="Channel that is the clock of those as long as it, whatever their properties say."
+    )
+    time_unit: TimeUnit | None = Field(default=None, description="Unit of that channel.")
+
+
+def recognise(path: Path) -> Recognition:
+    """Say whether a file is TDMS."""
+    return by_mark(path, (b"TDSm",), "TDSm, the mark of LabVIEW's TDMS")
+
+
+def read(path: Path, options: TdmsOptions) -> Recording:
+    """
+    Read a TDMS file.
+
+    Raises
+    ------
+    ReadError
+        If it is not TDMS, is damaged, holds no numbers, or lacks the group or channel that the options name.
+    """
+    recognition = recognise(path)
+    if not recognition.yes:
+        raise ReadError(f"{path.name}: {recognition.reason}.")
+    ending = walk(path)
+    file = _open(path)
+    columns, notes, warnings = _columns(path, file, options.group)
+    warnings = missing_samples(ending, file) + warnings
+    if not columns:
+        raise ReadError(f"{path.name}: no channel holds numbers. {'; '.join(warnings + notes)}".rstrip())
+    recording = on_clocks(path, columns, options.time, options.time_unit)
+    return replace(recording, notes=(*recording.notes, *notes), warnings=(*warnings, *recording.warnings))
+
+
+class _BoundedStream(BufferedReader):
+    """A file of which no more is asked than it has, however many bytes its damaged content speaks of."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(FileIO(path))
+        self._length = path.stat().st_size
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        """Read up to so many bytes."""
+        if size is not None and size > MUCH:
+            size = max(min(size, self._length - self.tell()), 0)
+        return super().read(size)
+
+
+def _open(path: Path) -> TdmsFile:
+    """
+    Read the file, once its description is found to fit into it.
+
+    It is given as a stream, so that a .tdms_index beside it, which may be another file's, is not looked at.
+    """
+    from nptdms import TdmsFile
+    from nptdms.log import log_manager
+
+    log_manager.set_level(logging.CRITICAL)  # what it would print is told as warnings of the recording
+    size = path.stat().st_size
+    with _BoundedStream(path) as stream:
+        try:
+            described = TdmsFile.read_metadata(stream)
+        except MemoryError as error:
+            raise ReadError(
+                f"{path.name}: its description speaks of more than a file of {size} bytes can hold: the "
+                "file is damaged. Copy it again from the recorder."
+            ) from error
+        for channel in (channel for group in described.groups() for channel in group.channels()):
+            if len(channel) > size:
+                raise ReadError(
+                    f"{path.name}: {channel.path} is said to have {len(channel)} samples, in a file of {size} bytes: "
+                    "the file is damaged. Copy it again from the recorder."
+                )
+        stream.seek(0)
+        return TdmsFile.read(stream)
+
+
+def _columns(path: Path, file: TdmsFile, only: str | None) -> tuple[list[Column], list[str], list[str]]:
+    """Take the channels of numbers, with notes on those that are none and warnings."""
+    if only is not None and only not in file:
+        raise ReadError(f'{path.name}: there is no group "{only}".{nearest(only, file)}')
+    channels = [channel for group in file.groups() if only in (None, group.name) for channel in group.channels()]
+    counted = Counter(channel.name for channel in channels)
+    columns: list[Column] = []
+    notes: list[str] = []
+    warnings: list[str] = []
+    for channel in channels:
+        written = f"{channel.group_name}/{channel.name}"
+        if refused := _refusal(channel):
+            notes.append(f'"{written}" is left out: {refused}')
+            continue
+        column, warning = _column(channel, file, unique=counted[channel.name] == 1)
+        columns.append(column)
+        warnings += [f'"{written}": {warning}'] if warning else []
+    return columns, notes, warnings
+
+
+def _refusal(channel: TdmsChannel) -> str:
+    """Say why a channel is no column of numbers, or nothing where it is one."""
+    if len(channel) == 0:
+        return "it holds no samples"
+    kind = channel.dtype.kind
+    if kind in "fiubM":
+        return ""
+    return {"O": "it holds text", "c": "it holds complex numbers"}.get(kind, "its samples are no numbers")
+
+
+def _column(channel: TdmsChannel, file: TdmsFile, *, unique: bool) -> tuple[Column, str]:
+    """Take a channel with its unit and what is to be warned of; its name is the short one where no other has it."""
+    written = f"{channel.group_name}/{channel.name}"
+    name, unit_in_name = take_apart(channel.name)
+    name = name if unique else written
+    properties = {key.lower(): value for key, value in channel.properties.items()}
+    if channel.dtype.kind == "M":
+        moments = channel[:]
+        known = ~np.isnat(moments)
+        if not known.any():
+            return Column(
+                channel.group_name, RecordedChannel(name, None, np.full(moments.shape, np.nan), heading=written)
+            ), ""
+        first = moments[np.argmax(known)]
+        values = np.where(known, (moments - first) / np.timedelta64(1, "us") / 1e6, np.nan)
+        return Column(channel.group_name, RecordedChannel(name, None, values, heading=written), first=first), ""
+    numbers, unscaled = _numbers(channel, file)
+    values, infinite = as_values(numbers)
+    unit = next((str(properties[key]).strip() for key in UNIT_PROPERTIES if properties.get(key)), "") or unit_in_name
+    recorded = RecordedChannel(name, unit, values, heading=written)
+    warning = "; ".join(part for part in (unscaled, infinite) if part)
+    return Column(channel.group_name, recorded, waveform(properties)), warning
+
+
+def _numbers(channel: TdmsChannel, file: TdmsFile) -> tuple[Any, str]:
+    """Scale the samples; raw ones of a DAQmx channel without scaling are given as they are, with a warning."""
+    everywhere = (channel.properties, file[channel.group_name].properties, file.properties)
+    if channel.scaler_data_types and not any("NI_Number_Of_Scales" in properties for properties in everywhere):
+        return next(iter(channel.raw_scaler_data.values())), (
+            "raw counts, as the file does not say how they are scaled; give the gain in campaign.toml"
+        )
+    return channel[:], ""
+
+
+FORMAT = Format(
+    name="tdms",
+    summary="LabVIEW TDMS: channels in groups, each with its unit and its own clock.",
+    suffixes=(".tdms",),
+    options=TdmsOptions,
+    recognise=recognise,
+    read=read,
+)

@@ -1,0 +1,136 @@
+"""What the report says of a channel: what was recorded, its verdicts, and what conditioning did to it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any
+
+from colonnade.report import wording
+from colonnade.report.results import Results, Samples
+
+UNITS = {
+    "displacement": "mm",
+    "velocity": "mm/s",
+    "acceleration": "m/s²",
+    "angle": "mrad",
+    "angular_velocity": "rad/s",
+    "force": "N",
+}
+"""Units in which a channel's zero and noise are written."""
+
+_NOTHING_LEFT = 1e-6
+"""Residuals smaller than this, over the noise, mean that there are no more transducers than motions."""
+
+FLAGS = {2: "not evaluated", 3: "suspect", 4: "failed", 9: "missing"}
+"""Meanings of the quality flags but "good"."""
+
+
+@dataclass(frozen=True)
+class ChannelRow:
+    """One channel of one test; text for the page, `is_good` where nothing speaks against it."""
+
+    name: str
+    column: str
+    quantity: str
+    recorded: str
+    flagged: str
+    quality: str
+    zero: str
+    zero_window: str
+    noise: str
+    cutoff: str
+    clock: str
+    residual: str
+
+    @property
+    def is_good(self) -> bool:
+        """Whether no sample is flagged and no check spoke against the channel."""
+        return self.quality == "good" and self.flagged == wording.NOTHING
+
+
+def of_test(results: Results) -> tuple[ChannelRow, ...]:
+    """Put every channel of a test into words."""
+    to_noise, to_reading = (results.of("rocking", f"residual_to_{what}", "transducer") for what in ("noise", "reading"))
+    return tuple(
+        _channel(name, given, results.samples.get(name), to_noise.get(name), to_reading.get(name))
+        for name, given in results.channels.items()
+    )
+
+
+def _channel(
+    name: str,
+    given: Mapping[str, Any],
+    samples: Samples | None,
+    residual_to_noise: float | None,
+    residual_to_reading: float | None,
+) -> ChannelRow:
+    quantity = str(given.get("quantity", ""))
+    unit = UNITS.get(quantity)
+
+    def value(key: str, digits: int) -> str:
+        amount = _number(given, key)
+        if amount is None:
+            return wording.NOTHING
+        return wording.quantity(amount, unit, digits) if unit else wording.number(amount, digits)
+
+    cutoff = _number(given, "cutoff_hz")
+    column, recorded_unit = str(given.get("column", "")), str(given.get("recorded_unit", ""))
+    return ChannelRow(
+        name=name,
+        column=f"{column} ({recorded_unit})" if recorded_unit and recorded_unit not in column else column,
+        quantity=quantity.replace("_", " "),
+        recorded="" if samples is None else f"{samples.count} at {wording.quantity(samples.rate, 'Hz', 4)}",
+        flagged=wording.NOTHING if samples is None else _flagged(samples),
+        quality=str(given.get("quality_report", "")) or "good",
+        zero=value("zero", 4),
+        zero_window=str(given.get("zero_window", "")) or wording.NOTHING,
+        noise=value("noise", 2),
+        cutoff=wording.NOTHING if cutoff is None else wording.quantity(cutoff, "Hz"),
+        clock=_clock(given),
+        residual=_residual(residual_to_noise, residual_to_reading),
+    )
+
+
+def _flagged(samples: Samples) -> str:
+    told = [
+        f"{wording.share(number, samples.count)} {FLAGS.get(flag, f'flag {flag}')}"
+        for flag, number in samples.flagged.items()
+    ]
+    return ", ".join(told) or wording.NOTHING
+
+
+def _residual(to_noise: float | None, to_reading: float | None) -> str:
+    """Write what the fitted motion leaves of a transducer's reading, over its noise and over the reading."""
+    if to_noise is None or not isfinite(to_noise):
+        return wording.NOTHING
+    if to_noise < _NOTHING_LEFT:
+        return "none to spare"
+    text = f"{wording.number(to_noise, 2)} × noise"
+    if to_reading is None or not isfinite(to_reading):
+        return text
+    return f"{text}, {wording.number(100 * to_reading, 2)} % of the reading"
+
+
+def _clock(given: Mapping[str, Any]) -> str:
+    """Write how late a channel's clock is, and how fast, each with its standard error."""
+    offset, drift = _number(given, "clock_offset"), _number(given, "clock_drift")
+    parts = []
+    if offset:
+        parts.append(f"{1e3 * offset:.2f} ms" + _error(given, "clock_offset_standard_error", 1e3, 2, "ms"))
+    if drift:
+        parts.append(f"{1e6 * drift:.1f} ppm" + _error(given, "clock_drift_standard_error", 1e6, 1, "ppm"))
+    return ", ".join(parts) or wording.NOTHING
+
+
+def _error(given: Mapping[str, Any], key: str, factor: float, digits: int, unit: str) -> str:
+    error = _number(given, key)
+    return f" ± {factor * error:.{digits}f} {unit}" if error else ""
+
+
+def _number(given: Mapping[str, Any], key: str) -> float | None:
+    value = given.get(key)
+    if value is None or isinstance(value, str) or not isfinite(float(value)):
+        return None
+    return float(value)

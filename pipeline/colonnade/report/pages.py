@@ -1,0 +1,84 @@
+"""Pages from templates: one environment, and for each page the way back to the report's folder."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from colonnade.campaign.settings import Setting
+from colonnade.report import wording
+
+KINDS = {
+    "free-vibration": "Free vibrations",
+    "sine": "Sine tests",
+    "earthquake": "Earthquake tests",
+    "pulse": "Pulse tests",
+    "noise": "Noise tests",
+    "tilt": "Tilt tests",
+    "other": "Other tests",
+}
+"""Kinds of test in words, in the order in which they stand."""
+
+WHOLE = {
+    "quality": "quality.html",
+    "problems": "problems.html",
+    "methods": "methods.html",
+    "overview": "index.html",
+}
+"""Pages about the whole campaign: template and address, the overview last, so that what it links to is there."""
+
+
+def of_test(test: str) -> str:
+    """Address of a test's page within the report; ids are safe as file names."""
+    return f"tests/{test}.html"
+
+
+def of_specimen(specimen: str) -> str:
+    """Address of a specimen's page within the report."""
+    return f"specimens/{specimen}.html"
+
+
+class Renderer:
+    """
+    Renders templates; what people wrote is shown as text.
+
+    Parameters
+    ----------
+    **common
+        What every page is given.
+    """
+
+    def __init__(self, **common: Any) -> None:
+        self._environment = Environment(
+            loader=PackageLoader("colonnade.report"),
+            autoescape=True,
+            undefined=StrictUndefined,
+            trim_blocks=True,
+            lstrip_blocks=True,
+            keep_trailing_newline=True,
+        )
+        self._environment.globals |= {
+            **common,
+            "kinds": KINDS,
+            "count": wording.count,
+            "listed": wording.listed,
+            "test_page": of_test,
+            "specimen_page": of_specimen,
+        }
+        self._environment.filters["setting"] = _setting
+
+    def page(self, template: str, address: str, **given: Any) -> str:
+        """Return the page that stands at an address within the report's folder."""
+        root = "../" * address.count("/")
+        return self._environment.get_template(f"{template}.html.jinja").render(here=address, root=root, **given)
+
+
+def _setting(setting: Setting) -> str:
+    """Write a setting's value with its unit."""
+    value = setting.value
+    if isinstance(value, (list, tuple)):
+        return ", ".join(map(str, value))
+    if isinstance(value, str):
+        return value
+    return f"{value:g} {setting.unit}".rstrip()

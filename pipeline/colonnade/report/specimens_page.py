@@ -1,0 +1,169 @@
+"""The page of one specimen: its properties as given and as derived, at both scales, and its restitution."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import isfinite, tan
+from typing import NamedTuple
+
+from markupsafe import Markup
+
+from colonnade.campaign import Campaign
+from colonnade.campaign.specimen import Specimen
+from colonnade.dynamics.block import Block, pair
+from colonnade.dynamics.similitude import at_prototype
+from colonnade.figures import PeakSeries
+from colonnade.report import charts, wording
+from colonnade.report.results import Message, Results
+from colonnade.report.tests_page import restitution_by_history, restitution_of
+
+SOURCES = {
+    "given": "given in the campaign file",
+    "identified": "identified from free vibrations",
+    "rigid-body": "the rigid-body value, as none is given or identified",
+}
+
+_DIMENSIONS = ("width", "depth", "height", "diameter", "base_diameter", "top_diameter")
+
+_DERIVED: tuple[tuple[str, str, str, Callable[[Block], float]], ...] = (
+    ("tan α", "", "angle", lambda block: tan(block.critical_angle)),
+    ("frequency parameter p", "rad/s", "frequency", lambda block: block.p),
+    ("uplift acceleration g tan α", "m/s²", "acceleration", lambda block: block.uplift_acceleration),
+    ("rigid-body e", "", "angle", lambda block: block.restitution),
+)
+
+
+class Property(NamedTuple):
+    """A property: as given, as it follows from the dimensions, as used, and at prototype scale; text for the page."""
+
+    name: str
+    given: str
+    derived: str
+    used: str
+    prototype: str
+
+
+class FreeVibration(NamedTuple):
+    """One free vibration's e by its peaks and by its whole history, and why it was refused."""
+
+    test: str
+    peaks: str
+    history: dict[str, str]
+    reason: str
+
+
+@dataclass(frozen=True)
+class SpecimenPage:
+    """Everything that the page of a specimen shows; `e` is the value that predictions take, with its interval."""
+
+    id: str
+    shape: str
+    scale: str
+    properties: tuple[Property, ...]
+    deviations: tuple[str, ...]
+    e: str
+    source: str
+    rigid: str
+    ratio: str
+    method: str
+    reason: str
+    warnings: tuple[Message, ...]
+    failures: tuple[Message, ...]
+    free_vibrations: tuple[FreeVibration, ...]
+    chart: Markup | None
+
+
+def free_vibration(test: str, results: Results) -> FreeVibration:
+    """Put the restitution of one free vibration into words."""
+    return FreeVibration(
+        test,
+        restitution_of(results, "restitution"),
+        restitution_by_history(results),
+        results.text("restitution", "reason"),
+    )
+
+
+def of_specimen(
+    campaign: Campaign,
+    name: str,
+    pooled: Results,
+    free_vibrations: Sequence[FreeVibration],
+    series: Sequence[PeakSeries],
+) -> SpecimenPage:
+    """Put a specimen into words; `free_vibrations` and `series` are of its tests."""
+    specimen, block = campaign.specimens[name], campaign.block(name)
+    value = pooled.value("specimen", "restitution")
+    known = value is not None and isfinite(value)
+    return SpecimenPage(
+        id=name,
+        shape=specimen.shape,
+        scale="" if specimen.scale is None else f"1:{specimen.scale:g}",
+        properties=_properties(specimen, block, campaign.gravity),
+        deviations=tuple(specimen.deviations(campaign.gravity)),
+        e=restitution_of(pooled, "specimen"),
+        source=SOURCES.get(
+            pooled.text("specimen", "restitution_source"), "failed" if pooled.failures else "not yet known"
+        ),
+        rigid=wording.number(block.restitution, 4),
+        ratio=wording.number(value / block.restitution, 4) if known and value is not None else wording.NOTHING,
+        method=pooled.text("specimen", "method"),
+        reason=pooled.text("specimen", "reason"),
+        warnings=pooled.warnings,
+        failures=pooled.failures,
+        free_vibrations=tuple(free_vibrations),
+        chart=charts.peaks(f"peaks-{name}", series, block) if series else None,
+    )
+
+
+def _properties(specimen: Specimen, block: Block, gravity: float) -> tuple[Property, ...]:
+    derived, side = specimen.dimensions(gravity), block.governing
+    scale = specimen.scale
+    rows = [_property("mass m", "kg", "mass", specimen.mass, None, specimen.mass, scale)]
+    for name in _DIMENSIONS:
+        length = getattr(specimen, name, None)
+        if length is not None:
+            rows.append(_property(name.replace("_", " "), "mm", "length", length, None, length, scale))
+    for label, unit, quantity, name in (
+        ("critical angle α", "rad", "angle", "critical_angle"),
+        ("pole distance R", "mm", "length", "pole_distance"),
+        ("inertia about the pole I₀", "kg m²", "inertia", "inertia"),
+    ):
+        given = getattr(specimen, name)
+        from_dimensions = None if derived is None else float(getattr(derived, name))
+        rows.append(_property(label, unit, quantity, given, from_dimensions, float(getattr(side, name)), scale))
+    for label, unit, quantity, value in _DERIVED:
+        other = None if derived is None else value(derived)
+        rows.append(_property(label, unit, quantity, None, other, value(block), scale))
+    return tuple(rows)
+
+
+def _property(
+    name: str,
+    unit: str,
+    quantity: str,
+    given: float | tuple[float, float] | None,
+    derived: float | None,
+    used: float,
+    scale: float | None,
+) -> Property:
+    sides = [] if given is None else list(dict.fromkeys(pair(given)))
+    return Property(
+        name,
+        " and ".join(_written(side, unit) for side in sides) or wording.NOTHING,
+        _written(derived, unit),
+        _written(used, unit),
+        wording.NOTHING if scale is None else _written(at_prototype(quantity, used, scale), unit),
+    )
+
+
+def _written(value: float | None, unit: str) -> str:
+    if value is None:
+        return wording.NOTHING
+    if unit == "mm" and value >= 2.0:
+        return wording.quantity(value, "m", 4)
+    return wording.quantity(value, unit, 4) if unit not in ("", "kg", "kg m²") else _plain(value, unit)
+
+
+def _plain(value: float, unit: str) -> str:
+    return f"{wording.number(value, 4)} {unit}".rstrip()

@@ -1,0 +1,265 @@
+"""The page of one test: what was done, what was found, what each model says, and how the channels were treated."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import nan
+
+import numpy as np
+from markupsafe import Markup
+
+from colonnade.campaign import Campaign, Test
+from colonnade.dynamics.similitude import at_prototype
+from colonnade.report import channels, charts, wording
+from colonnade.report.channels import ChannelRow
+from colonnade.report.results import Results
+from colonnade.report.rows import TestRow
+
+Fact = tuple[str, str]
+
+MOTIONS = (
+    ("slide", "slide", "mm"),
+    ("uplift", "uplift", "mm"),
+    ("transverse_slide", "transverse slide", "mm"),
+    ("out_of_plane_angle", "out-of-plane angle", "mrad"),
+    ("yaw", "yaw", "mrad"),
+)
+"""Motions of the specimen beside its rocking angle: variable, words, unit."""
+
+
+@dataclass(frozen=True)
+class Metrics:
+    """A model's response beside the measured one; text for the page."""
+
+    model: str
+    outcome: str
+    agrees: bool | None
+    peak_ratio: str
+    peak_time: str
+    peak_error: str
+    nrmse: str
+    until: str
+    impacts: str
+    restitution: str
+    order: str
+
+
+@dataclass(frozen=True)
+class PeakRow:
+    """One peak of a free vibration: number, time, angle with its standard error, fitted angle, whether it was used."""
+
+    number: int
+    time: str
+    angle: str
+    error: str
+    fitted: str
+    used: bool
+
+
+@dataclass(frozen=True)
+class TestPage:
+    """Everything that the page of a test shows; text, tables and figures."""
+
+    __test__ = False  # pytest takes a class of this name for a test
+
+    row: TestRow
+    peak_time: str
+    impacts: str
+    done: tuple[Fact, ...]
+    found: tuple[Fact, ...]
+    metrics: tuple[Metrics, ...]
+    restitution: tuple[Fact, ...]
+    peaks: tuple[PeakRow, ...]
+    channels: tuple[ChannelRow, ...]
+    raw_files: tuple[tuple[str, str], ...]
+    notes: tuple[str, ...]
+    review: tuple[str, ...]
+    chart: Markup | None
+    peaks_chart: Markup | None
+
+
+def of_test(campaign: Campaign, test: Test, results: Results, row: TestRow) -> TestPage:
+    """Put all that is stored of a test into words and figures."""
+    block = campaign.block(test.specimen)
+    series = charts.peak_series(test, results)
+    rocking = results.datasets.get("rocking")
+    has_angle = rocking is not None and "rocking_angle" in rocking
+    return TestPage(
+        row=row,
+        peak_time=wording.quantity(results.value("rocking", "peak_time"), "s"),
+        impacts=str(rocking.sizes.get("impact", 0)) if rocking is not None and has_angle else wording.NOTHING,
+        done=_done(test, row),
+        found=_found(results, row, campaign.specimens[test.specimen].scale),
+        metrics=tuple(_metrics(results, model, row) for model in row.models if row.models[model].outcome),
+        restitution=_restitution(results),
+        peaks=_peaks(results),
+        channels=channels.of_test(results),
+        raw_files=results.raw_files,
+        notes=tuple(filter(None, results.text("ingest", "notes").split("; "))),
+        review=tuple(results.texts("ingest", "review")) or campaign.review(test.id).told,
+        chart=charts.record(test, results, block),
+        peaks_chart=None if series is None else charts.peaks(f"peaks-{test.id}", [series], block),
+    )
+
+
+def _done(test: Test, row: TestRow) -> tuple[Fact, ...]:
+    facts = [("setup", test.setup)]
+    if test.motion:
+        facts.append(("motion", test.motion))
+    if test.span is not None:
+        facts.append(("Span", str(test.span)))
+    if test.time_scale is not None:
+        facts.append(("time scale", wording.number(test.time_scale)))
+    if test.frequency is not None:
+        facts.append(("frequency", wording.quantity(test.frequency, "Hz")))
+    if np.isfinite(row.frequency_ratio):
+        facts.append(("Ω = ω/p", wording.number(row.frequency_ratio, 4)))
+    if np.isfinite(row.amplitude_ratio):
+        facts.append(("A = a/(g tan α)", wording.number(row.amplitude_ratio, 4)))
+    facts.append(("part of the file", _interval(test.window) or "all of it"))
+    facts.append(("zero taken", _interval(test.zero) if isinstance(test.zero, tuple) else test.zero))
+    if test.notes:
+        facts.append(("notes", test.notes))
+    return tuple(facts)
+
+
+def _found(results: Results, row: TestRow, scale: float | None) -> tuple[Fact, ...]:
+    facts = [
+        ("largest |θ|", wording.quantity(_magnitude(results.value("rocking", "peak_angle")), "mrad", 4)),
+        ("overturned at", wording.quantity(results.value("rocking", "overturning_time"), "s", 4)),
+        ("peak base acceleration", row.peak_ground_acceleration),
+        ("standard error of θ", wording.quantity(results.middle("rocking", "rocking_angle_standard_error"), "mrad", 2)),
+        *_other_motions(results),
+        ("told from noise above", wording.quantity(results.value("rocking", "noise_threshold"), "mrad", 2)),
+        ("transducers give", results.text("rocking", "separation")),
+        ("order of the response", row.order or results.text("compare", "response_order_reason")),
+        (f"at prototype scale, 1:{scale:g}" if scale else "", _at_prototype(results, row, scale) if scale else ""),
+    ]
+    return tuple((label, text) for label, text in facts if text not in ("", wording.NOTHING))
+
+
+def _metrics(results: Results, model: str, row: TestRow) -> Metrics:
+    stage = f"predict {model}"
+    e, source = results.value(stage, "restitution"), results.text(stage, "restitution_source")
+
+    def compared(name: str) -> float:
+        return float(results.of("compare", name, "model").get(model, nan))
+
+    order = wording.order(results.of("compare", "predicted_response_order", "model").get(model, ""))
+    return Metrics(
+        model=model,
+        outcome=row.models[model].outcome,
+        agrees=row.models[model].agrees,
+        peak_ratio=row.models[model].peak_ratio,
+        peak_time=wording.quantity(results.value(stage, "peak_time"), "s"),
+        peak_error=_signed(compared("peak_ratio_error")),
+        nrmse=row.models[model].nrmse,
+        until=wording.quantity(compared("compared_until"), "s", 4),
+        impacts=wording.number(results.value(stage, "impact_count"), 9),
+        restitution=f"{wording.number(e, 4)} ({source})" if source else wording.number(e, 4),
+        order=order or wording.NOTHING,
+    )
+
+
+def _restitution(results: Results) -> tuple[Fact, ...]:
+    """Give e of this free vibration by its peaks, and by its whole history where that was fitted."""
+    facts = [
+        ("e from the peaks", restitution_of(results, "restitution")),
+        ("method", results.text("restitution", "method")),
+        ("refused", results.text("restitution", "reason")),
+        *(
+            (f"e from the whole history, {model} model", text)
+            for model, text in restitution_by_history(results).items()
+        ),
+        ("method of the history", results.text("restitution", "history_method")),
+        ("refused by the history", results.text("restitution", "history_reason")),
+        ("rest angle taken off", wording.quantity(results.value("restitution", "zero_offset"), "mrad", 2)),
+    ]
+    return tuple((label, text) for label, text in facts if text not in ("", wording.NOTHING))
+
+
+def restitution_of(results: Results, stage: str) -> str:
+    """Write a coefficient of restitution with the half-width of its interval."""
+    names = ("restitution_low", "restitution_high", "level")
+    low, high, level = (nan if bound is None else bound for bound in (results.value(stage, name) for name in names))
+    return wording.interval(results.value(stage, "restitution"), low, high, level)
+
+
+def restitution_by_history(results: Results) -> dict[str, str]:
+    """Write the coefficients of restitution that the whole history gives, by model."""
+    values, low, high = (
+        results.of("restitution", f"restitution_history{end}", "model") for end in ("", "_low", "_high")
+    )
+    level = results.value("restitution", "level") or nan
+    return {model: wording.interval(value, low[model], high[model], level) for model, value in values.items()}
+
+
+def _peaks(results: Results) -> tuple[PeakRow, ...]:
+    found = results.datasets.get("restitution")
+    if found is None or not found.sizes.get("peak", 0):
+        return ()
+    columns = ("peak_time", "peak_angle", "peak_angle_standard_error", "fitted_angle", "peak_used")
+    table = zip(*(found[name].to_numpy().tolist() for name in columns), strict=True)
+    return tuple(
+        PeakRow(
+            number,
+            wording.quantity(time, "s", 4),
+            wording.quantity(angle, "mrad", 4),
+            wording.quantity(error, "mrad", 2),
+            wording.quantity(fitted, "mrad", 4),
+            used == 1,
+        )
+        for number, (time, angle, error, fitted, used) in enumerate(table, start=1)
+    )
+
+
+def _interval(given: tuple[float, float] | None) -> str:
+    return f"{given[0]:g} s to {given[1]:g} s" if given is not None else ""
+
+
+def _other_motions(results: Results) -> list[Fact]:
+    """Give the largest of each motion beside the rocking angle, with its standard error."""
+    facts = []
+    for name, words, unit in MOTIONS:
+        if (largest := _largest(results, name)) is not None:
+            error = wording.quantity(results.middle("rocking", f"{name}_standard_error"), unit, 2)
+            facts.append((f"largest {words}", f"{wording.quantity(largest, unit, 3)}, standard error {error}"))
+    return facts
+
+
+def _largest(results: Results, name: str) -> float | None:
+    """Largest magnitude of a motion up to the fall, None where it was not measured."""
+    rocking = results.datasets.get("rocking")
+    if rocking is None or name not in rocking:
+        return None
+    fall = results.value("rocking", "overturning_time")
+    time, values = rocking["elapsed"].to_numpy(), np.abs(rocking[name].to_numpy())
+    standing = np.isfinite(values) & (time <= (fall if fall is not None and np.isfinite(fall) else np.inf))
+    return float(values[standing].max()) if standing.any() else None
+
+
+def _at_prototype(results: Results, row: TestRow, scale: float) -> str:
+    """Say what the test means for the specimen that the model stands for."""
+    rocking = results.datasets.get("rocking")
+    if rocking is None:
+        return ""
+    time = rocking["elapsed"].to_numpy()
+    parts = [
+        (name, wording.quantity(at_prototype(quantity, value, scale), unit))
+        for name, quantity, value, unit in (
+            ("duration", "time", float(time[-1] - time[0]), "s"),
+            ("frequency", "frequency", row.frequency, "Hz"),
+            ("largest slide", "length", _largest(results, "slide"), "mm"),
+            ("largest base displacement", "length", _largest(results, "base_displacement"), "mm"),
+        )
+        if value is not None and np.isfinite(value)
+    ]
+    return ", ".join(f"{name} {text}" for name, text in parts)
+
+
+def _magnitude(value: float | None) -> float | None:
+    return None if value is None else abs(value)
+
+
+def _signed(value: float) -> str:
+    return f"{value:+.2g}" if np.isfinite(value) else wording.NOTHING

@@ -1,0 +1,239 @@
+"""Whether a recorded acceleration is the motion it is said to be: polarity, time scale, parts of it, another motion."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+
+from colonnade.signals.filters import lowpass
+
+Array = NDArray[np.float64]
+
+MOST_POWER = 0.9
+"""Share of a motion's power below the frequency up to which it is compared."""
+
+FEWEST_SAMPLES = 8
+"""Of a motion or a record; in less nothing is told."""
+
+OVERSAMPLING = 8.0
+"""Samples a period of that frequency, when time scales are tried."""
+
+AGREES = 0.8
+"""Correlation from which on a record is taken to be of a motion."""
+
+BETTER = 0.1
+"""By which another polarity, time scale or motion has to agree better than the one named."""
+
+SCALE_REACH, SCALE_STEP = 0.25, 0.002
+"""Time scales are looked for within this fraction of the ratio of durations, in steps of this fraction."""
+
+STRONG_PART = 0.05, 0.95
+"""Shares of the energy between which a motion's duration is taken."""
+
+STRETCH = 0.5
+"""s at the motion's own time scale; of such stretches each is looked at."""
+
+STANDS_OUT = 6.0
+"""Times the difference of the quiet stretches by which one differs."""
+
+QUIET = 0.2
+"""Share of the stretches that are taken as quiet."""
+
+OTHERWISE = 0.7
+"""Of a stretch's own motion; one that differs by less follows it, if badly."""
+
+LEAST_DIFFERENCE = 0.1
+"""Of the motion's largest acceleration; a smaller one is not told."""
+
+LEAST_ENERGY = 0.01
+"""Of the motion, that has to lie outside of the record before it is said to be cut off."""
+
+
+@dataclass(frozen=True)
+class Series:
+    """A motion: its acceleration, in any unit, and its interval, s."""
+
+    acceleration: Array
+    interval: float
+
+    def stretched(self, scale: float) -> Series:
+        """The same with its time multiplied."""
+        return Series(self.acceleration, self.interval * scale)
+
+    def at(self, interval: float) -> Series:
+        """The same, linear between its samples, at another interval (s)."""
+        own = self.interval * np.arange(self.acceleration.size)
+        wanted = interval * np.arange(int(own[-1] / interval + 1e-6) + 1)
+        return Series(np.interp(wanted, own, self.acceleration), interval)
+
+    def every(self, step: int) -> Series:
+        """Every `step`-th sample of it."""
+        return Series(self.acceleration[::step], self.interval * step)
+
+
+@dataclass(frozen=True)
+class Match:
+    """Largest correlation of a motion with a record, with its sign, and where in the record the motion begins, s."""
+
+    correlation: float
+    start: float
+
+
+def check_motion(
+    record: Series, name: str, named: Series, *, time_scale: float | None, others: Mapping[str, Series]
+) -> list[str]:
+    """
+    Compare what was recorded with the motion that was named.
+
+    Parameters
+    ----------
+    record : Series
+        Of the table.
+    name : str
+    named : Series
+        The motion at its own time scale.
+    time_scale : float or None
+        Factor on its time in this test; None where it is not told.
+    others : mapping of str to Series
+        Further motions that it may be.
+
+    Returns
+    -------
+    suspicions : list of str
+        Sentences; empty where the record is that motion, whatever its amplitude.
+    """
+    scale = time_scale if time_scale is not None else best_scale(record, named)
+    found = match(record, named.stretched(scale))
+    if found.correlation >= AGREES:
+        return _differences(record, name, named.stretched(scale), found, scale)
+    if -found.correlation >= AGREES:
+        return [
+            f'the table moved as "{name}" with the other polarity (correlation {found.correlation:.2f}): turn the sign '
+            "of the table's acceleration, or say so in the motion's name"
+        ]
+    begun = f'the table did not move as "{name}" at time scale {scale:.4g} (correlation {found.correlation:.2f}'
+    other_scale = best_scale(record, named)
+    again = match(record, named.stretched(other_scale))
+    if abs(again.correlation) >= max(AGREES, abs(found.correlation) + BETTER):
+        turned = " and the other polarity" if again.correlation < 0 else ""
+        return [
+            f"{begun}), but with time scale {other_scale:.4g}{turned} ({again.correlation:.2f}): look at time_scale"
+        ]
+    for other, series in others.items():
+        likely = [value for value in (scale, best_scale(record, series)) if value > 0]
+        fit = max((match(record, series.stretched(value)) for value in likely), key=lambda each: abs(each.correlation))
+        if abs(fit.correlation) >= max(AGREES, abs(found.correlation) + BETTER):
+            return [f'{begun}): it moved as "{other}" ({fit.correlation:.2f})']
+    return [f"{begun}; {AGREES:g} is needed): it is another motion, or the table did not follow"]
+
+
+def match(record: Series, motion: Series) -> Match:
+    """Find where in a record a motion fits best, whatever its amplitude and sign."""
+    first, second = _below_one_cutoff(record, motion)
+    return _correlated(first, second)
+
+
+def best_scale(record: Series, motion: Series) -> float:
+    """Time scale with which a motion fits a record best, near the ratio of their durations."""
+    about = _duration(record) / max(_duration(motion), 1e-9)
+    if not about > 0:
+        return 1.0
+    steps = int(np.log1p(SCALE_REACH) / SCALE_STEP)
+    scales = about * np.exp(SCALE_STEP * np.arange(-steps, steps + 1))
+    first, second = _below_one_cutoff(record, motion.stretched(about))
+    coarse = first.every(max(int(1 / (OVERSAMPLING * _cutoff(motion.stretched(about)) * record.interval)), 1))
+    fits = [
+        abs(_correlated(coarse, second.stretched(scale / about).at(coarse.interval)).correlation) for scale in scales
+    ]
+    return float(scales[int(np.argmax(fits))])
+
+
+def _correlated(first: Series, second: Series) -> Match:
+    one, other = first.acceleration, second.acceleration
+    power = float(np.sqrt((one @ one) * (other @ other)))
+    if not power > 0 or min(one.size, other.size) < FEWEST_SAMPLES:
+        return Match(0.0, 0.0)
+    correlation = signal.correlate(one, other, mode="full", method="fft") / power
+    best = int(np.argmax(np.abs(correlation)))
+    return Match(float(correlation[best]), (best - other.size + 1) * first.interval)
+
+
+def _below_one_cutoff(record: Series, motion: Series) -> tuple[Series, Series]:
+    """Both at the record's interval, below the frequency up to which the motion has its power; means taken off."""
+    second = motion.at(record.interval)
+    cutoff = min(_cutoff(motion), 0.2 / record.interval)
+    return _below(record, cutoff), _below(second, cutoff)
+
+
+def _below(series: Series, cutoff_hz: float) -> Series:
+    if series.acceleration.size < FEWEST_SAMPLES:
+        return series
+    smooth = lowpass(series.acceleration, series.interval, cutoff_hz)
+    return Series(smooth - smooth.mean(), series.interval)
+
+
+def _cutoff(motion: Series) -> float:
+    """Frequency below which most of a motion's power lies, Hz: what a table follows and noise does not hide."""
+    spectrum = np.abs(np.fft.rfft(motion.acceleration - motion.acceleration.mean())) ** 2
+    frequency = np.fft.rfftfreq(motion.acceleration.size, motion.interval)
+    share = np.cumsum(spectrum) / max(float(spectrum.sum()), 1e-300)
+    return float(
+        max(
+            frequency[np.searchsorted(share, MOST_POWER)], FEWEST_SAMPLES / (motion.acceleration.size * motion.interval)
+        )
+    )
+
+
+def _duration(series: Series) -> float:
+    energy = np.cumsum((series.acceleration - series.acceleration.mean()) ** 2)
+    if not energy[-1] > 0:
+        return 0.0
+    first, last = np.searchsorted(energy, np.array(STRONG_PART) * energy[-1])
+    return float(last - first) * series.interval
+
+
+def _differences(record: Series, name: str, motion: Series, found: Match, scale: float) -> list[str]:
+    """Parts of the motion that are not in the record, or otherwise."""
+    one, other = (series.acceleration for series in _below_one_cutoff(record, motion))
+    interval = record.interval
+    begin = round(found.start / interval)
+    inside = slice(max(-begin, 0), min(other.size, one.size - begin))
+    energy = np.cumsum(other**2) / float(other @ other)
+    told = []
+    before, after = float(energy[inside.start]) if inside.start else 0.0, 1 - float(energy[inside.stop - 1])
+    if before > LEAST_ENERGY:
+        told.append(f'the first {inside.start * interval:.3g} s of "{name}" are missing from the record')
+    if after > LEAST_ENERGY:
+        told.append(f'the last {(other.size - inside.stop) * interval:.3g} s of "{name}" are missing from the record')
+    given = other[inside]
+    recorded = one[inside.start + begin : inside.stop + begin]
+    size = max(int(STRETCH * scale / interval), 4)
+    starts = np.arange(0, given.size - size + 1, size // 2)
+    gain = _usual_gain(recorded, given, starts, size)
+    off, due = (
+        np.array([np.sqrt(np.mean(values[start : start + size] ** 2)) for start in starts])
+        for values in (recorded - gain * given, gain * given)
+    )
+    odd = off > np.maximum(STANDS_OUT * np.quantile(off, QUIET), LEAST_DIFFERENCE * np.abs(gain * given).max())
+    odd &= off > OTHERWISE * due
+    if odd.any():
+        low, high = ((starts[np.flatnonzero(odd)[end]] + inside.start) * interval / scale for end in (0, -1))
+        told.append(
+            f'the table did not move as "{name}" from {low:.3g} to {high + STRETCH:.3g} s of its own time: a part is '
+            "missing or another"
+        )
+    return told
+
+
+def _usual_gain(recorded: Array, given: Array, starts: NDArray[np.intp], size: int) -> float:
+    """Recorded over given: the median of the stretches by their energy, so that a missing one is no matter."""
+    stretches = [slice(start, start + size) for start in starts]
+    energy = np.array([given[each] @ given[each] for each in stretches])
+    gains = np.array([recorded[each] @ given[each] for each in stretches]) / np.maximum(energy, 1e-300)
+    order = np.argsort(gains)
+    half = np.searchsorted(np.cumsum(energy[order]), 0.5 * energy.sum())
+    return float(gains[order][half])

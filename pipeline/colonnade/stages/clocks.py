@@ -1,0 +1,176 @@
+"""Clocks of a test: its channels on even clocks of their own, and how late and how fast each recorder is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict
+
+from colonnade.campaign import Channel
+from colonnade.campaign.setup import Align, Recorder
+from colonnade.errors import StageError
+from colonnade.signals.alignment import Offset, link
+from colonnade.signals.clock import uniform_clock
+from colonnade.signals.record import Record, even_record
+from colonnade.store.variables import variable_name
+
+Array = NDArray[np.float64]
+
+TOGETHER = Offset(0.0, np.nan, 0.0)
+"""A recorder that starts with the main one."""
+
+FEWEST_SAMPLES = 16
+"""That the channels of a test have to share."""
+
+
+class ClockInstructions(BaseModel):
+    """
+    What is known of the recorders' clocks.
+
+    Attributes
+    ----------
+    delays : dict of str to float
+        s, by channel id.
+    links : dict of str to (channel of the main recorder, own channel, sign)
+        By recorder; the sign is -1 where the two point against each other. One that is not in it starts with the main
+        recorder.
+    longest_offset : float
+        s.
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    delays: dict[str, float]
+    links: dict[str, tuple[str, str, float]]
+    longest_offset: float
+
+
+def links(recorders: Mapping[str, Recorder], channels: Mapping[str, Channel]) -> dict[str, tuple[str, str, float]]:
+    """Channels of a test that link its recorders to the main one, with the sign of the one against the other."""
+    aligned = {name: recorder.clock for name, recorder in recorders.items() if isinstance(recorder.clock, Align)}
+    return {
+        name: _link(channels, clock)
+        for name, clock in aligned.items()
+        if clock.channel in channels and clock.own_channel in channels
+    }
+
+
+def _link(channels: Mapping[str, Channel], clock: Align) -> tuple[str, str, float]:
+    one, other = channels[clock.channel].direction, channels[clock.own_channel].direction
+    against = one is not None and other is not None and float(np.dot(one, other)) < 0
+    return clock.channel, clock.own_channel, -1.0 if against else 1.0
+
+
+def own_records(recorded: xr.Dataset, read: ClockInstructions, warnings: list[str]) -> dict[str, Record]:
+    """Put each channel on an even clock of its own, its delay taken off; unusable ones are left out and told."""
+    records = {}
+    for name, delay in read.delays.items():
+        variable = recorded[variable_name(name)]
+        stamps = recorded[str(variable.dims[0])].to_numpy() - delay
+        flags = recorded[f"{variable_name(name)}_quality"].to_numpy()
+        try:
+            records[name] = even_record(stamps, variable.to_numpy(), flags)
+        except ValueError as error:
+            warnings.append(f"channel {name} is left out: it {error}.")
+    return records
+
+
+def recorder_offsets(
+    records: Mapping[str, Record], quantities: Mapping[str, str], read: ClockInstructions, warnings: list[str]
+) -> dict[str, Offset]:
+    """
+    Find the delays of the recorders against the main one, where they are known.
+
+    Parameters
+    ----------
+    records : mapping of str to Record
+        By channel.
+    quantities : mapping of str to str
+        By channel.
+    read : ClockInstructions
+    warnings : list of str
+        What is in doubt is added to it.
+
+    Raises
+    ------
+    StageError
+        If two linked channels share no time.
+    """
+    offsets = {"main": Offset(0.0, 0.0, 1.0)}
+    for recorder, (channel, own_channel, sign) in read.links.items():
+        if channel not in records or own_channel not in records:
+            warnings.append(f"recorder {recorder} could not be aligned, as {channel} or {own_channel} is not usable.")
+            continue
+        try:
+            found = link(
+                records[channel],
+                records[own_channel],
+                quantities=(quantities[channel], quantities[own_channel]),
+                longest=read.longest_offset,
+                sign=sign,
+            )
+        except ValueError as error:
+            raise StageError(
+                f"channels {channel} and {own_channel} {error}, as recorders are aligned on what both saw. "
+                "Look at the times in their files."
+            ) from error
+        if found.is_determined:
+            offsets[recorder] = found
+        if found.doubt:
+            state = "aligned" if found.is_determined else "taken to start with the main one"
+            warnings.append(f"recorder {recorder} was {state} by {channel} and {own_channel}: {found.doubt}.")
+        if found.drift is not None:
+            warnings.append(
+                f"recorder {recorder}: its clock runs {found.drift} against the main recorder's, by {channel} and "
+                f"{own_channel}; the delay changes by {1e3 * abs(found.drift.change):.2g} ms over the motion. This was "
+                "taken off. A common sampling clock or trigger line would avoid it."
+            )
+    return offsets
+
+
+def common_clock(
+    records: Mapping[str, Record],
+    offsets: Mapping[str, Offset],
+    recorders: Mapping[str, str],
+    delays: Mapping[str, float],
+    rate: float | str,
+) -> Array:
+    """
+    Clock of the main recorder's fastest channel over the stretch that all channels share.
+
+    Parameters
+    ----------
+    records, offsets, recorders, delays
+        By channel: its record, the delay of its recorder, its recorder, its own delay (s).
+    rate : float or "auto"
+        Hz.
+
+    Raises
+    ------
+    StageError
+        If the channels share no time.
+    """
+    start = max(_on_main(record.time[0], offsets[name]) for name, record in records.items())
+    stop = min(_on_main(record.time[-1], offsets[name]) for name, record in records.items())
+    of_main = [name for name in records if recorders[name] == "main"]
+    shortest = min(records[name].interval for name in of_main or records)
+    fastest = [name for name in of_main or records if records[name].interval < 1.01 * shortest]
+    leading = min(fastest, key=lambda name: abs(delays[name]))
+    leader = records[leading]
+    interval = leader.interval if isinstance(rate, str) else 1 / rate
+    steps = np.ceil((start - leader.time[0]) / interval - 1e-6)
+    clock = uniform_clock(leader.time[0] + steps * interval, stop, interval)
+    if clock.size < FEWEST_SAMPLES:
+        raise StageError(
+            f"The channels share {max(stop - start, 0.0):.3g} s, {clock.size} samples; at least {FEWEST_SAMPLES} were "
+            "expected. Look at the start times of the recorders and at the test's `window`."
+        )
+    return clock
+
+
+def _on_main(time: float, offset: Offset) -> float:
+    """Time of the main recorder at a recorder's own time, s; the delay changes too little to be solved for."""
+    return time - float(offset.at(np.asarray(time - offset.seconds)))

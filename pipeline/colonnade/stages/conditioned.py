@@ -1,0 +1,79 @@
+"""Conditioned channels as identification takes them: the base's motion along each axis, and readings by kind."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TypeVar
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from colonnade.campaign.channel import ALONG
+from colonnade.identification.inertial import Accelerometer
+from colonnade.identification.readings import Readings
+from colonnade.signals.filters import second_derivative
+from colonnade.stages.transducers import Transducers
+
+Array = NDArray[np.float64]
+Kind = TypeVar("Kind")
+
+AXES = {"": 0, "transverse_": 1, "vertical_": 2}
+"""Axes of the base motion by the beginning of its variables' names."""
+
+LEAST_NOISE = 1e-9
+"""m, rad, …: what a reading without noise is taken to have, so that it has a weight."""
+
+
+def base_motion(conditioned: xr.Dataset, channels: Transducers, warnings: list[str]) -> dict[str, Array]:
+    """
+    Average the table's channels along each axis; without an accelerometer along x, differentiate its displacement.
+
+    Returns
+    -------
+    base : dict of str to ndarray, shape (n,)
+        As far as they were recorded: `base_acceleration` and `base_displacement`, and these with `transverse_` and
+        `vertical_` before; m/s² and m.
+    """
+    base: dict[str, Array] = {}
+    for quantity, table in (("acceleration", channels.accelerations), ("displacement", channels.displacements)):
+        for prefix, axis in AXES.items():
+            along = {name: direction[axis] for name, direction in table.items() if abs(direction[axis]) >= ALONG}
+            values = [conditioned[name].to_numpy() / part for name, part in along.items() if name in conditioned]
+            if values:
+                base[f"{prefix}base_{quantity}"] = np.mean(values, axis=0)
+    if "base_acceleration" not in base and "base_displacement" in base:
+        interval = float(np.diff(conditioned["elapsed"].to_numpy()[:2])[0])
+        cutoff = min(
+            float(conditioned[name].attrs["cutoff_hz"]) for name in channels.displacements if name in conditioned
+        )
+        base["base_acceleration"] = second_derivative(base["base_displacement"], interval, cutoff)
+        warnings.append(
+            "The base acceleration is the second derivative of the table's displacement, as no table accelerometer "
+            f"is usable: nothing above {cutoff:.3g} Hz is in it."
+        )
+    return base
+
+
+def axes(base: Mapping[str, Array], quantity: str, time: Array) -> Array:
+    """Motion of the table along x, y, z; zero along an axis that was not recorded, or is missing for a moment."""
+    along = dict.fromkeys(range(3), np.zeros_like(time))
+    along |= {axis: base[name] for prefix, axis in AXES.items() if (name := f"{prefix}base_{quantity}") in base}
+    return np.array([along[axis] for axis in range(3)])
+
+
+def group(conditioned: xr.Dataset, known: Mapping[str, Kind], gravity: float) -> tuple[list[Kind], Readings]:
+    """Transducers of one kind, as far as they are usable, and what they read: changes from rest."""
+    names = [name for name in known if name in conditioned]
+    values, noise, cutoff = [], [], []
+    for name in names:
+        given = conditioned[name].attrs
+        transducer = known[name]
+        # Gravity, unless what was read at rest was taken off whole.
+        resting = transducer.direction[2] * gravity if isinstance(transducer, Accelerometer) else 0.0
+        values.append(conditioned[name].to_numpy() - given.get("rest_value", 0.0 if "zero" in given else resting))
+        noise.append(max(float(given.get("noise", 0.0)), LEAST_NOISE))
+        cutoff.append(float(given.get("cutoff_hz", np.inf)))
+    shape = (len(values), conditioned.sizes["elapsed"])
+    readings = Readings(np.array(values).reshape(shape), np.array(noise), np.array(cutoff))
+    return [known[name] for name in names], readings

@@ -1,0 +1,83 @@
+"""Motions that a table may have followed: those of the campaign file, and El Centro where it is installed."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+from collections.abc import Mapping
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from colonnade.campaign import Campaign
+from colonnade.errors import ReadError
+from colonnade.readers import el_centro
+from colonnade.signals.named_motion import Series
+
+
+class Source(BaseModel):
+    """
+    Where a reference motion is read from.
+
+    Attributes
+    ----------
+    path : Path or None
+        Its file; None for El Centro of the installed package. No part of what a result is made from: the digest is.
+    digest : str
+        SHA-256 of the file; empty where it cannot be read.
+    interval : float or None
+        s.
+    column : str, int or None
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    path: Path | None = Field(exclude=True)
+    digest: str
+    interval: float | None = None
+    column: str | int | None = None
+
+
+def sources(campaign: Campaign) -> dict[str, Source]:
+    """Reference motions of a campaign, by name."""
+    found = {
+        name: Source(path=motion.file, digest=_digest(motion.file), interval=motion.interval, column=motion.column)
+        for name, motion in campaign.motions.items()
+    }
+    if el_centro.EL_CENTRO not in found and el_centro.is_installed():
+        found[el_centro.EL_CENTRO] = Source(path=None, digest="")
+    return found
+
+
+def load(known: Mapping[str, Source], warnings: list[str]) -> dict[str, Series]:
+    """Read reference motions; what cannot be read is told and left out."""
+    from colonnade.readers.motion import read_motion
+
+    loaded = {}
+    for name, source in known.items():
+        try:
+            if source.path is None:
+                motion = el_centro.el_centro()
+            else:
+                motion = read_motion(source.path, unit="m/s^2", dt=source.interval, column=source.column)
+        except ReadError as error:
+            warnings.append(f'The reference motion "{name}" cannot be used: {error}')
+            continue
+        loaded[name] = Series(motion.acceleration, motion.dt)
+    return loaded
+
+
+def _digest(path: Path) -> str:
+    try:
+        status = path.stat()
+    except OSError:
+        return ""
+    return _digest_of(path, status.st_size, status.st_mtime_ns)
+
+
+@functools.lru_cache(maxsize=64)
+def _digest_of(path: Path, size: int, changed: int) -> str:
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError:
+        return ""

@@ -1,0 +1,135 @@
+"""Zero: the stretch on which specimen and table stand still, and each channel's value there taken off."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.errors import StageError
+from colonnade.signals.rest import RestWindow, find_rest
+
+Array = NDArray[np.float64]
+
+COUPLED = 0.08
+"""Of gravity; an accelerometer that shows less than this of its part at rest does not sense what does not change."""
+
+
+def rest_window(
+    clock: Array,
+    values: Mapping[str, Array],
+    attributes: Mapping[str, Mapping[str, Any]],
+    channels: Mapping[str, tuple[str, str | None, str]],
+    *,
+    zero: str | tuple[float, float],
+    free_vibration: bool,
+    duration: float,
+    warnings: list[str],
+) -> RestWindow | None:
+    """
+    Find the window of the true rest state: of a free vibration the end, of all others the start.
+
+    Parameters
+    ----------
+    clock : ndarray, shape (n,)
+        s.
+    values, attributes, channels
+        By channel: values (SI), attributes with its `noise`, and (quantity, on, recorder).
+    zero : str or (float, float)
+        "auto", "start", "end", "none" or a stretch, s.
+    free_vibration : bool
+    duration : float
+        Of the window, s.
+    warnings : list of str
+        What moves in it is added.
+
+    Returns
+    -------
+    window : RestWindow or None
+        None where no zero is wanted.
+    """
+    if zero == "none":
+        return None
+    if not isinstance(zero, str):
+        return RestWindow(*zero, quiet=True)
+    end = zero == "end" or (zero == "auto" and free_vibration)
+    quantities = {name: channels[name][:2] for name in values}
+    judged = [
+        name
+        for name, (quantity, on) in quantities.items()
+        if quantity in ("displacement", "angle")
+        or (quantity == "acceleration" and on == "table" and not free_vibration)
+    ] or [name for name, (quantity, _) in quantities.items() if quantity in ("acceleration", "angular_velocity")]
+    noises = {name: (values[name], float(attributes[name]["noise"])) for name in judged}
+    window = find_rest(clock, noises, end=end, duration=duration)
+    if not window.quiet:
+        warnings.append(
+            f"Zero was taken from {window.start:.3g} to {window.stop:.3g} s, but {window.reason}. Give the test a "
+            '`zero` such as ["0 s", "0.5 s"] where specimen and table stood still.'
+        )
+    return window
+
+
+def zeroed(
+    clock: Array,
+    values: Array,
+    name: str,
+    attributes: dict[str, Any],
+    window: RestWindow,
+    resting: float,
+    warnings: list[str],
+) -> Array | None:
+    """
+    Bring a channel to its true value at rest; what was taken off is noted in its attributes.
+
+    Parameters
+    ----------
+    clock, values : ndarray, shape (n,)
+        s; SI.
+    name : str
+        Of the channel.
+    attributes : dict
+        Of the channel; `zero`, `zero_window` and `noise` are set.
+    window : RestWindow
+    resting : float
+        True value at rest, SI: gravity's part along an accelerometer on the upright specimen, 0 for all else.
+    warnings : list of str
+
+    Returns
+    -------
+    values : ndarray, shape (n,), or None
+        None where the channel has no value in the window.
+
+    Raises
+    ------
+    StageError
+        If the window holds no sample.
+    """
+    inside = (clock >= window.start) & (clock <= window.stop)
+    if not inside.any():
+        raise StageError(
+            f"zero: no sample lies between {window.start:g} and {window.stop:g} s; the record goes from {clock[0]:.3g} "
+            f"to {clock[-1]:.3g} s. Give a stretch inside it."
+        )
+    still = values[inside][np.isfinite(values[inside])]
+    if still.size == 0:
+        warnings.append(
+            f"channel {name} is left out: it has no value from {window.start:.3g} to {window.stop:.3g} s, where its "
+            "zero is taken. Give the test another `zero`."
+        )
+        return None
+    attributes["zero"] = float(still.mean()) - resting
+    attributes["zero_window"] = f"{window.start:.6g} s to {window.stop:.6g} s"
+    if resting:
+        attributes["rest_value"] = resting
+        if abs(float(still.mean())) < COUPLED * abs(resting):
+            warnings.append(
+                f"channel {name}: at rest it shows {float(still.mean()):.3g} m/s² where gravity's part along it is "
+                f"{resting:.3g} m/s²: a sensor or amplifier that passes no constant value (AC), or one zeroed in the "
+                "recorder. Gravity was added to it."
+            )
+    if window.quiet:
+        attributes["noise"] = max(float(still.std()), float(attributes["noise"]))
+    return values - float(attributes["zero"])

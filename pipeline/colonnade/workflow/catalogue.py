@@ -1,0 +1,83 @@
+"""What the stored results say of themselves, known again without opening their files."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from colonnade.store.files import write_text
+from colonnade.store.layout import Layout
+from colonnade.store.provenance import hash_of
+from colonnade.workflow.freshness import stored_attributes
+
+KEPT = ("key", "status", "reason", "content")
+"""Attributes of a result that tell whether it is up to date and what it leads to."""
+
+
+class Catalogue:
+    """
+    Attributes of results and the summary's records that follow from them, as of the last run.
+
+    A result is put in place by a rename, so one of the same size, time and inode is the same. The catalogue only saves
+    time: without it, or where it does not fit, the files are opened.
+
+    Parameters
+    ----------
+    layout : Layout
+    verify : bool, optional
+        Open every file again.
+    """
+
+    def __init__(self, layout: Layout, *, verify: bool = False) -> None:
+        self._layout = layout
+        self._files: dict[str, Any] = {}
+        self._records: dict[str, Any] = {}
+        if not verify:
+            try:
+                known = json.loads(layout.catalogue.read_text(encoding="utf-8"))
+                self._files, self._records = dict(known["files"]), dict(known["records"])
+            except (OSError, ValueError, KeyError, TypeError):
+                pass
+        self._seen_files: dict[str, Any] = {}
+        self._seen_records: dict[str, Any] = {}
+
+    def attributes(self, path: Path) -> Mapping[str, Any]:
+        """`KEPT` of a result; empty where it is not there or damaged."""
+        name = path.relative_to(self._layout.processed).as_posix()
+        try:
+            status = os.stat(path)  # noqa: PTH116 — ten thousand times a run
+        except OSError:
+            return {}
+        mark = [status.st_size, status.st_mtime_ns, status.st_ino]
+        for known in (self._seen_files.get(name), self._files.get(name)):
+            if isinstance(known, list) and len(known) == 2 and known[0] == mark:
+                self._seen_files[name] = known
+                return dict(known[1])
+        stored = stored_attributes(path)
+        said = {part: str(stored[part]) for part in KEPT if part in stored}
+        self._seen_files[name] = [mark, said]
+        return said
+
+    def signature(self, paths: Iterable[Path], *others: Any) -> str:
+        """Hash of what results say, and of whatever else a record is made from."""
+        return hash_of([*(dict(self.attributes(path)) for path in paths), *others])
+
+    def record(self, test: str, signature: str) -> str | None:
+        """Text of a test's record that was made from just this; None where there is none."""
+        known = self._records.get(test)
+        if isinstance(known, list) and len(known) == 2 and known[0] == signature:
+            self._seen_records[test] = known
+            return str(known[1])
+        return None
+
+    def remember(self, test: str, signature: str, record: str) -> None:
+        """Keep a test's record for the next run."""
+        self._seen_records[test] = [signature, record]
+
+    def save(self) -> None:
+        """Write what was looked at; the rest is gone from the campaign."""
+        known = {"files": self._seen_files, "records": self._seen_records}
+        write_text(self._layout.catalogue, json.dumps(known, separators=(",", ":"), sort_keys=True) + "\n")

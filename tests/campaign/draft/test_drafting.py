@@ -1,0 +1,253 @@
+"""A folder of raw files becomes a campaign file: what is guessed, what is asked, what is left out."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from colonnade.campaign import load
+from colonnade.campaign.draft import draft
+from colonnade.errors import CampaignError
+
+TIME = np.arange(0.0, 10.0, 0.01)
+SINE = np.sin(2 * np.pi * 3.0 * TIME)
+DECAY = np.where(TIME < 7, np.exp(-TIME) * np.cos(2 * np.pi * TIME), 0.0)
+
+
+def noise(seed=0):
+    return 1e-3 * np.random.default_rng(seed).normal(size=TIME.size)
+
+
+def channels(document, setup="setup"):
+    return document["setups"][setup]["channels"]
+
+
+def open_keys(drafted):
+    return [question.key.rpartition(".")[2] for question in drafted.open]
+
+
+def test_names_and_units_become_channels_and_what_no_file_tells_is_asked(folder):
+    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY, "Tischweg [mm]": noise(), "ACC_Y [g]": noise(1)})
+    document, drafted = folder.draft()
+    assert channels(document) == {
+        "lvdt_1": {
+            "column": "LVDT 1",
+            "quantity": "displacement",
+            "unit": "mm",
+            "on": "specimen",
+            "at": ["? mm", "0 mm", "? mm"],
+            "relative_to": "?",
+            "direction": [1, 0, 0],
+        },
+        "tischweg": {
+            "column": "Tischweg",
+            "quantity": "displacement",
+            "unit": "mm",
+            "on": "table",
+            "direction": [1, 0, 0],
+        },
+        "acc_y": {"column": "ACC_Y", "quantity": "acceleration", "unit": "g", "on": "table", "direction": [0, 1, 0]},
+    }
+    assert open_keys(drafted) == ["width", "depth", "height", "mass", "at", "relative_to"]
+
+
+def test_every_open_question_is_refused_by_its_line(folder):
+    folder.write("free-01.csv", {"LVDT 1 [V]": DECAY, "strange [mm]": noise()}, clock=None)
+    _, drafted = folder.draft()
+    drafted.path.write_text(drafted.text, encoding="utf-8")
+    with pytest.raises(CampaignError) as told:
+        load(drafted.path)
+    for question in drafted.open:
+        assert f"line {question.line}: " in str(told.value), question
+        assert drafted.text.splitlines()[question.line - 1].startswith(f"{question.key.rpartition('.')[2]} = ")
+
+
+def test_a_voltage_asks_for_its_gain_and_a_file_without_clock_for_its_rate(folder):
+    folder.write("free-01.csv", {"LVDT 1 [V]": DECAY, "acc [mV/g]": SINE}, clock=None)
+    document, _ = folder.draft()
+    assert document["setups"]["setup"]["sampling_rate"] == "? Hz"
+    assert channels(document)["lvdt_1"]["gain"] == "? mm/V"
+    assert channels(document)["acc"]["gain"].startswith("? g/")
+
+
+@pytest.mark.parametrize(
+    ("heading", "values", "reason"),
+    [
+        pytest.param("LED Light", SINE, "a synchronisation signal", id="sync"),
+        pytest.param("dead [mm]", np.full(TIME.size, 2.5), "it never changes", id="dead"),
+        pytest.param("Nr", np.arange(1.0, TIME.size + 1), "a running number", id="index"),
+        pytest.param("Output To Table [V]", SINE, "a command to the table", id="command"),
+        pytest.param("Voltage_27 [V]", SINE, "does not tell what it measures", id="unknown"),
+    ],
+)
+def test_what_is_no_measurement_is_left_out_with_the_reason(folder, heading, values, reason):
+    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY, heading: values})
+    document, drafted = folder.draft()
+    assert list(channels(document)) == ["lvdt_1"]
+    (told,) = (line for line in drafted.text.splitlines() if f'"{heading}"' in line)
+    assert told.startswith("#")
+    assert reason in told
+
+
+def test_a_channel_that_moves_in_one_file_is_not_dead_in_another(folder):
+    folder.write("a.csv", {"LVDT 1 [mm]": np.zeros(TIME.size)})
+    folder.write("b.csv", {"LVDT 1 [mm]": DECAY})
+    assert list(channels(folder.draft()[0])) == ["lvdt_1"]
+
+
+def test_columns_of_which_nothing_is_known_are_asked_about_where_there_are_no_others(folder):
+    folder.write("a.csv", {"one": SINE, "two": DECAY})
+    document, _ = folder.draft()
+    assert [channel["quantity"] for channel in channels(document).values()] == ["?", "?"]
+
+
+def test_a_laser_and_a_string_pot_are_not_taken_for_points(folder):
+    folder.write("a.csv", {"Laser top [mm]": DECAY, "Seilzug [mm]": DECAY})
+    found = channels(folder.draft()[0])
+    assert (found["laser_top"]["sensing"], found["laser_top"]["normal"]) == ("surface", "?")
+    assert (found["seilzug"]["sensing"], found["seilzug"]["anchor"]) == ("wire", ["? mm", "0 mm", "? mm"])
+
+
+def test_a_unit_and_a_name_that_contradict_each_other_are_told(folder):
+    folder.write("a.csv", {"accel top [mm]": DECAY})
+    _, drafted = folder.draft()
+    assert any("says displacement" in doubt.asked and "acceleration" in doubt.asked for doubt in drafted.doubts)
+
+
+def test_files_of_two_recorders_become_one_test_each_aligned_on_the_table(folder):
+    for span in ("span-2.0", "span-10.0"):
+        folder.write(f"raw/{span}.csv", {"LVDT 1 [mm]": noise(), "Table disp [mm]": SINE})
+        folder.write(f"raw/{span}-daq2.csv", {"Table acc [g]": SINE})
+    document, _ = folder.draft()
+    assert document["setups"]["setup"]["recorders"]["daq2"]["clock"] == {"align": ["table_disp", "table_acc"]}
+    assert channels(document)["table_acc"]["recorder"] == "daq2"
+    assert [(test["id"], test["span"], test["file"]["daq2"]) for test in document["tests"]] == [
+        ("span-2.0", 2.0, "raw/span-2.0-daq2.csv"),
+        ("span-10.0", 10.0, "raw/span-10.0-daq2.csv"),
+    ]
+
+
+def test_files_of_two_recorders_in_folders_of_their_own_are_paired_too(folder):
+    folder.write("box1/sine.csv", {"LVDT 1 [mm]": noise()})
+    folder.write("box2/sine.csv", {"ACC [g]": SINE})
+    (test,) = folder.draft()[0]["tests"]
+    assert test["file"] == {"main": "box1/sine.csv", "box2": "box2/sine.csv"}
+
+
+def test_files_that_all_name_their_recorder_are_paired_also_where_columns_are_called_alike(folder):
+    for box in ("box1", "box2"):
+        folder.write(f"sine_{box}.csv", {"Ch 1 [mm]": noise()})
+    (test,) = folder.draft()[0]["tests"]
+    assert (test["id"], test["file"]) == ("sine", {"main": "sine_box1.csv", "box2": "sine_box2.csv"})
+
+
+def test_the_same_recording_in_two_formats_is_taken_once(folder):
+    folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
+    folder.write("free.txt", {"LVDT 1 [mm]": DECAY}, delimiter="\t")
+    document, drafted = folder.draft()
+    assert [test["file"] for test in document["tests"]] == ["free.csv"]
+    assert "# free.txt: the same columns as free.csv" in drafted.text
+
+
+def test_a_second_visit_of_the_same_day_is_a_test_of_its_own(folder):
+    for day in ("monday", "tuesday"):
+        folder.write(f"{day}/free.csv", {"LVDT 1 [mm]": DECAY})
+    assert [test["id"] for test in folder.draft()[0]["tests"]] == ["monday-free", "tuesday-free"]
+
+
+def test_a_channel_that_an_earlier_setup_has_too_is_asked_about_with_a_hint(folder):
+    folder.write("free-01.csv", {"LVDT 1 [V]": DECAY})
+    folder.write("sine-01.csv", {"LVDT 1 [V]": noise(), "ACC [g]": SINE})
+    _, drafted = folder.draft()
+    asked = {question.key: question.asked for question in drafted.open}
+    assert asked["setups.setup-2.channels.lvdt_1.gain"] == "perhaps as in setup-1"
+
+
+def test_repetitions_are_tests_of_their_own_in_one_setup(folder):
+    for name in ("free.csv", "free-2.csv", "free-repeated.csv"):
+        folder.write(name, {"LVDT 1 [mm]": DECAY})
+    document, drafted = folder.draft()
+    assert [test["id"] for test in document["tests"]] == ["free", "free-2", "free-repeated"]
+    assert drafted.setups == 1
+
+
+def test_files_of_other_columns_become_a_setup_of_their_own(folder):
+    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY})
+    folder.write("sine-01.csv", {"LVDT 1 [mm]": noise(), "ACC [g]": SINE})
+    document, _ = folder.draft()
+    assert [test["setup"] for test in document["tests"]] == ["setup-1", "setup-2"]
+
+
+def test_the_signal_tells_the_kind_where_the_name_does_not(folder):
+    folder.write("a.csv", {"LVDT 1 [mm]": noise(), "ACC table [g]": SINE})
+    folder.write("b.csv", {"LVDT 1 [mm]": DECAY, "ACC table [g]": noise()})
+    document, drafted = folder.draft()
+    first, second = document["tests"]
+    assert (first["kind"], first["frequency"], second["kind"]) == ("sine", "3 Hz", "free-vibration")
+    assert sum("guessed from its signal" in doubt.asked for doubt in drafted.doubts) >= 1
+
+
+def test_a_name_that_the_signal_contradicts_is_doubted(folder):
+    folder.write("sine_5Hz.csv", {"ACC table [g]": SINE})
+    folder.write("free.csv", {"ACC table [g]": SINE})
+    _, drafted = folder.draft()
+    told = {doubt.key: doubt.asked for doubt in drafted.doubts}
+    assert told["tests[sine_5Hz].frequency"] == "the table moves at 3 Hz"
+    assert told["tests[free].kind"] == "the table moves as a steady sine of 3 Hz"
+
+
+def test_specimens_are_told_by_the_names_of_files(folder):
+    for name in ("cone-free-1.csv", "free-1.csv", "Zylinder-free-1.csv"):
+        folder.write(name, {"LVDT 1 [mm]": DECAY})
+    document, _ = folder.draft()
+    assert {name: specimen["shape"] for name, specimen in document["specimens"].items()} == {
+        "cone": "cone",
+        "specimen": "prism",
+        "cylinder": "cylinder",
+    }
+    assert [test["specimen"] for test in document["tests"]] == ["cone", "specimen", "cylinder"]
+
+
+def test_what_is_no_recording_is_named_with_the_reason(folder):
+    folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
+    (folder.path / "notes.csv").write_text("nothing but words\n", encoding="utf-8")
+    (folder.path / "tests.csv").write_text("id,kind,specimen,setup,file\nfree,sine,p,s,free.csv\n", encoding="utf-8")
+    (folder.path / "photo.png").write_bytes(b"\x89PNG")
+    _, drafted = folder.draft()
+    assert [name for name, _ in drafted.refused] == ["notes.csv", "tests.csv"]
+    assert 'tests = "tests.csv"' in drafted.text
+
+
+def test_a_link_out_of_the_folder_is_not_followed(folder, tmp_path_factory):
+    outside = tmp_path_factory.mktemp("outside") / "free.csv"
+    folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
+    (folder.path / "free.csv").replace(outside)
+    (folder.path / "free.csv").symlink_to(outside)
+    with pytest.raises(CampaignError, match=r"no file in it is a recording.*(?s:.*)leads out"):
+        draft(folder.path)
+
+
+def test_results_of_an_earlier_run_are_not_taken_for_recordings(folder):
+    folder.write("raw/free.csv", {"LVDT 1 [mm]": DECAY})
+    folder.write("processed/summary.csv", {"LVDT 1 [mm]": DECAY})
+    document, _ = folder.draft()
+    assert [test["file"] for test in document["tests"]] == ["raw/free.csv"]
+
+
+def test_the_real_shake_table_recordings_of_others(shared_data, tmp_path):
+    import shutil
+    import tomllib
+
+    shutil.copytree(shared_data / "shaketable", tmp_path / "table", copy_function=shutil.copyfile)
+    drafted = draft(tmp_path / "table")
+    document = tomllib.loads(drafted.text)
+    tests = {test["id"]: test for test in document["tests"]}
+    assert tests["earthquake-test1"]["kind"] == "earthquake"
+    assert tests["sinewave-test1"]["kind"] == "sine"
+    assert (tests["thadhaines_01"]["kind"], tests["thadhaines_01"]["frequency"]) == ("sine", "2 Hz")
+    found = channels(document, tests["thadhaines_01"]["setup"])
+    assert {name: (each["quantity"], each["unit"], each["on"]) for name, each in found.items()} == {
+        "table_accel_xxxx": ("acceleration", "g's", "table"),
+        "block_accel_26430": ("acceleration", "g's", "specimen"),
+    }
+    assert document["setups"][tests["sinewave-test1"]["setup"]]["sampling_rate"] == "? Hz"

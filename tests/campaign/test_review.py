@@ -1,0 +1,156 @@
+"""What review.toml may say, and what is told where it says something else."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from colonnade.campaign import load
+from colonnade.campaign.decision import Review
+from colonnade.campaign.review import ReviewFile
+from colonnade.campaign.schema import json_schema
+from colonnade.errors import CampaignError
+
+CAMPAIGN = """\
+schema = 1
+campaign = "small"
+title = "Small"
+
+[specimens]
+prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}
+
+[setups.frame.channels]
+top = {column = 1, quantity = "other"}
+table = {column = 2, quantity = "acceleration", unit = "g", on = "table", direction = [1, 0, 0]}
+"""
+TEST = '[[tests]]\nid = "{0}"\nkind = "other"\nspecimen = "prism"\nsetup = "frame"\nfile = "{0}.csv"\n'
+SIGNED = 'who = "V. D."\nwhen = 2013-04-26\nwhy = "the video"\n'
+
+
+@pytest.fixture
+def reviewed(tmp_path):
+    (tmp_path / "campaign.toml").write_text(CAMPAIGN + TEST.format("free-01") + TEST.format("free-02"), "utf-8")
+
+    def read(text):
+        (tmp_path / "review.toml").write_text(text, encoding="utf-8")
+        return load(tmp_path)
+
+    return read
+
+
+def test_a_campaign_without_a_review_is_as_it_was(reviewed):
+    campaign = reviewed("schema = 1\n")
+    assert campaign.reviews == {}
+    assert campaign.review("free-01") == Review()
+
+
+def test_every_decision_is_read_with_who_when_and_why(reviewed):
+    campaign = reviewed(
+        f'schema = 1\n[[exclude]]\ntest = "free-02"\n{SIGNED}[[exclude]]\ntest = "free-01"\nchannel = "top"\n{SIGNED}'
+        f'[[trim]]\ntest = ["free-01", "free-02"]\nwindow = ["2 s", "1 min"]\n{SIGNED}'
+        f'[[flag]]\ntest = "free-01"\nchannel = "table"\nwindow = ["3.2 s", "3400 ms"]\nas = "suspect"\n{SIGNED}'
+        f'[[correct]]\ntest = "free-01"\nchannel = "table"\nfactor = -1\n{SIGNED}'
+    )
+    first, second = campaign.review("free-01"), campaign.review("free-02")
+    assert first.told == (
+        "2013-04-26, V. D.: channel top excluded: the video",
+        "2013-04-26, V. D.: only 2 s to 60 s taken: the video",
+        "2013-04-26, V. D.: channel table from 3.2 s to 3.4 s flagged as suspect: the video",
+        "2013-04-26, V. D.: gain of channel table multiplied by -1: the video",
+    )
+    assert (first.window, first.factors, first.excluded) == ((2.0, 60.0), {"table": -1.0}, "")
+    assert [(each.channel, each.window, each.flag) for each in first.flags] == [
+        ("top", None, "fail"),
+        ("table", (3.2, 3.4), "suspect"),
+    ]
+    assert second.excluded == "excluded by V. D. on 2013-04-26: the video"
+
+
+def test_several_corrections_multiply_and_several_trims_leave_what_they_share(reviewed):
+    correct = f'[[correct]]\ntest = "free-01"\nchannel = "table"\nfactor = -2\n{SIGNED}'
+    trims = "".join(
+        f'[[trim]]\ntest = "free-01"\nwindow = {window}\n{SIGNED}' for window in ('["1 s", "9 s"]', '["3 s", "12 s"]')
+    )
+    review = reviewed("schema = 1\n" + correct * 2 + trims).review("free-01")
+    assert review.factors == {"table": 4.0}
+    assert review.window == (3.0, 9.0)
+    assert review.within((0.0, 5.0)) == (3.0, 5.0)
+    assert review.within(None) == (3.0, 9.0)
+
+
+@pytest.mark.parametrize(
+    ("entry", "told"),
+    [
+        pytest.param(
+            '[[exclude]]\ntest = "free-1"', r'line 3: exclude\[1\]\.test: .*Did you mean "free-01"', id="unknown-test"
+        ),
+        pytest.param(
+            '[[correct]]\ntest = "free-01"\nchannel = "tabel"\nfactor = 2',
+            r'line 4: correct\[1\]\.channel: .*no channel of free-01.*Did you mean "table"',
+            id="unknown-channel",
+        ),
+        pytest.param('[[correct]]\ntest = "free-01"\nchannel = "top"\nfactor = 0', "[Aa] factor of zero", id="zero"),
+        pytest.param(
+            '[[trim]]\ntest = "free-01"\nwindow = ["5 s", "2 s"]', "end has to come after", id="backward-window"
+        ),
+        pytest.param(
+            '[[flag]]\ntest = "free-01"\nchannel = "top"\nwindow = ["1 s", "2 s"]\nas = "bad"',
+            '"suspect", "fail"',
+            id="unknown-flag",
+        ),
+        pytest.param('[[trim]]\ntest = "free-01"', r"trim\[1\]\.window: It is missing", id="no-window"),
+        pytest.param(
+            '[[exlude]]\ntest = "free-01"',
+            r'exlude: There is no such key\. Did you mean "exclude"',
+            id="unknown-action",
+        ),
+        pytest.param('[[exclude]]\ntest = "free-01"\nchanel = "top"', 'Did you mean "channel"', id="unknown-key"),
+        pytest.param("[[exclude]]\ntest = 3", "id of a test", id="no-name"),
+        pytest.param(
+            f'[[trim]]\ntest = "free-01"\nwindow = ["1 s", "2 s"]\n{SIGNED}'
+            '[[trim]]\ntest = "free-01"\nwindow = ["3 s", "4 s"]',
+            "Nothing of free-01 is left",
+            id="trims-without-common-part",
+        ),
+    ],
+)
+def test_what_is_wrong_is_told_with_its_place(reviewed, entry, told):
+    with pytest.raises(CampaignError, match=rf"(?s)^review\.toml.*{told}"):
+        reviewed(f"schema = 1\n{entry}\n{SIGNED}")
+
+
+@pytest.mark.parametrize("missing", ["who", "when", "why"])
+def test_nobody_decides_without_saying_who_when_and_why(reviewed, missing):
+    signed = "".join(line for line in SIGNED.splitlines(keepends=True) if not line.startswith(missing))
+    with pytest.raises(CampaignError, match=rf"exclude\[1\]\.{missing}: It is missing"):
+        reviewed(f'schema = 1\n[[exclude]]\ntest = "free-01"\n{signed}')
+
+
+@pytest.mark.parametrize("when", ["2013-04-26", '"2013-04-26"', "2013-04-26T10:15:00"])
+def test_a_date_is_a_date_however_it_is_written(reviewed, when):
+    text = f'schema = 1\n[[exclude]]\ntest = "free-01"\nwho = "V. D."\nwhen = {when}\nwhy = "the video"\n'
+    assert "2013-04-26" in reviewed(text).review("free-01").excluded
+
+
+def test_a_day_that_is_none_is_refused(reviewed):
+    with pytest.raises(CampaignError, match=r"exclude\[1\]\.when: .*A date was expected"):
+        reviewed('schema = 1\n[[exclude]]\ntest = "free-01"\nwho = "V. D."\nwhen = "last week"\nwhy = "the video"\n')
+
+
+@pytest.mark.parametrize("text", ["schema = 2\n", "exclude = 3\nschema = 1", "this is no TOML", ""])
+def test_a_damaged_review_is_a_problem_of_the_review_file(reviewed, text):
+    with pytest.raises(CampaignError, match=r"^review\.toml"):
+        reviewed(text)
+
+
+def test_the_example_of_the_contract_is_a_review():
+    page = (Path(__file__).parents[2] / "raw_schema" / "README.md").read_text(encoding="utf-8")
+    example = tomllib.loads(re.findall(r"^```toml\n(schema.*?)^```$", page, re.MULTILINE | re.DOTALL)[0])
+    review = ReviewFile.model_validate(example)
+    assert [len(getattr(review, kind)) for kind in ("exclude", "trim", "flag", "correct")] == [2, 1, 1, 1]
+    jsonschema.validate(json.loads(json.dumps(example, default=str)), json_schema("review"))

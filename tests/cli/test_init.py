@@ -1,0 +1,77 @@
+"""`colonnade init` as a newcomer meets it: draft, fill in, check, run."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+
+ANSWERS = {"width": "86 mm", "depth": "86 mm", "height": "456 mm", "mass": "26.10 kg", "relative_to": "table"}
+POINT = ["43 mm", "0 mm", "440 mm"]
+
+
+@pytest.fixture
+def raw(campaign):
+    """The folder of a campaign whose file is still to be written."""
+    (campaign / "campaign.toml").unlink()
+    return campaign
+
+
+def fill_in(path):
+    """Answer what is asked, as a person does with an editor."""
+    lines = []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        key = line.partition(" = ")[0]
+        if key in ANSWERS:
+            line = f'{key} = "{ANSWERS[key]}"'
+        if key == "at":
+            line = f"at = {json.dumps(POINT)}"
+        lines.append(line)
+    path.write_text("\n".join(lines), encoding="utf-8")
+
+
+def test_a_newcomer_gets_from_raw_files_to_a_restitution(colonnade, raw):
+    told = colonnade("init")
+    assert (told.returncode, told.stderr) == (0, "")
+    assert "2 tests, 2 set-ups" in told.stdout or "2 tests, 1 set-up" in told.stdout
+    assert "To fill in: 6 values" in told.stdout
+    assert colonnade("check").returncode == 2
+    fill_in(raw / "campaign.toml")
+    checked = colonnade("check")
+    assert (checked.returncode, checked.stderr) == (0, "")
+    assert colonnade("run", "--until", "restitution", "--workers", "1").returncode == 0
+    summary = json.loads((raw / "processed" / "summary.json").read_text(encoding="utf-8"))
+    restitution = summary["specimens"]["specimen"]["restitution"]
+    assert restitution["low"] <= 0.95 <= restitution["high"]
+
+
+def test_what_is_asked_is_listed_with_its_line(colonnade, raw):
+    told = colonnade("init", "--json")
+    found = json.loads(told.stdout)
+    lines = (raw / "campaign.toml").read_text(encoding="utf-8").splitlines()
+    for question in found["open"]:
+        assert re.match(rf"{question['key'].rpartition('.')[2]} = .*\?", lines[question["line"] - 1])
+    assert found["tests"] == 2
+
+
+def test_the_folder_of_the_raw_files_itself_will_do(colonnade, raw):
+    assert colonnade("init", "raw").returncode == 0
+    assert 'file = "free-01.csv"' in (raw / "raw" / "campaign.toml").read_text(encoding="utf-8")
+
+
+def test_a_campaign_file_is_never_written_over(colonnade, campaign):
+    before = (campaign / "campaign.toml").read_bytes()
+    told = colonnade("init")
+    assert (told.returncode, told.stdout) == (2, "")
+    assert "it is there already and is left as it is" in told.stderr
+    assert (campaign / "campaign.toml").read_bytes() == before
+
+
+@pytest.mark.parametrize("folder", ["nowhere", "empty"])
+def test_a_folder_without_recordings_is_a_usage_error_and_nothing_is_written(colonnade, tmp_path, folder):
+    (tmp_path / "empty").mkdir()
+    told = colonnade("init", folder)
+    assert told.returncode == 2
+    assert "Traceback" not in told.stderr
+    assert not list(tmp_path.rglob("campaign.toml"))

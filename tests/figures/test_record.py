@@ -1,0 +1,96 @@
+from __future__ import annotations
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+
+from colonnade.figures import Curve, Peak, Quantity, whole_record
+from colonnade.figures.style import MODELS
+
+TIME = np.linspace(0.0, 10.0, 2001)
+
+
+def swing(amplitude: float) -> Curve:
+    return Curve(TIME, amplitude * np.sin(2 * np.pi * TIME))
+
+
+def labels(figure: Figure) -> list[str]:
+    return [axes.get_ylabel().replace("\n", " ") for axes in figure.axes]
+
+
+def whole(**options) -> Figure:
+    return whole_record(swing(0.4), {"linear": swing(0.3)}, **options)
+
+
+def test_each_quantity_has_a_panel_below_the_angle_in_the_order_given():
+    figure = whole(
+        misfits={"linear": swing(0.1)},
+        motions=[Quantity("slide (mm)", swing(2.0))],
+        base=[Quantity("base (m/s²)", swing(3.0))],
+    )
+    assert labels(figure) == ["θ / α", "predicted − measured, / α", "slide (mm)", "base (m/s²)"]
+    tops = [axes.get_position().y1 for axes in figure.axes]
+    assert tops == sorted(tops, reverse=True)
+    assert len({axes.get_xlim() for axes in figure.axes}) == 1
+    assert figure.axes[-1].get_xlabel() == "time (s)"
+
+
+def test_a_free_vibration_without_misfit_is_one_panel():
+    assert labels(whole()) == ["θ / α"]
+
+
+def test_the_misfit_has_its_models_colour():
+    figure = whole(misfits={"linear": swing(0.1)})
+    assert to_hex(figure.axes[1].lines[0].get_color()) == MODELS["linear"]["color"]
+
+
+def test_a_misfit_without_any_value_has_no_panel():
+    assert labels(whole(misfits={"linear": Curve(TIME, np.full(TIME.size, np.nan))})) == ["θ / α"]
+
+
+@pytest.mark.parametrize(("level", "lines"), [(1.5, 3), (5.0, 1), (None, 1)], ids=["within", "beyond", "not known"])
+def test_the_uplift_acceleration_is_drawn_where_the_motion_reaches_it(level, lines):
+    figure = whole(base=[Quantity("base", swing(2.0), level, "g tan α")])
+    assert len(figure.axes[1].lines) == lines
+
+
+def test_impacts_stand_at_their_times():
+    line = whole(impacts=np.array([1.0, 2.5])).axes[0].lines[-1]
+    assert set(np.asarray(line.get_xdata())[[0, 1, 3, 4]]) == {1.0, 2.5}
+
+
+def test_the_largest_angle_is_ringed_but_not_where_it_leaves_the_axis():
+    assert len(whole(peak=Peak(1.25, 0.4)).axes[0].lines) == 3
+    assert len(whole(peak=Peak(1.25, 40.0)).axes[0].lines) == 2
+
+
+def test_the_legend_names_measured_and_models_once():
+    figure = whole(misfits={"linear": swing(0.1)}, impacts=np.array([1.0]), peak=Peak(1.25, 0.4))
+    names = [text.get_text() for box in figure.legends for text in box.get_texts()]
+    assert names == ["measured", "linear model"]
+
+
+def test_no_label_leaves_the_figure_or_meets_another():
+    figure = whole(
+        misfits={"linear": swing(0.123)},
+        motions=[Quantity("out of plane\n(mrad)", swing(-0.0123)), Quantity("slide, y\n(mm)", swing(1234.0))],
+        base=[Quantity("base\n(m/s²)", swing(12.0), 2.0, "g tan α")],
+    )
+    figure.draw_without_rendering()
+    page = figure.bbox
+    boxes = [axes.yaxis.get_label().get_window_extent() for axes in figure.axes]
+    numbers = [label.get_window_extent() for axes in figure.axes for label in axes.get_yticklabels()]
+    for box in boxes:
+        assert box.x0 >= page.x0
+        assert not any(box.overlaps(other) for other in (*boxes, *numbers) if other is not box)
+    for axes in figure.axes:
+        for text in axes.texts:
+            assert text.get_window_extent().x1 <= page.x1
+
+
+def test_drawing_changes_no_setting_of_matplotlib():
+    before = dict(matplotlib.rcParams)
+    whole()
+    assert dict(matplotlib.rcParams) == before

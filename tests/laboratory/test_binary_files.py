@@ -1,0 +1,49 @@
+"""TDMS and MATLAB files read back as they were written, and are the same bytes every time."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from colonnade.laboratory.binary_files import Matlab, Tdms
+from colonnade.laboratory.files import Sheet
+from colonnade.readers.registry import read
+
+FORMATS = [pytest.param(Tdms(), "V", id="TDMS"), pytest.param(Matlab(), None, id="MATLAB")]
+
+
+def sheet() -> Sheet:
+    clock = np.arange(1000) / 400.0
+    columns = {"lvdt_top": ("V", np.sin(clock)), "table_acc": ("V", np.cos(3 * clock))}
+    return Sheet(clock, 400.0, columns, np.datetime64("2013-05-14T09:00:00", "us"))
+
+
+@pytest.mark.parametrize(("flavour", "unit"), FORMATS)
+def test_what_was_written_is_read_with_its_clock(flavour, unit, tmp_path: Path) -> None:
+    path = tmp_path / f"record{flavour.suffix}"
+    path.write_bytes(flavour.content(sheet()))
+    declared = dict(flavour.declaration())
+    recording = read(path, declared.pop("format"), declared)
+    assert recording.warnings == ()
+    for name, (_, values) in sheet().columns.items():
+        channel = recording.channel(name)
+        np.testing.assert_array_equal(channel.values, values)
+        np.testing.assert_allclose(channel.time, sheet().time, atol=1e-12)
+        assert channel.unit == unit
+
+
+@pytest.mark.parametrize(("flavour", "unit"), FORMATS)
+def test_its_format_is_recognised_without_being_told(flavour, unit, tmp_path: Path) -> None:
+    path = tmp_path / "record.dat"
+    path.write_bytes(flavour.content(sheet()))
+    np.testing.assert_array_equal(read(path).channel("lvdt_top").values, sheet().columns["lvdt_top"][1])
+
+
+@pytest.mark.parametrize(("flavour", "unit"), FORMATS)
+def test_the_same_sheet_gives_the_same_bytes_at_another_time(flavour, unit, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = flavour.content(sheet())
+    monkeypatch.setattr(time, "asctime", lambda *_: "Thu Jan  1 00:00:00 1970")
+    assert flavour.content(sheet()) == first

@@ -1,0 +1,72 @@
+"""imc FAMOS: scaling, kinds of numbers, clock, and blocks that are damaged."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.registry import read
+
+
+def test_start_is_that_of_the_trigger_and_the_blocks_offset(written: Callable[..., Path]) -> None:
+    recording = read(written("famos"))
+    assert recording.start == datetime(2013, 4, 26, 10, 15, 0, 250000)
+
+
+def whole_numbers(path: Path, kind: int, form: str, *, order: int = 1, packing: str = "0,0,1,0") -> Path:
+    data = np.array([0, 1, -2 if form[0] != "u" else 2, 100]).astype((">" if order == 2 else "<") + form).tobytes()
+    size = int(form[1:])
+    packed = f"1,{size},{kind},{8 * size},{packing}"
+    blocks = [
+        f"|CF,2,1,{order};",
+        *(
+            f"|{key},1,{len(content)},{content};"
+            for key, content in (
+                ("CK", "1,1"),
+                ("CG", "1,1,1"),
+                ("CD", "0.5,1,2,ms,0,0,0,0.0,1"),
+                ("CC", "1,1"),
+                ("CP", packed),
+                ("CR", "1,0.5,10.0,1,2,mm"),
+                ("CN", "0,0,0,3,top,0,"),
+                ("Cb", f"1,0,1,1,0,{len(data)},0,{len(data)},1,2.0,0.0,"),
+            )
+        ),
+        f"|CS,1,{len(data) + 2},1,",
+    ]
+    path.write_bytes("".join(blocks).encode() + data + b";")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("kind", "form"),
+    [(1, "u1"), (2, "i1"), (3, "u2"), (4, "i2"), (5, "u4"), (6, "i4"), (7, "f4"), (8, "f8"), (12, "u8"), (14, "i8")],
+)
+@pytest.mark.parametrize("order", [1, 2], ids=["Intel", "Motorola"])
+def test_numbers_of_every_kind_are_scaled(tmp_path: Path, kind: int, form: str, order: int) -> None:
+    recording = read(whole_numbers(tmp_path / "record.raw", kind, form, order=order))
+    third = 2 if form[0] == "u" else -2
+    channel = recording.channel("top")
+    assert channel.values.tolist() == [10, 10.5, 10 + 0.5 * third, 60]
+    assert channel.time is not None
+    np.testing.assert_allclose(channel.time, [0.002, 0.0025, 0.003, 0.0035])  # its x is in ms
+    assert channel.unit == "mm"
+
+
+@pytest.mark.parametrize(("kind", "packing"), [(4, "0,0,1,6"), (4, "255,0,1,0"), (9, "0,0,1,0")])
+def test_numbers_that_are_packed_in_another_way_are_refused(tmp_path: Path, kind: int, packing: str) -> None:
+    with pytest.raises(ReadError, match="interleaved or of a kind that is not known"):
+        read(whole_numbers(tmp_path / "record.raw", kind, "i2", packing=packing))
+
+
+def test_a_file_that_ends_within_its_values_says_so(written: Callable[..., Path]) -> None:
+    path = written("famos")
+    path.write_bytes(path.read_bytes()[:-41])
+    recording = read(path)
+    assert recording.channel("table").values.size == 30
+    assert '"table": the file ends after 30 of its 40 values' in recording.warnings

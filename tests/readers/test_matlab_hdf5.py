@@ -1,0 +1,100 @@
+"""MATLAB 7.3: only the file itself is read, and what is no data, cyclic or would exhaust the memory is left out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.registry import read
+
+
+def v73(path: Path, fill: object) -> Path:
+    with h5py.File(path, "w", userblock_size=512) as file:
+        file.create_dataset("good", data=np.arange(5.0)[:, None]).attrs["MATLAB_class"] = np.bytes_("double")
+        fill(file)  # type: ignore[operator]
+    content = path.read_bytes()
+    path.write_bytes(b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM" + content[128:])
+    return path
+
+
+def object_of_a_class(file: h5py.File) -> None:
+    item = file.create_dataset("x", data=np.zeros((6, 1), dtype=np.uint32))
+    item.attrs["MATLAB_class"] = np.bytes_("timetable")
+    item.attrs["MATLAB_object_decode"] = np.int32(3)
+
+
+def function(file: h5py.File) -> None:
+    file.create_group("x").attrs["MATLAB_class"] = np.bytes_("function_handle")
+
+
+def external_link(file: h5py.File) -> None:
+    file["x"] = h5py.ExternalLink("other.mat", "good")
+
+
+def external_numbers(file: h5py.File) -> None:
+    file.create_dataset("x", shape=(5, 1), dtype="f8", external=[("/etc/hostname", 0, 40)])
+
+
+def virtual_numbers(file: h5py.File) -> None:
+    layout = h5py.VirtualLayout(shape=(5, 1), dtype="f8")
+    layout[:] = h5py.VirtualSource("other.mat", "good", shape=(5, 1))
+    file.create_virtual_dataset("x", layout)
+
+
+def bomb(file: h5py.File) -> None:
+    file.create_dataset("x", shape=(1 << 40, 1), dtype="f8", chunks=(1 << 16, 1), compression="gzip")
+
+
+def sparse(file: h5py.File) -> None:
+    file.create_group("x").attrs["MATLAB_sparse"] = np.uint64(3)
+
+
+@pytest.mark.parametrize(
+    ("fill", "reason"),
+    [
+        (object_of_a_class, "it is an object of MATLAB's class timetable, which only MATLAB can open"),
+        (function, "it is a function, and nothing in a recording is executed"),
+        (external_link, "it is a link to another place or file"),
+        (external_numbers, "its numbers lie in another file"),
+        (virtual_numbers, "its numbers lie in another file"),
+        (bomb, "more than 100 times as many: it is not unpacked"),
+        (sparse, "it is a sparse matrix"),
+    ],
+    ids=lambda value: value.__name__ if callable(value) else "",
+)
+def test_what_is_no_data_of_this_file_is_left_out_with_the_reason(tmp_path: Path, fill: object, reason: str) -> None:
+    recording = read(v73(tmp_path / "a.mat", fill))
+    assert recording.channel("good").values.tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
+    assert any(note.startswith("x is left out: ") and reason in note for note in recording.notes)
+
+
+def test_cells_that_hold_themselves_come_to_an_end(tmp_path: Path) -> None:
+    def cycle(file: h5py.File) -> None:
+        item = file.create_dataset("x", shape=(1, 4), dtype=h5py.ref_dtype)
+        item[...] = np.array([[item.ref] * 4], dtype=h5py.ref_dtype)
+
+    recording = read(v73(tmp_path / "a.mat", cycle))
+    assert recording.channel("good").values.size == 5
+    assert "x{1} is left out: it holds itself" in recording.notes
+
+
+def test_an_array_of_structs_is_numbered_as_in_version_5(tmp_path: Path) -> None:
+    def structs(file: h5py.File) -> None:
+        parts = [file.create_dataset(f"#refs#/{k}", data=np.full((5, 1), float(k))) for k in range(2)]
+        group = file.create_group("run")
+        group.attrs["MATLAB_class"] = np.bytes_("struct")
+        group.create_dataset("a", data=np.array([[part.ref for part in parts]], dtype=h5py.ref_dtype))
+
+    assert read(v73(tmp_path / "a.mat", structs)).channel("run(2).a").values.tolist() == [1.0] * 5
+
+
+def test_a_file_that_was_cut_off_says_how_much_is_there(tmp_path: Path) -> None:
+    path = v73(tmp_path / "a.mat", sparse)
+    whole = path.read_bytes()
+    path.write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(ReadError, match=rf"ends after {len(whole) // 2} of \d+ bytes: a copy or a recording"):
+        read(path)

@@ -1,0 +1,157 @@
+"""NetCDF and HDF5: units, times and missing values as the CF conventions write them, through all groups."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+import xarray as xr
+
+from colonnade.errors import ReadError
+from colonnade.readers.registry import read
+
+TIME = np.arange(40) * 0.005
+TOP = np.sin(TIME * 20)
+FORMATS = ["NETCDF3_CLASSIC", "NETCDF3_64BIT", "NETCDF4", "NETCDF4_CLASSIC"]
+
+
+def saved(path: Path, form: str, times: Any = TIME, encoding: Any = None, **attributes: Any) -> Path:
+    dataset = xr.Dataset(
+        {"top": ("elapsed", TOP, {"units": "mm"}), "pair": (("elapsed", "side"), np.column_stack([TOP, -TOP]))},
+        coords={"elapsed": ("elapsed", times, attributes)},
+    )
+    dataset.to_netcdf(path, format=form, encoding=encoding)
+    return path
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_a_variable_goes_by_the_coordinate_of_its_dimension(tmp_path: Path, form: str) -> None:
+    recording = read(saved(tmp_path / "a.nc", form, TIME * 1e3, units="ms"))
+    assert recording.format == "netcdf"
+    assert recording.warnings == ()
+    top = recording.channel("top")
+    assert top.unit == "mm"
+    np.testing.assert_array_equal(top.values, TOP)
+    np.testing.assert_allclose(top.time, TIME, atol=1e-12)
+    np.testing.assert_array_equal(recording.channel("pair[2]").values, -TOP)
+    assert recording.channel("elapsed").is_clock
+
+
+@pytest.mark.parametrize(
+    ("units", "factor", "start"),
+    [
+        ("seconds since 2013-04-26T10:15:00Z", 1.0, datetime(2013, 4, 26, 10, 15, tzinfo=UTC)),
+        ("milliseconds since 2013-04-26 10:15:00", 1e-3, datetime(2013, 4, 26, 10, 15, tzinfo=UTC)),
+        ("days since 2013-04-26 12:15:00 +02:00", 86400.0, datetime(2013, 4, 26, 10, 15, tzinfo=UTC)),
+    ],
+    ids=["seconds", "milliseconds", "days, of another zone"],
+)
+def test_times_since_a_moment_count_from_the_first_sample(
+    tmp_path: Path, units: str, factor: float, start: datetime
+) -> None:
+    with h5py.File(tmp_path / "a.nc", "w") as file:
+        time = file.create_dataset("time", data=TIME / factor)
+        time.attrs["units"] = units
+        time.make_scale("time")
+        file["top"] = TOP
+        file["top"].dims[0].attach_scale(time)
+    recording = read(tmp_path / "a.nc")
+    np.testing.assert_allclose(recording.channel("top").time, TIME, atol=1e-9)
+    assert recording.start == start
+
+
+@pytest.mark.parametrize("form", ["NETCDF3_CLASSIC", "NETCDF4"])
+def test_packed_numbers_are_unpacked_and_missing_ones_missing(tmp_path: Path, form: str) -> None:
+    values = np.array([1.5, np.nan, -2.0, 4.25])
+    packing = {"dtype": "int16", "scale_factor": 0.25, "add_offset": 1.0, "_FillValue": -999}
+    dataset = xr.Dataset({"a": ("t", values)}, coords={"t": ("t", np.arange(4) * 0.1, {"units": "s"})})
+    dataset.to_netcdf(tmp_path / "a.nc", format=form, encoding={"a": packing})
+    np.testing.assert_array_equal(read(tmp_path / "a.nc").channel("a").values, values)
+
+
+def test_groups_of_hdf5_have_clocks_of_their_own(tmp_path: Path) -> None:
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        for name, factor in (("first", 1.0), ("second", 2.0)):
+            file[f"{name}/t"] = TIME * factor
+            file[f"{name}/top"] = TOP * factor
+            file[f"{name}/top"].attrs["units"] = "mm"
+    recording = read(tmp_path / "a.h5")
+    for name, factor in (("first", 1.0), ("second", 2.0)):
+        channel = recording.channel(f"{name}/top")
+        assert channel.unit == "mm"
+        np.testing.assert_array_equal(channel.values, TOP * factor)
+        np.testing.assert_allclose(channel.time, TIME * factor)
+    assert [each.heading for each in read(tmp_path / "a.h5", options={"group": "second"}).channels] == [
+        "second/t",
+        "second/top",
+    ]
+    with pytest.raises(ReadError, match='no column of numbers in group "third"'):
+        read(tmp_path / "a.h5", options={"group": "third"})
+
+
+def test_a_table_of_hdf5_gives_its_columns_and_a_rate_among_the_attributes_the_clock(tmp_path: Path) -> None:
+    table = np.zeros(40, dtype=[("top", "f8"), ("remark", "S4")])
+    table["top"] = TOP
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["table"] = table
+        file.attrs["sampling_rate"] = 200.0
+    recording = read(tmp_path / "a.h5")
+    np.testing.assert_array_equal(recording.channel("top").values, TOP)
+    np.testing.assert_allclose(recording.channel("top").time, TIME, atol=1e-12)
+    assert "table/remark is left out: it holds no numbers" in recording.notes
+
+
+def test_the_clock_that_was_given_is_taken(tmp_path: Path) -> None:
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["n"], file["top"] = TIME * 1e3, TOP
+    np.testing.assert_allclose(
+        read(tmp_path / "a.h5", options={"time": "n", "time_unit": "ms"}).channel("top").time, TIME, atol=1e-12
+    )
+
+
+def test_only_the_file_itself_is_read(tmp_path: Path) -> None:
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["top"] = TOP
+        file["other"] = h5py.ExternalLink("b.h5", "top")
+        file.create_dataset("raw", shape=(5,), dtype="u1", external=[("/etc/hostname", 0, 5)])
+        file.create_dataset("bomb", shape=(1 << 40,), dtype="f8", chunks=(1 << 16,), compression="gzip")
+        file.create_group("loop")["loop"] = file["/"]
+    recording = read(tmp_path / "a.h5")
+    assert [channel.heading for channel in recording.channels] == ["top"]
+    told = " ".join(recording.notes)
+    assert "other is left out: it is a link" in told
+    assert "raw is left out: its numbers lie in another file" in told
+    assert "not unpacked" in told
+    assert "loop/loop is left out: it holds itself" in told
+
+
+def test_a_heap_of_texts_without_an_end_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "a.nc"
+    with h5py.File(path, "w") as file:
+        file["top"] = TOP
+        file["top"].attrs["note"] = "a text of any length"  # lies in a heap, with which HDF5 itself would hang
+    content = bytearray(path.read_bytes())
+    heap = content.index(b"GCOL")
+    content[heap + 16 : heap + 400] = bytes(384)
+    path.write_bytes(content)
+    with pytest.raises(ReadError, match=f"table of texts at byte {heap} is damaged"):
+        read(path)
+
+
+@pytest.mark.parametrize("form", ["NETCDF3_CLASSIC", "NETCDF4"])
+def test_a_file_that_was_cut_off_is_refused(tmp_path: Path, form: str) -> None:
+    path = saved(tmp_path / "a.nc", form, units="s")
+    whole = path.read_bytes()
+    path.write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(ReadError, match=r"cut off|ends after"):
+        read(path)
+
+
+def test_the_variant_that_is_not_read_says_what_to_do(tmp_path: Path) -> None:
+    (tmp_path / "a.nc").write_bytes(b"CDF\x05" + bytes(100))
+    with pytest.raises(ReadError, match="nccopy -k nc4"):
+        read(tmp_path / "a.nc")

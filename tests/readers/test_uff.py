@@ -1,0 +1,59 @@
+"""Universal files: text and binary, even and uneven, beside an independent reader."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.registry import read
+
+
+@pytest.mark.parametrize("is_binary", [False, True], ids=["text", "binary"])
+def test_functions_are_read_with_name_unit_and_clock(written: Callable[..., Path], is_binary: bool) -> None:
+    recording = read(written("uff", is_binary=is_binary))
+    top, table = recording.channels
+    assert (top.name, top.unit, table.name, table.unit) == ("top", "mm", "table", "g")
+    time = np.arange(40) / 200
+    np.testing.assert_allclose(top.values, 10 * np.sin(40 * time), atol=1e-11)
+    np.testing.assert_allclose(table.values, 0.3 * np.cos(30 * time), atol=1e-12)
+    np.testing.assert_allclose(top.time, time, atol=1e-12)
+
+
+def test_an_uneven_abscissa_is_the_clock(written: Callable[..., Path]) -> None:
+    path = written("uff", ("top", "mm", np.array([0.0, 5.0, 0.1, 6.0, 0.3, 7.0])), samples=6)
+    path.write_text(path.read_text().replace(f"{6:10d}{1:10d}", f"{3:10d}{0:10d}", 1), encoding="ascii")
+    top = read(path).channel("top")
+    assert (top.values.tolist(), top.time.tolist()) == ([5, 6, 7], [0, 0.1, 0.3])
+
+
+def test_what_is_no_function_of_time_is_left_out(written: Callable[..., Path]) -> None:
+    path = written("uff")
+    spectrum = (
+        path.read_text().replace(f"{1:5d}{0:10d}{1:5d}", f"{4:5d}{0:10d}{1:5d}", 1).replace(f"{17:10d}", f"{18:10d}", 1)
+    )
+    units = "    -1\n   164\n         1SI: Meter (newton)         2\n    -1\n"
+    path.write_text(units + spectrum, encoding="ascii")
+    recording = read(path)
+    assert [channel.name for channel in recording.channels] == ["table"]
+    assert any('"top": not a real function of time' in note for note in recording.notes)
+    assert any("data set 164" in note for note in recording.notes)
+
+
+@pytest.mark.parametrize("is_binary", [False, True], ids=["text", "binary"])
+def test_numbers_that_are_cut_off_are_told(written: Callable[..., Path], is_binary: bool) -> None:
+    path = written("uff", ("top", "mm", np.arange(40.0)), is_binary=is_binary)
+    content = path.read_bytes()
+    path.write_bytes(content[: -(8 + 80) if is_binary else -(8 + 21 * 10)])
+    recording = read(path)
+    assert any("announces 40 numbers" in told and "cut off" in told for told in recording.warnings)
+
+
+def test_a_file_without_functions_of_time_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "record.uff"
+    path.write_text("    -1\n    58\n" + "too short\n" * 3, encoding="ascii")
+    with pytest.raises(ReadError, match=r"holds no function of time .*data set 58 at byte 7 is damaged"):
+        read(path)
