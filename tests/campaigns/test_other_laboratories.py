@@ -124,6 +124,7 @@ def test_a_file_without_header_and_time_is_read_at_its_sampling_rate(phones):
 
 def test_both_are_reported(wooden_block, phones):
     for outcome in (wooden_block, phones):
-        page = (outcome.folder / "report" / "index.html").read_text(encoding="utf-8")
-        assert outcome.summary["campaign"] in page
-        assert "<svg" in page
+        report = outcome.folder / "report"
+        assert outcome.summary["campaign"] in (report / "index.html").read_text(encoding="utf-8")
+        for test in outcome.summary["tests"]:
+            assert "<svg" in (report / "tests" / f"{test}.html").read_text(encoding="utf-8")
