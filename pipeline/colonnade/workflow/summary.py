@@ -18,6 +18,10 @@ from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.freshness import source_hash
 from colonnade.workflow.measured import measured, predicted, specimen_prototype
 
+_FOREIGN = (
+    "what is stored was made from other raw files, another campaign file or another version of colonnade; run again"
+)
+
 
 def write_summary(
     campaign: Campaign,
@@ -138,10 +142,11 @@ def _test(
         reasons = [failure]
     done = {stage: each for stage, each in sound.items() if each.attrs["status"] == "done"}
     warnings = [warning for each in done.values() for warning in each.attrs.get("warnings", [])]
+    has_others = is_outdated and any(path.exists() for path in paths.values())
     status: Literal["done", "failed", "pending"] = "failed" if reasons else "done" if "compare" in done else "pending"
     return TestSummary(
         status=status,
-        reason=" ".join(reasons) or campaign.review(test.id).excluded or None,
+        reason=" ".join(reasons) or campaign.review(test.id).excluded or (_FOREIGN if has_others else None),
         warnings=tuple(dict.fromkeys(warnings)),
         kind=test.kind,
         specimen=test.specimen,
