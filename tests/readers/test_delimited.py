@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.recording import Recording
+from colonnade.readers import delimited
+from colonnade.readers.recording import Recording, Window
 from colonnade.readers.registry import read
 
 
@@ -326,3 +327,47 @@ def test_a_file_without_samples_is_refused(tmp_path: Path, text: str, message: s
 def test_an_option_that_cannot_be_is_told(tmp_path: Path, options: dict[str, Any], message: str) -> None:
     with pytest.raises(ReadError, match=message):
         recorded(tmp_path, "a;b;c\n" + ROWS, **options)
+
+
+@pytest.fixture
+def long(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A file of several pieces, with a damaged line and a last one that is cut off."""
+    monkeypatch.setattr("colonnade.readers.samples.CELLS_AT_ONCE", 3000)
+    path = tmp_path / "long.csv"
+    rows = [f"{number / 200:.3f},{number % 97}.5,{-number}" for number in range(9000)]
+    rows[4100] += ",7"
+    rows[-1] = rows[-1][:-1]
+    path.write_text("Time [s],LVDT 1 [mm],count\n" + "\n".join(rows))
+    return path
+
+
+@pytest.mark.parametrize("window", [(20.0, 20.7), (0.0, 1.0), (44.5, 90.0), (-5.0, 900.0)])
+def test_a_window_of_a_long_file_is_what_the_whole_file_holds_there(long: Path, window: tuple[float, float]) -> None:
+    whole = read(long)
+    part = delimited.read(long, delimited.DelimitedOptions(), Window(*window))
+    for every, some in zip(whole.channels, part.channels, strict=True):
+        assert every.time is not None
+        assert some.time is not None
+        inside, there = ((time >= window[0]) & (time <= window[1]) for time in (every.time, some.time))
+        np.testing.assert_array_equal(some.time[there], every.time[inside])
+        np.testing.assert_array_equal(some.values[there], every.values[inside])
+
+
+def test_lines_keep_their_numbers_in_a_window(long: Path) -> None:
+    part = delimited.read(long, delimited.DelimitedOptions(), Window(20.0, 20.7))
+    assert [warning for warning in part.warnings if "line 4102" in warning]
+    assert not [warning for warning in part.warnings if "the file ends" in warning]
+    assert part.channels[0].values.size < 3000
+
+
+def test_a_window_of_a_file_without_a_clock_is_counted_in_samples(long: Path) -> None:
+    text = long.read_text()
+    long.write_text("\n".join(line.partition(",")[2] for line in text.splitlines()))
+    part = delimited.read(long, delimited.DelimitedOptions(), Window(0.0, 2.0, sampling_rate_hz=200.0))
+    assert 400 <= part.channels[0].values.size < 3000
+    assert part.channels[1].values[400] == -400
+
+
+def test_a_window_that_the_file_does_not_reach_is_told(long: Path) -> None:
+    with pytest.raises(ReadError, match="none of its 9000 samples lies within the test's window"):
+        delimited.read(long, delimited.DelimitedOptions(), Window(50.0, 60.0))

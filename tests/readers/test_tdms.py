@@ -12,6 +12,8 @@ import pytest
 from nptdms import ChannelObject, GroupObject, RootObject, TdmsWriter
 
 from colonnade.errors import ReadError
+from colonnade.readers import tdms
+from colonnade.readers.recording import Window
 from colonnade.readers.registry import read
 
 START = np.datetime64("2013-04-26T10:15:00.250000")
@@ -256,3 +258,39 @@ def test_raw_counts_whose_scaling_is_lost_are_given_with_a_warning(shared_data: 
     recording = read(path)
     assert recording.channel(1).values[0] == -603
     assert any("raw counts" in warning for warning in recording.warnings)
+
+
+def two_channels(path: Path, step: float = 0.005) -> Path:
+    """A file in several segments of which the second channel starts 0.1 s late and at another rate."""
+    late = START + np.timedelta64(100, "ms")
+    segments = [
+        [
+            ChannelObject("Messung", "LVDT 1", np.arange(400.0) + 400 * part, waveform(step)),
+            ChannelObject("Messung", "ACC", np.arange(200.0) + 200 * part, waveform(0.01, late)),
+        ]
+        for part in range(5)
+    ]
+    return written(path, *segments)
+
+
+@pytest.mark.parametrize("window", [(2.0, 3.0), (0.0, 0.5), (9.0, 30.0), (0.05, 0.06)])
+def test_a_window_of_a_long_file_is_what_the_whole_file_holds_there(
+    tmp_path: Path, window: tuple[float, float]
+) -> None:
+    path = two_channels(tmp_path / "long.tdms")
+    whole, part = read(path), tdms.read_window(path, tdms.TdmsOptions(), Window(*window))
+    for every, some in zip(whole.channels, part.channels, strict=True):
+        assert some.name == every.name
+        assert some.time is not None
+        assert every.time is not None
+        inside, there = (np.flatnonzero((time >= window[0]) & (time <= window[1])) for time in (every.time, some.time))
+        np.testing.assert_array_equal(some.values[there], every.values[inside])
+        np.testing.assert_array_equal(some.time[there], every.time[inside])
+    longest = max(channel.values.size for channel in part.channels)
+    assert longest <= (window[1] - window[0]) / 0.005 + 4
+
+
+def test_a_window_of_channels_without_a_clock_of_their_own_is_the_whole_file(tmp_path: Path) -> None:
+    path = two_channels(tmp_path / "long.tdms", step=1.0)  # LabVIEW's step where nobody told it one
+    whole, part = read(path), tdms.read_window(path, tdms.TdmsOptions(), Window(2.0, 3.0))
+    assert [channel.values.size for channel in part.channels] == [channel.values.size for channel in whole.channels]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -23,11 +23,23 @@ NO_TIMING = 1.0
 
 @dataclass(frozen=True)
 class Waveform:
-    """The clock that a channel's properties give: first sample and step in s, start where it is known."""
+    """
+    The clock that a channel's properties give.
+
+    Attributes
+    ----------
+    offset, step : float
+        s.
+    start : datetime64 or None
+        Where it is known.
+    first : int
+        Number, from 0, of the first sample that was read.
+    """
 
     offset: float
     step: float
     start: np.datetime64 | None
+    first: int = 0
 
 
 @dataclass(frozen=True)
@@ -77,6 +89,12 @@ def waveform(properties: Mapping[str, Any]) -> Waveform | None:
     return Waveform(offset, step, start if known else None)
 
 
+def beginnings(waveforms: Sequence[Waveform | None]) -> list[float]:
+    """Give the time of each channel's first sample from the earliest start in the file, s; NaN where none is known."""
+    zero = min((own.start for own in waveforms if own is not None and own.start is not None), default=None)
+    return [np.nan if own is None else own.offset + _late(own, zero) for own in waveforms]
+
+
 def on_clocks(path: Path, columns: list[Column], time: str | int | None, time_unit: str | None) -> Recording:
     """
     Give each channel its clock.
@@ -98,7 +116,7 @@ def on_clocks(path: Path, columns: list[Column], time: str | int | None, time_un
         If there is no such channel, or it holds no number.
     """
     zero = min((start for column in columns if (start := _start(column)) is not None), default=None)
-    tracks: dict[tuple[float, float, int], Array] = {}
+    tracks: dict[tuple[float, float, int, int], Array] = {}
     times = [_track(column, zero, tracks) for column in columns]
     first = _first_sample(columns, times, zero)
     clocks, notes, warnings = _channels_of_times(columns, times)
@@ -122,15 +140,21 @@ def _seconds(later: np.datetime64, earlier: np.datetime64) -> float:
     return float((later - earlier) / np.timedelta64(1, "us")) / 1e6
 
 
-def _track(column: Column, zero: np.datetime64 | None, tracks: dict[tuple[float, float, int], Array]) -> Array | None:
+def _late(own: Waveform, zero: np.datetime64 | None) -> float:
+    return _seconds(own.start, zero) if own.start is not None and zero is not None else 0.0
+
+
+def _track(
+    column: Column, zero: np.datetime64 | None, tracks: dict[tuple[float, float, int, int], Array]
+) -> Array | None:
     """Times of a channel by its properties, s; channels with the same ones share the array."""
     if column.waveform is None:
         return None
-    start = column.waveform.start
-    late = _seconds(start, zero) if start is not None and zero is not None else 0.0
-    key = (column.waveform.offset + late, column.waveform.step, column.channel.values.size)
+    begin = column.waveform.offset + _late(column.waveform, zero)
+    first = column.waveform.first
+    key = (begin, column.waveform.step, first, column.channel.values.size)
     if key not in tracks:
-        tracks[key] = key[0] + column.waveform.step * np.arange(key[2], dtype=np.float64)
+        tracks[key] = begin + column.waveform.step * np.arange(first, first + key[3], dtype=np.float64)
     return tracks[key]
 
 
