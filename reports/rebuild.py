@@ -5,18 +5,23 @@ from __future__ import annotations
 import json
 import sys
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from colonnade import figures, run
 from colonnade.campaign import Campaign, load
 from colonnade.dynamics.block import Block
-from colonnade.laboratory import write_campaign
+from colonnade.identification.boundaries import MapPoint
+from colonnade.laboratory import paper_programme, prism_programme, write_campaign
+from colonnade.laboratory.programme import Programme
 from colonnade.report import charts, results
 from colonnade.store.layout import Layout
 
 HERE = Path(__file__).resolve().parent
 PICTURE = HERE.parent / "docs" / "demo.png"
+
+COLUMNS = ("true", "measured", "linear", "nonlinear")
 
 TABLE_1 = {
     "prism": (
@@ -35,19 +40,26 @@ TABLE_1 = {
 """The paper's specimens (its Table 1) from their dimensions, and what the table prints."""
 
 
-def rebuild(folder: Path, picture: Path | None = None) -> None:
-    """Write all reference reports into a folder."""
+def rebuild(folder: Path, picture: Path | None = None, *, whole: bool = True) -> None:
+    """Write the reference reports into a folder; without `whole` only those that take seconds."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "table-1.md").write_text(table_1(), encoding="utf-8")
+    _campaign(folder, "short", prism_programme, "The ten tests of `colonnade demo --short`", None)
+    if whole:
+        _campaign(folder, "demo", paper_programme, "The paper's programme, as `colonnade demo` performs it", picture)
+
+
+def _campaign(folder: Path, name: str, programme: Programme, title: str, picture: Path | None) -> None:
+    """Perform and run a virtual campaign, and tell what came of it."""
     with tempfile.TemporaryDirectory() as scratch:
-        written = write_campaign(Path(scratch) / "demo", seed=0)
+        written = write_campaign(Path(scratch) / "demo", seed=0, programme=programme, workers=None)
         run(written.path)
         campaign = load(written.path)
         summary = json.loads(Layout(campaign.folder).summary_json.read_text(encoding="utf-8"))
         numbers = demo_numbers(written.truth, summary)
-        (folder / "demo.json").write_text(json.dumps(numbers, indent=1) + "\n", encoding="utf-8")
-        (folder / "demo.md").write_text(demo_table(numbers), encoding="utf-8")
-        draw(campaign, folder, picture)
+        drawn = draw(campaign, summary, folder, name, picture)
+    (folder / f"{name}.json").write_text(json.dumps(numbers, indent=1) + "\n", encoding="utf-8")
+    (folder / f"{name}.md").write_text(demo_table(numbers, title, drawn), encoding="utf-8")
 
 
 def table_1() -> str:
@@ -74,68 +86,92 @@ def table_1() -> str:
 
 
 def demo_numbers(truth: dict[str, Any], summary: dict[str, Any]) -> dict[str, Any]:
-    """Return the demo campaign's results beside its truth."""
-    found = summary["specimens"]["prism"]["restitution"]
+    """Return a virtual campaign's results beside its truth."""
     tests = {}
     for name, true in truth["tests"].items():
         test = summary["tests"][name]
-        predicted = test["predicted"]["linear"]
+        models = test["predicted"]
         tests[name] = {
-            "outcome": {"true": true["outcome"], "measured": test["outcome"], "linear": predicted["outcome"]},
-            "peak_ratio": {
-                "true": _rounded(true["peak_ratio"]),
-                "measured": _rounded(test["peak_ratio"]),
-                "linear": _rounded(predicted["peak_ratio"]),
-            },
-            "nrmse": _rounded(predicted["nrmse"]),
+            "outcome": {"true": true["outcome"], "measured": test["outcome"]}
+            | {model: predicted["outcome"] for model, predicted in models.items()},
+            "peak_ratio": {"true": _rounded(true["peak_ratio"]), "measured": _rounded(test["peak_ratio"])}
+            | {model: _rounded(predicted["peak_ratio"]) for model, predicted in models.items()},
+            "nrmse": {model: _rounded(predicted["nrmse"]) for model, predicted in models.items()},
+            "order": test["order"],
         }
-    restitution = {"true": truth["specimens"]["prism"]["restitution"]} | {
-        key: _rounded(found[key], 5) for key in ("value", "low", "high")
-    }
+    restitution = {}
+    for specimen, true in truth["specimens"].items():
+        found = summary["specimens"][specimen]["restitution"]
+        restitution[specimen] = {"true": true["restitution"]} | {
+            key: _rounded(found[key], 5) for key in ("value", "low", "high")
+        }
     return {"seed": truth["seed"], "restitution": restitution, "tests": tests}
 
 
-def demo_table(numbers: dict[str, Any]) -> str:
-    """Write the demo's numbers as a page of text."""
-    e = numbers["restitution"]
+def demo_table(numbers: dict[str, Any], title: str, drawn: Mapping[str, str]) -> str:
+    """Write a campaign's numbers as a page of text, with its figures."""
     lines = [
-        f"# The demo campaign, seed {numbers['seed']}",
+        f"# {title}",
         "",
-        f"Restitution of the prism: {e['value']} (95 % interval {e['low']} to {e['high']}), true {e['true']}.",
+        f"Seed {numbers['seed']}; written by `make reports`.",
         "",
-        "Outcome and largest |θ|/α: true (nonlinear model, adaptive integration), measured by virtual instruments,",
-        "and predicted by the linear model on the recorded base motion; nrmse of predicted against measured.",
+        "| specimen | true e | identified e | 95 % interval |",
+        "|---|---|---|---|",
+    ]
+    for specimen, e in numbers["restitution"].items():
+        lines.append(f"| {specimen} | {e['true']} | {e['value']} | {e['low']} to {e['high']} |")
+    lines += [
         "",
-        "| test | true | measured | linear model | true max | measured max | linear max | nrmse |",
-        "|---|---|---|---|---|---|---|---|",
+        "Outcome and largest |θ|/α: true (nonlinear model, adaptive integration), measured by virtual instruments, and",
+        "predicted on the recorded base motion; nrmse of predicted against measured. A free vibration is predicted",
+        "from its first peak after an impact on.",
+        "",
+        "| test | outcome: true | measured | linear | nonlinear | max: true | measured | linear | nonlinear "
+        "| nrmse: linear | nonlinear | order |",
+        "|---" * 12 + "|",
     ]
     for name, test in numbers["tests"].items():
-        outcome, peak = test["outcome"], test["peak_ratio"]
-        cells = [outcome[key] for key in ("true", "measured", "linear")]
-        cells += ["–" if peak[key] is None else f"{peak[key]:.4g}" for key in ("true", "measured", "linear")]
-        lines.append(f"| {name} | " + " | ".join(cells) + f" | {test['nrmse']:.3g} |")
-    lines += ["", "![Spans together](demo-spans.svg)", "", "![Peaks with fit](demo-peaks.svg)"]
+        cells = [test["outcome"].get(key) or "–" for key in COLUMNS]
+        cells += [_shown(test["peak_ratio"].get(key)) for key in COLUMNS]
+        cells += [_shown(test["nrmse"].get(model), 3) for model in COLUMNS[2:]]
+        lines.append(f"| {name} | " + " | ".join(cells) + f" | {test['order'] or '–'} |")
+    for caption, file in drawn.items():
+        lines += ["", f"![{caption}]({file})"]
     return "\n".join(lines) + "\n"
 
 
-def draw(campaign: Campaign, folder: Path, picture: Path | None) -> None:
-    """Draw Spans together and peaks with fit, and the README's picture."""
+def draw(campaign: Campaign, summary: dict[str, Any], folder: Path, name: str, picture: Path | None) -> dict[str, str]:
+    """Draw Spans together, peaks with fit and the measured map of the prism; return the files by caption."""
     block = campaign.block("prism")
     layout = Layout(campaign.folder)
-    stored = {name: results.of_test(campaign, layout, test) for name, test in campaign.tests.items()}
-    panels, described, series = [], [], []
-    for test in campaign.tests.values():
-        if test.kind == "earthquake":
-            panels.append(charts.span_panel(test, stored[test.id], block))
-            described.append(f"{panels[-1].title}: {charts.seen(stored[test.id])}")
-        if test.kind == "free-vibration" and (found := charts.peak_series(test, stored[test.id])) is not None:
-            series.append(found)
+    tests = [test for test in campaign.tests.values() if test.specimen == "prism"]
+    stored = {
+        test.id: results.of_test(campaign, layout, test)
+        for test in tests
+        if test.kind in ("earthquake", "free-vibration")
+    }
+    panels = [charts.span_panel(test, stored[test.id], block) for test in tests if test.kind == "earthquake"]
+    described = " ".join(f"{panel.title}: the prism" for panel in panels)
+    found = [charts.peak_series(test, stored[test.id]) for test in tests if test.kind == "free-vibration"]
+    points = [
+        MapPoint(name, record["frequency_ratio"], record["amplitude_ratio"], record["outcome"], record["order"])
+        for name, record in ((test.id, summary["tests"][test.id]) for test in tests if test.kind == "sine")
+    ]
     title = "Measured and predicted rocking at three Spans"
-    spans = charts.spans("demo-spans", title, " ".join(described), panels)
-    (folder / "demo-spans.svg").write_text(spans, encoding="utf-8")
-    (folder / "demo-peaks.svg").write_text(charts.peaks("demo-peaks", series, block), encoding="utf-8")
+    drawn = {
+        title: ("spans", charts.spans(f"{name}-spans", title, described, panels)),
+        "Peaks with fit": ("peaks", charts.peaks(f"{name}-peaks", [each for each in found if each is not None], block)),
+        "Measured map of the prism": ("map", charts.measured_map(f"{name}-map", points)),
+    }
+    for part, text in drawn.values():
+        (folder / f"{name}-{part}.svg").write_text(text, encoding="utf-8")
     if picture is not None:
         figures.spans_side_by_side(panels).savefig(picture, dpi=150, metadata={"Software": None})
+    return {caption: f"{name}-{part}.svg" for caption, (part, _) in drawn.items()}
+
+
+def _shown(value: float | None, digits: int = 4) -> str:
+    return "–" if value is None else f"{value:.{digits}g}"
 
 
 def _rounded(value: float | None, digits: int = 4) -> float | None:
