@@ -1,6 +1,7 @@
 # make demo     writes the virtual campaign into demo/ and runs it: open demo/report/index.html
 # make test     style, types, import rules, tests, and the built wheel in a fresh environment
-# make study    the slow tests: seeds 0-19 of the virtual campaign, kills, mutated files
+# make study    the slow tests: seeds 0-19 of the virtual campaign, other laboratories' files
+# make drill    500 kills, full and read-only disks (as root), two runs at once, 2000 damaged files: half an hour
 # make format   rewrites the sources in the project's style
 # make reports  rebuilds the reference reports in reports/ and the picture of the README
 # make clean    removes what the other targets made
@@ -12,7 +13,7 @@ FITS := import sys, venv, ensurepip; sys.exit(not (3, 11) <= sys.version_info[:2
 BIN := .venv/bin
 INSTALLED := .venv/installed
 
-.PHONY: demo test study format reports clean
+.PHONY: demo test study drill format reports clean
 
 demo: $(INSTALLED)
 	@$(BIN)/colonnade demo demo
@@ -22,10 +23,13 @@ test: $(INSTALLED)
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/python -m pytest -m "not slow"
+	$(BIN)/python -m pytest -m "not slow and not drill"
 
 study: $(INSTALLED)
 	$(BIN)/python -m pytest -m slow
+
+drill: $(INSTALLED)
+	$(BIN)/python -m pytest tests/drill -m drill
 
 format: $(INSTALLED)
 	$(BIN)/ruff check --fix

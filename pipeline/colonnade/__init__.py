@@ -11,9 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from colonnade.dynamics.block import Block
+    from colonnade.dynamics.ensembles import Ensemble, ensemble
     from colonnade.dynamics.history import History
+    from colonnade.dynamics.maps.chart import StabilityMap, stability_map
     from colonnade.dynamics.motion import Motion
+    from colonnade.dynamics.reactions import Reactions, reactions
+    from colonnade.dynamics.restitution_law import RestitutionLaw
     from colonnade.dynamics.rock import rock
+    from colonnade.dynamics.uncertainty import Uncertainty
     from colonnade.errors import ColonnadeError
     from colonnade.identification.angle import rocking_angle
     from colonnade.identification.restitution import Restitution, identify_restitution
@@ -25,28 +30,44 @@ __version__ = "0.1.0"
 __all__ = [
     "Block",
     "ColonnadeError",
+    "Ensemble",
     "History",
     "Motion",
+    "Reactions",
     "Restitution",
+    "RestitutionLaw",
+    "StabilityMap",
+    "Uncertainty",
     "__version__",
+    "ensemble",
     "identify_restitution",
+    "reactions",
     "read_motion",
     "rock",
     "rocking_angle",
     "run",
+    "stability_map",
 ]
 
 _ROOMS = {
     "Block": "colonnade.dynamics.block",
     "ColonnadeError": "colonnade.errors",
+    "Ensemble": "colonnade.dynamics.ensembles",
     "History": "colonnade.dynamics.history",
     "Motion": "colonnade.dynamics.motion",
+    "Reactions": "colonnade.dynamics.reactions",
     "Restitution": "colonnade.identification.restitution",
+    "RestitutionLaw": "colonnade.dynamics.restitution_law",
+    "StabilityMap": "colonnade.dynamics.maps.chart",
+    "Uncertainty": "colonnade.dynamics.uncertainty",
+    "ensemble": "colonnade.dynamics.ensembles",
     "identify_restitution": "colonnade.identification.restitution",
+    "reactions": "colonnade.dynamics.reactions",
     "read_motion": "colonnade.readers.motion",
     "rock": "colonnade.dynamics.rock",
     "rocking_angle": "colonnade.identification.angle",
     "run": "colonnade.workflow.run",
+    "stability_map": "colonnade.dynamics.maps.chart",
 }
 
 

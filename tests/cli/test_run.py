@@ -33,7 +33,7 @@ def test_run_lists_what_was_redone_and_why_and_says_where_the_report_is(colonnad
     third = json.loads(colonnade("run", "--workers", "1", "--json").stdout)
     redone = [stage for stage in third["stages"] if stage["action"] == "done"]
     assert {stage["subject"] for stage in redone} == {"free-02", "prism", "free-01"}
-    assert {stage["stage"] for stage in redone if stage["subject"] == "free-01"} <= {"predict", "compare"}
+    assert {stage["stage"] for stage in redone if stage["subject"] == "free-01"} <= {"predict", "ensemble", "compare"}
 
 
 def test_one_bad_file_fails_its_test_alone(colonnade, campaign):
@@ -64,7 +64,11 @@ def test_identify_stops_with_the_restitution(colonnade, campaign):
 def test_from_redoes_a_stage_and_what_follows(colonnade, campaign):
     colonnade("run", "--workers", "1")
     again = json.loads(colonnade("run", "--workers", "1", "--from", "predict", "--json").stdout)
-    assert {stage["stage"] for stage in again["stages"] if stage["action"] == "done"} == {"predict", "compare"}
+    assert {stage["stage"] for stage in again["stages"] if stage["action"] == "done"} == {
+        "predict",
+        "ensemble",
+        "compare",
+    }
 
 
 def test_an_unknown_id_is_refused_with_the_nearest_one(colonnade, campaign):

@@ -103,7 +103,14 @@ RESULTS = {
         {
             **{
                 name: ("model", np.ones(1))
-                for name in ("nrmse", "predicted_peak_ratio", "peak_ratio_error", "compared_until")
+                for name in (
+                    "nrmse",
+                    "predicted_peak_ratio",
+                    "peak_ratio_error",
+                    "compared_until",
+                    "within_spread",
+                    "peak_rank",
+                )
             },
             "predicted_outcome": ("model", np.array(["rocking"], dtype=object)),
             "predicted_response_order": ("model", np.array(["3"], dtype=object)),
@@ -114,6 +121,27 @@ RESULTS = {
         },
         coords={"model": np.array(["linear"], dtype=object)},
         attrs={"response_order": "3", "response_order_reason": "The angle repeats every 3 periods of the table."},
+    ),
+    "ensemble": xr.Dataset(
+        {
+            "rocking_angle": ("elapsed", TIME),
+            "rocking_angle_band": (("quantile", "elapsed"), np.stack([TIME, TIME])),
+            **scalars("overturning_probability", "overturning_probability_low", "overturning_probability_high"),
+            **{f"member_{name}": ("member", np.ones(5)) for name in ("peak_ratio", "overturning_time")},
+            **{name: ("input", np.ones(2)) for name in ("input_deviation", "peak_sensitivity")},
+        },
+        coords=CLOCK | {"quantile": [0.05, 0.95], "input": np.array(["restitution", "p"], dtype=object)},
+        attrs={"model": "linear", "members": 5, "noise": 0.01, "cutoff_hz": None},
+    ),
+    "map": xr.Dataset(
+        {
+            "outcome": (("frequency_ratio", "amplitude_ratio"), np.array([[0, 1, 2], [0, 1, 1]], dtype=np.int8)),
+            "overturning_fraction": (("frequency_ratio", "amplitude_ratio"), np.zeros((2, 3))),
+            **{f"{name}_limit": ("frequency_ratio", np.ones(2)) for name in ("no_rocking", "lower", "upper")},
+            **{f"interval_{name}": ("interval", np.ones(4)) for name in ("frequency_ratio", "start", "end")},
+        },
+        coords={"frequency_ratio": [2.0, 3.0], "amplitude_ratio": [0.5, 1.0, 2.0]},
+        attrs={"model": "linear", "cycles": 20.0, "base_motion": "sine"},
     ),
     "failed": None,
 }

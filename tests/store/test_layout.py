@@ -16,6 +16,7 @@ from colonnade.store.layout import Layout
         ("condition", "conditioned.nc"),
         ("rocking", "rocking.nc"),
         ("restitution", "restitution.nc"),
+        ("ensemble", "ensemble.nc"),
         ("compare", "compared.nc"),
     ],
 )
@@ -32,3 +33,4 @@ def test_specimens_summary_and_report_lie_where_the_contract_says():
     assert layout.specimen("prism") == Path("c/processed/specimens/prism.nc")
     assert layout.summary_json == Path("c/processed/summary.json")
     assert layout.report == Path("c/report/index.html")
+    assert layout.map("prism", "linear") == Path("c/processed/maps/prism-linear.nc")

@@ -8,7 +8,7 @@ import pytest
 
 from colonnade.workflow import freshness
 
-OF_A_PULSE = ("ingest", "condition", "rocking", "predict", "compare")
+OF_A_PULSE = ("ingest", "condition", "rocking", "predict", "ensemble", "compare")
 
 
 def stages_of(redone, subject):
@@ -18,7 +18,15 @@ def stages_of(redone, subject):
 def test_a_first_run_executes_everything_and_says_why(untouched):
     redone = untouched.redone()
     assert set(redone.values()) == {"never run"}
-    assert stages_of(redone, "free-01") == {"ingest", "condition", "rocking", "restitution", "predict", "compare"}
+    assert stages_of(redone, "free-01") == {
+        "ingest",
+        "condition",
+        "rocking",
+        "restitution",
+        "predict",
+        "ensemble",
+        "compare",
+    }
     assert stages_of(redone, "pulse-01") == set(OF_A_PULSE)
     assert stages_of(redone, "prism") == {"specimen"}
 
@@ -53,9 +61,17 @@ def test_one_changed_sample_redoes_that_test_alone_where_nothing_depends_on_it(s
 def test_one_changed_sample_of_a_free_vibration_redoes_its_specimens_predictions(small):
     small.change_a_sample("free-01")
     redone = small.redone()
-    assert stages_of(redone, "free-01") == {"ingest", "condition", "rocking", "restitution", "predict", "compare"}
+    assert stages_of(redone, "free-01") == {
+        "ingest",
+        "condition",
+        "rocking",
+        "restitution",
+        "predict",
+        "ensemble",
+        "compare",
+    }
     assert stages_of(redone, "prism") == {"specimen"}
-    assert stages_of(redone, "pulse-01") == stages_of(redone, "free-02") == {"predict", "compare"}
+    assert stages_of(redone, "pulse-01") == stages_of(redone, "free-02") == {"predict", "ensemble", "compare"}
     assert redone["pulse-01", "predict"] == "upstream changed"
 
 
@@ -74,7 +90,7 @@ def test_a_setting_redoes_the_stage_that_reads_it_and_what_follows(small):
         "[setups.frame.channels]", "[processing.restitution]\nlowest_amplitude = 0.05\n\n[setups.frame.channels]"
     )
     redone = small.redone()
-    assert {stage for _, stage in redone} == {"restitution", "specimen", "predict", "compare"}
+    assert {stage for _, stage in redone} == {"restitution", "specimen", "predict", "ensemble", "compare"}
     assert redone["free-01", "restitution"] == "settings changed"
 
 
@@ -94,7 +110,10 @@ def test_changed_sources_redo_everything_and_give_the_same_values(small, monkeyp
 
 @pytest.mark.parametrize(
     ("stage", "expected"),
-    [("predict", {"predict", "compare"}), ("restitution", {"restitution", "specimen", "predict", "compare"})],
+    [
+        ("predict", {"predict", "ensemble", "compare"}),
+        ("restitution", {"restitution", "specimen", "predict", "ensemble", "compare"}),
+    ],
 )
 def test_start_from_redoes_a_stage_and_what_follows(small, stage, expected):
     redone = small.redone(start_from=stage)

@@ -11,8 +11,6 @@ import sys
 import time
 from pathlib import Path
 
-import pytest
-
 # A copy is ingested first, so that modules are loaded and workers are there: kills fall on the ingest itself.
 INGEST = """
 import sys
@@ -93,11 +91,3 @@ def kill_and_compare(small, undisturbed, kills: int, workers: int, seed: int) ->
 
 def test_an_ingest_that_is_killed_is_taken_up_again(untouched, undisturbed):
     assert sum(kill_and_compare(untouched, undisturbed, 5, workers=1, seed=1).values()) == 5
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("workers", "kills"), [(1, 70), (2, 30)])
-def test_a_hundred_kills_leave_no_half_file(untouched, undisturbed, workers, kills):
-    fell = kill_and_compare(untouched, undisturbed, kills, workers, seed=workers)
-    print(f"{workers} workers: {fell}")
-    assert fell["inside"] > 0.2 * kills

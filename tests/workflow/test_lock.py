@@ -9,6 +9,7 @@ import sys
 import pytest
 
 from colonnade.errors import StoreError
+from colonnade.workflow.lock import only_run
 
 HOLD = """
 import sys, time
@@ -54,8 +55,36 @@ def test_the_lock_is_free_after_a_run_and_after_one_that_was_refused(small, hold
         assert not small.run().failed
 
 
-def test_half_a_file_of_a_killed_run_is_swept(small):
-    half = small.layout.test("pulse-01") / ".rocking.nc.4711.partial"
+@pytest.mark.parametrize("place", ["processed/tests/pulse-01/.rocking.nc.4711.partial", "report/.a.html.4711.partial"])
+def test_half_a_file_of_a_killed_run_is_swept(small, place):
+    half = small.folder / place
     half.write_bytes(b"half")
     small.run()
     assert not half.exists()
+
+
+def test_half_a_file_that_a_killed_runs_worker_left_after_the_next_run_began_is_swept_at_its_end(small):
+    small.layout.lock_holder.write_text("{}")
+    half = small.layout.test("pulse-01") / ".rocking.nc.4711.partial"
+    with only_run(small.layout):
+        half.write_bytes(b"half")
+    assert not half.exists()
+
+
+def test_results_may_lie_on_another_disk_by_a_link(untouched, undisturbed, tmp_path):
+    elsewhere = tmp_path / "another disk"
+    elsewhere.mkdir()
+    untouched.layout.processed.symlink_to(elsewhere)
+    half = elsewhere / "tests" / ".rocking.nc.4711.partial"
+    half.parent.mkdir()
+    half.write_bytes(b"half")
+    assert not untouched.run().failed
+    assert untouched.contents() == undisturbed.contents()
+    assert not half.exists()
+    assert untouched.redone() == {}
+
+
+def test_a_link_to_a_disk_that_is_not_there_is_told(untouched, tmp_path):
+    untouched.layout.processed.symlink_to(tmp_path / "another disk")
+    with pytest.raises(StoreError, match=r"it is a link to .*another disk, which is not there"):
+        untouched.run()

@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from colonnade.workflow import processes
+
 RUN = """
 import sys
 import colonnade
@@ -27,6 +29,46 @@ def test_two_processes_give_what_one_gives(untouched, undisturbed):
     assert not untouched.run(workers=2).failed
     assert untouched.contents() == undisturbed.contents()
     assert untouched.summary() == undisturbed.summary()
+
+
+@pytest.fixture
+def killer(monkeypatch):
+    """Has the worker that takes a test killed in it, as where memory ran out, so often at most."""
+    real = processes._in_worker
+
+    def arm(test, folder, times):
+        def in_worker(number, chain, parent):
+            marks = [folder / f"{turn}.killed" for turn in range(times)]
+            left = [mark for mark in marks if not mark.exists()]
+            if chain.test == test and left:
+                left[0].touch()
+                os.kill(os.getpid(), signal.SIGKILL)
+            return real(number, chain, parent)
+
+        monkeypatch.setattr(processes, "_in_worker", in_worker)
+
+    return arm
+
+
+def test_a_worker_that_is_stopped_once_costs_nothing(untouched, undisturbed, killer, tmp_path):
+    killer("pulse-01", tmp_path, times=1)
+    assert not untouched.run(workers=2).failed
+    assert untouched.contents() == undisturbed.contents()
+
+
+def test_a_test_that_stops_its_worker_each_time_fails_alone_and_is_tried_again(
+    untouched, undisturbed, killer, tmp_path, monkeypatch
+):
+    killer("pulse-01", tmp_path, times=9)
+    failed = [stage for stage in untouched.run(workers=2).stages if stage.action == "failed"]
+    assert [(stage.subject, stage.stage) for stage in failed] == [("pulse-01", "ingest")]
+    assert "stopped the process that worked on this test" in untouched.summary()["tests"]["pulse-01"]["reason"]
+    assert {name: test["status"] for name, test in untouched.summary()["tests"].items() if name != "pulse-01"} == (
+        dict.fromkeys(("free-01", "free-02", "pulse-02"), "done")
+    )
+    monkeypatch.undo()
+    assert not untouched.run(workers=2).failed
+    assert untouched.contents() == undisturbed.contents()
 
 
 def test_an_interrupt_in_this_process_frees_the_lock_and_leaves_whole_files(untouched, undisturbed):

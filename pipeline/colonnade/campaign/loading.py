@@ -60,9 +60,9 @@ def load(path: Path | str) -> Campaign:
 
 def _found(path: Path) -> Path:
     try:
-        path = path.resolve()
         if path.is_dir():
             path = path / FILE_NAME
+        path = path.parent.resolve() / path.name  # a campaign file that is a link belongs to the folder it stands in
         if path.is_file():
             return path
         others = sorted(other.name for other in path.parent.glob("*.toml"))

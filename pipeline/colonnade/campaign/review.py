@@ -14,6 +14,7 @@ from colonnade.campaign.decision import Review, decided
 from colonnade.campaign.document import parse, place_of, read_text
 from colonnade.campaign.fields import Interval, Text, number, one_line, one_of, shown, text
 from colonnade.campaign.places import Place, Source, key_lines
+from colonnade.campaign.rawpath import inside
 from colonnade.campaign.setup import Setup
 from colonnade.campaign.table import Table
 from colonnade.campaign.test import Test
@@ -156,7 +157,10 @@ def read_review(folder: Path, tests: Mapping[str, Test], setups: Mapping[str, Se
     path = folder / FILE_NAME
     if not path.exists():
         return {}
-    written = read_text(path)
+    try:
+        written = read_text(inside(folder, FILE_NAME))
+    except ValueError as error:
+        raise CampaignError(f"{FILE_NAME}: {error}") from None
     document, source = parse(written, path.name), Source(path.name, key_lines(written))
     problems: list[tuple[Place, str]] = []
     review = ReviewFile.model_construct()

@@ -27,6 +27,16 @@ def _bounded(low: float, high: float) -> tuple[Any, Any]:
     )
 
 
+def _deviation(largest: float) -> tuple[Any, Any]:
+    def deviation(value: object) -> float:
+        converted = number(value)
+        if not 0.0 <= converted <= largest:
+            raise ValueError(f"{shown(value)} was found. A number from 0 to {largest:g} was expected.")
+        return converted
+
+    return BeforeValidator(deviation), WithJsonSchema({"type": "number", "minimum": 0.0, "maximum": largest})
+
+
 def _count(low: int, high: int) -> tuple[Any, Any]:
     def counted(value: object) -> int:
         if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
@@ -81,6 +91,25 @@ class RestitutionSettings(Table):
     """Probability of the interval that is given for e."""
 
 
+class EnsembleSettings(Table):
+    """What the ensembles beside the predictions take: how many runs, and how well their inputs are known."""
+
+    members: Annotated[int, *_count(0, 1_000_000)] = _setting(100)
+    """Runs of each model over what is not exactly known; 0 for none."""
+    restitution: Annotated[float, *_deviation(0.5)] = _setting(0.005)
+    """Standard deviation of e where no interval was identified; else it is that of the interval."""
+    critical_angle: Annotated[float, *_deviation(0.5)] = _setting(0.005, "of α")
+    """Standard deviation of the critical angle."""
+    p: Annotated[float, *_deviation(0.5)] = _setting(0.005, "of p")
+    """Standard deviation of the frequency parameter."""
+    gain: Annotated[float, *_deviation(0.5)] = _setting(0.005, "of the acceleration")
+    """Standard deviation of the calibration of the table's acceleration."""
+    clock: Annotated[float, *_deviation(0.1)] = _setting(1e-5, "of the sampling interval")
+    """Standard deviation of the recorder's clock rate."""
+    filter: Annotated[float, *_deviation(0.5)] = _setting(0.1, "of the cut-off")
+    """Standard deviation of the low-pass of the table's acceleration: how much its choice matters."""
+
+
 class PredictSettings(Table):
     """What the predictions take."""
 
@@ -88,6 +117,8 @@ class PredictSettings(Table):
     """Models of rocking that are run on the recorded base motion."""
     rest_angle: Annotated[float, *_bounded(0.0, 0.1)] = _setting(1e-6, "of α")
     """An arc after an impact that stays below this fraction of the critical angle is taken as rest."""
+    ensemble: EnsembleSettings = EnsembleSettings()
+    """The ensembles beside the predictions."""
 
 
 class Processing(Table):

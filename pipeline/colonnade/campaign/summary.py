@@ -91,6 +91,12 @@ class PredictionSummary(_Record):
     """RMS of predicted − measured, over α, until either first passes α."""
     order: Order = None
     """Predicted order of a sine test's response; see the test's own."""
+    within_spread: Known = None
+    """Share of the measured angle, while it rocks, that lies in the band of nine in ten of the model's runs."""
+    peak_rank: Known = None
+    """Share of the model's runs whose peak is below the measured one."""
+    overturning_probability: Known = None
+    """Share of the model's runs that overturn."""
 
 
 class HistorySummary(_Record):

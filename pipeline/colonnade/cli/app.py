@@ -10,13 +10,14 @@ from colonnade.cli.demo import demo
 from colonnade.cli.identify import identify
 from colonnade.cli.ingest import ingest
 from colonnade.cli.init import init
+from colonnade.cli.map import map_command
 from colonnade.cli.predict import predict
 from colonnade.cli.report import report
 from colonnade.cli.run import run
 from colonnade.cli.schema import schema
 from colonnade.cli.show import show
 
-COMMANDS = (demo, init, check, run, ingest, identify, predict, report, show, schema)
+COMMANDS = (demo, init, check, run, ingest, identify, predict, report, map_command, show, schema)
 
 
 class InOrder(click.RichGroup):

@@ -13,7 +13,9 @@ from colonnade.cli.work import work
 @click.command(epilog="Example: colonnade identify demo")
 @campaign_argument
 @work_options
-def identify(campaign: Path, only: tuple[str, ...], workers: int | None, verify: bool, as_json: bool) -> int:
+def identify(
+    campaign: Path, only: tuple[str, ...], workers: int | None, scheduler: str | None, verify: bool, as_json: bool
+) -> int:
     """
     Identify the restitution: run up to each specimen's pooled e.
 
@@ -21,4 +23,6 @@ def identify(campaign: Path, only: tuple[str, ...], workers: int | None, verify:
 
     Writes up to processed/tests/<ID>/restitution.nc of each free vibration, and processed/specimens/<ID>.nc.
     """
-    return work(campaign, until="restitution", only=only, workers=workers, verify=verify, as_json=as_json)
+    return work(
+        campaign, until="restitution", only=only, workers=workers, scheduler=scheduler, verify=verify, as_json=as_json
+    )

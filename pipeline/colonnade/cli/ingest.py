@@ -13,7 +13,9 @@ from colonnade.cli.work import work
 @click.command(epilog="Example: colonnade ingest demo --only free-01")
 @campaign_argument
 @work_options
-def ingest(campaign: Path, only: tuple[str, ...], workers: int | None, verify: bool, as_json: bool) -> int:
+def ingest(
+    campaign: Path, only: tuple[str, ...], workers: int | None, scheduler: str | None, verify: bool, as_json: bool
+) -> int:
     """
     Read the raw files into SI channels with quality flags.
 
@@ -21,4 +23,6 @@ def ingest(campaign: Path, only: tuple[str, ...], workers: int | None, verify: b
 
     Writes processed/tests/<ID>/recorded.nc.
     """
-    return work(campaign, until="ingest", only=only, workers=workers, verify=verify, as_json=as_json)
+    return work(
+        campaign, until="ingest", only=only, workers=workers, scheduler=scheduler, verify=verify, as_json=as_json
+    )

@@ -20,12 +20,19 @@ workers_option = click.option(
     "--workers", type=click.IntRange(min=1), metavar="N", help="Number of processes; one per core by default."
 )
 
+scheduler_option = click.option(
+    "--scheduler",
+    metavar="ADDRESS",
+    help="Work on the Dask cluster of this running scheduler, such as tcp://10.0.0.1:8786, instead of this machine.",
+)
+
 
 def work_options(command: Command) -> Command:
     """Add what every command that runs stages understands."""
     for option in (
         json_option,
         click.option("--verify", is_flag=True, help="Hash raw files again also where size and time are unchanged."),
+        scheduler_option,
         workers_option,
         click.option("--only", multiple=True, metavar="ID", help="Only this test; may be given several times."),
     ):

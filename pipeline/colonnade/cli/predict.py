@@ -13,7 +13,9 @@ from colonnade.cli.work import work
 @click.command(epilog="Example: colonnade predict demo --only span-2.5")
 @campaign_argument
 @work_options
-def predict(campaign: Path, only: tuple[str, ...], workers: int | None, verify: bool, as_json: bool) -> int:
+def predict(
+    campaign: Path, only: tuple[str, ...], workers: int | None, scheduler: str | None, verify: bool, as_json: bool
+) -> int:
     """
     Run the models on the recorded base motion, after everything they need.
 
@@ -21,4 +23,6 @@ def predict(campaign: Path, only: tuple[str, ...], workers: int | None, verify: 
 
     Writes up to processed/tests/<ID>/predicted-<MODEL>.nc.
     """
-    return work(campaign, until="predict", only=only, workers=workers, verify=verify, as_json=as_json)
+    return work(
+        campaign, until="predict", only=only, workers=workers, scheduler=scheduler, verify=verify, as_json=as_json
+    )

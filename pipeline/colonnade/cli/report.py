@@ -13,7 +13,9 @@ from colonnade.cli.work import work
 @click.command(epilog="Example: colonnade report demo")
 @campaign_argument
 @work_options
-def report(campaign: Path, only: tuple[str, ...], workers: int | None, verify: bool, as_json: bool) -> int:
+def report(
+    campaign: Path, only: tuple[str, ...], workers: int | None, scheduler: str | None, verify: bool, as_json: bool
+) -> int:
     """
     Make the report, after everything it needs.
 
@@ -21,4 +23,6 @@ def report(campaign: Path, only: tuple[str, ...], workers: int | None, verify: b
 
     Writes report/index.html beside campaign.toml, with a page a test and a specimen; also where tests failed.
     """
-    return work(campaign, until="report", only=only, workers=workers, verify=verify, as_json=as_json)
+    return work(
+        campaign, until="report", only=only, workers=workers, scheduler=scheduler, verify=verify, as_json=as_json
+    )

@@ -21,6 +21,7 @@ def run(
     start_from: str | None,
     only: tuple[str, ...],
     workers: int | None,
+    scheduler: str | None,
     verify: bool,
     as_json: bool,
 ) -> int:
@@ -30,8 +31,15 @@ def run(
     CAMPAIGN is a campaign.toml or its folder, by default the one you stand in. Every result that was redone is listed
     with the reason. A test that fails does not stop the others; the exit code is then 1.
 
-    Stages are ingest, condition, rocking, restitution, predict, compare and report.
+    Stages are ingest, condition, rocking, restitution, predict, ensemble, compare and report.
     """
     return work(
-        campaign, until=until, start_from=start_from, only=only, workers=workers, verify=verify, as_json=as_json
+        campaign,
+        until=until,
+        start_from=start_from,
+        only=only,
+        workers=workers,
+        scheduler=scheduler,
+        verify=verify,
+        as_json=as_json,
     )

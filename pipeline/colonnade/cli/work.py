@@ -13,7 +13,7 @@ from colonnade.cli.progress import following
 if TYPE_CHECKING:
     from colonnade.workflow import RunResult, StageRun
 
-STAGES = ("ingest", "condition", "rocking", "restitution", "predict", "compare", "report")
+STAGES = ("ingest", "condition", "rocking", "restitution", "predict", "ensemble", "compare", "report")
 
 
 def work(campaign: Path, *, as_json: bool = False, **choices: Any) -> int:

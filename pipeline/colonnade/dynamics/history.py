@@ -27,10 +27,12 @@ class History:
     block : Block
     time, angle, angular_velocity : ndarray, shape (n,)
         s, rad, rad/s, at the samples of the base motion. A block past return lies at ±π/2.
-    impact_times, impact_velocities : ndarray, shape (m,)
-        s; rad/s just before each impact.
+    impact_times, impact_velocities, rebound_velocities : ndarray, shape (m,)
+        s; rad/s just before each impact, and e times that just after it.
     overturning_time : float
         s, when |θ| passed α for good; NaN where the block stands in the end.
+    model : {"linear", "nonlinear"}
+        The equation that it solves.
     """
 
     block: Block
@@ -39,12 +41,31 @@ class History:
     angular_velocity: Array
     impact_times: Array
     impact_velocities: Array
+    rebound_velocities: Array
     overturning_time: float
+    model: str = "linear"
 
     @property
     def amplitude(self) -> Array:
         """|θ|/α with the critical angle of the side rocked on, shape (n,)."""
         return amplitude(self.angle, self.block)
+
+    @property
+    def energy(self) -> Array:
+        """
+        Mechanical energy over the overturning barrier of the side rocked on, shape (n,).
+
+        0 at rest, 1 where the block stands still on the critical angle; that of the model's own equation:
+        [(ω/p)² + α² − (α − |θ|)²] / α², or [(ω/p)²/2 + cos(α − |θ|) − cos α] / (1 − cos α).
+        """
+        sides = (self.block.negative, self.block.positive)
+        negative = (self.angle < 0) | ((self.angle == 0) & (self.angular_velocity < 0))
+        critical = np.where(negative, *(side.critical_angle for side in sides))
+        speed = self.angular_velocity / np.where(negative, *(self.block.side_p(side) for side in sides))
+        if self.model == "linear":
+            return np.asarray((speed**2 + critical**2 - (critical - np.abs(self.angle)) ** 2) / critical**2)
+        rise = np.cos(critical - np.abs(self.angle)) - np.cos(critical)
+        return np.asarray((speed**2 / 2 + rise) / (1 - np.cos(critical)))
 
     @property
     def outcome(self) -> Outcome:

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib import import_module
 from math import ceil
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from colonnade.dynamics.block import Block, Sided, pair
 from colonnade.dynamics.history import History
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.errors import nearest
+
+Array = NDArray[np.float64]
 
 MODELS = ("linear", "nonlinear")
 """Models that `rock` can run."""
@@ -18,12 +24,21 @@ MODELS = ("linear", "nonlinear")
 DEFAULT_REST_ANGLE = 1e-6
 """Fraction of α below which an arc after an impact is taken as rest."""
 
+LARGEST_ACCELERATION = 1e6
+"""In g; more is no motion of a table."""
+
+LARGEST_VELOCITY = 1e6
+"""In p, of the initial state."""
+
+LONGEST_SAMPLE = 300.0
+"""In p dt; hyperbolic functions of more leave the range of floating-point numbers."""
+
 
 def rock(
     block: Block,
     motion: Motion | None = None,
     *,
-    restitution: Sided | None = None,
+    restitution: Sided | RestitutionLaw | Callable[[float], float] | None = None,
     model: str = "linear",
     theta0: float = 0.0,
     omega0: float = 0.0,
@@ -37,12 +52,13 @@ def rock(
     ----------
     block : Block
     motion : Motion, optional
-        Base motion; without it the block rocks freely for `duration`.
-    restitution : float or pair of float, optional
-        e, between 0 and 1; a pair is for impacts that end an arc at (θ < 0, θ > 0). Default: the rigid-body value.
+        Base motion along x and, where given, z; without it the block rocks freely for `duration`.
+    restitution : float, pair of float, RestitutionLaw or function, optional
+        e, between 0 and 1; a pair is for impacts that end an arc at (θ < 0, θ > 0); a law or a function gives e at
+        |ω| (rad/s) just before the impact. Default: the rigid-body value.
     model : {"linear", "nonlinear"}
         The linear equation, solved exactly for a base motion that is linear between samples; or the full one, by Taylor
-        series to rounding.
+        series to rounding. With vertical motion both are solved by Taylor series.
     theta0, omega0 : float, optional
         Initial angle (rad) and angular velocity (rad/s), positive when the top moves to +x.
     duration : float, optional
@@ -70,23 +86,75 @@ def rock(
     if model not in MODELS:
         raise ValueError(f'There is no model "{model}".{nearest(model, MODELS)}')
     motion = _free(block, duration) if motion is None else motion
-    e = pair(block.restitution if restitution is None else restitution)
-    _check(block, motion, e, theta0, omega0, rest_angle)
+    law = _law(block, restitution)
+    _check(block, motion, theta0, omega0, rest_angle)
+    while True:
+        history = _propagated(block, motion, law, model, float(theta0), float(omega0), rest_angle)
+        wider = law.reaching(history.impact_velocities) if isinstance(law, RestitutionLaw) else law
+        if wider is law:
+            return history
+        law = wider
 
+
+def _law(
+    block: Block, restitution: Sided | RestitutionLaw | Callable[[float], float] | None
+) -> RestitutionLaw | tuple[float, float]:
+    """Give e as a pair, or as a law that begins with speeds up to a few times that of a fall from α."""
+    if restitution is None:
+        restitution = block.restitution
+    if isinstance(restitution, RestitutionLaw):
+        return restitution
+    if callable(restitution):
+        return RestitutionLaw.of(restitution, largest_speed=4.0 * block.p * block.critical_angle)
+    values = pair(restitution)
+    for value in values:
+        if not 0.0 <= value <= 1.0:
+            raise ValueError(f"restitution is {value}; a number between 0 and 1 was expected")
+    return values
+
+
+def _table(law: RestitutionLaw | tuple[float, float]) -> tuple[Array, Array]:
+    """Speeds, shape (m,), and e at them on the one side and then on the other, shape (2 m,)."""
+    if isinstance(law, RestitutionLaw):
+        return law.speeds, np.tile(law.values, 2)
+    return np.zeros(1), np.array(law)
+
+
+def _propagated(
+    block: Block,
+    motion: Motion,
+    law: RestitutionLaw | tuple[float, float],
+    model: str,
+    theta0: float,
+    omega0: float,
+    rest_angle: float,
+) -> History:
     # The engine is compiled on import: only the one that is asked for.
-    engine = import_module(f"colonnade.dynamics.{model}")
+    by_series = model == "nonlinear" or motion.vertical is not None
+    engine = import_module(f"colonnade.dynamics.{'nonlinear' if by_series else 'linear'}")
     sides = (block.negative, block.positive)
+    options: dict[str, Any] = {}
+    if by_series:
+        vertical = np.zeros_like(motion.acceleration) if motion.vertical is None else motion.vertical / block.gravity
+        options = {"vertical": vertical, "linearised": model == "linear"}
+    law_speeds, values = _table(law)
     angle, velocity, impact_times, impact_velocities, overturning_time = engine.propagate(
         motion.acceleration / block.gravity,
         motion.dt,
         np.array([side.critical_angle for side in sides]),
         np.array([block.side_p(side) for side in sides]),
-        np.array(e),
+        values,
         rest_angle,
-        float(theta0),
-        float(omega0),
+        theta0,
+        omega0,
+        speeds=law_speeds,
+        **options,
     )
-    return History(block, motion.time, angle, velocity, impact_times, impact_velocities, overturning_time)
+    e = law(np.abs(impact_velocities)) if isinstance(law, RestitutionLaw) else np.where(impact_velocities > 0.0, *law)
+    rebounds = e * impact_velocities
+    return History(
+        block, motion.time, angle, velocity, impact_times, impact_velocities, rebounds, overturning_time, model
+    )
 
 
 def _free(block: Block, duration: float | None) -> Motion:
@@ -96,18 +164,28 @@ def _free(block: Block, duration: float | None) -> Motion:
     return Motion(np.zeros(samples + 1), duration / samples)
 
 
-def _check(
-    block: Block, motion: Motion, restitution: tuple[float, float], theta0: float, omega0: float, rest_angle: float
-) -> None:
-    for value in restitution:
-        if not 0.0 <= value <= 1.0:
-            raise ValueError(f"restitution is {value}; a number between 0 and 1 was expected")
-    for name, value in (("theta0", theta0), ("omega0", omega0)):
-        if not np.isfinite(value):
-            raise ValueError(f"{name} is {value}; a finite number was expected")
+def _check(block: Block, motion: Motion, theta0: float, omega0: float, rest_angle: float) -> None:
+    fastest = max(block.side_p(block.negative), block.side_p(block.positive))
+    if not abs(theta0) < np.pi / 2:
+        raise ValueError(f"theta0 is {theta0} rad; an angle between −π/2 and π/2, where the block lies, was expected")
+    if not abs(omega0) < LARGEST_VELOCITY * fastest:
+        raise ValueError(f"omega0 is {omega0} rad/s; less than {LARGEST_VELOCITY * fastest:.4g} rad/s was expected")
+    if not motion.peak <= LARGEST_ACCELERATION * block.gravity:
+        raise ValueError(
+            f"The acceleration is {motion.peak:.4g} m/s² at sample {int(np.abs(motion.acceleration).argmax())}; "
+            f"at most {LARGEST_ACCELERATION:g} g was expected. Is its unit right?"
+        )
     if not 0.0 < rest_angle < 1.0:
         raise ValueError(f"rest_angle is {rest_angle}; a fraction of the critical angle between 0 and 1 was expected")
-    if motion.vertical is not None or motion.transverse is not None:
+    if fastest * motion.dt > LONGEST_SAMPLE:
         raise ValueError(
-            "The plane models take motion along x only; a Motion without `vertical` and `transverse` was expected"
+            f"dt is {motion.dt} s, {fastest * motion.dt:.4g}/p; a sampling interval below {LONGEST_SAMPLE:g}/p "
+            f"({LONGEST_SAMPLE / fastest:.4g} s) was expected"
+        )
+    if motion.transverse is not None:
+        raise ValueError("The plane models take motion along x and z only; a Motion without `transverse` was expected")
+    if motion.vertical is not None and not motion.vertical.min() > -block.gravity:
+        raise ValueError(
+            f"vertical is {motion.vertical.min():.6g} m/s² at sample {int(motion.vertical.argmin())}: the base falls "
+            f"faster than the block; more than −{block.gravity:g} m/s² was expected"
         )

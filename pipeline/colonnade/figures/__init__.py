@@ -7,6 +7,7 @@ from colonnade.figures.measured_map import measured_map
 from colonnade.figures.peaks import PeakSeries, peak_decay
 from colonnade.figures.record import Peak, Quantity, whole_record
 from colonnade.figures.spans import SpanPanel, spans_side_by_side
+from colonnade.figures.stability_map import stability_map
 from colonnade.figures.svg import to_svg
 
 __all__ = [
@@ -19,6 +20,7 @@ __all__ = [
     "measured_map",
     "peak_decay",
     "spans_side_by_side",
+    "stability_map",
     "to_svg",
     "whole_record",
 ]

@@ -74,7 +74,8 @@ def read(path: Path, options: BhrcOptions) -> Recording:
         If a header is not whole or in a unit that is not known, or no numbers follow.
     """
     with NumberedLines(path) as lines:
-        components = list(_components(path, lines))
+        begun: list[int] = []
+        components = list(_components(path, lines, begun))
     if not any(component.values.size for component in components):
         raise ReadError(f"{path.name}: no component with numbers was found: the file was cut off.")
     channels = tuple(
@@ -89,14 +90,17 @@ def read(path: Path, options: BhrcOptions) -> Recording:
         for component in components
     ]
     warnings = [warning for component in components for warning in component.warnings]
+    warnings += [f"the header that begins on line {line} is not whole: the file was cut off" for line in begun]
     return Recording(path, "bhrc", channels, notes=tuple(notes), warnings=tuple(warnings))
 
 
-def _components(path: Path, lines: NumberedLines) -> Iterator[Component]:
-    """Read component after component."""
+def _components(path: Path, lines: NumberedLines, begun: list[int]) -> Iterator[Component]:
+    """Read component after component; the line of a header without numbers stays among the begun."""
     name, size = "", None
     for number, line in lines.rest():
-        if found := COMPONENT.match(line):
+        if line.startswith(FIRST_LINE):
+            begun[:] = [number]
+        elif found := COMPONENT.match(line):
             name = found["name"]
         elif found := SIZE.match(line):
             size = found
@@ -119,6 +123,7 @@ def _components(path: Path, lines: NumberedLines) -> Iterator[Component]:
                 )
             rate = float(reals[RATE]) if reals.size > RATE else float("nan")
             yield Component(name, unit, points, duration, rate, values, number, tuple(warnings))
+            begun.clear()
             size = None
 
 

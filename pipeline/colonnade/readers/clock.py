@@ -92,7 +92,9 @@ def in_seconds(channel: RecordedChannel, unit: str | None) -> tuple[Array, str]:
 
 
 def even_times(count: int, step: float, begin: float = 0.0) -> Array:
-    """Give times in equal steps, s."""
+    """Give times in equal steps, s; NaN where a damaged header's step or begin leads beyond all numbers."""
+    if not np.isfinite(begin) or not np.isfinite(step * count):
+        return np.full(count, np.nan)
     times: Array = begin + step * np.arange(count, dtype=np.float64)
     return times
 

@@ -19,6 +19,7 @@ from colonnade.readers.recording import Array, RecordedChannel, Recording
 from colonnade.readers.registry import Format, Recognition
 from colonnade.readers.running_numbers import read_running
 
+END_OF_DATA = re.compile(r"/&|end.of.data", re.IGNORECASE)
 FIRST_LINE = re.compile(r"\(Format v[\d.]+\s+with\s+(?P<lines>\d+)\s+text lines\)", re.IGNORECASE)
 BLOCK = re.compile(
     r"\s*\d+\s+(?P<kind>Integer|Real)-header values follow on\s+(?P<lines>\d+)\s+lines.*?\(\d*[EFI](?P<width>[1-9]\d*)",
@@ -76,7 +77,8 @@ def read(path: Path, options: CosmosOptions) -> Recording:
         If a header is not whole or tells no time step, or no numbers follow.
     """
     with NumberedLines(path) as lines:
-        parts = list(_parts(path, lines))
+        strays: list[str] = []
+        parts = list(_parts(path, lines, strays))
     if not any(part.values.size for part in parts):
         raise ReadError(f"{path.name}: there are headers, but no numbers below them: the file was cut off.")
     starts = [part.start for part in parts if part.start is not None]
@@ -84,7 +86,7 @@ def read(path: Path, options: CosmosOptions) -> Recording:
     start = min(starts) if len({moment.tzinfo for moment in starts}) == 1 else None
     channels: list[RecordedChannel] = []
     notes: list[str] = []
-    warnings: list[str] = []
+    warnings = [f"{stray} is no part of a channel: the file may have been cut off there" for stray in strays[:1]]
     for part in parts:
         delay = 0.0 if part.start is None or start is None else (part.start - start).total_seconds()
         names = [channel.name for channel in channels]
@@ -95,12 +97,14 @@ def read(path: Path, options: CosmosOptions) -> Recording:
     return Recording(path, "cosmos", tuple(channels), start, tuple(notes), tuple(warnings))
 
 
-def _parts(path: Path, lines: NumberedLines) -> Iterator[Part]:
-    """Read channel after channel."""
+def _parts(path: Path, lines: NumberedLines, strays: list[str]) -> Iterator[Part]:
+    """Read channel after channel; lines between them are added to the strays."""
     while (line := lines.peek()) is not None:
         found = FIRST_LINE.search(line)
         if found is None:
             lines.take()
+            if line.strip() and not END_OF_DATA.match(line.strip()):
+                strays.append(f'line {lines.number} ("{line.strip()[:30]}")')
             continue
         texts = [text for _, text in islice(lines.rest(), int(found["lines"]))]
         reals: Array = np.empty(0)

@@ -10,6 +10,7 @@ from colonnade.readers.numbered_lines import NumberedLines
 from colonnade.readers.stored_numbers import StoredNumbers
 
 SIGNATURE = "DIAEXTENDED"
+BEGINNING = "#BEGINCHANNELHEADER"
 FORMS = {
     **{"REAL64": "f8", "REAL32": "f4", "INT32": "i4", "INT16": "i2"},
     **{"WORD8": "u1", "WORD16": "u2", "WORD32": "u4"},
@@ -58,11 +59,13 @@ def _entries(path: Path) -> tuple[dict[int, str], list[dict[int, str]], bool]:
     with NumberedLines(path) as lines:
         for _, line in lines.rest():
             number, comma, text = line.partition(",")
-            if line.startswith("#BEGINCHANNELHEADER"):
+            if line.startswith(BEGINNING):
                 current = {}
                 channels.append(current)
             elif line.startswith("#ENDCHANNELHEADER"):
                 current = common
+            elif line.startswith("#") and BEGINNING.startswith(line.rstrip()):
+                current = {}  # the file ends within this line
             elif comma and number.strip().isdecimal() and number.strip().isascii():
                 current.setdefault(int(number), text.strip())
     return common, channels, current is common

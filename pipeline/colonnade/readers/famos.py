@@ -48,7 +48,7 @@ class _Component:
     is_packed: bool = False
     bytes_index: int = 0
     bytes_from: int = 0
-    bytes_filled: int = 0
+    bytes_filled: int | None = None
     x0: float = 0.0
     added: float = 0.0
 
@@ -62,6 +62,7 @@ class _File:
     current: _Component = field(default_factory=_Component)
     components: list[_Component] = field(default_factory=list)
     bytes_at: dict[int, tuple[int, int]] = field(default_factory=dict)
+    awaits_channel: bool = False
     warnings: list[str] = field(default_factory=list)
 
 
@@ -120,6 +121,8 @@ def read(path: Path, options: FamosOptions) -> Recording:
             _take(file, key, block)
         except (ValueError, OverflowError):
             file.warnings.append(f'the block {key} at byte {place} is damaged ("{_shown(block)}"); it is left out')
+    if file.awaits_channel:
+        file.warnings.append("the last data set has no channel: the file was cut off")
     channels: list[RecordedChannel] = []
     starts: list[datetime | None] = []
     for component in file.components:
@@ -180,8 +183,10 @@ def _take(file: _File, key: str, block: bytes) -> None:
         file.order = BYTE_ORDERS.get(told.text(), "<")
     elif key == "CG":
         told.skip(1)
+        file.awaits_channel = True
         file.data_set = file.current = _Component(is_plain=told.whole() == 1)
     elif key == "CC":
+        file.awaits_channel = False
         file.current = replace(file.data_set)
         file.components.append(file.current)
     else:
@@ -225,9 +230,12 @@ def _describe(component: _Component, key: str, told: _Parameters) -> None:
 
 def _values(component: _Component, file: _File, content: Bytes) -> Array | None:
     """Values of a channel; None where its bytes cannot be told."""
-    if not component.bytes_filled:
-        return None
     label = f'"{component.name}"'
+    if component.bytes_filled is None:
+        file.warnings.append(f"{label}: the block that tells where its values are is not there: the file was cut off")
+        return None
+    if component.bytes_filled == 0:
+        return None
     if component.number is None or component.is_packed:
         file.warnings.append(f"{label}: its numbers are interleaved or of a kind that is not known here; left out")
         return None

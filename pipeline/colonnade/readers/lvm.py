@@ -170,7 +170,8 @@ def _joined(pieces: list[Piece], origin: Piece | None, preamble: Preamble) -> Re
         if piece.times is None or origin is None:
             return RecordedChannel(take_apart(first.name)[0], first.unit, values, heading=first.name)
         # x-values that go on where the segment before ended count from its beginning, not from this one's.
-        goes_on = preamble.clocks != "no" and before is not None and before.size > 0 and piece.times[:1] > before[-1:]
+        follows = before is not None and before.size > 0 and bool((piece.times[:1] > before[-1:]).any())
+        goes_on = preamble.clocks != "no" and follows
         if not goes_on and piece.began is not None and origin.began is not None:
             shift = (piece.began - origin.began).total_seconds()
         times.append(piece.times + shift)

@@ -22,6 +22,7 @@ MOST_PARTS = 10_000
 DEEPEST = 20
 """Levels of groups in one another."""
 HIDDEN = frozenset(("CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_Netcdf4Dimid", "_Netcdf4Coordinates"))
+SCALE = "DIMENSION_SCALE"
 DIMENSION_ONLY = "This is a netCDF dimension but not a netCDF variable"
 
 
@@ -194,10 +195,19 @@ def _take(place: str, dataset: h5py.Dataset, content: Content) -> None:
 
 
 def _dimensions(dataset: h5py.Dataset) -> tuple[str | None, ...]:
-    """Paths of the variables that are the dataset's dimensions; of a coordinate it is its own."""
-    if dataset.is_scale:
-        return (dataset.name.strip("/"), *(None,) * (dataset.ndim - 1))
-    return tuple((axis[0].name or "").strip("/") or None if len(axis) else None for axis in dataset.dims)
+    """
+    Paths of the variables that are the dataset's dimensions; of a coordinate it is its own.
+
+    Taken from the attributes in which they are kept: HDF5's own functions for them end the process where those are
+    damaged.
+    """
+    kept = dict(_items(dataset.attrs))
+    if SCALE in str(kept.get("CLASS", "")):
+        return (str(dataset.name).strip("/"), *(None,) * (dataset.ndim - 1))
+    scales = np.atleast_1d(kept.get("DIMENSION_LIST", np.empty(0, dtype=object)))
+    if scales.shape != (dataset.ndim,):
+        return tuple(None for _ in dataset.shape)
+    return tuple(str(dataset.file[axis[0]].name).strip("/") if len(axis) else None for axis in scales)
 
 
 def _items(attributes: Any) -> Iterator[tuple[str, Any]]:

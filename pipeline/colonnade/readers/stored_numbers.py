@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path, PureWindowsPath
 
@@ -10,6 +11,9 @@ import numpy as np
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
 from colonnade.readers.recording import Array
+
+LONGEST_NAME = 80
+"""Characters of another file's name that are shown."""
 
 
 @dataclass(frozen=True)
@@ -111,11 +115,13 @@ def beside(header: Path, name: str) -> Path:
     """
     bare = PureWindowsPath(name).name
     exact = header.with_name(bare) if bare else header
-    if bare and exact.is_file():
-        return exact
+    with suppress(OSError):  # a damaged name may be too long for one
+        if bare and exact.is_file():
+            return exact
     for entry in header.parent.iterdir():
         if entry.name.casefold() == bare.casefold() and entry.is_file():
             return entry
+    named = bare if len(bare) <= LONGEST_NAME else f"{bare[:LONGEST_NAME]}…"
     raise ReadError(
-        f'{header.name}: its values stand in the file "{bare}", which is not in its folder. Copy that file beside it.'
+        f'{header.name}: its values stand in the file "{named}", which is not in its folder. Copy that file beside it.'
     )

@@ -13,6 +13,7 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import amplitude
 from colonnade.signals.metrics import nrmse
 from colonnade.stages.sine import Sine, sine
+from colonnade.stages.spread import spread
 
 
 class Instructions(BaseModel):
@@ -36,7 +37,12 @@ def instructions(campaign: Campaign, test: Test) -> Instructions:
     )
 
 
-def compare(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], instructions: Instructions) -> xr.Dataset:
+def compare(
+    rocking: xr.Dataset,
+    predicted: Mapping[str, xr.Dataset],
+    instructions: Instructions,
+    ensembles: Mapping[str, xr.Dataset] | None = None,
+) -> xr.Dataset:
     """
     Lay measured over predicted, in numbers.
 
@@ -47,13 +53,16 @@ def compare(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], instructio
     predicted : mapping of str to xr.Dataset
         Results of `predict` by model, on the same clock.
     instructions : Instructions
+    ensembles : mapping of str to xr.Dataset, optional
+        Results of `ensemble` by model.
 
     Returns
     -------
     compared : xr.Dataset
         On the dimension `model`: `nrmse`, RMS(predicted − measured)/α until either first passes α, `compared_until`
         (s), `predicted_peak_ratio`, `peak_ratio_error` (to the measured one over the same part of the record) and
-        `predicted_outcome`. NaN where nothing was measured. Of a sine test also what `sine` adds.
+        `predicted_outcome`. NaN where nothing was measured. Of a sine test also what `sine` adds; with
+        ensembles what `spread` adds.
     """
     models = sorted(predicted)
     measured_ratio = float(rocking["peak_ratio"]) if "peak_ratio" in rocking else np.nan
@@ -77,7 +86,8 @@ def compare(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], instructio
             ),
             "measured_peak_ratio": ((), measured_ratio),
         }
-        | steady.variables,
+        | steady.variables
+        | spread(rocking, ensembles or {}, models, instructions.block),
         coords={"model": ("model", np.array(models, dtype=object))},
         attrs={
             "outcome_measured": measured or observed or "",

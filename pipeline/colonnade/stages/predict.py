@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -32,6 +34,20 @@ class Instructions(BaseModel):
     rest_angle: float
     free_vibration: bool
     tilt: float = 0.0
+
+
+@dataclass(frozen=True)
+class Beginning:
+    """
+    Where a prediction begins: the sample, the angle there (rad), and the base motion from there on.
+
+    `base` is the base acceleration of the whole record, m/s²; `motion` has the table's tilt in it.
+    """
+
+    first: int
+    theta0: float
+    base: Array
+    motion: Motion
 
 
 def instructions(campaign: Campaign, test: Test, model: str) -> Instructions:
@@ -68,21 +84,39 @@ def predict(rocking: xr.Dataset, specimen: xr.Dataset, instructions: Instruction
     StageError
         If there is no base motion, or a free vibration shows no arc to start from.
     """
+    beginning = begin(rocking, instructions)
+    history = rock(
+        instructions.block,
+        beginning.motion,
+        restitution=sides(specimen),
+        model=instructions.model,
+        theta0=beginning.theta0,
+        rest_angle=instructions.rest_angle,
+    )
+    return _described(history, rocking["elapsed"].to_numpy(), beginning, specimen, instructions)
+
+
+def begin(rocking: xr.Dataset, instructions: Instructions) -> Beginning:
+    """
+    Find where a prediction begins and what it is driven by; arguments as of `predict`.
+
+    Raises
+    ------
+    StageError
+        As `predict`.
+    """
     time = rocking["elapsed"].to_numpy()
-    negative, positive = (float(e) for e in specimen["side_restitution"].to_numpy())
     base = np.zeros_like(time) if instructions.free_vibration else _base_acceleration(rocking)
     first, theta0 = _start(rocking, instructions) if instructions.free_vibration else (0, 0.0)
     # On a tilted table a part of gravity acts along x, as a base acceleration the other way would.
     felt = base[first:] - instructions.block.gravity * np.sin(instructions.tilt)
-    history = rock(
-        instructions.block,
-        Motion(felt, float(time[1] - time[0])),
-        restitution=(negative, positive),
-        model=instructions.model,
-        theta0=theta0,
-        rest_angle=instructions.rest_angle,
-    )
-    return _described(history, time, base, first, specimen, instructions)
+    return Beginning(first, theta0, base, Motion(felt, float(time[1] - time[0])))
+
+
+def sides(specimen: xr.Dataset) -> tuple[float, float]:
+    """Return e that predictions take, of impacts that end an arc at θ < 0 and at θ > 0."""
+    negative, positive = (float(e) for e in specimen["side_restitution"].to_numpy())
+    return negative, positive
 
 
 def _base_acceleration(rocking: xr.Dataset) -> Array:
@@ -123,17 +157,17 @@ def _start(rocking: xr.Dataset, instructions: Instructions) -> tuple[int, float]
 def _described(
     history: History,
     time: Array,
-    base: Array,
-    first: int,
+    beginning: Beginning,
     specimen: xr.Dataset,
     instructions: Instructions,
 ) -> xr.Dataset:
+    first = beginning.first
     angle = np.concatenate((np.full(first, np.nan), history.angle))
     peak = int(np.searchsorted(history.time, history.peak_time))
     return xr.Dataset(
         {
             "rocking_angle": ("elapsed", angle),
-            "base_acceleration": ("elapsed", base),
+            "base_acceleration": ("elapsed", beginning.base),
             "impact_time": ("impact", history.impact_times + time[first]),
             "restitution": ((), float(specimen["restitution"])),
             "peak_angle": ((), float(history.angle[peak])),

@@ -144,6 +144,18 @@ def write_text(path: Path, text: str) -> bool:
     return True
 
 
+def write_bytes(path: Path, data: bytes | memoryview) -> None:
+    """
+    Write a file of any kind, whole or not at all.
+
+    Raises
+    ------
+    StoreError
+        If it cannot be written.
+    """
+    _put(path, data)
+
+
 def remove(path: Path) -> bool:
     """Remove a file where it is there, and tell whether it was."""
     try:

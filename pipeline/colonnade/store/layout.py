@@ -11,6 +11,7 @@ FILE_NAMES = {
     "rocking": "rocking",
     "restitution": "restitution",
     "predict": "predicted",
+    "ensemble": "ensemble",
     "compare": "compared",
 }
 """Stage -> stem of the file that it writes for a test."""
@@ -53,6 +54,18 @@ class Layout:
     def maps(self) -> Path:
         """Folder of stability maps."""
         return self.processed / "maps"
+
+    def map(self, specimen_id: str, model: str) -> Path:
+        """File of a specimen's stability map by one model."""
+        return self.maps / f"{specimen_id}-{model}.nc"
+
+    def map_figure(self, specimen_id: str, model: str) -> Path:
+        """Picture of a stability map, beside its file."""
+        return self.map(specimen_id, model).with_suffix(".svg")
+
+    def map_blocks(self, specimen_id: str, model: str) -> Path:
+        """Folder of the finished blocks of a map that is under way."""
+        return self.maps / f".{specimen_id}-{model}"
 
     @property
     def report(self) -> Path:

@@ -25,11 +25,15 @@ _SUMMARIES = {
     "restitution": "Peaks of a free vibration and the coefficient of restitution identified from them.",
     "specimen": "Properties of a specimen and the coefficient of restitution of all its free vibrations together.",
     "predict": "Rocking angle of a model on the recorded base motion.",
+    "ensemble": "Bands of a model on the recorded base motion, over what is not exactly known.",
     "compare": "Measured against predicted rocking, in numbers.",
+    "map": "Outcomes of a rocking block over frequency and amplitude of its base motion, and the limits between them.",
 }
 _SOURCES = {
     "ingest": "recordings of a shake-table test",
     "predict": "numerical model of a rocking block on a recorded base motion",
+    "ensemble": "numerical model of a rocking block on a recorded base motion, many times",
+    "map": "numerical model of a rocking block",
 }
 
 # What may differ between two results that are otherwise the same: it is not part of their content.

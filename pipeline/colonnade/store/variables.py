@@ -27,7 +27,7 @@ MODELLED = "modelResult"
 AUXILIARY = "auxiliaryInformation"
 QUALITY = "qualityInformation"
 COORDINATE = "coordinate"
-MODEL_STAGES = frozenset({"predict"})
+MODEL_STAGES = frozenset({"predict", "ensemble", "map"})
 
 
 @dataclass(frozen=True)
@@ -74,6 +74,7 @@ _SIGN = "Rotation about +y: positive when the top moves to +x."
 _ABOUT_X = "Rotation about +x: positive when the top moves to -y."
 _ABOUT_Z = "Rotation about +z, right-handed."
 _OUTLINE = "Of the side with the smaller critical angle."
+_WIDE = "Of the intervals that are at least as wide as the attribute `width`; missing where there is none."
 
 VARIABLES: dict[str, Variable] = {
     # clocks
@@ -146,6 +147,21 @@ VARIABLES: dict[str, Variable] = {
     "compared_until": Variable("time up to which measured and predicted are compared", "s", QUALITY),
     "predicted_outcome": Variable("predicted outcome", None, MODELLED, dtype="str"),
     "predicted_response_order": Variable("order of the predicted response", None, MODELLED, dtype="str"),
+    "within_spread": Variable("share of the measured angle that lies in the widest band of the model", "1", QUALITY),
+    "peak_rank": Variable("share of the model's runs whose peak is below the measured one", "1", QUALITY),
+    # ensembles
+    "quantile": Variable("share of the runs that lie below", "1", COORDINATE),
+    "rocking_angle_band": Variable("rocking angle below which that share of the runs lies", "rad", MODELLED),
+    "overturning_probability": Variable("share of the runs that overturn", "1", MODELLED),
+    "overturning_probability_low": Variable("lower end of its 95 % interval, for the number of runs", "1", QUALITY),
+    "overturning_probability_high": Variable("upper end of its 95 % interval, for the number of runs", "1", QUALITY),
+    "member_peak_ratio": Variable("peak ratio of each run, missing where it overturns", "1", MODELLED),
+    "member_overturning_time": Variable("time at which each run overturns, missing where it stands", "s", MODELLED),
+    "input": Variable("input that varies from run to run", None, COORDINATE, dtype="str"),
+    "input_deviation": Variable(
+        "its standard deviation", comment="Of restitution as such, of theta0 in rad, else relative."
+    ),
+    "peak_sensitivity": Variable("rank correlation of the peak with the input", "1", MODELLED),
     # sine tests
     "forcing_frequency": Variable("frequency of the base motion while it is steady", "Hz", MEASURED),
     "forcing_amplitude": Variable("amplitude of the base acceleration while it is steady", "m s-2", MEASURED),
@@ -157,6 +173,15 @@ VARIABLES: dict[str, Variable] = {
     "amplitude_ratio": Variable("amplitude of the base acceleration over g tan α", "1", MEASURED),
     "response_misfit": Variable("misfit of the orders 1, 2, 3 … of the response", "1", QUALITY),
     "impacts_per_cycle": Variable("impacts a period of the base motion", "1", MEASURED),
+    # stability maps
+    "outcome": Variable("outcome", None, MODELLED, dtype="int8"),
+    "overturning_fraction": Variable("share of the cell around each amplitude ratio that overturns", "1", MODELLED),
+    "no_rocking_limit": Variable("amplitude ratio up to which the block does not uplift", "1", MODELLED),
+    "lower_limit": Variable("amplitude ratio from which the block overturns first", "1", MODELLED, comment=_WIDE),
+    "upper_limit": Variable("amplitude ratio up to which the block survives last", "1", MODELLED, comment=_WIDE),
+    "interval_frequency_ratio": Variable("frequency ratio of an interval that overturns", "1", MODELLED),
+    "interval_start": Variable("amplitude ratio from which an interval overturns", "1", MODELLED),
+    "interval_end": Variable("amplitude ratio up to which an interval overturns", "1", MODELLED),
 }
 
 _QUANTITY_UNITS = {
@@ -315,4 +340,6 @@ def _attributes(name: str, dataset: xr.Dataset) -> tuple[dict[str, Any], str]:
 def _flag_attributes(name: str) -> dict[str, Any]:
     if name == "peak_used":
         return {"flag_values": np.array([0, 1], dtype=np.int8), "flag_meanings": "left_out used"}
+    if name == "outcome":
+        return {"flag_values": np.array([0, 1, 2], dtype=np.int8), "flag_meanings": "no_rocking rocking overturned"}
     return {"flag_values": np.array(FLAG_VALUES, dtype=np.int8), "flag_meanings": FLAG_MEANINGS}

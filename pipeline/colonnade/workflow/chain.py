@@ -25,6 +25,12 @@ _SHORT_OF_MEMORY = (
     "least), or with less else open."
 )
 
+_WORKER_LOST = (
+    "The system stopped the process that worked on this test, and again when it was tried alone: memory ran out, or a "
+    "damaged raw file crashed the library that reads it. Run again with less else open; if it stays so, copy the raw "
+    "file from the recorder again, or export it as text."
+)
+
 
 @dataclass(frozen=True)
 class Chain:
@@ -77,6 +83,16 @@ def walk(chain: Chain) -> list[StageRun]:
             return runs
     Layout(chain.campaign.folder).error_log(chain.test).unlink(missing_ok=True)
     return runs
+
+
+def lost(chain: Chain) -> StageRun:
+    """Say of a chain whose process was stopped at which step that was; nothing is kept, so that the next run tries."""
+    steps = chain.steps()
+    stopped = next(
+        (step for step in steps if _state(step, chain.redo_from, chain.raw, stored_attributes).because), steps[-1]
+    )
+    clear_behind(chain.campaign, chain.test, stopped.order - 1)
+    return StageRun(chain.test, stopped.stage, "failed", stopped.model, _WORKER_LOST)
 
 
 def clear_behind(campaign: Campaign, test: str, order: int) -> None:

@@ -12,7 +12,7 @@ from datetime import datetime
 from filelock import FileLock, Timeout
 
 from colonnade.errors import StoreError
-from colonnade.store.files import PARTIAL, write_text
+from colonnade.store.files import sweep, write_text
 from colonnade.store.layout import Layout
 
 
@@ -34,12 +34,12 @@ def only_run(layout: Layout) -> Iterator[None]:
         raise StoreError(_held(layout)) from None
     except OSError as error:
         raise StoreError(
-            f"{layout.processed}: results cannot be written here ({error.strerror or error}). A folder with room that "
+            f"{layout.processed}: results cannot be written here ({_obstacle(layout, error)}). A folder with room that "
             "you may write to was expected; free some space, or copy the campaign elsewhere."
         ) from error
+    after_a_kill = layout.lock_holder.exists()
     try:
-        for partial in layout.folder.glob(f"processed/**/.*{PARTIAL}"):
-            partial.unlink(missing_ok=True)
+        _sweep(layout)
         holder = {
             "process": os.getpid(),
             "host": platform.node(),
@@ -48,8 +48,24 @@ def only_run(layout: Layout) -> Iterator[None]:
         write_text(layout.lock_holder, json.dumps(holder) + "\n")
         yield
     finally:
-        layout.lock_holder.unlink(missing_ok=True)
-        lock.release()
+        try:
+            layout.lock_holder.unlink(missing_ok=True)
+            if after_a_kill:  # its workers may have lived on for a moment
+                _sweep(layout)
+        finally:
+            lock.release()
+
+
+def _obstacle(layout: Layout, error: OSError) -> str:
+    folder = layout.processed
+    if folder.is_symlink() and not folder.exists():
+        return f"it is a link to {folder.readlink()}, which is not there"
+    return error.strerror or str(error)
+
+
+def _sweep(layout: Layout) -> None:
+    for folder in (layout.processed, layout.report.parent):
+        sweep(folder)
 
 
 def _held(layout: Layout) -> str:

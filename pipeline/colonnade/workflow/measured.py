@@ -21,6 +21,9 @@ from colonnade.dynamics.similitude import at_prototype
 
 Results = Mapping[str, Any]
 
+_SPREAD = ("within_spread", "peak_rank", "overturning_probability")
+"""What a comparison with a model's ensemble says."""
+
 
 def measured(campaign: Campaign, test: Test, done: Results) -> dict[str, Any]:
     """
@@ -66,14 +69,15 @@ def measured(campaign: Campaign, test: Test, done: Results) -> dict[str, Any]:
 
 def predicted(done: Results, model: str) -> PredictionSummary:
     """Gather what one model says of a test."""
-    result, nrmse, order = done[f"predict-{model}"], nan, None
+    result, nrmse, order, spread = done[f"predict-{model}"], nan, None, {}
     if "compare" in done and model in (models := list(done["compare"]["model"].to_numpy())):
         compared, place = done["compare"], models.index(model)
         nrmse = float(compared["nrmse"].to_numpy()[place])
         if "predicted_response_order" in compared:
             order = _order(str(compared["predicted_response_order"].to_numpy()[place]))
+        spread = {name: float(compared[name].to_numpy()[place]) for name in _SPREAD if name in compared}
     return PredictionSummary(
-        outcome=result.attrs["outcome"], peak_ratio=float(result["peak_ratio"]), nrmse=nrmse, order=order
+        outcome=result.attrs["outcome"], peak_ratio=float(result["peak_ratio"]), nrmse=nrmse, order=order, **spread
     )
 
 

@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 import os
-import signal
-import threading
-import time
-from collections.abc import Iterator, Sequence
-from functools import cache
+import platform
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from colonnade.errors import ColonnadeError
-from colonnade.workflow.chain import Chain, walk
+from colonnade.workflow.chain import Chain, lost, walk
 from colonnade.workflow.results import StageRun
+from colonnade.workflow.spreading import settle_in, spread
 
-_PATROL = 0.1
-"""Seconds between two looks of a worker at whether its parent is alive."""
+_AHEAD = 2
+"""Chains that are handed out a worker, the first of which it works on."""
 
 
-def execute(chains: Sequence[Chain], workers: int | None) -> Iterator[list[StageRun]]:
+def execute(chains: Sequence[Chain], workers: int | None, scheduler: str | None = None) -> Iterator[list[StageRun]]:
     """
     Execute chains that do not depend on each other.
 
@@ -27,6 +25,8 @@ def execute(chains: Sequence[Chain], workers: int | None) -> Iterator[list[Stage
     chains : sequence of Chain
     workers : int or None
         Processes; one a core by default. With one, all is done in this process.
+    scheduler : str or None
+        Address of a running Dask scheduler whose workers are used instead; they share the campaign's folder.
 
     Yields
     ------
@@ -36,8 +36,16 @@ def execute(chains: Sequence[Chain], workers: int | None) -> Iterator[list[Stage
     Raises
     ------
     ColonnadeError
-        If the system stopped a worker.
+        If the cluster is not there, runs other code or does not see the folder.
+
+    Notes
+    -----
+    Where the system stops a worker, what may have been its chain is tried again alone; one that loses its worker again
+    has failed, and the others go on.
     """
+    if scheduler is not None:
+        yield from spread(_walk_there, chains, scheduler=scheduler)
+        return
     import joblib
 
     count = min(workers or joblib.cpu_count(), len(chains))
@@ -47,33 +55,46 @@ def execute(chains: Sequence[Chain], workers: int | None) -> Iterator[list[Stage
         return
     from joblib.externals.loky.process_executor import BrokenProcessPool
 
-    jobs = [joblib.delayed(_in_worker)(chain, os.getpid()) for chain in chains]
+    waiting = dict(enumerate(chains))
+    while waiting:
+        try:
+            for number, runs in _in_workers(waiting, count):
+                del waiting[number]
+                yield runs
+        except BrokenProcessPool:
+            for number in list(waiting)[: _AHEAD * count]:
+                chain = waiting.pop(number)
+                try:
+                    yield from (runs for _, runs in _in_workers({number: chain}, count))
+                except BrokenProcessPool:
+                    yield [lost(chain)]
+
+
+def _in_workers(chains: Mapping[int, Chain], count: int) -> Iterator[tuple[int, list[StageRun]]]:
+    import joblib
+
+    jobs = [joblib.delayed(_in_worker)(number, chain, os.getpid()) for number, chain in chains.items()]
     with joblib.parallel_config(backend="loky", inner_max_num_threads=1):
-        results: Any = joblib.Parallel(n_jobs=count, return_as="generator_unordered", batch_size=1)(jobs)
+        parallel = joblib.Parallel(
+            n_jobs=count, return_as="generator_unordered", batch_size=1, pre_dispatch=_AHEAD * count
+        )
+        results: Any = parallel(jobs)
         try:
             yield from results
-        except BrokenProcessPool as error:
-            raise ColonnadeError(
-                "The system stopped a worker process, most often because memory ran out. What was finished is kept. "
-                "Run again with fewer workers (`--workers 1` takes the least memory)."
-            ) from error
         finally:
             results.close()  # on Ctrl-C: stops the workers before the lock is given back
 
 
-def _in_worker(chain: Chain, parent: int) -> list[StageRun]:
-    _settle_in(parent)
+def _in_worker(number: int, chain: Chain, parent: int) -> tuple[int, list[StageRun]]:
+    settle_in(parent)
+    return number, walk(chain)
+
+
+def _walk_there(chain: Chain) -> list[StageRun]:
+    """Walk a chain on a worker of a cluster, which has to see the campaign's folder."""
+    if not chain.campaign.path.is_file():
+        raise ColonnadeError(
+            f"{chain.campaign.path}: a worker on {platform.node()} does not see this file. A folder that all of the "
+            "cluster's workers share under the same path was expected; put the campaign there."
+        )
     return walk(chain)
-
-
-@cache
-def _settle_in(parent: int) -> None:
-    """Leave Ctrl-C to the parent, and end when it is gone: a worker without a run's lock may not write."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
-
-
-def _end_with(parent: int) -> None:
-    while os.getppid() == parent:
-        time.sleep(_PATROL)
-    os._exit(1)

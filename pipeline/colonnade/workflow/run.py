@@ -20,6 +20,8 @@ from colonnade.workflow.steps import STAGES, specimen_step
 from colonnade.workflow.summary import write_summary
 
 Progress = Callable[[StageRun, int, int], None]
+Places = tuple[int | None, str | None]
+"""Where tests are worked on: number of processes, and the address of a scheduler in their place."""
 
 
 def run(
@@ -29,6 +31,7 @@ def run(
     start_from: str | None = None,
     only: Sequence[str] | str = (),
     workers: int | None = None,
+    scheduler: str | None = None,
     verify: bool = False,
     progress: Progress | None = None,
 ) -> RunResult:
@@ -45,6 +48,8 @@ def run(
         Ids of the tests to run; default all. Free vibrations of their specimens are run with them, as far as their e.
     workers : int, optional
         Processes; default one a core.
+    scheduler : str, optional
+        Address of a running Dask scheduler, whose workers are used instead. They share the campaign's folder.
     verify : bool, optional
         Read every raw file again, whatever its size and time.
     progress : callable, optional
@@ -66,7 +71,7 @@ def run(
     if first is not None and STAGES.index(first) > STAGES.index(last):
         raise CampaignError(f"from {first} until {last}: the stage to stop at comes before the one to start from.")
     tests = _chosen(loaded, (only,) if isinstance(only, str) else only)
-    layout = Layout(loaded.folder)
+    layout, places = Layout(loaded.folder), (workers, scheduler)
     with only_run(layout):
         index = RawIndex(layout, verify=verify)
         raw = {name: index.look(test.files.values()) for name, test in loaded.tests.items()}
@@ -79,11 +84,11 @@ def run(
         def chains(names: Iterable[str], phase: Phase, until: str = last) -> list[Chain]:
             return [Chain.of(loaded, name, phase=phase, until=until, redo_from=first, raw=raw[name]) for name in names]
 
-        runs = list(_walked(chains(tests, "measuring"), catalogue, workers, progress))
+        runs = list(_walked(chains(tests, "measuring"), catalogue, places, progress))
         if STAGES.index(last) >= STAGES.index("predict"):
             asked = set(tests)
             needed = [name for name in _free_vibrations(loaded, tests) if name not in asked]
-            runs += _walked(chains(needed, "measuring"), catalogue, workers, progress)
+            runs += _walked(chains(needed, "measuring"), catalogue, places, progress)
         if STAGES.index(last) >= STAGES.index("restitution"):
             runs += _pool(loaded, layout, catalogue, first)
         failed = {stage.subject: stage.reason for stage in runs if stage.action == "failed"}
@@ -94,7 +99,7 @@ def run(
                     clear_behind(loaded, name, STAGES.index("restitution"))
                 elif name not in failed:
                     ready.append(name)
-            runs += _walked(chains(ready, "predicting"), catalogue, workers, progress)
+            runs += _walked(chains(ready, "predicting"), catalogue, places, progress)
         failed |= {stage.subject: stage.reason for stage in runs if stage.action == "failed"}
         kept = [name for name in loaded.tests if not loaded.review(name).excluded]
         whole = (*chains(kept, "measuring", "report"), *chains(kept, "predicting", "report"))
@@ -145,7 +150,7 @@ def _free_vibrations(campaign: Campaign, tests: Sequence[str]) -> list[str]:
 
 
 def _walked(
-    chains: Sequence[Chain], catalogue: Catalogue, workers: int | None, progress: Progress | None
+    chains: Sequence[Chain], catalogue: Catalogue, places: Places, progress: Progress | None
 ) -> Iterator[StageRun]:
     """Walk the chains, those with nothing to do here and the others in worker processes."""
     done = 0
@@ -157,7 +162,7 @@ def _walked(
             continue
         done += 1
         yield from _told(standing, done, len(chains), progress)
-    for runs in execute(waiting, workers):
+    for runs in execute(waiting, *places):
         done += 1
         yield from _told(runs, done, len(chains), progress)
 

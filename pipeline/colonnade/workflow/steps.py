@@ -13,8 +13,11 @@ from colonnade.store.layout import Layout
 if TYPE_CHECKING:
     import xarray as xr
 
-STAGES = ("ingest", "condition", "rocking", "restitution", "predict", "compare", "report")
+STAGES = ("ingest", "condition", "rocking", "restitution", "predict", "ensemble", "compare", "report")
 """In the order of the data's way."""
+
+_ENSEMBLE = "ensemble "
+"""What the name of an ensemble begins with among the results that `compare` reads."""
 
 WITHOUT_PREDICTION = ("tilt", "other")
 """Kinds of test that have no base motion to predict from."""
@@ -106,7 +109,7 @@ def specimen_step(campaign: Campaign, specimen_id: str, identified: Mapping[str,
 
 def predicting_steps(campaign: Campaign, test: Test) -> list[Step]:
     """Steps from what was measured to how far predictions agree."""
-    from colonnade.stages import compare, predict
+    from colonnade.stages import compare, ensemble, predict
 
     layout = Layout(campaign.folder)
     rocking, specimen = layout.stage(test.id, "rocking"), layout.specimen(test.specimen)
@@ -123,18 +126,42 @@ def predicting_steps(campaign: Campaign, test: Test) -> list[Step]:
         )
         for model, path in predicted.items()
     ]
+    spread = {model: layout.stage(test.id, "ensemble", model) for model in models}
+    if campaign.processing.predict.ensemble.members == 0:
+        spread = {}
+    steps += [
+        Step(
+            "ensemble",
+            path,
+            {"conditioned": layout.stage(test.id, "condition"), "rocking": rocking, "specimen": specimen},
+            ensemble.instructions(campaign, test, model),
+            lambda upstream, read: ensemble.ensemble(
+                upstream["conditioned"], upstream["rocking"], upstream["specimen"], read
+            ),
+            model,
+        )
+        for model, path in spread.items()
+    ]
     steps.append(
         Step(
             "compare",
             layout.stage(test.id, "compare"),
-            {"rocking": rocking, **predicted},
+            {"rocking": rocking, **predicted, **{f"{_ENSEMBLE}{model}": path for model, path in spread.items()}},
             compare.instructions(campaign, test),
-            lambda upstream, read: compare.compare(
-                upstream["rocking"], {name: each for name, each in upstream.items() if name != "rocking"}, read
-            ),
+            _compare,
         )
     )
     return steps
+
+
+def _compare(upstream: Mapping[str, Any], read: Any) -> xr.Dataset:
+    from colonnade.stages.compare import compare
+
+    results = {name: each for name, each in upstream.items() if name != "rocking"}
+    ensembles = {name: each for name, each in results.items() if name.startswith(_ENSEMBLE)}
+    predicted = {name: each for name, each in results.items() if name not in ensembles}
+    by_model = {name.removeprefix(_ENSEMBLE): each for name, each in ensembles.items()}
+    return compare(upstream["rocking"], predicted, read, by_model)
 
 
 def _ingest(paths: Mapping[str, Path], read: Any) -> xr.Dataset:

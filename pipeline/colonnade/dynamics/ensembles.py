@@ -1,0 +1,309 @@
+"""Thousands of re-runs of one recorded motion over what is not exactly known: bands, overturning, sensitivity."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from math import ceil, inf, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.dynamics.bands import Counts, band, count, empty_counts
+from colonnade.dynamics.block import Block, Sided
+from colonnade.dynamics.history import History
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import DEFAULT_REST_ANGLE, rock
+from colonnade.dynamics.uncertainty import (
+    INPUTS,
+    MotionDraws,
+    Uncertainty,
+    draw_inputs,
+    member_block,
+    member_restitution,
+)
+
+Array = NDArray[np.float64]
+
+LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
+"""Quantiles of the bands: the middle, half of all members, nine in ten."""
+
+LONGEST_CLOCK = 25_000
+"""Samples of a band; a longer record's band takes every second, third … of its samples."""
+
+_BATCH = 128
+"""Members that are run before they are counted together."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """
+    All that an ensemble follows from; any part of its members can be run anywhere and gives the same.
+
+    Attributes
+    ----------
+    block : Block
+    motion : Motion
+        As recorded.
+    restitution : float or pair of float
+    uncertainty : Uncertainty
+    count : int
+        Members.
+    seed : int
+        Member k draws from a stream of its own, of (seed, k).
+    model : str
+    theta0 : float
+        rad.
+    rest_angle : float
+        As of `rock`.
+    """
+
+    block: Block
+    motion: Motion
+    restitution: Sided
+    uncertainty: Uncertainty
+    count: int = 1000
+    seed: int = 0
+    model: str = "linear"
+    theta0: float = 0.0
+    rest_angle: float = DEFAULT_REST_ANGLE
+
+    def __post_init__(self) -> None:
+        if self.count < 1:
+            raise ValueError(f"count is {self.count}; at least one member was expected")
+
+    @property
+    def stride(self) -> int:
+        """Samples of the record to each of the band."""
+        return ceil(self.motion.acceleration.size / LONGEST_CLOCK)
+
+    def central(self) -> History:
+        """Run the model on what was recorded, nothing varied."""
+        return rock(
+            self.block,
+            self.motion,
+            restitution=self.restitution,
+            model=self.model,
+            theta0=self.theta0,
+            rest_angle=self.rest_angle,
+        )
+
+
+@dataclass(frozen=True)
+class Part:
+    """
+    Some members of an ensemble, in order.
+
+    Attributes
+    ----------
+    start : int
+        Number of the first.
+    inputs : ndarray, shape (members, 7)
+        What each drew, by `INPUTS`.
+    peak_ratio : ndarray, shape (members,)
+        max |θ|/α, by the member's own α; NaN where it overturned.
+    overturning_time : ndarray, shape (members,)
+        s on the record's clock; NaN where it stands.
+    counts : ndarray, shape (samples, BINS)
+        Of the deviations from the central history.
+    """
+
+    start: int
+    inputs: Array
+    peak_ratio: Array
+    overturning_time: Array
+    counts: Counts
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """
+    What all members together say.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s, on the record's clock.
+    central : ndarray, shape (n,)
+        rad, θ with nothing varied.
+    levels : ndarray, shape (q,)
+    bands : ndarray, shape (q, n)
+        rad, quantiles of θ at each time.
+    inputs, peak_ratio, overturning_time : ndarray
+        Of each member, as of `Part`.
+    """
+
+    time: Array
+    central: Array
+    levels: Array
+    bands: Array
+    inputs: Array
+    peak_ratio: Array
+    overturning_time: Array
+
+    @property
+    def overturning_probability(self) -> float:
+        """Share of the members that overturn."""
+        return float(np.isfinite(self.overturning_time).mean())
+
+    def overturning_interval(self, z: float = 1.959964) -> tuple[float, float]:
+        """Return the interval (Wilson 1927) of the probability that the finite number of members leaves; 95 %."""
+        number, share = self.overturning_time.size, self.overturning_probability
+        middle = (share + z**2 / (2 * number)) / (1 + z**2 / number)
+        half = z * sqrt(share * (1 - share) / number + z**2 / (4 * number**2)) / (1 + z**2 / number)
+        return max(middle - half, 0.0), min(middle + half, 1.0)
+
+    def peak_quantiles(self, levels: Sequence[float] = LEVELS) -> Array:
+        """Quantiles of max |θ|/α over the members; those that overturn are above all others, inf."""
+        ranked = np.sort(np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio))
+        return np.asarray(ranked[np.rint(np.asarray(levels) * (ranked.size - 1)).astype(np.intp)])
+
+    def sensitivity(self) -> dict[str, float]:
+        """
+        Rank correlation (Spearman 1904) of the peak with each input that varies.
+
+        Members that overturn share the highest rank. Inputs that do not vary are left out; NaN where no peak differs.
+        """
+        peaks = _ranks(np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio))
+        varied = {name: column for name, column in zip(INPUTS, self.inputs.T, strict=True) if np.ptp(column) > 0.0}
+        return {name: _correlation(peaks, _ranks(column)) for name, column in varied.items()}
+
+
+def ensemble(
+    block: Block,
+    motion: Motion,
+    *,
+    uncertainty: Uncertainty,
+    restitution: Sided | None = None,
+    count: int = 1000,
+    seed: int = 0,
+    model: str = "linear",
+    theta0: float = 0.0,
+    rest_angle: float = DEFAULT_REST_ANGLE,
+) -> Ensemble:
+    """
+    Re-run a recorded motion over the uncertainty of the block, of e and of the motion itself.
+
+    Parameters
+    ----------
+    block : Block
+    motion : Motion
+        As recorded.
+    uncertainty : Uncertainty
+        What is not exactly known, and how well it is.
+    restitution : float or pair of float, optional
+        Mean of e. Default: the rigid-body value.
+    count : int, optional
+        Members.
+    seed : int, optional
+        The same seed gives the same members, however many there are.
+    model, theta0, rest_angle : optional
+        As of `rock`.
+
+    Returns
+    -------
+    ensemble : Ensemble
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range.
+
+    Examples
+    --------
+    >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> motion = Motion(3.0 * np.sin(np.arange(600) * 0.2), 0.005)
+    >>> result = ensemble(block, motion, restitution=0.976, uncertainty=Uncertainty(restitution=0.002), count=50)
+    >>> result.bands.shape, result.overturning_probability
+    ((5, 600), 0.0)
+    """
+    e = block.restitution if restitution is None else restitution
+    plan = Plan(block, motion, e, uncertainty, count, seed, model, theta0, rest_angle)
+    return gather(plan, [run_members(plan, 0, count)])
+
+
+def run_members(plan: Plan, start: int, stop: int) -> Part:
+    """Run the members from `start` up to, not including, `stop`."""
+    central = plan.central().angle[:: plan.stride]
+    draws = MotionDraws(plan.motion, plan.uncertainty)
+    number = stop - start
+    inputs, peaks, overturned = np.empty((number, len(INPUTS))), np.empty(number), np.empty(number)
+    counts = empty_counts(central.size)
+    deviations = np.empty((_BATCH, central.size), dtype=np.float32)
+    for place in range(number):
+        inputs[place], history = _member(plan, draws, start + place)
+        peak = history.peak_ratio
+        peaks[place] = np.nan if peak is None else peak
+        overturned[place] = history.overturning_time / inputs[place, INPUTS.index("clock")]
+        batched = place % _BATCH
+        deviations[batched] = (history.angle[:: plan.stride] - central) / plan.block.critical_angle
+        if batched == _BATCH - 1 or place == number - 1:
+            count(counts, deviations[: batched + 1])
+    return Part(start, inputs, peaks, overturned, counts)
+
+
+def gather(plan: Plan, parts: Iterable[Part], levels: Sequence[float] = LEVELS) -> Ensemble:
+    """
+    Put the parts of an ensemble together, in whatever order they come; only one is held at a time.
+
+    Raises
+    ------
+    ValueError
+        If a member is missing or is there twice.
+    """
+    central = plan.central().angle[:: plan.stride]
+    counts = empty_counts(central.size)
+    members: dict[int, tuple[Array, Array, Array]] = {}
+    for part in parts:
+        counts += part.counts
+        members[part.start] = (part.inputs, part.peak_ratio, part.overturning_time)
+    expected = 0
+    for start in sorted(members):
+        if start != expected:
+            raise ValueError(f"a part starts with member {start}; {expected} was expected")
+        expected += members[start][1].size
+    if expected != plan.count:
+        raise ValueError(f"the parts hold {expected} members; {plan.count} were expected")
+    inputs, peak_ratio, overturning_time = zip(*(members[start] for start in sorted(members)), strict=True)
+    return Ensemble(
+        time=plan.motion.time[:: plan.stride],
+        central=central,
+        levels=np.asarray(levels, dtype=np.float64),
+        bands=central + plan.block.critical_angle * band(counts, levels),
+        inputs=np.concatenate(inputs),
+        peak_ratio=np.concatenate(peak_ratio),
+        overturning_time=np.concatenate(overturning_time),
+    )
+
+
+def run_member(plan: Plan, member: int) -> tuple[Array, History]:
+    """Run one member alone: what it drew, and its history on its own clock."""
+    return _member(plan, MotionDraws(plan.motion, plan.uncertainty), member)
+
+
+def _member(plan: Plan, draws: MotionDraws, member: int) -> tuple[Array, History]:
+    random = np.random.default_rng(np.random.SeedSequence(plan.seed, spawn_key=(member,)))
+    inputs = draw_inputs(plan.uncertainty, random)
+    drawn = dict(zip(INPUTS, inputs.tolist(), strict=True))
+    history = rock(
+        member_block(plan.block, drawn["critical_angle"], drawn["p"]),
+        draws.draw(random, gain=drawn["gain"], clock=drawn["clock"], cutoff=drawn["cutoff"]),
+        restitution=member_restitution(plan.restitution, drawn["restitution"]),
+        model=plan.model,
+        theta0=plan.theta0 + drawn["theta0"],
+        rest_angle=plan.rest_angle,
+    )
+    return inputs, history
+
+
+def _ranks(values: Array) -> Array:
+    """Rank from 0; equal values share the mean of their ranks."""
+    _, place, number = np.unique(values, return_inverse=True, return_counts=True)
+    last = np.cumsum(number)
+    return np.asarray((last - 0.5 * (number + 1))[place])
+
+
+def _correlation(first: Array, second: Array) -> float:
+    one, other = first - first.mean(), second - second.mean()
+    scale = sqrt(float(one @ one) * float(other @ other))
+    return float(one @ other) / scale if scale > 0.0 else float("nan")

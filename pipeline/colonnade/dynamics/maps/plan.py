@@ -1,0 +1,176 @@
+"""The plan of a stability map: block, axes, base motion and the rules by which its limits are found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi, tan
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from colonnade.dynamics.block import Block, Sided, pair
+from colonnade.dynamics.harmonic_run import check_model
+from colonnade.dynamics.history import NO_ROCKING_RATIO
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
+
+Array = NDArray[np.float64]
+
+WIDTH = 0.01
+"""In A: narrower intervals of overturning, or of survival, are islands and make no limit."""
+
+EDGE = 1e-4
+"""In A: how closely the edges of intervals are found."""
+
+STEPS_A_WIDTH = 4
+"""Scan steps a width, at least: nothing wider than a fourth of a width is passed over."""
+
+
+@dataclass(frozen=True)
+class MapPlan:
+    """
+    All that the columns of a map have in common.
+
+    Attributes
+    ----------
+    block : Block
+    restitution : tuple of float
+        e of impacts that end an arc at θ < 0, and at θ > 0.
+    model : str
+    frequency_ratio, amplitude_ratio : ndarray
+        Ω, shape (n,), and A, shape (m,), both increasing.
+    cycles, phase, ramp : float
+        Cycles at full amplitude; phase of their beginning, rad; cycles of the linear rise before and fall after them.
+    width, edge : float
+        In A, see `WIDTH` and `EDGE`.
+    motion : Motion, optional
+        A recorded base motion in place of the sine: scaled so that its largest |a| gives A, and stretched in time so
+        that `motion_frequency` (Hz) gives Ω.
+    motion_frequency : float, optional
+    """
+
+    block: Block
+    restitution: tuple[float, float]
+    model: str
+    frequency_ratio: Array
+    amplitude_ratio: Array
+    cycles: float
+    phase: float
+    ramp: float
+    width: float
+    edge: float
+    motion: Motion | None
+    motion_frequency: float | None
+
+    @property
+    def scan(self) -> Array:
+        """The A that every column runs: those of the map, and between them as many as make steps of width / 4."""
+        parts = []
+        for low, high in zip(self.amplitude_ratio[:-1], self.amplitude_ratio[1:], strict=True):
+            steps = max(1, int(np.ceil((high - low) / (self.width / STEPS_A_WIDTH) * (1 - 1e-9))))
+            parts.append(low + (high - low) / steps * np.arange(steps))
+        return np.concatenate([*parts, self.amplitude_ratio[-1:]])
+
+    @property
+    def onset(self) -> float:
+        """A up to which the block does not uplift: 1 for the nonlinear model, α / tan α for the linear one."""
+        positive, negative = 1.0, 1.0
+        if self.motion is not None:
+            positive = max(float(self.motion.acceleration.max()), 0.0) / self.motion.peak
+            negative = max(-float(self.motion.acceleration.min()), 0.0) / self.motion.peak
+        limits = []
+        for side, share in ((self.block.negative, positive), (self.block.positive, negative)):
+            threshold = side.critical_angle if self.model == "linear" else tan(side.critical_angle)
+            limits.append(threshold / share if share > 0 else np.inf)
+        return float(min(limits) / tan(self.block.critical_angle))
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """Everything the result depends on beside block and axes, by name."""
+        forcing: dict[str, Any]
+        if self.motion is None:
+            forcing = {"cycles": self.cycles, "phase": self.phase, "ramp": self.ramp, "ramp_shape": "linear"}
+        else:
+            forcing = {"motion_frequency": self.motion_frequency, "motion_samples": self.motion.acceleration.size}
+        return {
+            "model": self.model,
+            "base_motion": "sine" if self.motion is None else "recorded",
+            **forcing,
+            "restitution_negative": self.restitution[0],
+            "restitution_positive": self.restitution[1],
+            "width": self.width,
+            "edge": self.edge,
+            "scan_step": float(np.diff(self.scan).max()),
+            "rest_angle": DEFAULT_REST_ANGLE,
+            "no_rocking_ratio": NO_ROCKING_RATIO,
+            "critical_angle": self.block.critical_angle,
+            "p": self.block.p,
+        }
+
+
+def plan_map(
+    block: Block,
+    *,
+    frequency_ratio: ArrayLike,
+    amplitude_ratio: ArrayLike,
+    restitution: Sided | None = None,
+    cycles: float = 20,
+    phase: float = 0.0,
+    ramp: float = 0,
+    model: str = "linear",
+    width: float = WIDTH,
+    edge: float = EDGE,
+    motion: Motion | None = None,
+    motion_frequency: float | None = None,
+) -> MapPlan:
+    """
+    Check what a map is asked for, and put it together; arguments as for `stability_map`.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, an axis does not increase or the model is not known.
+    """
+    check_model(model)
+    e = pair(block.restitution if restitution is None else restitution)
+    for value in e:
+        if not 0.0 <= value <= 1.0:
+            raise ValueError(f"restitution is {value}; a number between 0 and 1 was expected")
+    if not (np.isfinite(cycles) and cycles >= 1):
+        raise ValueError(f"cycles is {cycles}; at least one cycle was expected")
+    if not (np.isfinite(ramp) and ramp >= 0):
+        raise ValueError(f"ramp is {ramp}; a number of cycles, 0 for none, was expected")
+    if not np.isfinite(phase):
+        raise ValueError(f"phase is {phase}; a finite angle in rad was expected")
+    if not 0.0 < edge <= width:
+        raise ValueError(f"edge is {edge} and width {width}; 0 < edge ≤ width was expected, in units of A")
+    if (motion is None) != (motion_frequency is None):
+        raise ValueError("A motion and its motion_frequency (Hz) come together; one of the two was given")
+    if motion is not None and not motion.peak > 0:
+        raise ValueError("The motion has no acceleration at all, so it cannot be scaled to an A")
+    if motion_frequency is not None and not (np.isfinite(motion_frequency) and motion_frequency > 0):
+        raise ValueError(f"motion_frequency is {motion_frequency}; a positive number of Hz was expected")
+    return MapPlan(
+        block,
+        e,
+        model,
+        _axis("frequency_ratio", frequency_ratio, 1),
+        _axis("amplitude_ratio", amplitude_ratio, 2),
+        float(cycles),
+        float(phase) % (2 * pi),
+        float(ramp),
+        float(width),
+        float(edge),
+        motion,
+        motion_frequency,
+    )
+
+
+def _axis(name: str, values: ArrayLike, fewest: int) -> Array:
+    axis = np.array(values, dtype=np.float64)
+    if axis.ndim != 1 or axis.size < fewest:
+        raise ValueError(f"{name} has shape {axis.shape}; a one-dimensional array of {fewest} or more was expected")
+    if not (np.isfinite(axis).all() and axis[0] > 0 and (np.diff(axis) > 0).all()):
+        raise ValueError(f"{name} has to be positive, finite and increasing")
+    return axis

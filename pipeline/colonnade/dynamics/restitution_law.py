@@ -1,0 +1,96 @@
+"""Restitution that depends on the speed of the impact, as a table that the engines read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+POINTS = 1025
+"""Of a table made from a function."""
+
+
+@dataclass(frozen=True, eq=False)
+class RestitutionLaw:
+    """
+    Coefficient of restitution over the speed of the impact, linear between its points.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (m,)
+        |ω| just before an impact, rad/s, rising; below the first and above the last e stays as it is there.
+    values : ndarray, shape (m,)
+        e at these speeds, between 0 and 1, for both sides of the block.
+    function : callable, optional
+        What the table was made from, float to float.
+
+    Examples
+    --------
+    >>> law = RestitutionLaw.table([0.0, 1.0], [1.0, 0.9])
+    >>> float(law(0.5)), float(law(3.0))
+    (0.95, 0.9)
+    """
+
+    speeds: Array
+    values: Array
+    function: Callable[[float], float] | None = None
+
+    def __post_init__(self) -> None:
+        if self.speeds.ndim != 1 or self.speeds.size == 0 or self.speeds.shape != self.values.shape:
+            raise ValueError(
+                f"A restitution law has speeds of shape {self.speeds.shape} and values of shape {self.values.shape}; "
+                "one value for each of at least one speed was expected"
+            )
+        if not (np.isfinite(self.speeds).all() and self.speeds[0] >= 0.0 and (np.diff(self.speeds) > 0.0).all()):
+            raise ValueError("The speeds of a restitution law have to be rising numbers from 0 rad/s on")
+        wrong = ~((self.values >= 0.0) & (self.values <= 1.0))
+        if wrong.any():
+            first = int(np.argmax(wrong))
+            raise ValueError(
+                f"The restitution law gives e = {self.values[first]} at {self.speeds[first]:g} rad/s; "
+                "a number between 0 and 1 was expected"
+            )
+
+    @classmethod
+    def table(cls, speeds: ArrayLike, values: ArrayLike) -> RestitutionLaw:
+        """
+        Build a law from points.
+
+        Raises
+        ------
+        ValueError
+            If speeds do not rise from 0 or above, a value is not between 0 and 1, or their numbers differ.
+        """
+        return cls(np.ascontiguousarray(speeds, dtype=np.float64), np.ascontiguousarray(values, dtype=np.float64))
+
+    @classmethod
+    def of(cls, function: Callable[[float], float], *, largest_speed: float) -> RestitutionLaw:
+        """
+        Sample a function of |ω| (rad/s) at `POINTS` equal steps from 0 to `largest_speed`.
+
+        Raises
+        ------
+        ValueError
+            If the function gives a value that is not between 0 and 1.
+
+        Notes
+        -----
+        Between the points e is off by at most step² |e''| / 8.
+        """
+        speeds = np.linspace(0.0, largest_speed, POINTS)
+        return cls(speeds, np.array([function(float(speed)) for speed in speeds], dtype=np.float64), function)
+
+    def reaching(self, velocities: Array) -> RestitutionLaw:
+        """Return this law, or the same function sampled to twice the largest of `velocities` where that is beyond."""
+        largest = float(np.abs(velocities).max(initial=0.0))
+        if self.function is None or not largest > self.speeds[-1]:
+            return self
+        return RestitutionLaw.of(self.function, largest_speed=2.0 * largest)
+
+    def __call__(self, speed: ArrayLike) -> Array:
+        """Give e at |ω| (rad/s), shape of `speed`."""
+        return np.asarray(np.interp(np.asarray(speed, dtype=np.float64), self.speeds, self.values), dtype=np.float64)

@@ -1,0 +1,153 @@
+"""The stability map: computed regions and limits over Ω and A, with the measured points on them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, cast
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+from numpy.typing import NDArray
+
+from colonnade.dynamics.maps.chart import StabilityMap
+from colonnade.figures.measured_map import MARKERS, NAMES
+from colonnade.figures.style import BASE, LineStyle, blank_figure, model_style, styled
+from colonnade.identification.boundaries import MapPoint
+
+Array = NDArray[np.float64]
+
+SHADE = LinearSegmentedColormap.from_list("overturning", ["#ffffff", "#eec9b4"])
+"""Of the share of a cell that overturns; light, so that points and lines stand out."""
+
+LOGARITHMIC = 6.0
+"""Amplitudes that span more than this factor are drawn on a logarithmic axis."""
+
+
+def stability_map(
+    charts: StabilityMap | Sequence[StabilityMap], points: Sequence[MapPoint] = (), *, axes: Axes | None = None
+) -> Figure:
+    """
+    Draw a stability map.
+
+    Parameters
+    ----------
+    charts : StabilityMap or sequence of StabilityMap
+        Maps of one block, one for each model. The first is shaded by the share of each cell that overturns; of each
+        the limits are drawn.
+    points : sequence of MapPoint, optional
+        Measured sine tests.
+    axes : Axes, optional
+        To draw into; a new figure with its legend and with the options of the first map otherwise.
+
+    Returns
+    -------
+    figure : Figure
+
+    Raises
+    ------
+    ValueError
+        If there is no map.
+
+    Notes
+    -----
+    The lower limit is the full line, the upper one the thin one; where a limit is absent up to the largest A its line
+    breaks. Each model has the colour and dash that it has in every figure.
+    """
+    charts = [charts] if isinstance(charts, StabilityMap) else list(charts)
+    if not charts:
+        raise ValueError("no map was given; at least one was expected")
+    with styled():
+        own = axes is None
+        if axes is None:
+            axes = blank_figure(4.4).subplots()
+        first = charts[0]
+        _scale(axes, first, points)
+        axes.grid(False)
+        axes.pcolormesh(
+            _edges(first.frequency_ratio),
+            _edges(first.amplitude_ratio),
+            first.overturning_fraction.T,
+            cmap=SHADE,
+            vmin=0.0,
+            vmax=1.0,
+            rasterized=True,
+            zorder=0,
+        )
+        for chart in charts:
+            _limits(axes, chart)
+        for outcome, look in MARKERS.items():
+            chosen = [point for point in points if point.outcome == outcome]
+            if chosen:
+                axes.scatter(
+                    [point.frequency_ratio for point in chosen],
+                    [point.amplitude_ratio for point in chosen],
+                    s=24,
+                    linewidths=0.9,
+                    label=f"measured: {NAMES[outcome]}",
+                    zorder=4,
+                    **look,
+                )
+        figure = cast(Figure, axes.get_figure(root=True))
+        if own:
+            axes.set_title(_words(first.options), fontsize=8, color="#5b6675")
+            handles, labels = axes.get_legend_handles_labels()
+            shade = Patch(facecolor=SHADE(1.0), label=f"overturned, share of cell ({first.options['model']})")
+            figure.legend(
+                handles=[shade, *handles],
+                labels=[str(shade.get_label()), *labels],
+                loc="outside lower center",
+                ncols=3,
+                columnspacing=1.4,
+                handletextpad=0.6,
+            )
+        return figure
+
+
+def _limits(axes: Axes, chart: StabilityMap) -> None:
+    model = str(chart.options["model"])
+    style = model_style(model)
+    onset: LineStyle = {**BASE, "linestyle": style["linestyle"]}
+    lower: LineStyle = {**style, "linewidth": 1.6}
+    upper: LineStyle = {**style, "linewidth": 0.8}
+    begins = f"{model}: rocking begins, A = {chart.no_rocking[0]:.3f}"
+    axes.plot(chart.frequency_ratio, chart.no_rocking, label=begins, zorder=2, **onset)
+    axes.plot(chart.frequency_ratio, chart.lower, label=f"{model}: lower limit", zorder=3, **lower)
+    axes.plot(chart.frequency_ratio, chart.upper, label=f"{model}: upper limit", zorder=3, **upper)
+
+
+def _scale(axes: Axes, chart: StabilityMap, points: Sequence[MapPoint]) -> None:
+    amplitudes = [point.amplitude_ratio for point in points]
+    low = min([float(chart.amplitude_ratio[0]), *amplitudes])
+    high = max([float(chart.amplitude_ratio[-1]), *amplitudes])
+    frequencies = _edges(chart.frequency_ratio)
+    axes.set_xlim(float(frequencies[0]), float(frequencies[-1]))
+    if high / low > LOGARITHMIC:
+        axes.set_yscale("log")
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 5.0, 7.0), numticks=20))
+        axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.set_ylim(low, high)
+    axes.set_xlabel("Ω = ω / p")
+    axes.set_ylabel("A = a / (g tan α)")
+
+
+def _edges(centres: Array) -> Array:
+    """Edges of the cells around the centres; the outermost end at the centres themselves."""
+    middles = 0.5 * (centres[1:] + centres[:-1])
+    return np.concatenate([centres[:1], middles, centres[-1:]])
+
+
+def _words(options: Mapping[str, Any]) -> str:
+    """Return in words what the limits depend on."""
+    if options["base_motion"] == "sine":
+        ramp = f"ramps of {options['ramp']:g}" if options["ramp"] else "no ramp"
+        motion = f"{options['cycles']:g} cycles, {ramp}, phase {options['phase']:.2f} rad"
+    else:
+        motion = "recorded table motion, stretched"
+    negative, positive = options["restitution_negative"], options["restitution_positive"]
+    e = f"e = {negative:g}" if negative == positive else f"e = {negative:g} | {positive:g}"
+    return f"{motion}; {e}; limits at least {options['width']:g} wide, scanned in steps of {options['scan_step']:.2g}"

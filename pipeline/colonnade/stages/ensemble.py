@@ -1,0 +1,169 @@
+"""Ensemble: recorded base motion, specimen and what is not exactly known -> bands of a model, odds of overturning."""
+
+from __future__ import annotations
+
+from statistics import NormalDist
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict
+
+from colonnade.campaign import Campaign, Test
+from colonnade.campaign.channel import ALONG
+from colonnade.dynamics.ensembles import Ensemble, Plan, gather, run_members
+from colonnade.dynamics.uncertainty import INPUTS, Uncertainty
+from colonnade.stages import predict
+from colonnade.stages.transducers import transducers
+
+Array = NDArray[np.float64]
+
+
+class Instructions(BaseModel):
+    """
+    What this stage reads of the campaign.
+
+    Attributes
+    ----------
+    prediction : predict.Instructions
+    members : int
+    restitution, critical_angle, p, gain, clock, filter : float
+        Standard deviations: of e where no interval was identified, of the others relative.
+    filter_order : int
+    table : tuple of str
+        Accelerometers of the table along x, by the names of their variables.
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    prediction: predict.Instructions
+    members: int
+    restitution: float
+    critical_angle: float
+    p: float
+    gain: float
+    clock: float
+    filter: float
+    filter_order: int
+    table: tuple[str, ...]
+
+
+def instructions(campaign: Campaign, test: Test, model: str) -> Instructions:
+    """Gather what `ensemble` reads for one test and model."""
+    settings = campaign.processing.predict.ensemble
+    along = transducers(campaign.channels(test)).accelerations
+    return Instructions(
+        prediction=predict.instructions(campaign, test, model),
+        members=settings.members,
+        restitution=settings.restitution,
+        critical_angle=settings.critical_angle,
+        p=settings.p,
+        gain=settings.gain,
+        clock=settings.clock,
+        filter=settings.filter,
+        filter_order=campaign.processing.filter_order,
+        table=tuple(name for name, direction in along.items() if abs(direction[0]) >= ALONG),
+    )
+
+
+def ensemble(
+    conditioned: xr.Dataset, rocking: xr.Dataset, specimen: xr.Dataset, instructions: Instructions
+) -> xr.Dataset:
+    """
+    Run a model many times on the base motion that was recorded, over what is not exactly known.
+
+    Parameters
+    ----------
+    conditioned : xr.Dataset
+        Result of `condition`: noise and cut-off of the table's accelerometers.
+    rocking, specimen : xr.Dataset
+        As of `predict`.
+    instructions : Instructions
+
+    Returns
+    -------
+    bands : xr.Dataset
+        `rocking_angle_band` by `quantile` on the record's clock, from where the prediction starts; the
+        `overturning_probability` with its interval; `member_peak_ratio` (NaN where it overturns) and
+        `member_overturning_time`; by `input` its standard deviation and `peak_sensitivity`.
+
+    Raises
+    ------
+    StageError
+        As `predict`.
+    """
+    beginning = predict.begin(rocking, instructions.prediction)
+    plan = Plan(
+        instructions.prediction.block,
+        beginning.motion,
+        predict.sides(specimen),
+        _uncertainty(conditioned, rocking, specimen, instructions),
+        count=instructions.members,
+        model=instructions.prediction.model,
+        theta0=beginning.theta0,
+        rest_angle=instructions.prediction.rest_angle,
+    )
+    found = gather(plan, [run_members(plan, 0, plan.count)])
+    return _described(found, rocking["elapsed"].to_numpy()[beginning.first :: plan.stride], plan)
+
+
+def _uncertainty(
+    conditioned: xr.Dataset, rocking: xr.Dataset, specimen: xr.Dataset, instructions: Instructions
+) -> Uncertainty:
+    half = (float(specimen["restitution_high"]) - float(specimen["restitution_low"])) / 2
+    identified = half / NormalDist().inv_cdf(0.5 + float(specimen["level"]) / 2)
+    free = instructions.prediction.free_vibration
+    noise, cutoff = (0.0, None) if free else _base_noise(conditioned, instructions.table)
+    return Uncertainty(
+        restitution=identified if np.isfinite(identified) else instructions.restitution,
+        critical_angle=instructions.critical_angle,
+        p=instructions.p,
+        gain=0.0 if free else instructions.gain,
+        clock=instructions.clock,
+        noise=noise,
+        cutoff=cutoff,
+        filter=0.0 if cutoff is None else instructions.filter,
+        filter_order=instructions.filter_order,
+        theta0=float(rocking["rocking_angle_standard_error"]) if free else 0.0,
+    )
+
+
+def _base_noise(conditioned: xr.Dataset, table: tuple[str, ...]) -> tuple[float, float | None]:
+    """Noise (m/s²) and cut-off (Hz) of the mean of the table's accelerometers; none where there is none."""
+    used = [conditioned[name].attrs for name in table if name in conditioned]
+    if not used:
+        return 0.0, None
+    noise = np.array([float(given.get("noise", 0.0)) for given in used])
+    cutoff = min((float(given["cutoff_hz"]) for given in used if "cutoff_hz" in given), default=None)
+    return float(np.sqrt(np.sum(noise**2))) / noise.size, cutoff
+
+
+def _described(found: Ensemble, time: Array, plan: Plan) -> xr.Dataset:
+    low, high = found.overturning_interval()
+    sensitivity = found.sensitivity()
+    deviations = dict(zip(INPUTS, plan.uncertainty.deviations.tolist(), strict=True))
+    return xr.Dataset(
+        {
+            "rocking_angle": ("elapsed", found.central),
+            "rocking_angle_band": (("quantile", "elapsed"), found.bands),
+            "overturning_probability": ((), found.overturning_probability),
+            "overturning_probability_low": ((), low),
+            "overturning_probability_high": ((), high),
+            "member_peak_ratio": ("member", found.peak_ratio),
+            "member_overturning_time": ("member", found.overturning_time + float(time[0])),
+            "input_deviation": ("input", np.array([deviations[name] for name in sensitivity])),
+            "peak_sensitivity": ("input", np.array(list(sensitivity.values()))),
+        },
+        coords={
+            "elapsed": ("elapsed", time),
+            "quantile": ("quantile", found.levels),
+            "input": ("input", np.array(list(sensitivity), dtype=object)),
+        },
+        attrs={
+            "model": plan.model,
+            "members": plan.count,
+            "noise": plan.uncertainty.noise,
+            "cutoff_hz": plan.uncertainty.cutoff,
+            "warnings": [],
+        },
+    )

@@ -1,0 +1,247 @@
+"""Stability maps of a campaign's specimens: planned from what is known of them, made in blocks, stored, drawn."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from math import ceil
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.campaign import Campaign, load
+from colonnade.errors import CampaignError, nearest
+from colonnade.identification.boundaries import MapPoint
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.store.provenance import global_attributes, hash_of
+from colonnade.workflow.blocks import Counted, forget, in_blocks
+from colonnade.workflow.freshness import source_hash, stored_attributes
+from colonnade.workflow.lock import only_run
+from colonnade.workflow.map_plans import Wanted, measured_points, plan_of, restitution_of
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from colonnade.dynamics.maps.chart import StabilityMap
+    from colonnade.dynamics.maps.plan import MapPlan
+
+_MOST_BLOCKS = 128
+"""Of a map: enough for any cluster, and few enough to keep."""
+
+
+@dataclass(frozen=True)
+class MapMade:
+    """
+    A specimen's map.
+
+    Attributes
+    ----------
+    specimen, model : str
+    restitution_source : str
+        given, identified or rigid-body.
+    path, figure : Path
+    measured : int
+        Sine tests drawn on it.
+    action : str
+        done, or up-to-date where it was there already.
+    seconds : float
+    """
+
+    specimen: str
+    model: str
+    restitution_source: str
+    path: Path
+    figure: Path
+    measured: int
+    action: str
+    seconds: float
+
+
+def make_maps(
+    campaign: Path | str,
+    wanted: Wanted,
+    *,
+    specimens: Sequence[str] = (),
+    workers: int | None = None,
+    scheduler: str | None = None,
+    progress: Counted | None = None,
+) -> list[MapMade]:
+    """
+    Make the stability maps of a campaign's specimens, with its measured points on them.
+
+    Parameters
+    ----------
+    campaign : Path or str
+        A campaign.toml or its folder.
+    wanted : Wanted
+    specimens : sequence of str, optional
+        Ids; default all.
+    workers, scheduler : optional
+        As of `spread`.
+    progress : callable, optional
+        Told how many blocks of a map are done, and of how many.
+
+    Returns
+    -------
+    made : list of MapMade
+
+    Raises
+    ------
+    CampaignError
+        If the campaign file, a specimen or what is asked for is not usable.
+    StoreError
+        If a run is under way, or results cannot be written.
+    """
+    loaded = load(Path(campaign))
+    for name in specimens:
+        if name not in loaded.specimens:
+            raise CampaignError(f'{loaded.path.name} has no specimen "{name}".{nearest(name, loaded.specimens)}')
+    layout = Layout(loaded.folder)
+    with only_run(layout):
+        return [
+            _make(loaded, layout, name, wanted, workers, scheduler, progress)
+            for name in (specimens or loaded.specimens)
+        ]
+
+
+def _make(
+    campaign: Campaign,
+    layout: Layout,
+    specimen: str,
+    wanted: Wanted,
+    workers: int | None,
+    scheduler: str | None,
+    progress: Counted | None,
+) -> MapMade:
+    started = time.perf_counter()
+    points = measured_points(layout, specimen)
+    restitution, source = restitution_of(campaign, layout, specimen)
+    plan = plan_of(campaign, layout, specimen, wanted, restitution, points)
+    key = hash_of({"code": source_hash(), "plan": _record(plan)})
+    path, figure = layout.map(specimen, wanted.model), layout.map_figure(specimen, wanted.model)
+    is_new = stored_attributes(path).get("key") != key
+    if is_new:
+        blocks = layout.map_blocks(specimen, wanted.model)
+        chart = _chart(plan, blocks, key, workers, scheduler, progress)
+        attributes: dict[str, Any] = dict(
+            global_attributes(
+                campaign=campaign.campaign,
+                title=campaign.title,
+                facility=campaign.facility,
+                stage="map",
+                specimen=specimen,
+            )
+        )
+        attributes |= {"key": key, "settings": json.dumps(plan.options), "restitution_source": source}
+        files.write(as_dataset(chart), path, attributes=attributes)
+        forget(blocks)
+    _draw(files.read(path), points, figure, specimen)
+    action, seconds = "done" if is_new else "up-to-date", time.perf_counter() - started
+    return MapMade(specimen, wanted.model, source, path, figure, len(points), action, seconds)
+
+
+def as_dataset(chart: StabilityMap) -> xr.Dataset:
+    """Lay a map out as it is stored: outcomes over Ω and A, limits over Ω, the options as attributes."""
+    import xarray as xr
+
+    cells = ("frequency_ratio", "amplitude_ratio")
+    return xr.Dataset(
+        {
+            "outcome": (cells, chart.outcome),
+            "overturning_fraction": (cells, chart.overturning_fraction),
+            "no_rocking_limit": ("frequency_ratio", chart.no_rocking),
+            "lower_limit": ("frequency_ratio", chart.lower),
+            "upper_limit": ("frequency_ratio", chart.upper),
+            "interval_frequency_ratio": ("interval", chart.interval_frequency_ratio),
+            "interval_start": ("interval", chart.interval_start),
+            "interval_end": ("interval", chart.interval_end),
+        },
+        coords={"frequency_ratio": chart.frequency_ratio, "amplitude_ratio": chart.amplitude_ratio},
+        attrs=chart.options,
+    )
+
+
+def as_map(stored: xr.Dataset) -> StabilityMap:
+    """Return a stored map as the library gives it."""
+    from colonnade.dynamics.maps.chart import StabilityMap
+
+    return StabilityMap(
+        stored["frequency_ratio"].to_numpy(),
+        stored["amplitude_ratio"].to_numpy(),
+        stored["outcome"].to_numpy(),
+        stored["overturning_fraction"].to_numpy(),
+        stored["no_rocking_limit"].to_numpy(),
+        stored["lower_limit"].to_numpy(),
+        stored["upper_limit"].to_numpy(),
+        stored["interval_frequency_ratio"].to_numpy(),
+        stored["interval_start"].to_numpy(),
+        stored["interval_end"].to_numpy(),
+        json.loads(stored.attrs["settings"]),
+    )
+
+
+def _chart(
+    plan: MapPlan, folder: Path, key: str, workers: int | None, scheduler: str | None, progress: Counted | None
+) -> StabilityMap:
+    from colonnade.dynamics.maps.chart import assemble
+    from colonnade.dynamics.maps.column import MapColumn
+
+    number = plan.frequency_ratio.size
+    size = ceil(number / _MOST_BLOCKS)
+    blocks = [range(start, min(start + size, number)) for start in range(0, number, size)]
+    columns = []
+    for arrays in in_blocks(
+        partial(_columns, plan), blocks, folder, key, workers=workers, scheduler=scheduler, progress=progress
+    ):
+        ends = np.cumsum(arrays["intervals_of_column"])
+        intervals = np.split(arrays["intervals"], ends[:-1])
+        columns += [
+            MapColumn(outcome, fraction, float(lower), float(upper), own)
+            for outcome, fraction, lower, upper, own in zip(
+                arrays["outcome"], arrays["fraction"], arrays["lower"], arrays["upper"], intervals, strict=True
+            )
+        ]
+    return assemble(plan, columns)
+
+
+def _columns(plan: MapPlan, indices: range) -> dict[str, NDArray[Any]]:
+    """Work of a block: some columns of a map, as arrays."""
+    from colonnade.dynamics.maps.column import map_column
+
+    columns = [map_column(plan, index) for index in indices]
+    return {
+        "outcome": np.stack([column.outcome for column in columns]),
+        "fraction": np.stack([column.overturning_fraction for column in columns]),
+        "lower": np.array([column.lower for column in columns]),
+        "upper": np.array([column.upper for column in columns]),
+        "intervals": np.concatenate([column.intervals for column in columns]),
+        "intervals_of_column": np.array([len(column.intervals) for column in columns]),
+    }
+
+
+def _record(plan: MapPlan) -> dict[str, Any]:
+    """All that a map follows from, as JSON can hold it."""
+    motion = None if plan.motion is None else [plan.motion.dt, plan.motion.acceleration.tolist()]
+    axes = [plan.frequency_ratio.tolist(), plan.amplitude_ratio.tolist()]
+    return {"block": repr(plan.block), "axes": axes, "options": plan.options, "motion": motion}
+
+
+def _draw(stored: xr.Dataset, points: Sequence[MapPoint], path: Path, specimen: str) -> None:
+    from colonnade import figures
+
+    chart = as_map(stored)
+    files.write_text(
+        path,
+        figures.to_svg(
+            figures.stability_map(chart, points),
+            identity=f"map-{specimen}-{chart.options['model']}",
+            title=f"Stability map of {specimen}, {chart.options['model']} model",
+            description=f"Outcomes over frequency ratio Ω and amplitude ratio A, with {len(points)} measured points.",
+        ),
+    )

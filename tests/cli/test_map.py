@@ -1,0 +1,40 @@
+"""`colonnade map` as a person meets it: a table, the paths, and what to do where it cannot be."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+SMALL = ("--omega", "2", "4", "--amplitude", "0.8", "2", "--points", "3", "5", "--cycles", "3", "--workers", "1")
+
+
+def test_a_map_is_written_with_its_picture(colonnade, campaign):
+    told = colonnade("map", *SMALL, "--phase", "90", "--ramp", "1")
+    assert (told.returncode, told.stderr) == (0, "")
+    paths = dict(line.split(": ") for line in told.stdout.splitlines() if ": " in line)
+    assert Path(paths["map"]) == campaign / "processed" / "maps" / "prism-linear.nc"
+    assert "<svg" in Path(paths["figure"]).read_text(encoding="utf-8")
+    assert "rigid-body" in told.stdout
+
+
+def test_each_model_has_its_own_map_and_json_tells_where(colonnade, campaign):
+    told = colonnade("map", *SMALL, "--model", "nonlinear", "--json")
+    assert told.returncode == 0
+    (made,) = json.loads(told.stdout)
+    assert (made["specimen"], made["model"], made["action"]) == ("prism", "nonlinear", "done")
+    assert made["path"].endswith("prism-nonlinear.nc")
+    again = json.loads(colonnade("map", *SMALL, "--model", "nonlinear", "--json").stdout)
+    assert again[0]["action"] == "up-to-date"
+
+
+def test_a_mistyped_specimen_is_a_usage_error_with_the_nearest_name(colonnade, campaign):
+    told = colonnade("map", "--specimen", "prysm", *SMALL)
+    assert told.returncode == 2
+    assert 'Did you mean "prism"?' in told.stderr
+
+
+def test_a_scheduler_that_is_not_there_is_told_without_a_traceback(colonnade, campaign):
+    told = colonnade("map", *SMALL, "--scheduler", "nowhere")
+    assert told.returncode == 1
+    assert "nowhere: no Dask scheduler answers there" in told.stderr
+    assert "Traceback" not in told.stderr

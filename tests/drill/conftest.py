@@ -1,0 +1,121 @@
+"""The drill: what a laboratory's machines do to a run. Its scripts are started as processes of their own."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from colonnade.cli import invoke
+
+collect_ignore = ["damage.py", "fuzz.py", "read_damaged.py", "victim.py", "whole_files.py"]
+
+HERE = Path(__file__).parent
+TESTS = {"free-01": "free-vibration", "pulse-01": "pulse", "pulse-02": "pulse"}
+ONE_MODEL = '[processing.predict]\nmodels = ["linear"]\n'
+SIZE = "20m"
+"""Of the file system that fills."""
+
+
+@pytest.fixture(scope="session")
+def small_campaigns() -> ModuleType:
+    """What the workflow's own tests write their campaigns with."""
+    path = HERE.parent / "workflow" / "conftest.py"
+    spec = importlib.util.spec_from_file_location("small_campaigns", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="session")
+def undisturbed(small_campaigns: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """A campaign of three tests as one run in one process leaves it; it is only looked at."""
+    folder = small_campaigns.write_campaign(tmp_path_factory.mktemp("undisturbed") / "small", TESTS)
+    with (folder / "campaign.toml").open("a", encoding="utf-8") as stream:
+        stream.write(ONE_MODEL)
+    small = small_campaigns.Small(folder)
+    assert not small.run(until="report").failed
+    return small
+
+
+Copy = Callable[..., Any]
+
+
+@pytest.fixture
+def copied(undisturbed: Any, small_campaigns: ModuleType) -> Copy:
+    """Copy it to a folder, with its results or without."""
+
+    def copy(folder: Path, *, with_results: bool = False) -> Any:
+        ignored = None if with_results else shutil.ignore_patterns("processed", "report")
+        return small_campaigns.Small(Path(shutil.copytree(undisturbed.folder, folder, ignore=ignored)))
+
+    return copy
+
+
+Command = Callable[..., tuple[int, str]]
+
+
+@pytest.fixture
+def command(capfd: pytest.CaptureFixture[str]) -> Command:
+    """Run a command in this process; its exit code and all it said. An exception passes: it would be a traceback."""
+
+    def run(*arguments: object) -> tuple[int, str]:
+        capfd.readouterr()
+        code = invoke([str(argument) for argument in arguments])
+        told = capfd.readouterr()
+        assert "Traceback" not in told.err
+        return code, told.out + told.err
+
+    return run
+
+
+@pytest.fixture
+def small_disk(tmp_path: Path) -> Iterator[Path]:
+    """A file system of 20 MB."""
+    folder = tmp_path / "disk"
+    folder.mkdir()
+    mount("-t", "tmpfs", "-o", f"size={SIZE}", "tmpfs", folder)
+    yield folder
+    subprocess.run(["umount", folder], check=True, timeout=60)
+
+
+def mount(*arguments: object) -> None:
+    """Mount, or skip the test with the system's reason."""
+    if shutil.which("mount") is None:
+        pytest.skip("there is no command `mount` here")
+    told = subprocess.run(
+        ["mount", *map(str, arguments)], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL
+    )
+    if told.returncode:
+        pytest.skip(f"a file system may not be mounted here: {told.stderr.strip()}")
+
+
+@pytest.fixture
+def read_only(tmp_path: Path, request: pytest.FixtureRequest) -> Callable[[Path], Path]:
+    """Copy a folder to where nothing may be written; the root user needs a file system for that."""
+
+    def lock(folder: Path) -> Path:
+        if os.geteuid() == 0:
+            disk = request.getfixturevalue("small_disk")
+            inside = Path(shutil.copytree(folder, disk / folder.name))
+            mount("-o", "remount,ro", disk)
+            return inside
+        inside = Path(shutil.copytree(folder, tmp_path / "locked"))
+        places = [inside, *(path for path in inside.rglob("*") if path.is_dir())]
+        for place in places:
+            place.chmod(0o555)
+        request.addfinalizer(lambda: [place.chmod(0o755) for place in places])
+        return inside
+
+    return lock

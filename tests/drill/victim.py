@@ -1,0 +1,67 @@
+"""
+Runs to be killed: `python victim.py WARMING`.
+
+The campaign WARMING is run first, so that all is imported and compiled. Then, for each line "FOLDER WORKERS" on stdin,
+a process of its own, with a session of its own, gets its workers ready and says "ready PROCESS WORKER ...". At the next
+line it runs FOLDER and says "ended", with the reason if it could not. When it is gone, by itself or killed, "gone
+STATUS" is said.
+
+Workers are forked here; as colonnade starts them each would take seconds to import, and kills would fall on that.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import joblib
+from joblib.externals.loky import get_reusable_executor
+from joblib.externals.loky.backend.context import set_start_method
+
+from colonnade.errors import ColonnadeError
+from colonnade.workflow import run
+
+
+def workers_ready(workers: int) -> list[int]:
+    """Start the processes that `colonnade.workflow.processes` will find there."""
+    if workers == 1:
+        return []
+    with joblib.parallel_config(backend="loky", inner_max_num_threads=1):
+        joblib.Parallel(n_jobs=workers, batch_size=1)(joblib.delayed(os.getpid)() for _ in range(2 * workers))
+    return list(get_reusable_executor(reuse=True)._processes)
+
+
+def be_killed(folder: str, workers: int) -> None:
+    """Get ready, wait for the word, run."""
+    print("ready", os.getpid(), *workers_ready(workers), flush=True)
+    sys.stdin.readline()
+    try:
+        failed = run(folder, workers=workers).failed
+        print("ended", "failed" if failed else "", flush=True)
+    except ColonnadeError as error:
+        print("ended", *str(error).split(), flush=True)
+
+
+def main(warming: str) -> None:
+    """Serve runs until stdin is closed."""
+    set_start_method("fork")
+    run(warming, workers=1)
+    while line := sys.stdin.readline():
+        folder, workers = line.rstrip("\n").split("\t")
+        child = os.fork()
+        if child == 0:
+            os.setsid()
+            status = 1
+            try:
+                be_killed(folder, int(workers))
+                status = 0
+            finally:
+                sys.stdout.flush()
+                sys.stderr.flush()
+                os._exit(status)
+        _, status = os.waitpid(child, 0)
+        print("gone", os.waitstatus_to_exitcode(status), flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

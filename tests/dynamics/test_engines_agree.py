@@ -1,0 +1,166 @@
+"""
+The exact linear engine beside three other ways of solving the same equation on the same random records.
+
+Two double-precision runs of one record part sooner or later, so agreement is asked up to a horizon: where the exact
+engine's runs with the motion as it is and times 1 + 1e-13 differ by 1e-10 of α. All share the rule of rest.
+"""
+
+import itertools
+
+import numpy as np
+import pytest
+from scipy.integrate import DOP853
+from scipy.optimize import brentq
+
+from colonnade.dynamics import linear, nonlinear
+from colonnade.dynamics.block import Block
+
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+ALPHA, P, GRAVITY = PRISM.critical_angle, PRISM.p, PRISM.gravity
+REST = 1e-6
+INTERVAL = 0.02
+
+
+def _record(seed, duration=40 / P):
+    """Base acceleration over gravity: six sines of random frequency, sampled, linear in between."""
+    rng = np.random.default_rng(seed)
+    time = np.arange(0, duration, INTERVAL)
+    parts = [rng.normal() * np.sin(2 * np.pi * rng.uniform(0.8, 6) * time + rng.uniform(0, 6)) for _ in range(6)]
+    base = np.sum(parts, axis=0)
+    return base * rng.uniform(1.2, 3.0) * ALPHA / np.abs(base).max(), rng.uniform(0.8, 0.99)
+
+
+def _exact(base, restitution, engine=linear, **options):
+    sides = np.ones(2)
+    return engine.propagate(base, INTERVAL, ALPHA * sides, P * sides, restitution * sides, REST, 0.0, 0.0, **options)
+
+
+def _horizon(base, restitution):
+    """Samples up to which one engine agrees with itself, and up to which the block has not passed α."""
+    angles = [_exact(base * factor, restitution)[0] for factor in (1.0, 1.0 + 1e-13)]
+    parted = (np.abs(angles[0] - angles[1]) > 1e-10 * ALPHA) | (np.abs(angles[0]) > ALPHA)
+    return int(np.argmax(parted)) if parted.any() else base.size
+
+
+def _walked(base, restitution, horizon, arc):
+    """
+    Walk the samples up to a horizon with another integrator.
+
+    `arc(t, end, angle, velocity, side, base, slope)` integrates from t, with base + slope t, up to `end` or the
+    landing, and gives the time, angle and velocity there and whether it landed.
+    """
+    angle, velocity, side, resting = 0.0, 0.0, 0.0, True
+    angles = [0.0]
+    for start, end in itertools.pairwise(base[:horizon]):
+        t, slope = 0.0, (end - start) / INTERVAL
+        while t < INTERVAL:
+            if resting:
+                if max(abs(start + slope * t), abs(end)) <= ALPHA:
+                    break
+                if abs(start + slope * t) <= ALPHA:
+                    t = (np.sign(end) * ALPHA - start) / slope
+                side, resting = -np.sign(start + slope * t), False
+            t, angle, velocity, landed = arc(t, INTERVAL, angle, velocity, side, start, slope)
+            if landed:
+                side, angle, velocity = -side, 0.0, restitution * velocity
+                holding = ALPHA + side * (start + slope * t)
+                if holding >= 0 and velocity**2 / (2 * P**2) <= REST * ALPHA * holding:
+                    resting, velocity = True, 0.0
+        angles.append(angle)
+    return np.array(angles)
+
+
+def _dop853(t, end, angle, velocity, side, base, slope):
+    """SciPy's DOP853, landing by Brent's method on its dense output; between steps the sign is looked at nine times."""
+    rates = lambda t, y: np.array([y[1], P**2 * (y[0] - ALPHA * side - base - slope * t)])  # noqa: E731
+    solver = DOP853(rates, t, np.array([angle, velocity]), end, rtol=2.3e-14, atol=1e-17)
+    while solver.status == "running":
+        solver.step()
+        dense = solver.dense_output()
+        looks = np.linspace(solver.t_old, solver.t, 10)
+        below = side * dense(looks)[0] < 0.0
+        below[0] = False
+        if below.any():
+            last = int(np.argmax(below))
+            if side * dense(looks[last - 1])[0] > 0.0:
+                landing = brentq(lambda x, dense=dense: dense(x)[0], looks[last - 1], looks[last], xtol=1e-17)
+            else:
+                landing = solver.t_old
+            return landing, 0.0, dense(landing)[1], True
+    return solver.t, *solver.y, False
+
+
+def _heyoka():
+    """
+    heyoka's Taylor integrator of the same arc, restarted likewise.
+
+    Where θ is exactly 0 at the start of a step it finds no landing in that step (7.13): each arc begins with 1e-5/p
+    without events, in which none can land that the rule of rest has let rise.
+    """
+    heyoka = pytest.importorskip("heyoka", reason="the extra `bench` is not installed")
+    angle, velocity = heyoka.make_vars("angle", "velocity")
+    side, base, slope = heyoka.par[0], heyoka.par[1], heyoka.par[2]
+    system = [(angle, velocity), (velocity, P**2 * (angle - ALPHA * side - base - slope * heyoka.time))]
+    integrators = {0.0: heyoka.taylor_adaptive(system, [0.0, 0.0], pars=[0.0] * 3)}
+    for sign, direction in ((1.0, heyoka.event_direction.negative), (-1.0, heyoka.event_direction.positive)):
+        landing = heyoka.t_event(angle, direction=direction)
+        integrators[sign] = heyoka.taylor_adaptive(system, [0.0, 0.0], pars=[0.0] * 3, t_events=[landing])
+
+    def run(which, t, end, state, pars):
+        integrator = integrators[which]
+        if which:
+            integrator.reset_cooldowns()
+        integrator.time, integrator.state[:], integrator.pars[:] = t, state, pars
+        landed = integrator.propagate_until(end)[0] == heyoka.taylor_outcome(-1)
+        return integrator.time, *integrator.state, landed
+
+    def arc(t, end, angle, velocity, side, base, slope):
+        if angle == 0.0:
+            t, angle, velocity, _ = run(0.0, t, min(end, t + 1e-5 / P), (angle, velocity), (side, base, slope))
+        return run(side, t, end, (angle, velocity), (side, base, slope)) if t < end else (t, angle, velocity, False)
+
+    return arc
+
+
+def _series(base, restitution, horizon):
+    return _exact(base, restitution, nonlinear, linearised=True)[0][:horizon]
+
+
+PEERS = {
+    "the Taylor series of the nonlinear engine": lambda: _series,
+    "SciPy's DOP853": lambda: lambda *record: _walked(*record, _dop853),
+    "heyoka": lambda: (lambda arc: lambda *record: _walked(*record, arc))(_heyoka()),
+}
+
+
+def _largest_difference(peer, seed, duration=40 / P):
+    base, restitution = _record(seed, duration)
+    horizon = _horizon(base, restitution)
+    mine = _exact(base, restitution)[0][:horizon]
+    return np.abs(mine - peer(base, restitution, horizon)).max(initial=0.0) / ALPHA, horizon, mine
+
+
+@pytest.mark.parametrize("name", PEERS)
+def test_the_exact_engine_agrees_with(name):
+    peer = PEERS[name]()
+    rocked = 0
+    for seed in range(4):
+        difference, _, mine = _largest_difference(peer, seed, 10 / P)
+        assert difference < 1e-9, seed
+        rocked += np.abs(mine).max() > 0.01 * ALPHA
+    assert rocked >= 3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PEERS)
+def test_the_exact_engine_agrees_on_two_hundred_records_with(name, capsys):
+    peer = PEERS[name]()
+    found = [_largest_difference(peer, seed)[:2] for seed in range(200)]
+    differences, horizons = (np.array(values) for values in zip(*found, strict=True))
+    with capsys.disabled():
+        print(
+            f"\n{name}: largest difference {differences.max():.1e} α, median {np.median(differences):.1e} α; median "
+            f"horizon {np.median(horizons) * INTERVAL * P:.1f}/p, {np.mean(horizons < 40 / P / INTERVAL):.0%} end early"
+        )
+    assert differences.max() < 1e-9
+    assert np.median(horizons) * INTERVAL * P > 10

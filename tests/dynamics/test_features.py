@@ -1,0 +1,182 @@
+"""Everything that the engines can do, one record each, beside SciPy's DOP853 split at samples, landings and uplifts."""
+
+import itertools
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+from scipy.integrate import DOP853
+from scipy.optimize import brentq
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.restitution_law import RestitutionLaw
+from colonnade.dynamics.rock import rock
+
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+LOPSIDED = Block.measured(mass=80.0, pole_distance=(0.61, 0.60), critical_angle=(0.21, 0.15), inertia=(41.2, 40.0))
+REST = 1e-6
+INTERVAL = 0.02
+
+
+def _waves(seed, level, count=100):
+    rng = np.random.default_rng(seed)
+    time = np.arange(count) * INTERVAL
+    parts = [rng.normal() * np.sin(2 * np.pi * rng.uniform(0.8, 5) * time + rng.uniform(0, 6)) for _ in range(5)]
+    base = np.sum(parts, axis=0)
+    return level * base / np.abs(base).max()
+
+
+@dataclass
+class Reference:
+    """The equation of motion of a block on a moving base, integrated arc by arc."""
+
+    block: Block
+    motion: Motion
+    restitution: object
+    model: str
+    impacts: list = field(default_factory=list)
+    uplifts: int = 0
+
+    def _side(self, sign):
+        side = self.block.positive if sign > 0 else self.block.negative
+        return side.critical_angle, self.block.side_p(side)
+
+    def _moment(self, lift, pull, sign):
+        """Excess over what holds the block at rest on this side, over m g R."""
+        critical, _ = self._side(sign)
+        if self.model == "linear":
+            return -sign * pull - lift * critical
+        return -sign * pull * math.cos(critical) - lift * math.sin(critical)
+
+    def angles(self, angle, velocity):
+        gravity = self.block.gravity
+        pulls = self.motion.acceleration / gravity
+        vertical = np.zeros_like(pulls) if self.motion.vertical is None else self.motion.vertical / gravity
+        sign = math.copysign(1.0, angle if angle else velocity)
+        resting = angle == 0.0 and velocity == 0.0
+        found = [angle]
+        for (a0, a1), (v0, v1) in zip(itertools.pairwise(pulls), itertools.pairwise(vertical), strict=True):
+            pull = lambda t, a0=a0, a1=a1: a0 + (a1 - a0) * t / INTERVAL  # noqa: E731
+            lift = lambda t, v0=v0, v1=v1: 1.0 + v0 + (v1 - v0) * t / INTERVAL  # noqa: E731
+            t = 0.0
+            while t < INTERVAL:
+                if resting:
+                    excess = {s: (lambda x, s=s: self._moment(lift(x), pull(x), s)) for s in (-1.0, 1.0)}  # noqa: B023
+                    starts = [
+                        (t if excess[s](t) > 0 else brentq(excess[s], t, INTERVAL, xtol=1e-16), s)
+                        for s in excess
+                        if excess[s](t) > 0 or excess[s](INTERVAL) > 0
+                    ]
+                    if not starts:
+                        break
+                    (t, sign), resting = min(starts), False
+                    self.uplifts += 1
+                t, angle, velocity, landed = self._arc(t, angle, velocity, sign, pull, lift)
+                if landed:
+                    self.impacts.append(velocity)
+                    angle, velocity, sign = 0.0, self.restitution(sign, abs(velocity)) * velocity, -sign
+                    holding = -self._moment(lift(t), pull(t), sign)
+                    critical, p = self._side(sign)
+                    if holding >= 0 and velocity**2 / (2 * p**2) <= REST * critical * holding:
+                        resting, velocity = True, 0.0
+            found.append(angle)
+        return np.array(found)
+
+    def _arc(self, t, angle, velocity, sign, pull, lift):
+        critical, p = self._side(sign)
+
+        def rates(x, y):
+            lean = critical * sign - y[0]
+            if self.model == "linear":
+                return np.array([y[1], -(p**2) * (lift(x) * lean + pull(x))])
+            return np.array([y[1], -(p**2) * (lift(x) * math.sin(lean) + pull(x) * math.cos(lean))])
+
+        solver = DOP853(rates, t, np.array([angle, velocity]), INTERVAL, rtol=2.3e-14, atol=1e-17)
+        while solver.status == "running":
+            solver.step()
+            dense = solver.dense_output()
+            looks = np.linspace(solver.t_old, solver.t, 10)
+            below = sign * dense(looks)[0] < 0.0
+            below[0] = False
+            if below.any():
+                last = int(np.argmax(below))
+                landing = solver.t_old
+                if sign * dense(looks[last - 1])[0] > 0.0:
+                    landing = brentq(lambda x, dense=dense: dense(x)[0], looks[last - 1], looks[last], xtol=1e-17)
+                return landing, 0.0, dense(landing)[1], True
+        return solver.t, *solver.y, False
+
+
+def _faster_is_softer(speed):
+    return 0.95 / (1 + 0.3 * speed)
+
+
+FEATURES = {
+    "vertical acceleration": {"vertical": 5.0 * np.sin(np.arange(100) * 0.4)},
+    "unequal sides": {"block": LOPSIDED, "level": 2.6, "seed": 2},
+    "a pair of restitutions": {"restitution": (0.85, 0.97)},
+    "a law of restitution": {"restitution": RestitutionLaw.table([0.0, 0.2, 0.6], [0.98, 0.9, 0.8])},
+    "a function of restitution": {"restitution": _faster_is_softer},
+    "a tilted table": {"level": 1.6, "offset": 0.2},
+    "return from beyond the critical angle": {"theta0": 1.1, "omega0": -0.5, "seed": 10},
+    "accumulating impacts and uplift from rest again": {"restitution": 0.3, "uplifts": 5},
+    "all of it": {
+        "block": LOPSIDED, "seed": 2, "level": 2.9, "offset": -0.2, "theta0": -0.4,
+        "vertical": 3.0 * np.cos(np.arange(100)),
+        "restitution": RestitutionLaw.table([0.0, 0.5], [0.9, 0.7]),
+    },
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("model", ["linear", "nonlinear"])
+@pytest.mark.parametrize("name", FEATURES)
+def test_an_integration_of_the_same_equation_agrees_with(name, model):
+    feature = FEATURES[name]
+    block = feature.get("block", PRISM)
+    waves = _waves(feature.get("seed", 4), feature.get("level", 2.0)) + feature.get("offset", 0.0)
+    motion = Motion(waves * block.uplift_acceleration, INTERVAL, vertical=feature.get("vertical"))
+    start = {
+        "theta0": feature.get("theta0", 0.0) * block.critical_angle,
+        "omega0": feature.get("omega0", 0.0) * block.critical_angle * block.p,
+    }
+    given = feature.get("restitution", 0.9)
+    history = rock(block, motion, restitution=given, model=model, **start)
+    if isinstance(given, tuple):
+        law = lambda sign, _: given[1 if sign > 0 else 0]  # noqa: E731
+    else:
+        law = lambda _, speed: given(speed) if callable(given) else given  # noqa: E731
+    reference = Reference(block, motion, law, model)
+    expected = reference.angles(start["theta0"], start["omega0"])
+    assert history.outcome == "rocking"
+    assert len(reference.impacts) >= 5
+    assert reference.uplifts >= feature.get("uplifts", 0)
+    # A function is sampled: (4 p α / 1024)² |e''| / 8 is 4e-7.
+    accuracy = 2e-5 if given is _faster_is_softer else 1e-9
+    np.testing.assert_allclose(history.angle, expected, rtol=0, atol=accuracy * block.critical_angle)
+    np.testing.assert_allclose(history.impact_velocities[:5], reference.impacts[:5], rtol=1e4 * accuracy)
+
+
+def test_the_vertical_acceleration_is_gravity_to_a_block_at_rest():
+    # Half of gravity, half of the threshold: this record uplifts on a sinking base and not on a still one.
+    level = np.full(50, 0.6 * PRISM.uplift_acceleration)
+    sinking = np.full(50, -0.5 * PRISM.gravity)
+    for model in ("linear", "nonlinear"):
+        assert rock(PRISM, Motion(level, 0.01), model=model).outcome == "no-rocking"
+        assert rock(PRISM, Motion(level, 0.01, vertical=sinking), model=model).outcome != "no-rocking"
+
+
+@pytest.mark.parametrize("model", ["linear", "nonlinear"])
+def test_a_constant_vertical_acceleration_is_another_gravity(model):
+    waves = _waves(5, 2.0) * PRISM.uplift_acceleration
+    heavier = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10, gravity=1.3 * PRISM.gravity)
+    lifted = rock(PRISM, Motion(waves, INTERVAL, vertical=np.full(100, 0.3 * PRISM.gravity)), model=model)
+    other = rock(heavier, Motion(waves, INTERVAL), model=model)
+    assert np.abs(other.angle).max() > 0.01
+    np.testing.assert_allclose(lifted.angle, other.angle, rtol=0, atol=1e-9)
+
+
+def test_a_base_that_falls_faster_than_the_block_is_refused():
+    with pytest.raises(ValueError, match=r"vertical is -12 m/s² at sample 1"):
+        rock(PRISM, Motion([0.0, 0.0], 0.01, vertical=[0.0, -12.0]))

@@ -1,0 +1,62 @@
+"""Restitution over the speed of the impact."""
+
+import math
+
+import numpy as np
+import pytest
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.restitution_law import RestitutionLaw
+from colonnade.dynamics.rock import rock
+
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+RELEASED = {"theta0": 0.5 * PRISM.critical_angle, "duration": 3.0}
+
+
+@pytest.mark.parametrize("model", ["linear", "nonlinear"])
+def test_a_law_that_is_constant_is_the_constant(model):
+    law = RestitutionLaw.table([0.0, 10.0], [0.9, 0.9])
+    ours, constant = (rock(PRISM, restitution=e, model=model, **RELEASED) for e in (law, 0.9))
+    np.testing.assert_array_equal(ours.angle, constant.angle)
+
+
+@pytest.mark.parametrize("model", ["linear", "nonlinear"])
+def test_each_impact_loses_by_the_law_at_its_own_speed(model):
+    law = RestitutionLaw.table([0.1, 0.4, 0.8], [0.99, 0.9, 0.7])
+    history = rock(PRISM, restitution=law, model=model, **RELEASED)
+    arriving = np.abs(history.impact_velocities)
+    assert arriving[0] > 0.8
+    assert arriving[-1] < 0.4
+    # On a base at rest the next arrival has the speed of the last departure.
+    kept = arriving[1:6] / arriving[:5]
+    np.testing.assert_allclose(kept, np.interp(arriving[:5], [0.1, 0.4, 0.8], [0.99, 0.9, 0.7]), rtol=1e-9)
+
+
+def test_a_function_is_sampled_as_far_as_the_impacts_go():
+    history = rock(PRISM, restitution=lambda speed: 1 / (1 + 0.01 * speed), omega0=-40.0, theta0=0.1, duration=0.2)
+    fastest = np.abs(history.impact_velocities).max()
+    assert fastest > 4 * PRISM.p * PRISM.critical_angle
+    first = history.rebound_velocities[0] / history.impact_velocities[0]
+    assert first == pytest.approx(1 / (1 + 0.01 * fastest), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("speeds", "values", "words"),
+    [
+        ([0.0, 1.0], [0.9], "one value for each"),
+        ([], [], "at least one speed"),
+        ([1.0, 0.5], [0.9, 0.9], "rising"),
+        ([-1.0, 0.5], [0.9, 0.9], "rising"),
+        ([0.0, math.nan], [0.9, 0.9], "rising"),
+        ([0.0, 1.0], [0.9, 1.1], r"e = 1.1 at 1 rad/s"),
+        ([0.0, 1.0], [math.nan, 0.9], r"e = nan at 0 rad/s"),
+    ],
+)
+def test_a_table_that_is_none_is_refused(speeds, values, words):
+    with pytest.raises(ValueError, match=words):
+        RestitutionLaw.table(speeds, values)
+
+
+def test_a_function_that_gains_energy_is_refused():
+    with pytest.raises(ValueError, match=r"e = 1\.\d+ at .* a number between 0 and 1"):
+        rock(PRISM, restitution=lambda speed: 1 + speed, **RELEASED)

@@ -1,0 +1,68 @@
+"""The band figure shades what the runs hold and draws the measured angle over it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from colonnade.figures.bands import Spread, bands_over_time, between
+from colonnade.figures.curve import Curve
+
+LEVELS = np.array([0.05, 0.25, 0.5, 0.75, 0.95])
+TIME = np.linspace(0.0, 10.0, 5001)
+CENTRE = 0.4 * np.sin(4 * TIME)
+BANDS = CENTRE + np.array([[-0.1], [-0.05], [0.0], [0.05], [0.1]]) * TIME / 10
+
+
+def spread(probability=0.0):
+    return Spread(TIME, LEVELS, BANDS, probability)
+
+
+def shades(axes):
+    return {collection.get_label(): collection.get_paths()[0].vertices for collection in axes.collections}
+
+
+def test_each_model_has_a_panel_with_its_bands_and_the_measured_angle():
+    figure = bands_over_time(Curve(TIME, CENTRE), {"linear": spread(), "nonlinear": spread()})
+    assert [axes.get_ylabel() for axes in figure.axes] == ["θ / α, linear", "θ / α, nonlinear"]
+    for axes, model in zip(figure.axes, ("linear", "nonlinear"), strict=True):
+        assert set(shades(axes)) == {f"90% {model}", f"50% {model}"}
+        assert [line.get_label() for line in axes.lines] == ["measured"]
+    assert figure.axes[0].collections[0].get_facecolor()[0, :3] != pytest.approx(
+        figure.axes[1].collections[0].get_facecolor()[0, :3]
+    )
+
+
+def test_the_widest_band_holds_the_inner_one():
+    (axes,) = bands_over_time(None, {"linear": spread()}).axes
+    wide, narrow = (np.ptp(shades(axes)[f"{share} linear"][:, 1]) for share in ("90%", "50%"))
+    assert wide > narrow
+    assert narrow == pytest.approx(0.8 + 0.1, abs=0.02)
+
+
+def test_the_probability_of_overturning_is_written_where_there_is_one():
+    def texts(probability):
+        return [text.get_text() for text in bands_over_time(None, {"linear": spread(probability)}).axes[0].texts]
+
+    assert any("12% overturn" in text for text in texts(0.12))
+    assert not any("overturn" in text for text in texts(0.0))
+
+
+def test_thinning_keeps_the_extremes_of_the_band():
+    time, below, above = between(TIME, BANDS[0], BANDS[-1], intervals=50)
+    assert time.size <= 51
+    assert (below.min(), above.max()) == (BANDS[0].min(), BANDS[-1].max())
+    inside = np.searchsorted(np.linspace(0, 10, 51)[1:-1], TIME, side="right")
+    assert (below[inside] <= BANDS[0]).all()
+    assert (above[inside] >= BANDS[-1]).all()
+
+
+def test_a_short_band_is_drawn_as_it_is():
+    assert between(TIME[:10], BANDS[0][:10], BANDS[-1][:10])[0].tolist() == TIME[:10].tolist()
+
+
+def test_no_model_or_unpaired_levels_are_refused():
+    with pytest.raises(ValueError, match="at least one model"):
+        bands_over_time(None, {})
+    with pytest.raises(ValueError, match="not paired"):
+        bands_over_time(None, {"linear": Spread(TIME, np.array([0.05, 0.5]), BANDS[:2], 0.0)})

@@ -1,0 +1,121 @@
+"""Damaged files that once ended in something else than a recording or a refusal, or that lost channels in silence."""
+
+from __future__ import annotations
+
+import struct
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+import xlwt
+
+from colonnade.errors import ReadError
+from colonnade.readers.clock import even_times
+from colonnade.readers.registry import read
+from colonnade.readers.stored_numbers import beside
+
+TIME = np.arange(60) * 0.01
+
+
+def test_a_damaged_class_of_a_dimension_scale_does_not_end_the_process(tmp_path: Path) -> None:
+    """HDF5's own question whether a dataset is a scale frees memory twice; so it is read in a process of its own."""
+    path = tmp_path / "damaged.nc"
+    with h5py.File(path, "w") as file:
+        file.create_dataset("time", data=TIME).make_scale("time")
+        file.create_dataset("top", data=TIME).dims[0].attach_scale(file["time"])
+    path.write_bytes(path.read_bytes().replace(b"DIMENSION_SCALE", b"DiMENSION_SCALE"))
+    reading = "import sys; from colonnade.readers.registry import read; read(sys.argv[1])"
+    told = subprocess.run([sys.executable, "-c", reading, str(path)], capture_output=True, text=True)
+    assert told.returncode == 0, told.stderr
+
+
+@pytest.mark.parametrize("block", [b"|Cb,", b"|CC,"])
+def test_a_channel_without_its_last_blocks_is_told(written: Callable[..., Path], block: bytes) -> None:
+    path = written("famos")
+    content = path.read_bytes()
+    path.write_bytes(content[: content.rindex(block)])
+    recording = read(path)
+    assert [channel.name for channel in recording.channels] == ["top"]
+    assert "was cut off" in " ".join(recording.warnings)
+
+
+@pytest.mark.parametrize(
+    ("name", "begin", "kept"),
+    [
+        ("bhrc", "* VOL", 60),
+        ("cosmos", "Corrected acceleration", 40),
+        ("diadem", "#BEGINCHANNELHEADER", 10),
+    ],
+)
+def test_a_file_that_ends_within_the_first_line_of_a_channel_says_so(
+    written: Callable[..., Path], name: str, begin: str, kept: int
+) -> None:
+    path = written(name)
+    encoding = "utf-16" if name == "diadem" else "ascii"
+    text = path.read_bytes().decode(encoding)
+    whole = len(read(path).channels)
+    path.write_bytes(text[: text.rindex(begin) + kept].encode(encoding))
+    recording = read(path)
+    assert len(recording.channels) == whole - 1
+    assert "cut off" in " ".join(recording.warnings)
+
+
+@pytest.mark.parametrize(("step", "begin"), [(np.inf, 0.0), (1e308, 0.0), (0.005, np.inf), (np.nan, 0.0)])
+def test_a_damaged_step_gives_no_infinite_times(step: float, begin: float) -> None:
+    assert np.isnan(even_times(4, step, begin)).all()
+
+
+def test_a_segment_without_rows_adds_nothing(written: Callable[..., Path]) -> None:
+    path = written("lvm")
+    text = path.read_bytes()
+    head = text[text.index(b"Channels") : text.index(b"Comment") + len(b"Comment\r\n")]
+    path.write_bytes(text + head)
+    assert {channel.values.size for channel in read(path).channels} == {40}
+
+
+def xls_with(path: Path, record: bytes, changed: bytes) -> Path:
+    """A workbook of 30 rows and 2 columns, with a record of its bytes changed."""
+    book = xlwt.Workbook()
+    sheet = book.add_sheet("A")
+    for row in range(30):
+        sheet.write(row, 0, row * 0.01)
+        sheet.write(row, 1, row / 7 + 0.1)  # no fraction of a hundred, which are stored otherwise
+    book.save(str(path))
+    assert {channel.values.size for channel in read(path).channels} == {30}
+    content = path.read_bytes()
+    assert content.count(record) == 1
+    path.write_bytes(content.replace(record, changed))
+    return path
+
+
+DIMENSIONS = struct.pack("<2H2I2H", 0x200, 14, 0, 30, 0, 2)
+LAST_CELL = struct.pack("<2H2H", 0x203, 14, 29, 1)
+
+
+@pytest.mark.parametrize(
+    ("record", "changed", "told"),
+    [
+        pytest.param(
+            DIMENSIONS, struct.pack("<2H2I2H", 0x200, 14, 0, 1 << 31, 0, 2), "row 2147483648", id="dimensions"
+        ),
+        pytest.param(LAST_CELL, struct.pack("<2H2H", 0x203, 14, 29, 40_000), "column 40001", id="a cell of no sheet"),
+        pytest.param(
+            LAST_CELL, struct.pack("<2H2H", 0x203, 14, 65_000, 200), "60 filled cells within", id="a stray cell"
+        ),
+    ],
+)
+def test_an_old_workbook_with_cells_far_outside_is_refused_before_it_fills_the_memory(
+    tmp_path: Path, record: bytes, changed: bytes, told: str
+) -> None:
+    with pytest.raises(ReadError, match=told):
+        read(xls_with(tmp_path / "a.xls", record, changed))
+
+
+def test_a_name_that_is_too_long_for_a_file_is_a_file_that_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(ReadError, match="which is not in its folder") as refused:
+        beside(tmp_path / "header.dat", "a" * 5000)
+    assert len(str(refused.value)) < 300

@@ -1,0 +1,130 @@
+"""Bands about a prediction, and whether the measured angle lies within them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from colonnade.dynamics.uncertainty import INPUTS
+from colonnade.stages import compare as comparing
+from colonnade.stages import condition as conditioning
+from colonnade.stages import ensemble as running
+from colonnade.stages import ingest as ingesting
+from colonnade.stages import predict as predicting
+from colonnade.stages import restitution as identifying
+from colonnade.stages import rocking as rocking_stage
+from colonnade.stages import specimen as pooling
+
+MEMBERS = 60
+
+
+@pytest.fixture
+def results(small_campaign, free_vibration, shaken):
+    """Conditioned and rocking of both tests, and the pooled specimen."""
+    found = {}
+    for name, recordings in (("free-01", free_vibration[0]), ("shake-01", shaken[0])):
+        test = small_campaign.tests[name]
+        recorded = ingesting.ingest(recordings, ingesting.instructions(small_campaign, test))
+        ready = conditioning.condition(recorded, conditioning.instructions(small_campaign, test))
+        found[name] = (ready, rocking_stage.rocking(ready, rocking_stage.instructions(small_campaign, test)))
+    read = identifying.instructions(small_campaign, small_campaign.tests["free-01"])
+    identified = identifying.restitution(found["free-01"][1], read)
+    pooled = pooling.specimen({"free-01": identified}, pooling.instructions(small_campaign, "prism"))
+    return found, pooled
+
+
+@pytest.fixture
+def ensemble(small_campaign, results):
+    def run(name, model="linear", specimen=None, **changes):
+        found, pooled = results
+        read = running.instructions(small_campaign, small_campaign.tests[name], model)
+        read = read.model_copy(update={"members": MEMBERS} | changes)
+        return running.ensemble(*found[name], pooled if specimen is None else specimen, read)
+
+    return run
+
+
+def test_the_bands_lie_about_the_prediction_on_its_clock(small_campaign, results, ensemble):
+    (_, rocking), pooled = results[0]["shake-01"], results[1]
+    read = predicting.instructions(small_campaign, small_campaign.tests["shake-01"], "linear")
+    predicted = predicting.predict(rocking, pooled, read)
+    bands = ensemble("shake-01")
+    np.testing.assert_array_equal(bands["elapsed"], predicted["elapsed"])
+    np.testing.assert_array_equal(bands["rocking_angle"], predicted["rocking_angle"])
+    low, median, high = (bands["rocking_angle_band"].sel(quantile=level) for level in (0.05, 0.5, 0.95))
+    assert (low <= high).all()
+    assert float((high - low).max()) > 1e-3
+    assert float(np.abs(median - bands["rocking_angle"]).mean()) < 0.3 * float((high - low).mean())
+
+
+def test_noise_cutoff_and_interval_are_those_of_the_record(results, ensemble):
+    (conditioned, _), pooled = results[0]["shake-01"], results[1]
+    bands = ensemble("shake-01")
+    table = conditioned["table_acceleration"].attrs
+    assert bands.attrs["noise"] == table["noise"]
+    assert bands.attrs["cutoff_hz"] == table["cutoff_hz"]
+    deviations = dict(zip(bands["input"].to_numpy(), bands["input_deviation"].to_numpy(), strict=True))
+    half = float(pooled["restitution_high"] - pooled["restitution_low"]) / 2
+    assert deviations["restitution"] == pytest.approx(half / 1.959964, rel=1e-6)
+    assert set(deviations) == set(INPUTS) - {"theta0"}
+
+
+def test_a_free_vibration_varies_with_its_first_angle_and_not_with_the_table(results, ensemble):
+    bands = ensemble("free-01")
+    assert set(bands["input"].to_numpy()) == {"restitution", "critical_angle", "p", "clock", "theta0"}
+    measured = results[0]["free-01"][1]
+    assert float(bands["elapsed"][0]) > float(measured["elapsed"][0])
+    assert float(bands["overturning_probability"]) == 0.0
+
+
+def test_an_e_that_was_not_identified_has_the_deviation_of_the_settings(results, ensemble):
+    nobody = results[1].assign(restitution_low=np.nan, restitution_high=np.nan)
+    bands = ensemble("shake-01", specimen=nobody, restitution=0.007)
+    assert float(bands["input_deviation"].sel(input="restitution")) == 0.007
+
+
+def test_the_measured_angle_lies_within_the_spread_of_the_model_it_follows(small_campaign, results, ensemble):
+    compared = compare(small_campaign, results, ensemble("shake-01"))
+    assert float(compared["within_spread"]) > 0.9
+    assert 0.02 < float(compared["peak_rank"]) < 0.98
+    assert float(compared["overturning_probability"]) == 0.0
+
+
+def test_an_angle_beside_the_spread_is_not_within_it(small_campaign, results, ensemble):
+    _, rocking = results[0]["shake-01"]
+    twice = rocking.assign(rocking_angle=1.6 * rocking["rocking_angle"])
+    compared = compare(small_campaign, results, ensemble("shake-01"), twice)
+    assert float(compared["within_spread"]) < 0.5
+    assert float(compared["peak_rank"]) == 1.0
+
+
+def test_a_specimen_that_fell_is_held_against_those_that_fall(small_campaign, results, ensemble):
+    fallen = results[0]["shake-01"][1].assign_attrs(outcome="overturned")
+    standing = ensemble("shake-01")
+    assert float(compare(small_campaign, results, standing, fallen)["peak_rank"]) == 1.0
+    times = standing["member_overturning_time"].copy(data=np.full(MEMBERS, 3.0))
+    falling = standing.assign(member_overturning_time=times, overturning_probability=1.0)
+    compared = compare(small_campaign, results, falling, fallen)
+    assert (float(compared["peak_rank"]), float(compared["overturning_probability"])) == (0.5, 1.0)
+
+
+def test_without_a_measured_angle_the_probability_alone_is_told(small_campaign, results, ensemble):
+    table_only = results[0]["shake-01"][1].drop_vars(["rocking_angle", "peak_ratio"])
+    compared = compare(small_campaign, results, ensemble("shake-01"), table_only)
+    assert np.isnan(float(compared["within_spread"]))
+    assert np.isnan(float(compared["peak_rank"]))
+    assert float(compared["overturning_probability"]) == 0.0
+
+
+def test_without_ensembles_nothing_is_said_of_spread(small_campaign, results):
+    assert "within_spread" not in compare(small_campaign, results, None)
+
+
+def compare(campaign, results, ensemble, rocking=None):
+    found, pooled = results
+    rocking = found["shake-01"][1] if rocking is None else rocking
+    test = campaign.tests["shake-01"]
+    predicted = predicting.predict(rocking, pooled, predicting.instructions(campaign, test, "linear"))
+    ensembles = {} if ensemble is None else {"linear": ensemble}
+    instructions = comparing.instructions(campaign, test)
+    return comparing.compare(rocking, {"linear": predicted}, instructions, ensembles).isel(model=0)
