@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from colonnade.figures.bands import Spread, bands_over_time
 from colonnade.figures.curve import Curve, envelope
 from colonnade.figures.measured_map import measured_map
 from colonnade.figures.peaks import PeakSeries, peak_decay
@@ -16,6 +17,8 @@ __all__ = [
     "PeakSeries",
     "Quantity",
     "SpanPanel",
+    "Spread",
+    "bands_over_time",
     "envelope",
     "measured_map",
     "peak_decay",

@@ -85,7 +85,7 @@ def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Fi
                     color=colour,
                     alpha=SHADES[min(index, len(SHADES) - 1)],
                     linewidth=0,
-                    label=f"{1 - 2 * low:.0%} {model}",
+                    label=f"{1 - 2 * low:.0%} of the runs" if panel is axes[0] else None,
                 )
             draw_angle(panel, measured, {}, limit)
             panel.set_ylabel(f"{ANGLE_LABEL}, {model}")

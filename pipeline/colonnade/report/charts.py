@@ -10,7 +10,7 @@ from markupsafe import Markup
 from colonnade import figures
 from colonnade.campaign import Test
 from colonnade.dynamics.block import Block
-from colonnade.figures import Curve, Peak, PeakSeries, Quantity, SpanPanel
+from colonnade.figures import Curve, Peak, PeakSeries, Quantity, SpanPanel, Spread
 from colonnade.identification.boundaries import MapPoint
 from colonnade.report import wording
 from colonnade.report.results import Results
@@ -50,6 +50,30 @@ def record(test: Test, results: Results, block: Block) -> Markup | None:
     )
     title = f"{test.id}: rocking angle, measured and predicted"
     return Markup(figures.to_svg(figure, identity=f"record-{test.id}", title=title, description=seen(results)))
+
+
+def bands(test: Test, results: Results, block: Block) -> Markup | None:
+    """Draw the measured angle over what each model's own uncertainty leaves; None where there is no ensemble."""
+    spreads = {}
+    for stage in (stage for stage in results.datasets if stage.startswith("ensemble ")):
+        found = results.datasets[stage]
+        angles = found["rocking_angle_band"].to_numpy()
+        critical = np.where(angles < 0, block.negative.critical_angle, block.positive.critical_angle)
+        spreads[stage.removeprefix("ensemble ")] = Spread(
+            found["elapsed"].to_numpy(),
+            found["quantile"].to_numpy(),
+            angles / critical,
+            float(found["overturning_probability"]),
+        )
+    if not spreads:
+        return None
+    figure = figures.bands_over_time(measured_ratio(results, block), spreads)
+    title = f"{test.id}: measured rocking angle over the spread of each model"
+    said = [
+        f"{model.capitalize()} model: {spread.overturning_probability:.0%} of its runs overturn."
+        for model, spread in spreads.items()
+    ]
+    return Markup(figures.to_svg(figure, identity=f"bands-{test.id}", title=title, description=" ".join(said)))
 
 
 def span_panel(test: Test, results: Results, block: Block) -> SpanPanel:

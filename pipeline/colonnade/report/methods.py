@@ -32,6 +32,13 @@ _STORED = {
     "lowest amplitude": ("restitution", "lowest_amplitude", "{:g} α"),
     "level": ("restitution", "level", "{:.0%}"),
     "rest angle": ("predict", "rest_angle", "{:g} α"),
+    "runs": ("ensemble", "members", "{:d}"),
+    "deviation of e": ("ensemble", "restitution", "{:g}"),
+    "deviation of α": ("ensemble", "critical_angle", "{:.1%}"),
+    "deviation of p": ("ensemble", "p", "{:.1%}"),
+    "deviation of gain": ("ensemble", "gain", "{:.1%}"),
+    "deviation of clock": ("ensemble", "clock", "{:g}"),
+    "deviation of filter": ("ensemble", "filter", "{:.0%}"),
 }
 """Settings by the name that the text uses: stage, key, and how the value is written."""
 

@@ -18,7 +18,7 @@ from colonnade.store.layout import Layout
 if TYPE_CHECKING:
     import xarray as xr
 
-STAGES = ("ingest", "condition", "rocking", "restitution", "predict", "compare")
+STAGES = ("ingest", "condition", "rocking", "restitution", "predict", "ensemble", "compare")
 GOOD = 1
 """Quality flag of a sample that nothing speaks against."""
 
@@ -48,8 +48,8 @@ class Results:
     Attributes
     ----------
     datasets : mapping of str to Dataset
-        Results that are done, by stage; those of `predict` by ``predict <model>``. Of `ingest` and `condition` the
-        samples are not kept: a page of a hundred tests has to fit into memory.
+        Results that are done, by stage; those of `predict` and `ensemble` by ``predict <model>``. Of `ingest` and
+        `condition` the samples are not kept: a page of a hundred tests has to fit into memory.
     failures, warnings : tuple of Message
         In the order of the stages.
     raw_files : tuple of (str, str)
@@ -130,9 +130,9 @@ def of_specimen(layout: Layout, specimen: str) -> Results:
 
 def _files_of(campaign: Campaign, layout: Layout, test: Test) -> Iterator[tuple[str, Path]]:
     for stage in STAGES:
-        if stage == "predict":
+        if stage in ("predict", "ensemble"):
             for model in campaign.processing.predict.models:
-                yield f"predict {model}", layout.stage(test.id, stage, model)
+                yield f"{stage} {model}", layout.stage(test.id, stage, model)
         elif stage != "restitution" or test.kind == "free-vibration":
             yield stage, layout.stage(test.id, stage)
 

@@ -26,6 +26,12 @@ MOTIONS = (
 )
 """Motions of the specimen beside its rocking angle: variable, words, unit."""
 
+LEAST_WITHIN = 0.9
+"""Share of the measured angle that a band of 90 % holds where the model is right; told in methods.html.jinja."""
+
+UNLIKELY = 0.05
+"""Share of an ensemble at either end in which the measured peak is not expected."""
+
 
 @dataclass(frozen=True)
 class Metrics:
@@ -42,6 +48,7 @@ class Metrics:
     impacts: str
     restitution: str
     order: str
+    verdict: str
 
 
 @dataclass(frozen=True)
@@ -75,6 +82,7 @@ class TestPage:
     notes: tuple[str, ...]
     review: tuple[str, ...]
     chart: Markup | None
+    bands: Markup | None
     peaks_chart: Markup | None
 
 
@@ -98,6 +106,7 @@ def of_test(campaign: Campaign, test: Test, results: Results, row: TestRow) -> T
         notes=tuple(filter(None, results.text("ingest", "notes").split("; "))),
         review=tuple(results.texts("ingest", "review")) or campaign.review(test.id).told,
         chart=charts.record(test, results, block),
+        bands=charts.bands(test, results, block),
         peaks_chart=None if series is None else charts.peaks(f"peaks-{test.id}", [series], block),
     )
 
@@ -158,7 +167,22 @@ def _metrics(results: Results, model: str, row: TestRow) -> Metrics:
         impacts=wording.number(results.value(stage, "impact_count"), 9),
         restitution=f"{wording.number(e, 4)} ({source})" if source else wording.number(e, 4),
         order=order or wording.NOTHING,
+        verdict=_verdict(model, *map(compared, ("within_spread", "peak_rank", "overturning_probability"))),
     )
+
+
+def _verdict(model: str, within: float, rank: float, overturning: float) -> str:
+    """Say whether the misfit lies within the model's own spread."""
+    if np.isnan(within) or np.isnan(rank):
+        return ""
+    is_likely = within >= LEAST_WITHIN and UNLIKELY <= rank <= 1 - UNLIKELY
+    said = [
+        f"{within:.0%} of the measured angle lies in the band of 90 %",
+        f"{rank:.0%} of the runs stay below its peak",
+        *([f"{overturning:.0%} of them overturn"] if overturning > 0 else []),
+    ]
+    where = "within" if is_likely else "beyond"
+    return f"{model.capitalize()} model: the misfit lies {where} its own spread ({'; '.join(said)})."
 
 
 def _restitution(results: Results) -> tuple[Fact, ...]:
