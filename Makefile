@@ -37,6 +37,8 @@ format: $(INSTALLED)
 
 reports: $(INSTALLED)
 	$(BIN)/python reports/rebuild.py
+	$(BIN)/python reports/filter_bias.py
+	$(BIN)/python reports/convergence.py
 
 clean:
 	rm -rf .venv build demo dist .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
