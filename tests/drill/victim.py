@@ -40,6 +40,8 @@ def be_killed(folder: str, workers: int) -> None:
         print("ended", "failed" if failed else "", flush=True)
     except ColonnadeError as error:
         print("ended", *str(error).split(), flush=True)
+    if workers > 1:
+        get_reusable_executor(reuse=True).shutdown(kill_workers=True)  # as at the end of an interpreter
 
 
 def main(warming: str) -> None:

@@ -15,6 +15,7 @@ import xlwt
 
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
+from colonnade.readers.diadem_tdm import described_in_tdm
 from colonnade.readers.registry import read
 from colonnade.readers.stored_numbers import beside
 
@@ -119,3 +120,16 @@ def test_a_name_that_is_too_long_for_a_file_is_a_file_that_is_not_there(tmp_path
     with pytest.raises(ReadError, match="which is not in its folder") as refused:
         beside(tmp_path / "header.dat", "a" * 5000)
     assert len(str(refused.value)) < 300
+
+
+def test_a_separator_before_a_number_of_a_line_is_white_space(written: Callable[..., Path]) -> None:
+    path = written("diadem")
+    path.write_bytes(path.read_bytes().replace("\n200,".encode("utf-16-le"), "\n\x1c200,".encode("utf-16-le")))
+    assert [channel.name for channel in read(path).channels] == ["Time", "top", "table"]
+
+
+def test_a_header_in_an_encoding_that_there_is_not_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "a.tdm"
+    path.write_bytes(b'<?xml version="1.0" encoding="UTF-6"?><usi:tdm xmlns:usi="http://www.ni.com/Schemas/USI/1_0"/>')
+    with pytest.raises(ReadError, match="unknown encoding"):
+        described_in_tdm(path)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import csv
+import io
 
 import pytest
 
 from colonnade.campaign.summary import Summary
 from colonnade.store import files
+from colonnade.workflow.summary import _table
 
 
 def test_the_summary_has_the_contracts_form(undisturbed):
@@ -41,6 +43,17 @@ def test_the_table_has_a_row_a_test_with_the_same_numbers(undisturbed):
     assert [row["test"] for row in rows] == ["free-01", "free-02", "pulse-01", "pulse-02"]
     assert float(rows[2]["peak_ratio"]) == undisturbed.summary()["tests"]["pulse-01"]["peak_ratio"]
     assert rows[3]["peak_ratio"] == ""
+
+
+@pytest.mark.parametrize("told", ["=HYPERLINK(1)", "+1+1", "-1+1", "@SUM(A1)", "\t=1", "\r=1"])
+def test_text_that_a_spreadsheet_would_calculate_is_quoted(undisturbed, told):
+    summary = Summary.model_validate_json(undisturbed.layout.summary_json.read_text(encoding="utf-8"))
+    test = summary.tests["pulse-01"].model_copy(update={"warnings": (told, "=2"), "reason": told})
+    table = _table(summary.model_copy(update={"tests": {"pulse-01": test}}))
+    (row,) = csv.DictReader(io.StringIO(table, newline=""))
+    expected = f"'{told}".replace("\r", "\n")
+    assert (row["reason"], row["warnings"]) == (expected, f"{expected}; =2")
+    assert float(row["peak_ratio"]) == test.peak_ratio
 
 
 def test_warnings_of_stages_are_the_tests_warnings(small):

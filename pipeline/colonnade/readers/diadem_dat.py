@@ -67,7 +67,7 @@ def _entries(path: Path) -> tuple[dict[int, str], list[dict[int, str]], bool]:
             elif line.startswith("#") and BEGINNING.startswith(line.rstrip()):
                 current = {}  # the file ends within this line
             elif comma and number.strip().isdecimal() and number.strip().isascii():
-                current.setdefault(int(number), text.strip())
+                current.setdefault(int(number.strip()), text.strip())
     return common, channels, current is common
 
 

@@ -39,7 +39,7 @@ def described_in_tdm(path: Path) -> tuple[list[StoredNumbers], list[str]]:
     """
     try:
         root = ElementTree.fromstring(_content(path))
-    except (ElementTree.ParseError, ValueError) as error:
+    except (ElementTree.ParseError, ValueError, LookupError) as error:  # the last of an encoding that there is not
         raise ReadError(
             f"{path.name}: its header is no whole XML ({error}): it was cut off or is damaged. Export it again."
         ) from error

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import platform
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -73,6 +74,8 @@ def execute(chains: Sequence[Chain], workers: int | None, scheduler: str | None 
 def _in_workers(chains: Mapping[int, Chain], count: int) -> Iterator[tuple[int, list[StageRun]]]:
     import joblib
 
+    # A worker that has grown is replaced by a fresh one, of which nobody needs to know.
+    warnings.filterwarnings("ignore", "A worker stopped while some jobs were given", UserWarning)
     jobs = [joblib.delayed(_in_worker)(number, chain, os.getpid()) for number, chain in chains.items()]
     with joblib.parallel_config(backend="loky", inner_max_num_threads=1):
         parallel = joblib.Parallel(

@@ -184,4 +184,8 @@ def _table(summary: Summary) -> str:
 
 
 def _harmless(value: Any) -> Any:
-    return f"'{value}" if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")) else value
+    """Quote what a spreadsheet would calculate; a bare carriage return would end the row."""
+    if not isinstance(value, str):
+        return value
+    quote = "'" if value.startswith(("=", "+", "-", "@", "\t", "\r")) else ""
+    return quote + value.replace("\r\n", "\n").replace("\r", "\n")
