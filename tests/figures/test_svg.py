@@ -6,6 +6,7 @@ from xml.etree import ElementTree
 import matplotlib
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from colonnade.figures import Curve, Quantity, SpanPanel, spans_side_by_side, to_svg, whole_record
 
@@ -54,6 +55,13 @@ def test_every_reference_leads_to_an_id_of_the_same_figure():
     referred = set(re.findall(r'(?:url\(#|href="#)([^)"]+)', text))
     assert referred
     assert referred <= set(identifiers(text))
+
+
+def test_a_field_of_colours_is_a_raster_inside_the_picture():
+    figure = Figure()
+    figure.subplots().imshow(np.arange(12.0).reshape(3, 4))
+    (raster,) = (each for each in ElementTree.fromstring(svg(figure=figure)).iter() if each.tag.endswith("}image"))
+    assert raster.attrib["href"].startswith("data:image/png;base64,")
 
 
 def test_it_has_a_text_alternative_that_is_escaped():

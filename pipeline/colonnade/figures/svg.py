@@ -67,7 +67,8 @@ def _rename(root: ElementTree.Element, identity: str) -> None:
     """Give ids that are referred to a new, own name, and drop the others."""
     referred: dict[str, str] = {}
     for element in root.iter():
-        targets = [element.attrib[LINK].removeprefix("#")] if LINK in element.attrib else []
+        link = element.attrib.get(LINK, "")
+        targets = [link.removeprefix("#")] if link.startswith("#") else []
         for value in element.attrib.values():
             targets += _REFERENCE.findall(value)
         for target in targets:
@@ -77,7 +78,9 @@ def _rename(root: ElementTree.Element, identity: str) -> None:
         if own in referred:
             element.set("id", referred[own])
         if LINK in element.attrib:
-            element.set("href", "#" + referred[element.attrib.pop(LINK).removeprefix("#")])
+            # What is no reference is a picture within the picture: a raster, as of a field of colours.
+            link = element.attrib.pop(LINK)
+            element.set("href", "#" + referred[link.removeprefix("#")] if link.startswith("#") else link)
         for name, value in element.attrib.items():
             element.set(name, _REFERENCE.sub(lambda found: f"url(#{referred[found[1]]})", value))
 
