@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.figures.bands import Spread, bands_over_time, between
+from colonnade.figures.bands import bands_over_time
 from colonnade.figures.curve import Curve
+from colonnade.figures.histories import Spread, between
 
 LEVELS = np.array([0.05, 0.25, 0.5, 0.75, 0.95])
 TIME = np.linspace(0.0, 10.0, 5001)

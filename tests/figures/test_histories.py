@@ -7,7 +7,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from colonnade.figures import Curve
-from colonnade.figures.histories import LARGEST_RATIO, SMALLEST_RATIO, draw_angle, limit_of, time_limits
+from colonnade.figures.histories import LARGEST_RATIO, SMALLEST_RATIO, Spread, draw_angle, limit_of, time_limits
 from colonnade.figures.style import MEASURED, MODELS, model_style
 
 TIME = np.linspace(0.0, 10.0, 2001)
@@ -17,7 +17,7 @@ def swing(amplitude: float) -> Curve:
     return Curve(TIME, amplitude * np.sin(2 * np.pi * TIME))
 
 
-def drawn(measured: Curve | None, predicted: dict[str, Curve], limit: float = 0.5, **options: float):
+def drawn(measured: Curve | None, predicted: dict[str, Curve], limit: float = 0.5, **options):
     axes = Figure().subplots()
     draw_angle(axes, measured, predicted, limit, **options)
     return axes
@@ -34,6 +34,19 @@ def test_in_small_panels_only_the_models_lines_are_thinner():
     measured, linear = drawn(swing(0.4), {"linear": swing(0.3)}, thinness=0.5).lines
     assert measured.get_linewidth() == MEASURED["linewidth"]
     assert linear.get_linewidth() == 0.5 * MODELS["linear"]["linewidth"]
+
+
+def test_the_widest_band_of_an_ensemble_is_shaded_below_the_lines():
+    levels = np.array([0.05, 0.25, 0.5, 0.75, 0.95])
+    centre = swing(0.3).values
+    spread = Spread(TIME, levels, centre + np.linspace(-0.1, 0.1, 5)[:, None], 0.0)
+    axes = drawn(swing(0.3), {"nonlinear": swing(0.3)}, spreads={"nonlinear": spread})
+    (band,) = axes.collections
+    assert band.get_label() == "90% of runs"
+    assert to_hex(band.get_facecolor()[0]) == MODELS["nonlinear"]["color"]
+    assert band.get_zorder() < min(line.get_zorder() for line in axes.lines)
+    heights = band.get_paths()[0].vertices[:, 1]
+    assert (heights.min(), heights.max()) == pytest.approx((-0.4, 0.4), abs=1e-3)
 
 
 def test_a_model_without_a_style_is_refused():

@@ -5,7 +5,7 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.figures import PeakSeries, peak_decay
-from colonnade.identification.restitution import angle_of_energy
+from colonnade.identification.restitution.energy import angle_of_energy
 
 BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 

@@ -7,6 +7,7 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.chart import stability_map as computed
+from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.figures import stability_map
 from colonnade.identification.boundaries import MapPoint
 
@@ -46,6 +47,19 @@ def test_what_the_limits_depend_on_stands_above(charts):
     title = stability_map(charts[0]).axes[0].get_title(loc="left")
     assert "4 cycles, no ramp" in title
     assert "at least 0.1 wide" in title
+
+
+def test_ramps_and_a_law_of_e_are_told_above():
+    law = RestitutionLaw.table([0.0, 2.0], [0.95, 0.85])
+    chart = computed(PRISM, **(OPTIONS | {"restitution": law, "ramp": 2, "ramp_shape": "cosine"}))
+    title = stability_map(chart).axes[0].get_title(loc="left")
+    assert "cosine ramps of 2" in title
+    assert "e = 0.95 … 0.85 over the speed of the impact" in title
+
+
+def test_a_sub_harmonic_point_carries_its_order(charts):
+    axes = stability_map(charts[0], [MapPoint("a", 5.0, 3.0, "rocking", 3)]).axes[0]
+    assert [text.get_text() for text in axes.texts] == ["1/3"]
 
 
 def test_measured_points_beyond_the_map_widen_it(charts):

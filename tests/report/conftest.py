@@ -16,7 +16,7 @@ from colonnade.campaign import Campaign, load
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
-from colonnade.identification.restitution import identify_restitution
+from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import global_attributes
@@ -27,6 +27,14 @@ DEAD = (
     "channel <top>: the largest value is 0.2 % of its range.\nA living channel was expected; is the sensor plugged in?"
 )
 INTERVAL = 0.005
+ESTIMATORS = ("peaks", "half-periods", "impact-by-impact", "history-linear", "history-nonlinear")
+REGION = {
+    "restitution": 0.9762,
+    "critical_angle": 1.004,
+    "restitution_error": 2e-4,
+    "critical_angle_error": 2e-3,
+    "correlation": 0.9,
+}
 
 CAMPAIGN = f"""
 schema = 1
@@ -230,6 +238,36 @@ def _conditioned() -> xr.Dataset:
     )
 
 
+def _estimates(found: Any, refused: bool) -> dict[str, Any]:
+    error = found.standard_error * np.array([1.0, 3.0, 1.2, 0.3, 0.3])
+    value = np.full(5, np.nan) if refused else found.value + error * np.array([0.5, -1.0, 0.3, 4.0, 0.0])
+    columns = {"estimate": value, "estimate_low": value - 2 * error, "estimate_high": value + 2 * error}
+    return {name: ("estimator", values) for name, values in columns.items()}
+
+
+def _impacts(found: Any) -> dict[str, Any]:
+    count = max(found.peaks.time.size - 1, 0)
+    velocity = np.linspace(1.0, 0.2, count)
+    columns = {
+        "impact_velocity": velocity,
+        "impact_restitution": 0.976 + 1e-3 * np.sin(np.arange(count)) / velocity,
+        "impact_restitution_standard_error": 1e-3 / velocity,
+        "impact_used": np.ones(count, np.int8),
+    }
+    return {name: ("impact", values) for name, values in columns.items()}
+
+
+def _fitted(truth: Any, measured: xr.Dataset) -> dict[str, Any]:
+    part = (truth.time > 0.5) & (truth.time < 6)
+    residual = measured["rocking_angle"].to_numpy() - truth.angle
+    return {
+        "fitted_elapsed": ("fitted_elapsed", truth.time[part]),
+        "fitted_history": ("fitted_elapsed", truth.angle[part]),
+        "history_residual": ("fitted_elapsed", residual[part]),
+        **{f"region_{name}": ((), value) for name, value in REGION.items()},
+    }
+
+
 def _fill(campaign: Campaign, layout: Layout) -> None:
     block = campaign.specimens["prism"].block(campaign.gravity)
     for seed, name in enumerate(FREE):
@@ -253,12 +291,20 @@ def _fill(campaign: Campaign, layout: Layout) -> None:
                 "peak_angle_standard_error": ("peak", found.peaks.standard_error),
                 "fitted_angle": ("peak", found.peaks.fitted_angle * (np.nan if refused else 1.0)),
                 "peak_used": ("peak", used),
-                "restitution_history": ("model", [0.97511, np.nan]),
-                "restitution_history_low": ("model", [0.97411, np.nan]),
-                "restitution_history_high": ("model", [0.97611, np.nan]),
+                **_estimates(found, refused),
+                **_impacts(found),
+                **({} if refused else _fitted(truth, measured)),
             },
-            coords={"model": ("model", np.array(["linear", "nonlinear"], dtype=object))},
-            attrs={"method": found.method, "reason": f"The peaks do not decay. {MARKUP}" if refused else ""},
+            coords={"estimator": ("estimator", np.array(ESTIMATORS, dtype=object))},
+            attrs={
+                "method": found.method,
+                "reason": f"The peaks do not decay. {MARKUP}" if refused else "",
+                "recommended": "" if refused else "history-nonlinear",
+                "estimate_assumptions": [f"what {each} assumes" for each in ESTIMATORS],
+                "estimate_reasons": ["too few impacts" if refused else ""] * len(ESTIMATORS),
+                "history_model": "nonlinear",
+                "departures": [f"The block slides at 3 of 9 impacts. {MARKUP}"] if name == "free-02" else [],
+            },
         )
         _write(identified, layout.stage(name, "restitution"), "restitution", name)
     for seed, (name, span) in enumerate(SPANS.items()):
@@ -323,6 +369,8 @@ def _specimens(campaign: Campaign, layout: Layout) -> None:
                     "restitution_high": ((), high),
                     "level": ((), 0.95),
                     "rigid_restitution": ((), block.restitution),
+                    "between_test_scatter": ((), 4e-4 if source == "identified" else np.nan),
+                    "test_restitution_standard_error": ("test", [3e-4, 4e-4] if source == "identified" else []),
                 },
                 attrs={
                     "restitution_source": source,

@@ -215,7 +215,8 @@ def test_a_test_shows_how_its_channels_were_treated(texts):
 def test_each_test_has_its_figure(texts):
     assert "base" in texts["tests/span-2.0.html"][texts["tests/span-2.0.html"].index("<svg") :]
     assert ">base" not in texts["tests/free-01.html"]
-    assert texts["tests/free-01.html"].count("<svg") == 2
+    assert texts["tests/free-01.html"].count("<svg") == 6
+    assert texts["tests/free-refused.html"].count("<svg") == 4  # no fitted history, no joint region
 
 
 def test_a_test_without_results_has_no_picture_and_no_empty_table(texts):
@@ -232,7 +233,7 @@ def test_what_people_decided_is_told(texts):
 def test_tests_lead_to_the_one_before_and_after(texts):
     assert texts["tests/span-2.5.html"].count('href="../tests/span-2.0.html"') == 2
     assert texts["tests/span-2.5.html"].count('href="../tests/span-3.0.html"') == 2
-    assert "←" not in texts["tests/free-01.html"]
+    assert "<span>←" not in texts["tests/free-01.html"]
 
 
 def test_a_specimen_gives_its_properties_at_both_scales(texts):
@@ -249,9 +250,28 @@ def test_a_specimen_gives_each_restitution_and_why_one_was_refused(texts):
     text = texts["specimens/prism.html"]
     words = words_of(text)
     assert "e over the rigid body's 1.029" in words
-    assert re.search(r"free-01 0\.97\d+ ± 0\.0\d+ \(95 % interval\) 0.9751 ± 0.0010 \(95 % interval\) –", words)
+    assert (
+        "free vibration e peaks half-periods impact by impact whole history, linear whole history, nonlinear" in words
+    )
+    assert re.search(r"free-01 0\.97\d+ ± 0\.0\d+ \(95 % interval\)( 0\.97\d+ ± 0\.0\d+){5}", words)
+    assert re.search(r"free-refused( –){6}", words)
+    assert "scatter between tests 0.0004 (standard deviation of e); standard error within a test 0.00035" in words
+    assert text.count("<svg") == 4  # estimators, peaks, impacts, the map
+    assert "The block slides at 3 of 9 impacts. &lt;img" in text
     assert "The peaks do not decay. &lt;img" in text
     assert "peak left out" in text
+
+
+def test_a_free_vibration_tells_what_was_assumed_and_how_it_departs_from_the_model(texts):
+    words = words_of(texts["tests/free-02.html"])
+    assert "recommended estimator whole history, nonlinear which assumes what history-nonlinear assumes" in words
+    assert "whole history, nonlinear (recommended) 0.97" in words
+    assert "Departures from plane rocking with one e The block slides at 3 of 9 impacts." in words
+    assert "&lt;img" in texts["tests/free-02.html"]
+    assert "Departures" not in words_of(texts["tests/free-01.html"])
+    refused = words_of(texts["tests/free-refused.html"])
+    assert "refused The peaks do not decay." in refused
+    assert "half-periods – what half-periods assumes too few impacts" in refused
 
 
 def test_quality_lists_every_channel_of_every_test(texts):

@@ -2,26 +2,42 @@
 
 from __future__ import annotations
 
-from colonnade.figures.bands import Spread, bands_over_time
+from colonnade.figures.bands import bands_over_time
 from colonnade.figures.curve import Curve, envelope
+from colonnade.figures.histories import Spread
 from colonnade.figures.measured_map import measured_map
 from colonnade.figures.peaks import PeakSeries, peak_decay
 from colonnade.figures.record import Peak, Quantity, whole_record
+from colonnade.figures.response_orders import response_orders
+from colonnade.figures.restitution_estimators import EstimateGroup, EstimateRow, estimators_side_by_side
+from colonnade.figures.restitution_history import fitted_history
+from colonnade.figures.restitution_impacts import ImpactSeries, Level, impact_restitution
+from colonnade.figures.restitution_region import Region, joint_region
 from colonnade.figures.spans import SpanPanel, spans_side_by_side
 from colonnade.figures.stability_map import stability_map
 from colonnade.figures.svg import to_svg
 
 __all__ = [
     "Curve",
+    "EstimateGroup",
+    "EstimateRow",
+    "ImpactSeries",
+    "Level",
     "Peak",
     "PeakSeries",
     "Quantity",
+    "Region",
     "SpanPanel",
     "Spread",
     "bands_over_time",
     "envelope",
+    "estimators_side_by_side",
+    "fitted_history",
+    "impact_restitution",
+    "joint_region",
     "measured_map",
     "peak_decay",
+    "response_orders",
     "spans_side_by_side",
     "stability_map",
     "to_svg",

@@ -3,45 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from colonnade.figures.curve import INTERVALS, Curve
-from colonnade.figures.histories import ANGLE_LABEL, draw_angle, limit_of, time_limits
+from colonnade.figures.curve import Curve
+from colonnade.figures.histories import ANGLE_LABEL, Spread, draw_angle, limit_of, shade, time_limits
 from colonnade.figures.panels import legend_above, stacked_panels
 from colonnade.figures.style import model_style, styled
 
-Array = NDArray[np.float64]
-
 HEIGHT = 1.9
 """Of a model's panel, inches."""
-
-SHADES = (0.18, 0.3)
-"""Opacity of the widest band and of those inside it."""
-
-
-class Spread(NamedTuple):
-    """
-    What an ensemble of one model says over time.
-
-    Attributes
-    ----------
-    time : ndarray, shape (n,)
-        s.
-    levels : ndarray, shape (q,)
-        Between 0 and 1, increasing, the same distance from 0 and from 1.
-    bands : ndarray, shape (q, n)
-        θ/α at these quantiles; NaN where there is none.
-    overturning_probability : float
-    """
-
-    time: Array
-    levels: Array
-    bands: Array
-    overturning_probability: float
 
 
 def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Figure:
@@ -76,17 +48,9 @@ def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Fi
         limit = limit_of(curves)
         for panel, (model, spread) in zip(axes, spreads.items(), strict=True):
             colour = model_style(model)["color"]
-            for index, low in enumerate(spread.levels[spread.levels < 0.5]):
-                time, below, above = between(spread.time, spread.bands[index], spread.bands[-1 - index])
-                panel.fill_between(
-                    time,
-                    np.clip(below, -2 * limit, 2 * limit),
-                    np.clip(above, -2 * limit, 2 * limit),
-                    color=colour,
-                    alpha=SHADES[min(index, len(SHADES) - 1)],
-                    linewidth=0,
-                    label=f"{1 - 2 * low:.0%} of the runs" if panel is axes[0] else None,
-                )
+            for index in range(int((spread.levels < 0.5).sum())):
+                label = f"{spread.share(index):.0%} of the runs" if panel is axes[0] else None
+                shade(panel, spread, index, limit, colour, label=label)
             draw_angle(panel, measured, {}, limit)
             panel.set_ylabel(f"{ANGLE_LABEL}, {model}")
             if spread.overturning_probability > 0:
@@ -101,28 +65,3 @@ def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Fi
         axes[-1].set_xlabel("time (s)")
         legend_above(figure, axes)
         return figure
-
-
-def between(time: Array, below: Array, above: Array, *, intervals: int = INTERVALS) -> tuple[Array, Array, Array]:
-    """
-    Thin a band to one lowest and one highest value an interval of time, so that nothing inside it is lost.
-
-    Parameters
-    ----------
-    time, below, above : ndarray, shape (n,)
-    intervals : int, optional
-
-    Returns
-    -------
-    time, below, above : ndarray
-        As given where there are at most two samples an interval; else one of each an interval.
-    """
-    if time.size <= 2 * intervals:
-        return time, below, above
-    starts = np.unique(np.searchsorted(time, np.linspace(time[0], time[-1], intervals + 1)[:-1]))
-    ends = np.append(starts[1:], time.size) - 1
-    return (
-        0.5 * (time[starts] + time[ends]),
-        np.fmin.reduceat(below, starts),
-        np.fmax.reduceat(above, starts),
-    )

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from numpy.typing import NDArray
 
 from colonnade.figures.curve import INTERVALS, Curve, envelope
 from colonnade.figures.style import LIMIT, MEASURED, LineStyle, model_style
+
+Array = NDArray[np.float64]
 
 SMALLEST_RATIO = 0.02
 """No θ/α axis is narrower than ± this, so that the noise of a block at rest does not look like rocking."""
@@ -18,6 +22,34 @@ LARGEST_RATIO = 1.35
 
 ANGLE_LABEL = "θ / α"
 
+SHADES = (0.18, 0.3)
+"""Opacity of the widest band and of those inside it."""
+
+
+class Spread(NamedTuple):
+    """
+    What an ensemble of one model says over time.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s.
+    levels : ndarray, shape (q,)
+        Between 0 and 1, increasing, the same distance from 0 and from 1.
+    bands : ndarray, shape (q, n)
+        θ/α at these quantiles; NaN where there is none.
+    overturning_probability : float
+    """
+
+    time: Array
+    levels: Array
+    bands: Array
+    overturning_probability: float
+
+    def share(self, index: int) -> float:
+        """Return the share of the runs within band `index`, the widest being number 0."""
+        return float(1.0 - 2.0 * self.levels[index])
+
 
 def draw_angle(
     axes: Axes,
@@ -25,6 +57,7 @@ def draw_angle(
     predicted: Mapping[str, Curve],
     limit: float,
     *,
+    spreads: Mapping[str, Spread] | None = None,
     intervals: int = INTERVALS,
     thinness: float = 1.0,
     limit_name: str = "α",
@@ -41,6 +74,8 @@ def draw_angle(
         θ/α by model.
     limit : float
         Half range of the θ/α axis (see `limit_of`).
+    spreads : mapping of str to Spread, optional
+        The widest band of each model's ensemble, shaded below the lines.
     intervals : int, optional
         Of each curve's envelope.
     thinness : float, optional
@@ -48,6 +83,9 @@ def draw_angle(
     limit_name : str, optional
         Written beside the line of the critical angle, which is drawn where the axis reaches it.
     """
+    for model, spread in (spreads or {}).items():
+        label = f"{spread.share(0):.0%} of runs"
+        shade(axes, spread, 0, limit, model_style(model)["color"], label=label, intervals=intervals)
     lines: list[tuple[Curve | None, str, LineStyle]] = [(measured, "measured", MEASURED)]
     lines += [(curve, f"{model} model", model_style(model, thinness)) for model, curve in predicted.items()]
     for curve, label, style in lines:
@@ -63,6 +101,48 @@ def draw_angle(
         axes.text(
             0.5, 0.5, "no rocking angle, measured or predicted", transform=axes.transAxes, ha="center", va="center"
         )
+
+
+def shade(
+    axes: Axes, spread: Spread, index: int, limit: float, colour: str, *, label: str | None, intervals: int = INTERVALS
+) -> None:
+    """Shade one band of an ensemble, the widest being number 0, clipped well outside an axis of ± `limit`."""
+    time, below, above = between(spread.time, spread.bands[index], spread.bands[-1 - index], intervals=intervals)
+    axes.fill_between(
+        time,
+        np.clip(below, -2 * limit, 2 * limit),
+        np.clip(above, -2 * limit, 2 * limit),
+        color=colour,
+        alpha=SHADES[min(index, len(SHADES) - 1)],
+        linewidth=0,
+        label=label,
+        zorder=0.5,
+    )
+
+
+def between(time: Array, below: Array, above: Array, *, intervals: int = INTERVALS) -> tuple[Array, Array, Array]:
+    """
+    Thin a band to one lowest and one highest value an interval of time, so that nothing inside it is lost.
+
+    Parameters
+    ----------
+    time, below, above : ndarray, shape (n,)
+    intervals : int, optional
+
+    Returns
+    -------
+    time, below, above : ndarray
+        As given where there are at most two samples an interval; else one of each an interval.
+    """
+    if time.size <= 2 * intervals:
+        return time, below, above
+    starts = np.unique(np.searchsorted(time, np.linspace(time[0], time[-1], intervals + 1)[:-1]))
+    ends = np.append(starts[1:], time.size) - 1
+    return (
+        0.5 * (time[starts] + time[ends]),
+        np.fmin.reduceat(below, starts),
+        np.fmax.reduceat(above, starts),
+    )
 
 
 def limit_of(curves: Sequence[Curve]) -> float:

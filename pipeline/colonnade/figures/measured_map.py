@@ -65,32 +65,37 @@ def measured_map(points: Sequence[MapPoint], *, axes: Axes | None = None) -> Fig
         _draw_scale(axes, points)
         for name, label, colour in BOUNDARIES:
             _draw_boundary(axes, bracket_boundaries(points), name, label, colour)
-        for outcome, look in MARKERS.items():
-            chosen = [point for point in points if point.outcome == outcome]
-            if chosen:
-                axes.scatter(
-                    [point.frequency_ratio for point in chosen],
-                    [point.amplitude_ratio for point in chosen],
-                    s=26,
-                    linewidths=0.9,
-                    label=NAMES[outcome],
-                    zorder=3,
-                    **look,
-                )
-        for point in points:
-            if isinstance(point.order, int) and point.order > 1:
-                axes.annotate(
-                    f"1/{point.order}",
-                    (point.frequency_ratio, point.amplitude_ratio),
-                    xytext=(6, 0),
-                    textcoords="offset points",
-                    va="center",
-                    fontsize=7,
-                )
+        draw_points(axes, points)
         figure = cast(Figure, axes.get_figure(root=True))
         if own:
             figure.legend(loc="outside upper left", ncols=5, columnspacing=1.2, handletextpad=0.5, borderaxespad=0.2)
         return figure
+
+
+def draw_points(axes: Axes, points: Sequence[MapPoint], *, prefix: str = "") -> None:
+    """Draw sine tests by outcome, those with a sub-harmonic response with its order; `prefix` begins their labels."""
+    for outcome, look in MARKERS.items():
+        chosen = [point for point in points if point.outcome == outcome]
+        if chosen:
+            axes.scatter(
+                [point.frequency_ratio for point in chosen],
+                [point.amplitude_ratio for point in chosen],
+                s=26,
+                linewidths=0.9,
+                label=f"{prefix}{NAMES[outcome]}",
+                zorder=4,
+                **look,
+            )
+    for point in points:
+        if isinstance(point.order, int) and point.order > 1:
+            axes.annotate(
+                f"1/{point.order}",
+                (point.frequency_ratio, point.amplitude_ratio),
+                xytext=(6, 0),
+                textcoords="offset points",
+                va="center",
+                fontsize=7,
+            )
 
 
 def _draw_scale(axes: Axes, points: Sequence[MapPoint]) -> None:

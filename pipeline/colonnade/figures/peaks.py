@@ -14,21 +14,36 @@ from numpy.typing import NDArray
 from colonnade.dynamics.block import Block
 from colonnade.figures.panels import legend_outside
 from colonnade.figures.style import FIT, MEASURED, blank_figure, styled
-from colonnade.identification.restitution import released_energy
+from colonnade.identification.restitution.energy import released_energy
 
 Array = NDArray[np.float64]
 
 COLUMNS = 3
 
+BELOW = 0.5
+"""The energy axis ends at this share of that of the lowest peak that stands two standard errors above zero."""
+
 
 class PeakSeries(NamedTuple):
-    """Peaks of one free vibration: angle, its standard error, fitted angle (rad); whether used; all of shape (n,)."""
+    """
+    Peaks of one free vibration, all of shape (n,).
+
+    Attributes
+    ----------
+    title : str
+    angle, standard_error, fitted_angle : ndarray
+        rad.
+    used : ndarray of bool
+    band : ndarray, optional
+        Half-width of the band of confidence about the fitted line, of ln energy (`decay_band`).
+    """
 
     title: str
     angle: Array
     standard_error: Array
     fitted_angle: Array
     used: NDArray[np.bool_]
+    band: Array | None = None
 
 
 def peak_decay(series: Sequence[PeakSeries], block: Block, *, axes: Sequence[Axes] | None = None) -> Figure:
@@ -76,8 +91,12 @@ def peak_decay(series: Sequence[PeakSeries], block: Block, *, axes: Sequence[Axe
                 one.set_ylabel("energy / barrier" if index % columns == 0 else "")
         for one, peaks in zip(axes, series, strict=True):
             _draw_peaks(one, peaks, block)
-            _label_energies(one)
             figure = cast(Figure, one.get_figure(root=True))
+        lowest = min((_lowest(peaks, block) for peaks in series), default=1.0)
+        for one in axes:
+            if lowest < 1.0:
+                one.set_ylim(bottom=max(one.get_ylim()[0], lowest))
+            _label_energies(one)
         if own:
             legend_outside(figure, axes)
     return figure
@@ -114,12 +133,25 @@ def _draw_peaks(axes: Axes, peaks: PeakSeries, block: Block) -> None:
     if fitted.any():
         line = released_energy(np.abs(peaks.fitted_angle[fitted]), critical[fitted])
         axes.plot(number[fitted], line, label="fit", zorder=3, **FIT)
+        if peaks.band is not None and np.isfinite(peaks.band[fitted]).any():
+            wide = np.exp(peaks.band[fitted])
+            axes.fill_between(
+                number[fitted], line / wide, line * wide, color=FIT["color"], alpha=0.18, linewidth=0, label="95 % band"
+            )
     axes.set_yscale("log")
     axes.set_xlim(0, max(peaks.angle.size + 1, axes.get_xlim()[1]))
     axes.set_title(peaks.title)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=5, integer=True))
     if not shown.any():
         axes.text(0.5, 0.5, "no peaks", transform=axes.transAxes, ha="center", va="center")
+
+
+def _lowest(peaks: PeakSeries, block: Block) -> float:
+    """Energy below which a scale shows nothing but the bars of peaks near the noise."""
+    size = np.abs(peaks.angle)
+    critical = np.where(peaks.angle < 0, block.negative.critical_angle, block.positive.critical_angle)
+    known = np.isfinite(size) & (size < critical) & (size > 2 * np.nan_to_num(peaks.standard_error))
+    return BELOW * float(released_energy(size[known], critical[known]).min()) if known.any() else 1.0
 
 
 def _label_energies(axes: Axes) -> None:

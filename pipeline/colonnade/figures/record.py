@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from colonnade.figures.curve import Array, Curve, envelope
-from colonnade.figures.histories import draw_angle, draw_limit, largest_of, limit_of, time_limits
+from colonnade.figures.histories import Spread, draw_angle, draw_limit, largest_of, limit_of, time_limits
 from colonnade.figures.panels import legend_above, stacked_panels
 from colonnade.figures.style import BASE, MEASURED, model_style, styled
 
@@ -44,6 +44,7 @@ def whole_record(
     base: Sequence[Quantity] = (),
     impacts: Array | None = None,
     peak: Peak | None = None,
+    spreads: Mapping[str, Spread] | None = None,
 ) -> Figure:
     """
     Draw one test: measured and predicted angle above, then what else moved, and the base motion at the bottom.
@@ -62,6 +63,8 @@ def whole_record(
         Times (s) of the measured impacts, marked along the foot of the uppermost panel.
     peak : Peak, optional
         Marked with a ring.
+    spreads : mapping of str to Spread, optional
+        Ensembles by model: the widest band of each is shaded.
 
     Returns
     -------
@@ -73,7 +76,7 @@ def whole_record(
         heights = [ANGLE_HEIGHT, *([OTHER_HEIGHT] * (bool(misfits) + len(others)))]
         figure, axes = stacked_panels(heights)
         limit = limit_of([curve for curve in (measured, *predicted.values()) if curve is not None])
-        draw_angle(axes[0], measured, predicted, limit)
+        draw_angle(axes[0], measured, predicted, limit, spreads=spreads)
         if impacts is not None and impacts.size:
             _mark_impacts(axes[0], impacts)
         if peak is not None and np.isfinite(peak).all() and abs(peak.ratio) < limit:

@@ -14,13 +14,14 @@ from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 from numpy.typing import NDArray
 
 from colonnade.dynamics.maps.chart import StabilityMap
-from colonnade.figures.measured_map import MARKERS, NAMES
+from colonnade.figures.measured_map import draw_points
 from colonnade.figures.style import BASE, LineStyle, blank_figure, model_style, styled
 from colonnade.identification.boundaries import MapPoint
 
 Array = NDArray[np.float64]
 
-SHADE = LinearSegmentedColormap.from_list("overturning", ["#ffffff", "#eec9b4"])
+OVERTURNED_COLOUR = "#eec9b4"
+SHADE = LinearSegmentedColormap.from_list("overturning", ["#ffffff", OVERTURNED_COLOUR])
 """Of the share of a cell that overturns; light, so that points and lines stand out."""
 
 LOGARITHMIC = 6.0
@@ -65,11 +66,11 @@ def stability_map(
         if axes is None:
             axes = blank_figure(4.4).subplots()
         first = charts[0]
-        _scale(axes, first, points)
+        scale_axes(axes, first.frequency_ratio, first.amplitude_ratio, points)
         axes.grid(False)
         axes.pcolormesh(
-            _edges(first.frequency_ratio),
-            _edges(first.amplitude_ratio),
+            cell_edges(first.frequency_ratio),
+            cell_edges(first.amplitude_ratio),
             first.overturning_fraction.T,
             cmap=SHADE,
             vmin=0.0,
@@ -79,18 +80,7 @@ def stability_map(
         )
         for chart in charts:
             _limits(axes, chart)
-        for outcome, look in MARKERS.items():
-            chosen = [point for point in points if point.outcome == outcome]
-            if chosen:
-                axes.scatter(
-                    [point.frequency_ratio for point in chosen],
-                    [point.amplitude_ratio for point in chosen],
-                    s=24,
-                    linewidths=0.9,
-                    label=f"measured: {NAMES[outcome]}",
-                    zorder=4,
-                    **look,
-                )
+        draw_points(axes, points, prefix="measured: ")
         figure = cast(Figure, axes.get_figure(root=True))
         if own:
             axes.set_title(_words(first.options), fontsize=8, color="#5b6675")
@@ -101,6 +91,7 @@ def stability_map(
                 labels=[str(shade.get_label()), *labels],
                 loc="outside lower center",
                 ncols=3,
+                fontsize=8,
                 columnspacing=1.4,
                 handletextpad=0.6,
             )
@@ -119,12 +110,12 @@ def _limits(axes: Axes, chart: StabilityMap) -> None:
     axes.plot(chart.frequency_ratio, chart.upper, label=f"{model}: upper limit", zorder=3, **upper)
 
 
-def _scale(axes: Axes, chart: StabilityMap, points: Sequence[MapPoint]) -> None:
+def scale_axes(axes: Axes, frequency_ratio: Array, amplitude_ratio: Array, points: Sequence[MapPoint]) -> None:
+    """Scale and label the axes of a map so that they hold its Ω and A, and the measured points."""
     amplitudes = [point.amplitude_ratio for point in points]
-    low = min([float(chart.amplitude_ratio[0]), *amplitudes])
-    high = max([float(chart.amplitude_ratio[-1]), *amplitudes])
-    frequencies = _edges(chart.frequency_ratio)
-    axes.set_xlim(float(frequencies[0]), float(frequencies[-1]))
+    low = min([float(amplitude_ratio[0]), *amplitudes])
+    high = max([float(amplitude_ratio[-1]), *amplitudes])
+    axes.set_xlim(float(frequency_ratio[0]), float(frequency_ratio[-1]))
     if high / low > LOGARITHMIC:
         axes.set_yscale("log")
         axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 5.0, 7.0), numticks=20))
@@ -135,7 +126,7 @@ def _scale(axes: Axes, chart: StabilityMap, points: Sequence[MapPoint]) -> None:
     axes.set_ylabel("A = a / (g tan α)")
 
 
-def _edges(centres: Array) -> Array:
+def cell_edges(centres: Array) -> Array:
     """Edges of the cells around the centres; the outermost end at the centres themselves."""
     middles = 0.5 * (centres[1:] + centres[:-1])
     return np.concatenate([centres[:1], middles, centres[-1:]])
@@ -143,11 +134,23 @@ def _edges(centres: Array) -> Array:
 
 def _words(options: Mapping[str, Any]) -> str:
     """Return in words what the limits depend on."""
+    motion = "recorded table motion, stretched"
     if options["base_motion"] == "sine":
-        ramp = f"ramps of {options['ramp']:g}" if options["ramp"] else "no ramp"
-        motion = f"{options['cycles']:g} cycles, {ramp}, phase {options['phase']:.2f} rad"
-    else:
-        motion = "recorded table motion, stretched"
-    negative, positive = options["restitution_negative"], options["restitution_positive"]
-    e = f"e = {negative:g}" if negative == positive else f"e = {negative:g} | {positive:g}"
+        motion = f"{options['cycles']:g} cycles, {words_of_sine(options)}"
+    e = words_of_restitution(options)
     return f"{motion}; {e}; limits at least {options['width']:g} wide, scanned in steps of {options['scan_step']:.2g}"
+
+
+def words_of_sine(options: Mapping[str, Any]) -> str:
+    """Return in words the ramps and the phase of the sine of a map or of steady responses."""
+    ramp = f"{options['ramp_shape']} ramps of {options['ramp']:g}" if options["ramp"] else "no ramp"
+    return f"{ramp}, phase {options['phase']:.2f} rad"
+
+
+def words_of_restitution(options: Mapping[str, Any]) -> str:
+    """Return in words the e of a map or of steady responses."""
+    if "restitution_values" in options:
+        values = options["restitution_values"]
+        return f"e = {values[0]:.4g} … {values[-1]:.4g} over the speed of the impact"
+    negative, positive = options["restitution_negative"], options["restitution_positive"]
+    return f"e = {negative:.4g}" if negative == positive else f"e = {negative:.4g} | {positive:.4g}"

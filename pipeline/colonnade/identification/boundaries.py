@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from colonnade.dynamics.history import Outcome
 
 SAME_FREQUENCY = 0.02
@@ -109,6 +112,43 @@ def bracket_boundaries(points: Iterable[MapPoint]) -> list[Boundaries]:
         else:
             groups.append([point])
     return [_of_group(group) for group in groups]
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """How far a computed limit lies above the measured boundary: mean and RMS in A, over how many frequencies."""
+
+    mean: float
+    rms: float
+    frequencies: int
+
+
+def limit_misfit(boundaries: Iterable[Boundaries], frequency_ratio: ArrayLike, limit: ArrayLike) -> Misfit | None:
+    """
+    Compare a computed limit of overturning with the measured boundary.
+
+    Parameters
+    ----------
+    boundaries : iterable of Boundaries
+    frequency_ratio, limit : array_like, shape (n,)
+        Ω, increasing, and A of the limit, NaN where there is none.
+
+    Returns
+    -------
+    misfit : Misfit or None
+        Limit, linear between its Ω, minus the middle of each bracket; None where no frequency has both.
+    """
+    omega, computed = np.asarray(frequency_ratio, dtype=np.float64), np.asarray(limit, dtype=np.float64)
+    measured = [(each.frequency_ratio, each.overturning.middle) for each in boundaries]
+    differences = [
+        float(np.interp(at, omega, computed)) - middle
+        for at, middle in measured
+        if middle is not None and omega[0] <= at <= omega[-1]
+    ]
+    known = np.array([difference for difference in differences if np.isfinite(difference)])
+    if known.size == 0:
+        return None
+    return Misfit(float(known.mean()), float(np.sqrt((known**2).mean())), int(known.size))
 
 
 def _of_group(group: list[MapPoint]) -> Boundaries:

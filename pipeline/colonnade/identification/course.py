@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import NO_ROCKING_RATIO, amplitude
-from colonnade.identification.arcs import find_impacts
 from colonnade.identification.outcome import Verdict, judge
+from colonnade.identification.restitution.arcs import find_impacts
 from colonnade.signals.rest import drift
 
 Array = NDArray[np.float64]

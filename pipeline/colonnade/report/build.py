@@ -9,7 +9,7 @@ from pathlib import Path
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.settings import settings
-from colonnade.figures import PeakSeries
+from colonnade.identification.restitution.choice import RULE
 from colonnade.report import (
     channels,
     charts,
@@ -46,7 +46,6 @@ class Gathered:
     channels: dict[str, tuple[ChannelRow, ...]] = field(default_factory=dict)
     spans: list[SpanTest] = field(default_factory=list)
     free_vibrations: defaultdict[str, list[FreeVibration]] = field(default_factory=lambda: defaultdict(list))
-    series: defaultdict[str, list[PeakSeries]] = field(default_factory=lambda: defaultdict(list))
     used: Used = field(default_factory=Used)
 
     def add(self, campaign: Campaign, test: Test, found: Results, row: TestRow) -> None:
@@ -58,10 +57,8 @@ class Gathered:
             panel = charts.span_panel(test, found, campaign.block(test.specimen))
             self.spans.append(SpanTest(test, row, panel, charts.seen(found)))
         if "restitution" in found.datasets:
-            self.free_vibrations[test.specimen].append(specimens_page.free_vibration(test.id, found))
-            series = charts.peak_series(test, found)
-            if series is not None:
-                self.series[test.specimen].append(series)
+            vibration = specimens_page.free_vibration(test, found, campaign.block(test.specimen))
+            self.free_vibrations[test.specimen].append(vibration)
 
 
 def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *, code: str = "") -> Path:
@@ -117,8 +114,7 @@ def render(
     for name in campaign.specimens:
         pooled = results.of_specimen(layout, name)
         gathered.used.versions |= dict.fromkeys(pooled.versions)
-        found = gathered.free_vibrations[name], gathered.series[name]
-        specimens.append(specimens_page.of_specimen(campaign, name, pooled, *found))
+        specimens.append(specimens_page.of_specimen(campaign, name, pooled, gathered.free_vibrations[name]))
         yield (
             pages.of_specimen(name),
             renderer.page(
@@ -142,6 +138,7 @@ def render(
         "settings": list(settings(campaign.processing)),
         "references": REFERENCES,
         "software": methods.software(),
+        "rule": RULE,
     }
     for template, address in pages.WHOLE.items():
         yield address, renderer.page(template, address, **shown)

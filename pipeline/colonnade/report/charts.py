@@ -10,7 +10,7 @@ from markupsafe import Markup
 from colonnade import figures
 from colonnade.campaign import Test
 from colonnade.dynamics.block import Block
-from colonnade.figures import Curve, Peak, PeakSeries, Quantity, SpanPanel, Spread
+from colonnade.figures import Curve, Peak, Quantity, SpanPanel, Spread
 from colonnade.identification.boundaries import MapPoint
 from colonnade.report import wording
 from colonnade.report.results import Results
@@ -33,12 +33,17 @@ BASE = (
 """Motions of the base, likewise."""
 
 
+SHADED = "nonlinear"
+"""The model whose band is shaded on the overlay, where there are several."""
+
+
 def record(test: Test, results: Results, block: Block) -> Markup | None:
     """Draw a test over time: angle, misfit, other motions, in a forced test the base motion; None without anything."""
     measured, predicted = measured_ratio(results, block), predicted_ratios(results, block)
     base = [] if test.kind == "free-vibration" else _quantities(results, BASE, block)
     if measured is None and not predicted and not base:
         return None
+    spreads = _spreads(results, block)
     figure = figures.whole_record(
         measured,
         predicted,
@@ -47,6 +52,8 @@ def record(test: Test, results: Results, block: Block) -> Markup | None:
         base=base,
         impacts=results.datasets["rocking"]["impact_time"].to_numpy() if _has(results, "impact_time") else None,
         peak=_peak(results, measured),
+        # Shades of several models on each other cannot be told apart: those of the others are in `bands` alone.
+        spreads=dict(sorted(spreads.items(), key=lambda item: item[0] != SHADED)[:1]),
     )
     title = f"{test.id}: rocking angle, measured and predicted"
     return Markup(figures.to_svg(figure, identity=f"record-{test.id}", title=title, description=seen(results)))
@@ -54,17 +61,7 @@ def record(test: Test, results: Results, block: Block) -> Markup | None:
 
 def bands(test: Test, results: Results, block: Block) -> Markup | None:
     """Draw the measured angle over what each model's own uncertainty leaves; None where there is no ensemble."""
-    spreads = {}
-    for stage in (stage for stage in results.datasets if stage.startswith("ensemble ")):
-        found = results.datasets[stage]
-        angles = found["rocking_angle_band"].to_numpy()
-        critical = np.where(angles < 0, block.negative.critical_angle, block.positive.critical_angle)
-        spreads[stage.removeprefix("ensemble ")] = Spread(
-            found["elapsed"].to_numpy(),
-            found["quantile"].to_numpy(),
-            angles / critical,
-            float(found["overturning_probability"]),
-        )
+    spreads = _spreads(results, block)
     if not spreads:
         return None
     figure = figures.bands_over_time(measured_ratio(results, block), spreads)
@@ -111,33 +108,6 @@ def measured_map(identity: str, points: Sequence[MapPoint]) -> Markup:
     )
 
 
-def peak_series(test: Test, results: Results) -> PeakSeries | None:
-    """Return the peaks of a free vibration, None where none were found."""
-    found = results.datasets.get("restitution")
-    if found is None or not found.sizes.get("peak", 0):
-        return None
-    return PeakSeries(
-        _short(test.id),
-        found["peak_angle"].to_numpy(),
-        found["peak_angle_standard_error"].to_numpy(),
-        found["fitted_angle"].to_numpy(),
-        found["peak_used"].to_numpy() == 1,
-    )
-
-
-def peaks(identity: str, series: Sequence[PeakSeries], block: Block) -> Markup:
-    """Draw the peaks of free vibrations with their fits."""
-    described = [f"{one.title}: {int(one.used.sum())} of {one.used.size} peaks used." for one in series]
-    return Markup(
-        figures.to_svg(
-            figures.peak_decay(series, block),
-            identity=identity,
-            title="Energy of successive peaks against the impact number, with the fitted line",
-            description=" ".join(described),
-        )
-    )
-
-
 def measured_ratio(results: Results, block: Block) -> Curve | None:
     """Return the measured θ/α, None where the angle was not measured."""
     return _ratio(results, "rocking", block)
@@ -173,6 +143,22 @@ def _ratio(results: Results, stage: str, block: Block) -> Curve | None:
     angle = dataset["rocking_angle"].to_numpy()
     critical = np.where(angle < 0, block.negative.critical_angle, block.positive.critical_angle)
     return Curve(dataset["elapsed"].to_numpy(), angle / critical)
+
+
+def _spreads(results: Results, block: Block) -> dict[str, Spread]:
+    """Return the ensembles' bands of θ/α by model."""
+    spreads: dict[str, Spread] = {}
+    for stage in (stage for stage in results.datasets if stage.startswith("ensemble ")):
+        found = results.datasets[stage]
+        angles = found["rocking_angle_band"].to_numpy()
+        critical = np.where(angles < 0, block.negative.critical_angle, block.positive.critical_angle)
+        spreads[stage.removeprefix("ensemble ")] = Spread(
+            found["elapsed"].to_numpy(),
+            found["quantile"].to_numpy(),
+            angles / critical,
+            float(found["overturning_probability"]),
+        )
+    return spreads
 
 
 def _misfits(results: Results, measured: Curve | None, predicted: Mapping[str, Curve]) -> dict[str, Curve]:
@@ -211,7 +197,3 @@ def _quantities(results: Results, wanted: Sequence[tuple[str, str, float]], bloc
 def _has(results: Results, name: str) -> bool:
     rocking = results.datasets.get("rocking")
     return rocking is not None and name in rocking and rocking[name].ndim == 1
-
-
-def _short(name: str, longest: int = 26) -> str:
-    return name if len(name) <= longest else f"{name[: longest - 1]}…"

@@ -9,14 +9,14 @@ from typing import NamedTuple
 
 from markupsafe import Markup
 
-from colonnade.campaign import Campaign
+from colonnade.campaign import Campaign, Test
 from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block, pair
 from colonnade.dynamics.similitude import at_prototype
-from colonnade.figures import PeakSeries
-from colonnade.report import charts, wording
+from colonnade.figures import EstimateGroup, EstimateRow, ImpactSeries, PeakSeries
+from colonnade.report import restitution, restitution_charts, wording
+from colonnade.report.restitution import EstimateText
 from colonnade.report.results import Message, Results
-from colonnade.report.tests_page import restitution_by_history, restitution_of
 
 SOURCES = {
     "given": "given in the campaign file",
@@ -45,12 +45,16 @@ class Property(NamedTuple):
 
 
 class FreeVibration(NamedTuple):
-    """One free vibration's e by its peaks and by its whole history, and why it was refused."""
+    """One free vibration: e with its interval, every estimator's, why it was refused, departures, and what is drawn."""
 
     test: str
-    peaks: str
-    history: dict[str, str]
+    e: str
+    estimates: tuple[EstimateText, ...]
+    departures: tuple[str, ...]
     reason: str
+    rows: Sequence[EstimateRow]
+    peaks: PeakSeries | None
+    impacts: ImpactSeries | None
 
 
 @dataclass(frozen=True)
@@ -70,17 +74,24 @@ class SpecimenPage:
     reason: str
     warnings: tuple[Message, ...]
     failures: tuple[Message, ...]
+    between: str
     free_vibrations: tuple[FreeVibration, ...]
+    estimators: Markup | None
     chart: Markup | None
+    impacts: Markup | None
 
 
-def free_vibration(test: str, results: Results) -> FreeVibration:
-    """Put the restitution of one free vibration into words."""
+def free_vibration(test: Test, results: Results, block: Block) -> FreeVibration:
+    """Gather of one free vibration what the page of its specimen shows."""
     return FreeVibration(
-        test,
-        restitution_of(results, "restitution"),
-        restitution_by_history(results),
-        results.text("restitution", "reason"),
+        test.id,
+        restitution.value_of(results, restitution.STAGE),
+        restitution.estimates_of(results),
+        restitution.departures_of(results),
+        results.text(restitution.STAGE, "reason"),
+        restitution.estimate_rows(results),
+        restitution_charts.peak_series(test, results, block),
+        restitution_charts.impact_series(test, results),
     )
 
 
@@ -89,9 +100,8 @@ def of_specimen(
     name: str,
     pooled: Results,
     free_vibrations: Sequence[FreeVibration],
-    series: Sequence[PeakSeries],
 ) -> SpecimenPage:
-    """Put a specimen into words; `free_vibrations` and `series` are of its tests."""
+    """Put a specimen into words; `free_vibrations` are those of its tests."""
     specimen, block = campaign.specimens[name], campaign.block(name)
     value = pooled.value("specimen", "restitution")
     known = value is not None and isfinite(value)
@@ -101,7 +111,7 @@ def of_specimen(
         scale="" if specimen.scale is None else f"1:{specimen.scale:g}",
         properties=_properties(specimen, block, campaign.gravity),
         deviations=tuple(specimen.deviations(campaign.gravity)),
-        e=restitution_of(pooled, "specimen"),
+        e=restitution.value_of(pooled, "specimen"),
         source=SOURCES.get(
             pooled.text("specimen", "restitution_source"), "failed" if pooled.failures else "not yet known"
         ),
@@ -112,8 +122,37 @@ def of_specimen(
         warnings=pooled.warnings,
         failures=pooled.failures,
         free_vibrations=tuple(free_vibrations),
-        chart=charts.peaks(f"peaks-{name}", series, block) if series else None,
+        between=_between(pooled),
+        **_drawn(name, pooled, free_vibrations, block),
     )
+
+
+def _between(pooled: Results) -> str:
+    """Write the scatter of e between tests, beside the error within one."""
+    between = pooled.value("specimen", "between_test_scatter")
+    if between is None or not isfinite(between):
+        return ""
+    within = pooled.middle("specimen", "test_restitution_standard_error")
+    return f"{between:.2g} (standard deviation of e); standard error within a test {wording.number(within, 2)}"
+
+
+def _drawn(
+    name: str, pooled: Results, free_vibrations: Sequence[FreeVibration], block: Block
+) -> dict[str, Markup | None]:
+    groups = [EstimateGroup(each.test, each.rows) for each in free_vibrations]
+    together = restitution_charts.pooled_row(pooled)
+    if together is not None:
+        groups.append(EstimateGroup("all together", [together]))
+    peaks = [each.peaks for each in free_vibrations if each.peaks is not None]
+    impacts = [each.impacts for each in free_vibrations if each.impacts is not None]
+    rigid = block.restitution
+    return {
+        "estimators": restitution_charts.estimators(f"estimators-{name}", groups, rigid),
+        "chart": restitution_charts.peaks(f"peaks-{name}", peaks, block) if peaks else None,
+        "impacts": restitution_charts.impacts(f"impacts-{name}", impacts, pooled, "specimen", rigid)
+        if impacts
+        else None,
+    }
 
 
 def _properties(specimen: Specimen, block: Block, gravity: float) -> tuple[Property, ...]:

@@ -9,9 +9,12 @@ import numpy as np
 from markupsafe import Markup
 
 from colonnade.campaign import Campaign, Test
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.similitude import at_prototype
-from colonnade.report import channels, charts, wording
+from colonnade.figures import EstimateGroup
+from colonnade.report import channels, charts, restitution, restitution_charts, wording
 from colonnade.report.channels import ChannelRow
+from colonnade.report.restitution import EstimateText
 from colonnade.report.results import Results
 from colonnade.report.rows import TestRow
 
@@ -76,6 +79,8 @@ class TestPage:
     found: tuple[Fact, ...]
     metrics: tuple[Metrics, ...]
     restitution: tuple[Fact, ...]
+    estimates: tuple[EstimateText, ...]
+    departures: tuple[str, ...]
     peaks: tuple[PeakRow, ...]
     channels: tuple[ChannelRow, ...]
     raw_files: tuple[tuple[str, str], ...]
@@ -83,13 +88,23 @@ class TestPage:
     review: tuple[str, ...]
     chart: Markup | None
     bands: Markup | None
-    peaks_chart: Markup | None
+    restitution_charts: RestitutionCharts
+
+
+@dataclass(frozen=True)
+class RestitutionCharts:
+    """Pictures of a free vibration's restitution, each None where there is nothing to draw."""
+
+    fitted: Markup | None
+    estimators: Markup | None
+    peaks: Markup | None
+    impacts: Markup | None
+    region: Markup | None
 
 
 def of_test(campaign: Campaign, test: Test, results: Results, row: TestRow) -> TestPage:
     """Put all that is stored of a test into words and figures."""
     block = campaign.block(test.specimen)
-    series = charts.peak_series(test, results)
     rocking = results.datasets.get("rocking")
     has_angle = rocking is not None and "rocking_angle" in rocking
     return TestPage(
@@ -99,7 +114,9 @@ def of_test(campaign: Campaign, test: Test, results: Results, row: TestRow) -> T
         done=_done(test, row),
         found=_found(results, row, campaign.specimens[test.specimen].scale),
         metrics=tuple(_metrics(results, model, row) for model in row.models if row.models[model].outcome),
-        restitution=_restitution(results),
+        restitution=restitution.facts_of(results),
+        estimates=restitution.estimates_of(results),
+        departures=restitution.departures_of(results),
         peaks=_peaks(results),
         channels=channels.of_test(results),
         raw_files=results.raw_files,
@@ -107,7 +124,23 @@ def of_test(campaign: Campaign, test: Test, results: Results, row: TestRow) -> T
         review=tuple(results.texts("ingest", "review")) or campaign.review(test.id).told,
         chart=charts.record(test, results, block),
         bands=charts.bands(test, results, block),
-        peaks_chart=None if series is None else charts.peaks(f"peaks-{test.id}", [series], block),
+        restitution_charts=_restitution_charts(test, results, block),
+    )
+
+
+def _restitution_charts(test: Test, results: Results, block: Block) -> RestitutionCharts:
+    peaks = restitution_charts.peak_series(test, results, block)
+    impacts = restitution_charts.impact_series(test, results)
+    estimates = EstimateGroup("", restitution.estimate_rows(results))
+    rigid = block.restitution
+    return RestitutionCharts(
+        fitted=restitution_charts.fitted(test, results, block),
+        estimators=restitution_charts.estimators(f"estimators-{test.id}", [estimates], rigid),
+        peaks=None if peaks is None else restitution_charts.peaks(f"peaks-{test.id}", [peaks], block),
+        impacts=None
+        if impacts is None
+        else restitution_charts.impacts(f"impacts-{test.id}", [impacts], results, restitution.STAGE, rigid),
+        region=restitution_charts.region(test, results),
     )
 
 
@@ -183,39 +216,6 @@ def _verdict(model: str, within: float, rank: float, overturning: float) -> str:
     ]
     where = "within" if is_likely else "beyond"
     return f"{model.capitalize()} model: the misfit lies {where} its own spread ({'; '.join(said)})."
-
-
-def _restitution(results: Results) -> tuple[Fact, ...]:
-    """Give e of this free vibration by its peaks, and by its whole history where that was fitted."""
-    facts = [
-        ("e from the peaks", restitution_of(results, "restitution")),
-        ("method", results.text("restitution", "method")),
-        ("refused", results.text("restitution", "reason")),
-        *(
-            (f"e from the whole history, {model} model", text)
-            for model, text in restitution_by_history(results).items()
-        ),
-        ("method of the history", results.text("restitution", "history_method")),
-        ("refused by the history", results.text("restitution", "history_reason")),
-        ("rest angle taken off", wording.quantity(results.value("restitution", "zero_offset"), "mrad", 2)),
-    ]
-    return tuple((label, text) for label, text in facts if text not in ("", wording.NOTHING))
-
-
-def restitution_of(results: Results, stage: str) -> str:
-    """Write a coefficient of restitution with the half-width of its interval."""
-    names = ("restitution_low", "restitution_high", "level")
-    low, high, level = (nan if bound is None else bound for bound in (results.value(stage, name) for name in names))
-    return wording.interval(results.value(stage, "restitution"), low, high, level)
-
-
-def restitution_by_history(results: Results) -> dict[str, str]:
-    """Write the coefficients of restitution that the whole history gives, by model."""
-    values, low, high = (
-        results.of("restitution", f"restitution_history{end}", "model") for end in ("", "_low", "_high")
-    )
-    level = results.value("restitution", "level") or nan
-    return {model: wording.interval(value, low[model], high[model], level) for model, value in values.items()}
 
 
 def _peaks(results: Results) -> tuple[PeakRow, ...]:

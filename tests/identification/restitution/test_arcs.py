@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from colonnade.identification.arcs import find_arcs, find_impacts, noise_level
+from colonnade.identification.restitution.arcs import find_arcs, find_impacts, noise_level
 
 TIME = np.arange(0, 4, 0.002)
 

@@ -8,7 +8,8 @@ from scipy.integrate import solve_ivp
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.rock import rock
-from colonnade.identification.restitution import angle_of_energy, identify_restitution, released_energy
+from colonnade.identification.restitution.energy import angle_of_energy, released_energy
+from colonnade.identification.restitution.identify import identify_restitution
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
@@ -43,9 +44,9 @@ def test_the_nonlinear_truth_is_found_without_noise(restitution):
 def test_intervals_hold_the_truth_as_often_as_they_say():
     time, angle = _nonlinear_decay(0.976)
     rng = np.random.default_rng(2013)
-    results = [identify_restitution(time, angle + rng.normal(0, 2e-4, time.size) + 1e-4, PRISM) for _ in range(60)]
+    results = [identify_restitution(time, angle + rng.normal(0, 2e-4, time.size) + 1e-4, PRISM) for _ in range(30)]
     held = sum(result.low <= 0.976 <= result.high for result in results)
-    assert 52 <= held <= 60
+    assert 26 <= held <= 30
     assert abs(np.mean([result.value for result in results]) - 0.976) < 1e-5
     assert np.mean([result.zero_offset for result in results]) == pytest.approx(1e-4, rel=0.05)
 
@@ -90,8 +91,8 @@ TIME = np.arange(0, 14, 0.002)
         (np.random.default_rng(0).normal(0, 1e-3, TIME.size), "0 peaks"),
         (np.where(TIME < 2, 0.05, 0.0), "0 peaks"),
         (0.05 * np.sin(2 * np.pi * 5 * TIME), "Times between impacts"),
-        (0.05 * np.sin(2 * np.pi * 1.69 * TIME), "do not decay"),
-        (rock(PRISM, restitution=0.5, theta0=0.5 * ALPHA, duration=4.0).angle, "at least 5 are needed"),
+        (0.05 * np.sin(2 * np.pi * 1.69 * TIME), "not the arc of"),
+        (rock(PRISM, restitution=0.5, theta0=0.5 * ALPHA, duration=4.0).angle, "at least 2 are needed"),
     ],
     ids=["nothing", "noise", "a step", "a fast sine", "a sine at the rocking frequency", "few peaks"],
 )
@@ -102,7 +103,7 @@ def test_what_is_no_free_rocking_is_refused_with_its_reason(angle, words):
 def test_growing_motion_is_refused():
     time, angle = _nonlinear_decay(0.976)
     backwards = angle[time < 9][::-1]
-    assert "do not decay" in _refusal(backwards)
+    assert "does not decay" in _refusal(backwards)
 
 
 def test_released_energy_is_housners_for_a_slender_block_and_has_its_inverse():

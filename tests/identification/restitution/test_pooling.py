@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.identification.pooling import pool
+from colonnade.identification.restitution.pooling import pool
 
 
 def test_agreeing_tests_are_weighted_by_their_errors():

@@ -1,0 +1,180 @@
+"""Estimates of e side by side, with their intervals: do independent ways of asking give one answer?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from colonnade.figures.style import FIT, LIMIT, MEASURED, WIDTH, styled
+from colonnade.units import format_uncertain
+
+ROW, GROUP = 0.21, 0.26
+"""Heights of an estimate's row and of a group's title, inches."""
+
+MARGIN = 0.1
+"""Below the last row, inches; the rigid-body value is written in a row of its own."""
+
+LEFT, RIGHT, TOP, BOTTOM = 2.05, 1.6, 0.12, 0.46
+"""Room for names, for values in figures, and for the axis; inches."""
+
+SMALLEST_RANGE = 2e-3
+"""No axis of e is narrower than this."""
+
+BEYOND = 8.0
+"""Median widths of an interval about the median estimate that the axis shows; what is beyond has an arrow."""
+
+
+class EstimateRow(NamedTuple):
+    """One estimator's e and interval, or (with NaN) the reason in few words; whether it is the recommended one."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+    recommended: bool = False
+    remark: str = ""
+
+
+class EstimateGroup(NamedTuple):
+    """Estimates of one free vibration, or of all together."""
+
+    title: str
+    rows: Sequence[EstimateRow]
+
+
+def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float | None = None) -> Figure:
+    """
+    Draw points with intervals, a row an estimate, groups below each other.
+
+    Parameters
+    ----------
+    groups : sequence of EstimateGroup
+    rigid : float, optional
+        Rigid-body value: a line where the axis reaches it, else told at its edge.
+
+    Returns
+    -------
+    figure : Figure
+
+    Raises
+    ------
+    ValueError
+        If there is no row.
+    """
+    count = sum(len(group.rows) for group in groups)
+    if not count:
+        raise ValueError("no estimate was given; at least one was expected")
+    titles = sum(bool(group.title) for group in groups)
+    body = count * ROW + titles * GROUP + (MARGIN if rigid is None else GROUP)
+    height = TOP + body + BOTTOM
+    with styled():
+        figure = Figure(figsize=(WIDTH, height))
+        axes = figure.add_axes((LEFT / WIDTH, BOTTOM / height, (WIDTH - LEFT - RIGHT) / WIDTH, body / height))
+        low, high = _limits([row for group in groups for row in group.rows])
+        axes.set_xlim(low, high)
+        axes.set_ylim(body, 0)
+        axes.tick_params(axis="y", left=False, labelleft=False)
+        axes.grid(visible=False, axis="y")
+        place = 0.05
+        for group in groups:
+            if group.title:
+                _write(axes, place + GROUP / 2, group.title, -LEFT + 0.1, weight="bold")
+                place += GROUP
+            for row in group.rows:
+                _draw_row(axes, place + ROW / 2, row)
+                place += ROW
+        if not any(np.isfinite(row.value) for group in groups for row in group.rows):
+            axes.set_xticks([])
+        else:
+            axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
+            if rigid is not None:
+                _draw_rigid(axes, rigid)
+        axes.set_xlabel("coefficient of restitution e")
+        return figure
+
+
+def _draw_row(axes: Axes, place: float, row: EstimateRow) -> None:
+    weight = "bold" if row.recommended else "normal"
+    _write(axes, place, row.name, -LEFT + 0.2, weight=weight)
+    if not np.isfinite(row.value):
+        _write(axes, place, row.remark or "none", None, colour="#5b6675")
+        return
+    low, high = axes.get_xlim()
+    colour = FIT["color"] if row.recommended else MEASURED["color"]
+    ends = np.clip([row.low, row.high], low, high)
+    if np.isfinite(ends).all() and ends[1] > ends[0]:
+        axes.plot(ends, [place, place], color=colour, linewidth=2.0 if row.recommended else 1.1)
+    beyond = row.value < low or row.value > high
+    mark = ("<" if row.value < low else ">") if beyond else ("D" if row.recommended else "o")
+    axes.plot(
+        [min(max(row.value, low), high)],
+        [place],
+        mark,
+        color=colour,
+        markersize=5.0 if row.recommended else 4.0,
+        clip_on=False,
+        zorder=3,
+    )
+    half = (row.high - row.low) / 2
+    told = format_uncertain(row.value, half) if np.isfinite(half) else f"{row.value:.4f}"
+    _write(axes, place, told, WIDTH - LEFT - RIGHT + 0.12, weight=weight)
+
+
+def _write(
+    axes: Axes, place: float, text: str, left: float | None, *, weight: str = "normal", colour: str = "#30353d"
+) -> None:
+    """Write at a height, `left` inches from the left edge of the panel, or in its middle."""
+    axes.text(
+        0.5 if left is None else left / (WIDTH - LEFT - RIGHT),
+        place,
+        text,
+        transform=axes.get_yaxis_transform(),
+        ha="center" if left is None else "left",
+        va="center",
+        fontsize=8.5,
+        fontweight=weight,
+        color=colour,
+    )
+
+
+def _draw_rigid(axes: Axes, rigid: float) -> None:
+    low, high = axes.get_xlim()
+    told = f"rigid body {rigid:.4f}"
+    if rigid <= low:
+        where, told = 0.0, f"← {told}"
+    elif rigid >= high:
+        where, told = 1.0, f"{told} →"
+    else:
+        where = (rigid - low) / (high - low)
+        axes.axvline(rigid, **LIMIT)
+        told = f" {told} "
+    axes.annotate(
+        told,
+        (where, 0.0),
+        xycoords="axes fraction",
+        xytext=(0, 3),
+        textcoords="offset points",
+        ha="left" if where < 0.5 else "right",
+        va="bottom",
+        fontsize=8,
+        color="#5b6675",
+    )
+
+
+def _limits(rows: Sequence[EstimateRow]) -> tuple[float, float]:
+    values = np.array([row.value for row in rows if np.isfinite(row.value)])
+    if not values.size:
+        return 0.0, 1.0
+    widths = np.array([row.high - row.low for row in rows if np.isfinite(row.high - row.low)])
+    middle = float(np.median(values))
+    reach = BEYOND * max(float(np.median(widths)) if widths.size else 0.0, SMALLEST_RANGE / 2)
+    ends = [each for row in rows for each in (row.low, row.value, row.high) if np.isfinite(each)]
+    low = max(min(ends), middle - reach)
+    high = min(max(ends), middle + reach)
+    margin = 0.08 * max(high - low, SMALLEST_RANGE)
+    return low - margin, high + margin

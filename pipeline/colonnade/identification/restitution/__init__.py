@@ -1,0 +1,1 @@
+"""Identification of the coefficient of restitution from free vibrations."""

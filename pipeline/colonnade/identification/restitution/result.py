@@ -1,0 +1,190 @@
+"""What an identification of the coefficient of restitution returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def _none() -> Array:
+    return np.empty(0)
+
+
+def _nothing() -> NDArray[np.bool_]:
+    return np.empty(0, dtype=bool)
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """
+    One estimator's value of e, or the reason why it gives none.
+
+    Attributes
+    ----------
+    name : {"peaks", "half-periods", "impact-by-impact", "history-linear", "history-nonlinear"}
+    value, low, high, standard_error : float or None
+        e, its interval of confidence at `level` and its standard error; None where refused.
+    level : float
+    assumptions : str
+        What has to be true for the value to be that of the specimen.
+    reason : str
+        Why refused; empty otherwise.
+    residual : float or None
+        Of a whole history: RMS of measured − fitted, rad.
+    """
+
+    name: str
+    value: float | None
+    low: float | None
+    high: float | None
+    standard_error: float | None
+    level: float
+    assumptions: str
+    reason: str = ""
+    residual: float | None = None
+
+
+@dataclass(frozen=True)
+class Peaks:
+    """The peaks that an identification saw: s, rad, rad, rad, and whether each entered the fit; all shape (n,)."""
+
+    time: Array = field(default_factory=_none)
+    angle: Array = field(default_factory=_none)
+    standard_error: Array = field(default_factory=_none)
+    fitted_angle: Array = field(default_factory=_none)
+    used: NDArray[np.bool_] = field(default_factory=_nothing)
+
+
+@dataclass(frozen=True)
+class Impacts:
+    """
+    The impacts between two arcs of a history, in order; all of shape (n,).
+
+    Attributes
+    ----------
+    time, time_standard_error : ndarray
+        s.
+    velocity : ndarray
+        Magnitude of the angular velocity just before, rad/s, from the energy of the arc before.
+    restitution, restitution_standard_error : ndarray
+        e of this impact alone, from the arcs before and after; NaN where one of them has no peak.
+    used : ndarray of bool
+        Whether it entered the impact-by-impact estimate.
+    """
+
+    time: Array = field(default_factory=_none)
+    time_standard_error: Array = field(default_factory=_none)
+    velocity: Array = field(default_factory=_none)
+    restitution: Array = field(default_factory=_none)
+    restitution_standard_error: Array = field(default_factory=_none)
+    used: NDArray[np.bool_] = field(default_factory=_nothing)
+
+
+@dataclass(frozen=True)
+class Constancy:
+    """
+    How e of single impacts departs from one constant.
+
+    Attributes
+    ----------
+    slope, slope_standard_error : float
+        Of e against the angular velocity before the impact, s/rad.
+    change : float
+        Of e by that slope over the velocities seen.
+    scatter : float
+        Standard deviation of e from impact to impact beyond the errors.
+    chi_square, freedom : float, int
+        Of single e about their mean, by their errors alone.
+    """
+
+    slope: float = np.nan
+    slope_standard_error: float = np.nan
+    change: float = np.nan
+    scatter: float = np.nan
+    chi_square: float = np.nan
+    freedom: int = 0
+
+
+@dataclass(frozen=True)
+class FittedHistory:
+    """
+    The history that a whole-history fit lays through the record.
+
+    Attributes
+    ----------
+    time, angle, residual : ndarray, shape (n,)
+        s; rad, fitted, with the zero offset; rad, measured − fitted, NaN where a sample was missing.
+    model : str
+    names : tuple of str
+        Of the unknowns: "restitution", "peak" and "time" (the first peak, rad, s), "zero_offset" (rad), and where freed
+        "critical_angle" and "p", as factors on the block's.
+    values : ndarray, shape (k,)
+    covariance : ndarray, shape (k, k)
+        Of these values.
+    probability : float
+        That noise alone leaves as much over, arc by arc.
+    cutoff_hz : float or None
+        Low-pass that the record went through, given or found.
+    """
+
+    time: Array
+    angle: Array
+    residual: Array
+    model: str
+    names: tuple[str, ...] = ()
+    values: Array = field(default_factory=_none)
+    covariance: Array = field(default_factory=lambda: np.empty((0, 0)))
+    probability: float = np.nan
+    cutoff_hz: float | None = None
+
+
+@dataclass(frozen=True)
+class Restitution:
+    """
+    An identified coefficient of restitution, or the reason why there is none.
+
+    Attributes
+    ----------
+    value, low, high : float or None
+        The recommended e and its interval of confidence at `level`; None where refused.
+    standard_error : float or None
+    level : float
+    method : str
+    reason : str
+        Why refused; empty otherwise.
+    zero_offset : float
+        rad, common to all peaks; already taken off `peaks.angle`.
+    peaks : Peaks
+    impacts : Impacts
+    estimates : tuple of Estimate
+        Of every estimator, whichever is recommended.
+    history : FittedHistory or None
+        Of the recommended whole history.
+    departures : tuple of Departure
+        From the plane model with one e.
+    recommended : str
+        Name of the estimate whose value this is; empty where refused.
+    constancy : Constancy
+        Of e from impact to impact.
+    """
+
+    value: float | None
+    low: float | None
+    high: float | None
+    standard_error: float | None
+    level: float
+    method: str
+    reason: str = ""
+    zero_offset: float = 0.0
+    peaks: Peaks = field(default_factory=Peaks)
+    impacts: Impacts = field(default_factory=Impacts)
+    estimates: tuple[Estimate, ...] = ()
+    history: FittedHistory | None = None
+    departures: tuple[Any, ...] = ()
+    recommended: str = ""
+    constancy: Constancy = field(default_factory=Constancy)

@@ -1,0 +1,1 @@
+"""The Monte-Carlo study of the identified restitution: truth, design, bound, and what became of the records."""

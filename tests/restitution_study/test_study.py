@@ -1,0 +1,122 @@
+"""A short study gives what the whole one is held to; the whole one's results are within their goals."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+
+REPORTS = Path(__file__).resolve().parents[2] / "reports"
+FACTORS = ("restitution", "slenderness", "height", "release", "rate", "noise", "offset", "impacts", "low-pass")
+
+
+@pytest.fixture(scope="module")
+def command(study):
+    """The study's command as a module."""
+    specification = importlib.util.spec_from_file_location("restitution_study", REPORTS / "restitution_study.py")
+    module = importlib.util.module_from_spec(specification)
+    sys.path.insert(0, str(REPORTS))
+    sys.modules[specification.name] = module
+    specification.loader.exec_module(module)
+    sys.path.remove(str(REPORTS))
+    yield module
+    del sys.modules[specification.name]
+
+
+@pytest.fixture(scope="module")
+def short(command):
+    """Numbers of sixty records, and of six beyond the design."""
+    return command.numbers(*command.run_trials(60, 7, 1), 7)
+
+
+@pytest.fixture(scope="module")
+def whole():
+    """Numbers of the reference report."""
+    return json.loads((REPORTS / "restitution-study.json").read_text(encoding="utf-8"))
+
+
+def test_a_short_study_keeps_the_goals_as_far_as_sixty_records_can_tell(short):
+    everything = short["levels"][0]
+    assert everything["records"] == 60
+    assert everything["refused"] <= 0.05
+    assert abs(everything["bias"]) < 1e-4
+    assert everything["coverage"] >= 0.85
+    assert everything["margin"] > 10
+
+
+def test_a_records_draw_is_the_same_however_many_are_drawn(study):
+    first, again = study.draw(3, 17), study.draw(3, 17)
+    assert first == again
+    np.testing.assert_array_equal(first.record()[1], again.record()[1])
+    assert study.draw(3, 18) != first
+
+
+def test_records_have_the_impacts_that_were_asked_for_or_end_at_rest(study):
+    for number in range(40):
+        drawn = study.draw(11, number)
+        time = drawn.clock()
+        impacts = drawn.rocking.impact_times()
+        # The record ends at most two samples before the instant that was drawn.
+        fewest, most = ((impacts < time[-1] + late).sum() for late in (0.0, 2 / drawn.rate))
+        angle = drawn.rocking.angle(time) - drawn.rocking.zero_offset
+        assert most >= drawn.impacts or np.abs(angle[-1]) < 1e-6 * drawn.rocking.critical_angle
+        assert fewest <= drawn.impacts or np.abs(angle[-1]) < 1e-6 * drawn.rocking.critical_angle
+
+
+@pytest.mark.parametrize("number", [0, 5])
+def test_the_bound_is_reached_by_least_squares_with_the_truths_own_model(study, number):
+    drawn = replace(study.draw(21, number), filtered=False, rate=200.0, noise=1e-3, impacts=12)
+    truth = drawn.rocking
+    start = np.array([truth.restitution, truth.release_angle, truth.release_time, truth.zero_offset])
+    names = ("restitution", "release_angle", "release_time", "zero_offset")
+    estimates = []
+    for seed in range(40):
+        time, angle = replace(drawn, seed=(99, seed)).record()
+        fit = least_squares(
+            lambda x, time=time, angle=angle: replace(truth, **dict(zip(names, x, strict=True))).angle(time) - angle,
+            start,
+            x_scale=[1e-4, 1e-4, 1e-4, 1e-4],
+            diff_step=1e-7,
+        )
+        estimates.append(fit.x[0])
+    # A standard deviation of 40 values is known to 11 %.
+    assert np.std(estimates) == pytest.approx(study.cramer_rao_error(drawn), rel=0.35)
+
+
+def test_the_naive_way_finds_e_where_there_is_neither_noise_nor_offset(study):
+    rocking = study.FreeRocking(0.02, 3.0, 0.93, 0.012, 0.0)
+    angle = rocking.angle(np.arange(0.0, rocking.impact_times()[15], 1e-3))
+    assert study.naive_restitution(angle, 0.02) == pytest.approx(0.93, abs=2e-4)
+
+
+def test_every_level_of_the_whole_study_is_within_the_goals(whole):
+    levels = [each for each in whole["levels"] if each["factor"] in FACTORS]
+    assert {each["factor"] for each in levels} == set(FACTORS)
+    for each in levels:
+        name = (each["factor"], each["level"])
+        assert each["recommended"] >= 1000, name
+        assert abs(each["bias"]) < 1e-3, name
+        assert 0.92 <= each["coverage"] <= 0.97, name
+        assert each["margin"] > 1, name
+
+
+def test_records_that_hold_e_are_answered_and_those_that_do_not_are_refused(whole):
+    below, *_, above = whole["bounds"]
+    assert (below["factor"], below["level"]) == ("in the design", "below 0.001")
+    assert below["refused"] <= 0.05
+    assert (above["factor"], above["level"]) == ("beyond it", "above 0.003")
+    assert above["records"] > 100
+    assert above["refused"] > 0.95
+
+
+def test_the_page_tells_the_numbers_of_the_study(whole):
+    text = (REPORTS / "restitution-study.md").read_text(encoding="utf-8")
+    for each in whole["levels"]:
+        assert f"| {each['level']} | {each['records']} | {each['refused']:.1%} |" in text
+    assert (REPORTS / "restitution-study.svg").read_text(encoding="utf-8").startswith("<svg")
