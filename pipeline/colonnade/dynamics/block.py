@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import atan2, cos, hypot, pi, sin, sqrt
+from typing import Literal
 
 STANDARD_GRAVITY = 9.81
 """Default gravity of a campaign, m/s²; a laboratory's own value may be given."""
@@ -43,6 +44,26 @@ class Side:
 
 
 @dataclass(frozen=True)
+class Solid:
+    """
+    What plane rocking does not ask of a block, but motion in space does.
+
+    Attributes
+    ----------
+    base : {"rectangle", "circle"}
+    half_depth : float
+        m, along y; of a round base its radius.
+    inertia_x, inertia_z : float
+        kg m², about the axes through the centre of mass.
+    """
+
+    base: Literal["rectangle", "circle"]
+    half_depth: float
+    inertia_x: float
+    inertia_z: float
+
+
+@dataclass(frozen=True)
 class Block:
     """
     A rigid block that rocks in the plane x–z about the two edges of its base.
@@ -55,6 +76,8 @@ class Block:
         m/s².
     negative, positive : Side
         Rocking at θ < 0 (about the pole at −x) and at θ > 0 (about the pole at +x). Equal for a symmetric block.
+    solid : Solid or None
+        For motion in space; None where only plane quantities are known. Not compared: plane rocking is the same.
 
     Notes
     -----
@@ -66,6 +89,7 @@ class Block:
     gravity: float
     negative: Side
     positive: Side
+    solid: Solid | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         _positive(mass=self.mass, gravity=self.gravity)
@@ -80,7 +104,7 @@ class Block:
         Parameters
         ----------
         width, depth, height : float
-            Along x, y, z, m. The depth does not enter plane rocking, but has to be a length.
+            Along x, y, z, m. The depth does not enter plane rocking.
         mass : float
             kg.
         gravity : float, optional
@@ -94,7 +118,8 @@ class Block:
         _positive(width=width, depth=depth, height=height, mass=mass)
         half_width, centre_height = width / 2, height / 2
         inertia = mass * (width**2 + height**2) / 12 + mass * (half_width**2 + centre_height**2)
-        return cls._symmetric(half_width, centre_height, inertia, mass, gravity)
+        solid = Solid("rectangle", depth / 2, mass * (depth**2 + height**2) / 12, mass * (width**2 + depth**2) / 12)
+        return cls._symmetric(half_width, centre_height, inertia, mass, gravity, solid)
 
     @classmethod
     def cylinder(cls, *, diameter: float, height: float, mass: float, gravity: float = STANDARD_GRAVITY) -> Block:
@@ -132,7 +157,9 @@ class Block:
         second = height**2 * (base**2 + 3 * base * top + 6 * top**2) / 30
         fourth = (base**4 + base**3 * top + base**2 * top**2 + base * top**3 + top**4) / 20
         inertia = mass * ((fourth + second) / area + base**2)
-        return cls._symmetric(base, first / area, inertia, mass, gravity)
+        transverse = mass * ((fourth + second) / area - (first / area) ** 2)
+        solid = Solid("circle", base, transverse, 2.0 * mass * fourth / area)
+        return cls._symmetric(base, first / area, inertia, mass, gravity, solid)
 
     @classmethod
     def measured(
@@ -162,13 +189,15 @@ class Block:
             If a value is not positive or an angle is not below π/2.
         """
         angles, distances, inertias = pair(critical_angle), pair(pole_distance), pair(inertia)
-        sides = [Side(*values) for values in zip(angles, distances, inertias, strict=True)]
-        return cls(mass, gravity, *sides)
+        negative, positive = (Side(*values) for values in zip(angles, distances, inertias, strict=True))
+        return cls(mass, gravity, negative, positive)
 
     @classmethod
-    def _symmetric(cls, half_width: float, centre_height: float, inertia: float, mass: float, gravity: float) -> Block:
+    def _symmetric(
+        cls, half_width: float, centre_height: float, inertia: float, mass: float, gravity: float, solid: Solid
+    ) -> Block:
         side = Side(atan2(half_width, centre_height), hypot(half_width, centre_height), inertia)
-        return cls(mass, gravity, side, side)
+        return cls(mass, gravity, side, side, solid)
 
     def override(
         self,

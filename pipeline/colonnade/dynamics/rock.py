@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from importlib import import_module
 from math import ceil
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,10 +16,16 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.errors import nearest
 
+if TYPE_CHECKING:
+    from colonnade.dynamics.contact.law import ContactLaw
+
 Array = NDArray[np.float64]
 
 MODELS = ("linear", "nonlinear")
-"""Models that `rock` can run."""
+"""Models of plane rocking that `rock` can run."""
+
+CONTACT = "contact"
+"""The model in space that `rock` can run."""
 
 DEFAULT_REST_ANGLE = 1e-6
 """Fraction of α below which an arc after an impact is taken as rest."""
@@ -44,6 +50,8 @@ def rock(
     omega0: float = 0.0,
     duration: float | None = None,
     rest_angle: float = DEFAULT_REST_ANGLE,
+    contact: ContactLaw | None = None,
+    out_of_plane: float = 0.0,
 ) -> History:
     """
     Compute how a block rocks.
@@ -52,25 +60,32 @@ def rock(
     ----------
     block : Block
     motion : Motion, optional
-        Base motion along x and, where given, z; without it the block rocks freely for `duration`.
+        Base motion along x and, where given, z; without it the block rocks freely for `duration`. The contact model
+        takes motion along y too.
     restitution : float, pair of float, RestitutionLaw or function, optional
         e, between 0 and 1; a pair is for impacts that end an arc at (θ < 0, θ > 0); a law or a function gives e at
-        |ω| (rad/s) just before the impact. Default: the rigid-body value.
-    model : {"linear", "nonlinear"}
+        |ω| (rad/s) just before the impact. Default: the rigid-body value. Not for the contact model, whose restitution
+        follows from its law.
+    model : {"linear", "nonlinear", "contact"}
         The linear equation, solved exactly for a base motion that is linear between samples; or the full one, by Taylor
-        series to rounding. With vertical motion both are solved by Taylor series.
+        series to rounding (with vertical motion both by Taylor series); or a rigid body in space on nodes that touch
+        the table, step by step.
     theta0, omega0 : float, optional
         Initial angle (rad) and angular velocity (rad/s), positive when the top moves to +x.
     duration : float, optional
         s, only without a motion. The history is then sampled at about 1/(500 p).
     rest_angle : float, optional
         Fraction of α. After an impact whose next arc, under the base acceleration of that instant, would not rise above
-        it, the block is at rest until it is uplifted again.
+        it, the block is at rest until it is uplifted again. Not for the contact model.
+    contact : ContactLaw, optional
+        Of the contact model. Default: `ContactLaw.stiff` of the block.
+    out_of_plane : float, optional
+        Initial rotation about x, rad, of the contact model.
 
     Returns
     -------
     history : History
-        At the motion's samples.
+        At the motion's samples; a `ContactHistory` of the contact model.
 
     Raises
     ------
@@ -83,8 +98,12 @@ def rock(
     >>> rock(block, restitution=0.976, theta0=0.5 * block.critical_angle, duration=5.0).outcome
     'rocking'
     """
-    if model not in MODELS:
-        raise ValueError(f'There is no model "{model}".{nearest(model, MODELS)}')
+    if model not in (*MODELS, CONTACT):
+        raise ValueError(f'There is no model "{model}".{nearest(model, (*MODELS, CONTACT))}')
+    if model == CONTACT:
+        return _in_space(block, motion, restitution, theta0, omega0, duration, contact, out_of_plane)
+    if contact is not None or out_of_plane:
+        raise ValueError(f'contact and out_of_plane are for the model "{CONTACT}"; the model is "{model}"')
     motion = _free(block, duration) if motion is None else motion
     law = _law(block, restitution)
     _check(block, motion, theta0, omega0, rest_angle)
@@ -94,6 +113,39 @@ def rock(
         if wider is law:
             return history
         law = wider
+
+
+def _in_space(
+    block: Block,
+    motion: Motion | None,
+    restitution: Sided | RestitutionLaw | Callable[[float], float] | None,
+    theta0: float,
+    omega0: float,
+    duration: float | None,
+    contact: ContactLaw | None,
+    out_of_plane: float,
+) -> History:
+    # Its engine is compiled on import.
+    from colonnade.dynamics.contact.law import ContactLaw
+    from colonnade.dynamics.contact.layout import rigid_body
+    from colonnade.dynamics.contact.simulate import simulate
+
+    if restitution is not None:
+        raise ValueError(
+            "The contact model has no restitution of its own to be given: it follows from `contact`, the law of contact"
+        )
+    body = rigid_body(block)
+    law = ContactLaw.stiff(body, block.gravity) if contact is None else contact
+    return simulate(
+        body,
+        motion,
+        law=law,
+        gravity=block.gravity,
+        duration=duration,
+        theta0=theta0,
+        omega0=omega0,
+        out_of_plane=out_of_plane,
+    )
 
 
 def _law(

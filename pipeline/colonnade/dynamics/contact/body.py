@@ -1,0 +1,104 @@
+"""A body as the contact engine sees it: rigid mass, base nodes, and elastic modes at those nodes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class ContactBody:
+    """
+    A body in its principal axes about the centre of mass, with the nodes at which it can touch the table.
+
+    Attributes
+    ----------
+    mass : float
+        kg.
+    inertia : ndarray, shape (3,)
+        Principal moments about the centre of mass, for the x, y and z axis of the body, kg m².
+    nodes : ndarray, shape (n, 3)
+        Base nodes relative to the centre of mass in the body's axes, m; z is upwards, the base at z = −h.
+    node_mass, node_area : ndarray, shape (n,)
+        kg and m²: the mass and the area of the base that each node stands for.
+    modes : ndarray, shape (n, 3, m)
+        Mass-normalised elastic mode shapes at the base nodes, kg^-½; m is 0 for a rigid body.
+    frequencies, modal_damping : ndarray, shape (m,)
+        rad/s; fraction of critical.
+    modal_gravity : ndarray, shape (m, 3)
+        Participation of a uniform acceleration in the body's axes, kg^½: 0, since the modes carry no momentum.
+    description : str
+        For people: shape, mesh, degrees of freedom, how reduced.
+    rim_radius : float
+        m. Where positive, the last node stands for the lowest point of a continuous circular rim of this radius at the
+        base's height: it moves along the rim as the body tilts. Rigid bodies only.
+
+    Notes
+    -----
+    The modes carry no momentum and no angular momentum (mean axes), so that translation and rotation are those of the
+    rigid body; strains are small. Inertia forces of the rotation on the modes are neglected.
+    """
+
+    mass: float
+    inertia: Array
+    nodes: Array
+    node_mass: Array
+    node_area: Array
+    modes: Array
+    frequencies: Array
+    modal_damping: Array
+    modal_gravity: Array
+    description: str
+    rim_radius: float = 0.0
+
+    def __post_init__(self) -> None:
+        count, kept = len(self.nodes), len(self.frequencies)
+        shapes = {
+            "inertia": (3,),
+            "nodes": (count, 3),
+            "node_mass": (count,),
+            "node_area": (count,),
+            "modes": (count, 3, kept),
+            "frequencies": (kept,),
+            "modal_damping": (kept,),
+            "modal_gravity": (kept, 3),
+        }
+        for name, shape in shapes.items():
+            values = np.ascontiguousarray(getattr(self, name), dtype=np.float64)
+            if values.shape != shape:
+                raise ValueError(f"{name} has shape {values.shape}; {shape} was expected")
+            if not np.isfinite(values).all():
+                raise ValueError(f"{name} holds a value that is not finite")
+            object.__setattr__(self, name, values)
+        if count == 0:
+            raise ValueError("The body has no base nodes; at least one was expected")
+        for name in ("mass", "inertia", "node_mass", "node_area", "frequencies"):
+            if not np.all(getattr(self, name) > 0.0):
+                raise ValueError(f"{name} is {getattr(self, name)}; positive values were expected")
+        if np.any(self.modal_damping < 0.0):
+            raise ValueError(f"modal_damping is {self.modal_damping}; values from 0 on were expected")
+        if np.any(self.modal_gravity != 0.0):
+            raise ValueError("modal_gravity is not 0; modes that carry no momentum were expected")
+        if self.rim_radius < 0.0 or (self.rim_radius > 0.0 and kept > 0):
+            raise ValueError(
+                f"rim_radius is {self.rim_radius} m with {kept} modes; a radius from 0 on was expected, 0 with modes"
+            )
+
+    @property
+    def height(self) -> float:
+        """Height of the centre of mass above the base, m."""
+        return float(-self.nodes[:, 2].min())
+
+    @property
+    def half_width(self) -> float:
+        """Distance of the outermost base node from the centre of mass along x, m: of the pole of plane rocking."""
+        return max(float(np.abs(self.nodes[:, 0]).max()), self.rim_radius)
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether the body has no elastic modes."""
+        return bool(self.frequencies.size == 0)

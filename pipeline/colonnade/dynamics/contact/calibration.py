@@ -1,0 +1,289 @@
+"""The critical damping fraction with which a body rocks freely with a given restitution."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from math import acosh, ceil, exp, log, nan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.dynamics.block import STANDARD_GRAVITY
+from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.history import ContactHistory
+from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.simulate import plane_block, simulate
+from colonnade.dynamics.contact.stability import longest_step
+
+Array = NDArray[np.float64]
+
+FRACTIONS = (0.0, 0.01, 0.03, 0.1, 0.3, 1.0)
+"""Critical damping fractions that are tried first; e falls along most of them, and rises again where ξ is large."""
+
+STIFFNESSES = (1.0, 0.3, 0.1, 3.0, 0.03, 10.0, 0.01)
+"""Multiples of the law's stiffness, tried in this order until one can give the restitution: a softer contact, into
+which more nodes sink at a time, takes less at an impact."""
+
+TOLERANCE = 2e-4
+"""Of e, within which a calibration agrees; e of neighbouring fractions scatters by about as much."""
+
+MOST_RUNS = 24
+
+RELEASE = 0.5
+"""|θ|/α from which a free vibration is calibrated, as large as laboratories release."""
+
+IMPACTS = 16
+"""Impacts over which the restitution is taken."""
+
+SMALLEST_RELEASE = 0.01
+"""|θ|/α: smaller ones are lost in the contact's own depth."""
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """
+    A law of contact that gives a restitution, or how near it came.
+
+    Attributes
+    ----------
+    law : ContactLaw
+        The one whose restitution is nearest to the one asked for.
+    restitution : float
+        Of a free vibration with it: exp of the mean of ln e_n.
+    target : float
+    fractions, stiffnesses, restitutions : ndarray, shape (k,)
+        All that was tried, in its order (ξ; in multiples of the stiffness of the law asked for), and what it gave.
+    effective_damping : float
+        ξ_eff of law and body.
+    step : float
+        s, that the runs were made with.
+    cost : float
+        Seconds of computing for a second of motion, of the runs after the first, which may have compiled.
+    residual : float
+        Of the energy balance in the run with the law, over the largest energy.
+    body : str
+        Description of the body.
+    """
+
+    law: ContactLaw
+    restitution: float
+    target: float
+    fractions: Array
+    stiffnesses: Array
+    restitutions: Array
+    effective_damping: float
+    step: float
+    cost: float
+    residual: float
+    body: str
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the restitution is the one asked for, to `TOLERANCE`."""
+        return abs(self.restitution - self.target) <= TOLERANCE
+
+    @property
+    def reason(self) -> str:
+        """Why it does not agree; empty where it does."""
+        if self.agrees:
+            return ""
+        return (
+            f"The contact of this body ({self.body}) gives e from {np.nanmin(self.restitutions):.4f} to "
+            f"{np.nanmax(self.restitutions):.4f} for critical damping fractions from {self.fractions.min():g} to "
+            f"{self.fractions.max():g} and {self.stiffnesses.min():g} to {self.stiffnesses.max():g} times its "
+            f"stiffness; {self.target:.4f} was asked for. The nearest is taken: e = {self.restitution:.4f} at "
+            f"{self.law.damping_fraction:.4g}. More nodes give a larger e, fewer a smaller one."
+        )
+
+
+def free_restitution(history: ContactHistory, *, impacts: int = IMPACTS) -> float:
+    """
+    Restitution of a free vibration in the contact model.
+
+    Parameters
+    ----------
+    history : ContactHistory
+    impacts : int, optional
+        How many of the first impacts enter.
+
+    Returns
+    -------
+    restitution : float
+        exp of the mean of ln e_n, with e_n of velocities just before and after each impact; NaN without an impact.
+    """
+    ratios = history.impact_restitution[:impacts]
+    ratios = ratios[np.isfinite(ratios) & (ratios > 0.0)]
+    return float(np.exp(np.log(ratios).mean())) if ratios.size else float("nan")
+
+
+def calibrate(
+    body: ContactBody,
+    law: ContactLaw,
+    restitution: float,
+    *,
+    gravity: float = STANDARD_GRAVITY,
+    step: float | None = None,
+    release: float = RELEASE,
+    impacts: int = IMPACTS,
+    fractions: Sequence[float] | None = None,
+    vary_stiffness: bool = True,
+) -> Calibration:
+    """
+    Find the damping of contact, and if need be its stiffness, with which a body's free rocking has a restitution.
+
+    Parameters
+    ----------
+    body : ContactBody
+    law : ContactLaw
+        Its damping fraction is sought; its stiffness is changed only where no fraction gives e (`STIFFNESSES`).
+    restitution : float
+        e between 0 and 1, as identified from measured free rocking.
+    gravity : float, optional
+        m/s².
+    step : float, optional
+        s; default as of `simulate`.
+    release : float, optional
+        |θ|/α at the start.
+    impacts : int, optional
+        How many impacts the restitution is taken over.
+    fractions : sequence of float, optional
+        Damping fractions that are tried first, rising; default `FRACTIONS`. With a single one its e is computed.
+    vary_stiffness : bool, optional
+        Whether the stiffness may be changed.
+
+    Returns
+    -------
+    calibration : Calibration
+        Of several fractions that agree, the smallest. Where none does, the nearest, with the reason.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or the step is unstable with every fraction.
+    """
+    if not 0.0 < restitution < 1.0:
+        raise ValueError(f"restitution is {restitution}; a number between 0 and 1 was expected")
+    if not SMALLEST_RELEASE <= release < 1.0 or impacts < 1:
+        raise ValueError(
+            f"release is {release} of the critical angle and impacts {impacts}; a release from {SMALLEST_RELEASE:g} "
+            "to 1 and at least one impact were expected"
+        )
+    runs = _Runs(body, law, gravity, step, release, impacts, restitution)
+    for stiffness in STIFFNESSES if vary_stiffness else (1.0,):
+        bracket = _bracket(runs.at(stiffness), restitution, FRACTIONS if fractions is None else fractions)
+        if bracket is not None:
+            _close_in(runs.at(stiffness), restitution, *bracket)
+            break
+    return runs.result()
+
+
+class _Runs:
+    """Free vibrations with different damping fractions, each computed once."""
+
+    def __init__(
+        self,
+        body: ContactBody,
+        law: ContactLaw,
+        gravity: float,
+        step: float | None,
+        release: float,
+        impacts: int,
+        restitution: float,
+    ) -> None:
+        self._body, self._law, self._gravity, self._step, self._impacts = body, law, gravity, step, impacts
+        self._target = restitution
+        block = plane_block(body, gravity)
+        self._theta0 = release * block.critical_angle
+        self._duration = _duration(release, restitution, impacts) / block.p
+        self._found: dict[tuple[float, float], tuple[float, ContactHistory]] = {}
+        self._costs: list[float] = []
+
+    def at(self, stiffness: float) -> Callable[[float], float]:
+        """Restitution as a function of the damping fraction, at a multiple of the stiffness."""
+        return lambda fraction: self._run(stiffness, fraction)
+
+    def _run(self, stiffness: float, fraction: float) -> float:
+        if (stiffness, fraction) not in self._found:
+            law = replace(self._law, stiffness=stiffness * self._law.stiffness, damping_fraction=fraction)
+            if self._step is not None and self._step > longest_step(self._body, law):
+                return nan
+            began = time.process_time()
+            history = simulate(
+                self._body,
+                law=law,
+                gravity=self._gravity,
+                theta0=self._theta0,
+                duration=self._duration,
+                step=self._step,
+            )
+            self._costs.append((time.process_time() - began) / self._duration)
+            self._found[stiffness, fraction] = free_restitution(history, impacts=self._impacts), history
+        return self._found[stiffness, fraction][0]
+
+    def result(self) -> Calibration:
+        """Take the run whose restitution is nearest."""
+        values = np.array([value for value, _ in self._found.values()])
+        if self._step is not None and values.size == 0:
+            longest = longest_step(self._body, self._law)
+            raise ValueError(
+                f"step is {self._step:.4g} s; at most {longest:.4g} s was expected: beyond it the contact of this body "
+                f"({self._body.description}) is unstable. Take a shorter step or a softer contact."
+            )
+        if not np.isfinite(values).any():
+            raise ValueError(
+                f"No free vibration of this body ({self._body.description}) had an impact; a block that rocks was "
+                "expected"
+            )
+        value, history = list(self._found.values())[int(np.nanargmin(np.abs(values - self._target)))]
+        return Calibration(
+            law=history.law,
+            restitution=value,
+            target=self._target,
+            fractions=np.array([fraction for _, fraction in self._found]),
+            stiffnesses=np.array([stiffness for stiffness, _ in self._found]),
+            restitutions=values,
+            effective_damping=history.effective_damping,
+            step=history.step,
+            cost=float(np.median(self._costs[1:] or self._costs)),
+            residual=history.energies.relative_residual,
+            body=self._body.description,
+        )
+
+
+def _bracket(runs: Callable[[float], float], target: float, fractions: Sequence[float]) -> tuple[float, float] | None:
+    """Find the first two neighbours between which e falls through the target."""
+    before = None
+    for fraction in fractions:
+        value = runs(fraction)
+        if before is not None and runs(before) >= target >= value:
+            return before, fraction
+        before = fraction
+    return None
+
+
+def _close_in(runs: Callable[[float], float], target: float, low: float, high: float) -> None:
+    """Narrow a bracket by the secant (Illinois), kept from its ends, up to the tolerance."""
+    above, below = runs(low) - target, runs(high) - target
+    for _ in range(MOST_RUNS):
+        if abs(above) <= TOLERANCE or abs(below) <= TOLERANCE or high - low <= 1e-9:
+            return
+        share = min(max(above / (above - below), 0.02), 0.98)
+        middle = low + share * (high - low)
+        found = runs(middle) - target
+        if abs(found) <= TOLERANCE:
+            return
+        if found > 0.0:
+            low, above, below = middle, found, 0.5 * below
+        else:
+            high, below, above = middle, found, 0.5 * above
+
+
+def _duration(release: float, restitution: float, impacts: int) -> float:
+    """Time that so many impacts take with a restitution, and half an arc more, in 1/p (Housner 1963, eq. 3)."""
+    kept, total = 1.0 - (1.0 - release) ** 2, acosh(1.0 / (1.0 - release))
+    for _ in range(impacts):
+        kept = exp(log(kept) + 2.0 * log(restitution))
+        total += 2.0 * acosh(1.0 / (1.0 - kept) ** 0.5)
+    return ceil(10.0 * total) / 10.0

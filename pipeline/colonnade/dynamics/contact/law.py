@@ -1,0 +1,144 @@
+"""The law of contact: penalty stiffness, critical damping fraction and Coulomb friction with elastic slip."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, sqrt
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.dynamics.contact.body import ContactBody
+
+Array = NDArray[np.float64]
+
+STATIC_PENETRATION = 1e-6
+"""Of the default law: how deep the standing body sinks, in heights of its centre of mass."""
+
+
+@dataclass(frozen=True)
+class ContactLaw:
+    """
+    Force of the table on one base node.
+
+    Attributes
+    ----------
+    stiffness : float
+        Normal penalty stiffness k, per area of the base (N/m³) or per node (N/m).
+    per : {"area", "node"}
+        What the stiffness is for.
+    damping_fraction : float
+        ξ, the critical damping fraction: 2 ξ sqrt(m k) v acts while the node is in contact, m the node's mass.
+    friction : float
+        Coulomb's coefficient µ; `math.inf` where nothing slides.
+    tangential_ratio : float
+        Stiffness against elastic slip, over k.
+    tangential_damping : float
+        Damping of the elastic slip, over the normal one. A node that slides is not damped.
+
+    Notes
+    -----
+    The normal force is max(0, k δ + 2 ξ sqrt(m k) dδ/dt) for a depth δ > 0: the table never pulls. The tangential force
+    follows the elastic slip s, −k_t s − c_t ds/dt, and where k_t |s| would exceed µ N the node slides and s stays at
+    µ N / k_t.
+    """
+
+    stiffness: float
+    per: Literal["area", "node"] = "area"
+    damping_fraction: float = 0.4
+    friction: float = 0.6
+    tangential_ratio: float = 1.0
+    tangential_damping: float = 1.0
+
+    def __post_init__(self) -> None:
+        if self.per not in ("area", "node"):
+            raise ValueError(f'per is {self.per!r}; "area" or "node" was expected')
+        for name in ("stiffness", "tangential_ratio"):
+            if not 0.0 < getattr(self, name) < inf:
+                raise ValueError(f"{name} is {getattr(self, name)}; a positive number was expected")
+        for name in ("damping_fraction", "friction", "tangential_damping"):
+            value = getattr(self, name)
+            if not value >= 0.0 or (value == inf and name != "friction"):
+                raise ValueError(f"{name} is {value}; a number from 0 on was expected")
+
+    @classmethod
+    def stiff(
+        cls,
+        body: ContactBody,
+        gravity: float,
+        *,
+        damping_fraction: float = 0.4,
+        friction: float = 0.6,
+        penetration: float = STATIC_PENETRATION,
+    ) -> ContactLaw:
+        """
+        Choose the stiffness by how deep the standing body sinks, so that bodies of all sizes are served alike.
+
+        Parameters
+        ----------
+        body : ContactBody
+        gravity : float
+            m/s².
+        damping_fraction, friction : float, optional
+        penetration : float, optional
+            Depth under the body's weight over the height of its centre of mass.
+        """
+        pressure = body.mass * gravity / body.node_area.sum()
+        return cls(float(pressure / (penetration * body.height)), damping_fraction=damping_fraction, friction=friction)
+
+    def node_stiffness(self, body: ContactBody) -> Array:
+        """Normal stiffness of each base node, N/m, shape (n,)."""
+        return self.stiffness * body.node_area if self.per == "area" else np.full(len(body.nodes), self.stiffness)
+
+    def node_damping(self, body: ContactBody) -> Array:
+        """Normal damping 2 ξ sqrt(m k) of each base node, N s/m, shape (n,)."""
+        return np.asarray(2.0 * self.damping_fraction * np.sqrt(body.node_mass * self.node_stiffness(body)))
+
+    def effective_damping(self, body: ContactBody) -> float:
+        """
+        Damping fraction ξ_eff of the whole body that bounces on all its nodes, Σc / (2 sqrt(M Σk)).
+
+        What compares meshes: for nodes that carry the base layer of a mesh of first-order elements of length L,
+        ξ_eff = ξ sqrt(L / 2 H), H the height of the body.
+        """
+        stiffness = float(self.node_stiffness(body).sum())
+        return float(self.node_damping(body).sum()) / (2.0 * sqrt(body.mass * stiffness))
+
+
+def rebound_ratio(damping_fraction: float) -> float:
+    """
+    Rebound over approach speed of one mass on a spring and damper that cannot pull.
+
+    Parameters
+    ----------
+    damping_fraction : float
+        ξ from 0 on.
+
+    Returns
+    -------
+    ratio : float
+        exp(−ξ t*) with the (dimensionless) time t* at which the force is zero again: the mass leaves before the depth
+        is zero.
+
+    Notes
+    -----
+    With depth δ'' + 2 ξ δ' + δ = 0, δ(0) = 0, δ'(0) = 1, the force δ + 2 ξ δ' = −δ'' vanishes at
+    tan(ω t*) = 2 ξ ω / (2 ξ² − 1), ω = sqrt(1 − ξ²) (Schwager and Pöschel 2007); the speed is then −exp(−ξ t*).
+
+    Examples
+    --------
+    >>> round(rebound_ratio(0.3), 5)
+    0.45098
+    """
+    if not damping_fraction >= 0.0:
+        raise ValueError(f"damping_fraction is {damping_fraction}; a number from 0 on was expected")
+    if damping_fraction < 1.0:
+        frequency = sqrt(1.0 - damping_fraction**2)
+        duration = float(np.arctan2(2.0 * damping_fraction * frequency, 2.0 * damping_fraction**2 - 1.0)) / frequency
+    elif damping_fraction == 1.0:
+        duration = 2.0
+    else:
+        rate = sqrt(damping_fraction**2 - 1.0)
+        duration = float(np.log((damping_fraction + rate) / (damping_fraction - rate))) / rate
+    return float(np.exp(-damping_fraction * duration))

@@ -1,0 +1,119 @@
+"""How a body starts: on the table, tilted, turned and rocking, or anywhere."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import hypot, tan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.law import ContactLaw
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Start:
+    """
+    Where a body is and how it moves at the start, relative to the table.
+
+    Attributes
+    ----------
+    position, velocity : ndarray, shape (3,)
+        Of the centre of mass, m and m/s.
+    orientation : ndarray, shape (4,)
+        Quaternion (scalar first), body to table; any length but 0.
+    angular_velocity : ndarray, shape (3,)
+        rad/s, in the table's axes.
+    """
+
+    position: Array
+    velocity: Array = field(default_factory=lambda: np.zeros(3))
+    orientation: Array = field(default_factory=lambda: np.array([1.0, 0.0, 0.0, 0.0]))
+    angular_velocity: Array = field(default_factory=lambda: np.zeros(3))
+
+
+def standing(
+    body: ContactBody,
+    law: ContactLaw,
+    gravity: float,
+    *,
+    theta0: float = 0.0,
+    omega0: float = 0.0,
+    out_of_plane: float = 0.0,
+    yaw: float = 0.0,
+) -> Start:
+    """
+    Put a body on the table, so deep that its contact bears its weight, and give it a rocking velocity.
+
+    Parameters
+    ----------
+    body : ContactBody
+    law : ContactLaw
+    gravity : float
+        m/s².
+    theta0, out_of_plane, yaw : float, optional
+        rad.
+    omega0 : float, optional
+        rad/s, about the pole at ±x on the side of θ₀ (of ω₀ where θ₀ is 0).
+
+    Returns
+    -------
+    start : Start
+    """
+    axis = np.array([tan(theta0), -tan(out_of_plane), 1.0])
+    axis /= np.linalg.norm(axis)
+    swing = np.array([1.0 + axis[2], -axis[1], axis[0], 0.0]) / np.sqrt(2.0 * (1.0 + axis[2]))
+    half = 0.5 * yaw
+    orientation = np.array(
+        [
+            swing[0] * np.cos(half),
+            swing[1] * np.cos(half) + swing[2] * np.sin(half),
+            swing[2] * np.cos(half) - swing[1] * np.sin(half),
+            swing[0] * np.sin(half),
+        ]
+    )
+    matrix = rotation_matrices(orientation[None])[0]
+    nodes = body.nodes.copy()
+    if body.rim_radius > 0.0 and hypot(matrix[2, 0], matrix[2, 1]) > 0.0:
+        nodes[-1, :2] = -body.rim_radius * matrix[2, :2] / hypot(matrix[2, 0], matrix[2, 1])
+    above = nodes @ matrix[2]
+    height = _bearing_height(above, law.node_stiffness(body), body.mass * gravity)
+    side = np.sign(theta0) if theta0 else np.sign(omega0)
+    arm = -matrix @ np.array([side * body.half_width, 0.0, -body.height])
+    angular = np.array([0.0, omega0, 0.0])
+    return Start(np.array([0.0, 0.0, height]) + _feet(body, matrix, side), np.cross(angular, arm), orientation, angular)
+
+
+def _feet(body: ContactBody, matrix: Array, side: float) -> Array:
+    """Displace the body along the table so that its pole stands where it stood when the body was upright."""
+    pole = np.array([side * body.half_width, 0.0, -body.height])
+    return np.asarray((pole - matrix @ pole) * np.array([1.0, 1.0, 0.0]))
+
+
+def _bearing_height(above: Array, stiffness: Array, weight: float) -> float:
+    """Find the height of the centre of mass at which springs at heights `above` relative to it bear the weight."""
+    # The force falls with the height, linear between the heights at which a node leaves: go from node to node.
+    order = np.argsort(above)
+    total = moment = 0.0
+    for position, node in enumerate(order):
+        total += stiffness[node]
+        moment += stiffness[node] * above[node]
+        height = -(weight + moment) / total
+        following = order[position + 1] if position + 1 < len(order) else None
+        if following is None or height + above[following] >= 0.0:
+            return float(height)
+    raise AssertionError("a body has at least one node")
+
+
+def rotation_matrices(orientation: Array) -> Array:
+    """Return the rotation matrices, shape (n, 3, 3), of unit quaternions, shape (n, 4)."""
+    w, x, y, z = orientation.T
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), 2, 0)

@@ -1,0 +1,51 @@
+"""A body refuses arrays that do not fit together."""
+
+import numpy as np
+import pytest
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.layout import rigid_body
+
+GIVEN = vars(rigid_body(Block.prism(width=0.2, depth=0.3, height=0.9, mass=10.0)))
+
+
+def test_arrays_are_kept_as_the_engine_takes_them():
+    body = ContactBody(**{**GIVEN, "nodes": np.asfortranarray(GIVEN["nodes"]), "inertia": [1, 2, 3]})
+    assert body.nodes.flags.c_contiguous
+    assert body.inertia.dtype == np.float64
+    assert body.height == pytest.approx(0.45)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"inertia": np.ones(2)}, r"inertia has shape \(2,\); \(3,\) was expected"),
+        ({"node_mass": np.ones(3)}, r"node_mass has shape \(3,\); \(25,\)"),
+        ({"nodes": np.full((25, 3), np.nan)}, "nodes holds a value that is not finite"),
+        ({"mass": 0.0}, "mass is 0.0; positive"),
+        ({"node_area": np.zeros(25)}, "node_area is"),
+        ({"rim_radius": -1.0}, "rim_radius is -1.0 m"),
+        (
+            {
+                "modes": np.zeros((25, 3, 1)),
+                "frequencies": [1.0],
+                "modal_damping": [-0.1],
+                "modal_gravity": [[0, 0, 0]],
+            },
+            "modal_damping is",
+        ),
+        (
+            {"modes": np.zeros((25, 3, 1)), "frequencies": [1.0], "modal_damping": [0.1], "modal_gravity": [[0, 0, 1]]},
+            "modal_gravity is not 0",
+        ),
+        (
+            {"nodes": np.zeros((0, 3)), "node_mass": [], "node_area": [], "modes": np.zeros((0, 3, 0))},
+            "no base nodes",
+        ),
+    ],
+    ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
+)
+def test_a_body_that_cannot_be_is_refused(wrong, message):
+    with pytest.raises(ValueError, match=message):
+        ContactBody(**{**GIVEN, **wrong})

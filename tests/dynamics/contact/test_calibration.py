@@ -1,0 +1,60 @@
+"""Calibration of the contact damping: the law found gives the restitution asked for, in a run of its own."""
+
+import numpy as np
+import pytest
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.contact.calibration import TOLERANCE, calibrate, free_restitution
+from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.layout import rigid_body
+from colonnade.dynamics.contact.simulate import simulate
+
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+BODY = rigid_body(PRISM)
+LAW = ContactLaw.stiff(BODY, PRISM.gravity)
+STEP = 3e-5
+
+
+@pytest.fixture(scope="module")
+def calibrated():
+    return calibrate(BODY, LAW, 0.976, step=STEP, impacts=4, fractions=(0.1, 0.4))
+
+
+def test_the_law_gives_the_restitution_in_a_run_of_its_own(calibrated):
+    assert calibrated.agrees
+    assert calibrated.reason == ""
+    history = simulate(BODY, law=calibrated.law, theta0=0.5 * PRISM.critical_angle, duration=2.5, step=STEP)
+    assert free_restitution(history, impacts=4) == pytest.approx(0.976, abs=TOLERANCE)
+    # Energies of the peaks, Housner's relation, tell the same as velocities at impacts.
+    peaks = [
+        np.abs(history.angle[(history.time > start) & (history.time < end)]).max()
+        for start, end in zip(history.impact_times[:-1], history.impact_times[1:], strict=True)
+    ]
+    energies = np.cos(PRISM.critical_angle - np.array(peaks)) - np.cos(PRISM.critical_angle)
+    assert (energies[3] / energies[0]) ** (1 / 6) == pytest.approx(0.976, abs=1e-3)
+
+
+def test_what_was_tried_is_kept(calibrated):
+    assert calibrated.fractions[:2].tolist() == [0.1, 0.4]
+    assert 0.1 < calibrated.law.damping_fraction < 0.4
+    assert (calibrated.restitutions[:2] > 0.976).tolist() == [True, False]
+    assert calibrated.residual < 0.01
+    assert calibrated.effective_damping == pytest.approx(calibrated.law.damping_fraction)
+
+
+def test_a_restitution_out_of_reach_is_told_with_what_can_be_had():
+    found = calibrate(BODY, LAW, 0.90, step=STEP, impacts=2, fractions=(0.1, 0.4), vary_stiffness=False)
+    assert not found.agrees
+    assert found.restitution == pytest.approx(found.restitutions.min())
+    assert "0.9000 was asked for" in found.reason
+
+
+def test_a_step_that_no_fraction_allows_is_refused():
+    with pytest.raises(ValueError, match=r"step is 0\.001 s; at most .* s was expected"):
+        calibrate(BODY, LAW, 0.976, step=1e-3, vary_stiffness=False)
+
+
+@pytest.mark.parametrize(("restitution", "release"), [(1.0, 0.5), (0.0, 0.5), (0.976, 1.0), (0.976, 0.0)])
+def test_arguments_out_of_range_are_refused(restitution, release):
+    with pytest.raises(ValueError, match=r"was expected|were expected"):
+        calibrate(BODY, LAW, restitution, release=release)

@@ -1,0 +1,200 @@
+"""The contact model beside the analytical one with its own restitution, and its outcomes and refusals."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.layout import rigid_body
+from colonnade.dynamics.contact.simulate import simulate
+from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
+
+GRAVITY = 9.81
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+CYLINDER = Block.cylinder(diameter=0.097, height=0.455, mass=26.30)
+SLENDER = Block.prism(width=0.1, depth=0.1, height=1.0, mass=20.0)
+ALPHA = PRISM.critical_angle
+REST = Motion(np.zeros(3), 0.01)
+
+
+def _peaks(history):
+    edges = np.flatnonzero(np.diff(np.sign(history.angle)))
+    parts = itertools.pairwise(edges)
+    return np.array([np.abs(history.angle[first + 1 : last + 1]).max() for first, last in parts])
+
+
+@pytest.mark.parametrize("released", [0.3, 0.6])
+@pytest.mark.parametrize("block", [SLENDER, PRISM], ids=["slenderness 10", "prism of the paper"])
+def test_free_rocking_is_the_analytical_one_with_the_runs_own_restitution(block, released):
+    """Two edges of nodes and strong damping: the block does not bounce."""
+    body = rigid_body(block, grid=(2, 2))
+    law = ContactLaw.stiff(body, GRAVITY, damping_fraction=2.0, friction=2.0)
+    theta0 = released * block.critical_angle
+    history = simulate(body, law=law, theta0=theta0, duration=11.0 / block.p)
+    own = history.impact_restitution
+    assert history.airborne < 1e-3
+    assert own.size >= 3
+    assert np.ptp(own) < 1e-3
+    analytical = rock(block, model="nonlinear", restitution=float(own.mean()), theta0=theta0, duration=11.0 / block.p)
+    peaks, expected = _peaks(history), _peaks(analytical)
+    assert peaks.size == expected.size >= 3
+    np.testing.assert_allclose(peaks, expected, rtol=5e-3)
+    # Two edges without bounce: the rigid-body value.
+    np.testing.assert_allclose(own, block.restitution, atol=1e-3)
+
+
+def test_forced_rocking_is_the_analytical_one_with_the_runs_own_restitution():
+    body = rigid_body(PRISM, grid=(2, 2))
+    law = ContactLaw.stiff(body, GRAVITY, damping_fraction=2.0, friction=2.0, penetration=3e-7)
+    time = np.arange(301) * 0.005
+    base = np.where(time < 1.0, 1.6 * PRISM.uplift_acceleration * np.sin(2 * np.pi * 3.0 * time), 0.0)
+    history = simulate(body, Motion(base, 0.005), law=law)
+    own = float(np.median(history.impact_restitution[:4]))
+    analytical = rock(PRISM, Motion(base, 0.005), model="nonlinear", restitution=own)
+    peaks, expected = _peaks(history), _peaks(analytical)
+    print(peaks / expected - 1.0, history.impact_restitution)
+    assert peaks.size >= 3
+    np.testing.assert_allclose(peaks[:4], expected[:4], rtol=5e-3)
+
+
+def test_the_mirror_image_of_a_motion_gives_the_mirror_image():
+    body = rigid_body(PRISM)
+    law = ContactLaw.stiff(body, GRAVITY)
+    base = 2.5 * np.sin(2 * np.pi * 2.5 * np.arange(101) * 0.005)
+    there, back = (simulate(body, Motion(sign * base, 0.005), law=law) for sign in (1.0, -1.0))
+    assert np.abs(there.angle).max() > 0.05 * ALPHA
+    np.testing.assert_allclose(there.angle, -back.angle, atol=1e-9 * ALPHA)
+
+
+def test_shaking_across_rocks_a_square_block_as_shaking_along_does():
+    body = rigid_body(PRISM)
+    law = ContactLaw.stiff(body, GRAVITY)
+    base = 2.5 * np.sin(2 * np.pi * 2.5 * np.arange(81) * 0.005)
+    along = simulate(body, Motion(base, 0.005), law=law)
+    across = simulate(body, Motion(np.zeros(81), 0.005, transverse=base), law=law)
+    # A right-handed turn about x takes the top to −y.
+    np.testing.assert_allclose(across.out_of_plane, -along.angle, atol=1e-9 * ALPHA)
+    np.testing.assert_allclose(across.angle, 0.0, atol=1e-9 * ALPHA)
+
+
+def test_a_shaken_block_first_leans_against_the_acceleration():
+    history = rock(PRISM, Motion(np.full(11, 1.3 * PRISM.uplift_acceleration), 0.005), model="contact")
+    assert history.angle[-1] < -1e-3 * ALPHA
+
+
+@pytest.mark.parametrize(
+    ("theta0", "duration", "outcome"),
+    [(0.97, 0.8, "rocking"), (1.03, 1.5, "overturned"), (-1.03, 1.5, "overturned"), (0.0, 0.2, "no-rocking")],
+)
+def test_outcomes(theta0, duration, outcome):
+    history = rock(PRISM, model="contact", theta0=theta0 * ALPHA, duration=duration)
+    assert history.outcome == outcome
+    if outcome == "overturned":
+        assert history.overturning_time == 0.0
+        assert history.angle[-1] == pytest.approx(np.copysign(np.pi / 2, theta0))
+        assert history.peak_ratio is None
+        assert history.time.size == history.angle.size == history.uplift.size
+
+
+def test_a_block_past_its_critical_angle_at_the_end_is_followed_until_it_falls():
+    history = rock(PRISM, model="contact", theta0=1.02 * ALPHA, duration=0.05)
+    assert history.outcome == "overturned"
+    assert abs(history.angle[-1]) < 1.2 * ALPHA
+
+
+def test_a_cylinder_disturbed_sideways_leaves_the_plane():
+    plane = rock(CYLINDER, model="contact", theta0=0.6 * CYLINDER.critical_angle, duration=0.6)
+    space = rock(CYLINDER, model="contact", theta0=0.6 * CYLINDER.critical_angle, out_of_plane=2e-3, duration=0.6)
+    assert np.abs(plane.out_of_plane).max() < 1e-6
+    assert np.abs(space.out_of_plane).max() > 1e-2
+
+
+@pytest.mark.parametrize(
+    ("angles", "yaw"),
+    [((0.1, 0.05), 0.3), ((-0.2, 0.1), -1.0), ((0.0, 0.0), 0.0)],
+    ids=["tilted", "other way", "upright"],
+)
+def test_a_body_starts_where_it_was_put(angles, yaw):
+    body = rigid_body(PRISM)
+    law = ContactLaw.stiff(body, GRAVITY)
+    history = simulate(body, REST, law=law, theta0=angles[0], out_of_plane=angles[1], yaw=yaw, step=2e-5)
+    assert history.angle[0] == pytest.approx(angles[0], abs=1e-12)
+    assert history.out_of_plane[0] == pytest.approx(angles[1], abs=1e-12)
+    assert history.yaw[0] == pytest.approx(yaw, abs=1e-12)
+    assert -1e-4 < history.uplift[0] < 0.0
+
+
+@pytest.mark.parametrize("angle", [0.1, -0.1])
+def test_a_tilted_block_starts_with_its_pole_where_it_was(angle):
+    body = rigid_body(PRISM)
+    history = simulate(body, REST, law=ContactLaw.stiff(body, GRAVITY), theta0=angle)
+    np.testing.assert_allclose(history.slide[0], 0.0, atol=1e-15)
+
+
+def test_a_rocking_start_turns_about_the_pole():
+    body = rigid_body(PRISM)
+    start = standing(body, ContactLaw.stiff(body, GRAVITY), GRAVITY, theta0=0.1, omega0=0.5)
+    pole = rotation_matrices(start.orientation[None])[0] @ [body.half_width, 0.0, -body.height]
+    np.testing.assert_allclose(start.velocity + np.cross(start.angular_velocity, pole), 0.0, atol=1e-12)
+
+
+def test_a_mode_rings_at_its_frequency_and_fades_as_damped():
+    """A body in free flight whose only mode was struck by the landing before it: exact propagation."""
+    body = rigid_body(PRISM, grid=(2, 2))
+    modes = np.zeros((4, 3, 1))
+    modes[:, 2, 0] = 0.1
+    soft = ContactBody(**{**vars(body), "modes": modes, "frequencies": np.array([2000.0]),
+                          "modal_damping": np.array([0.02]), "modal_gravity": np.zeros((1, 3))})  # fmt: skip
+    law = ContactLaw.stiff(body, GRAVITY, damping_fraction=0.1)
+    start = Start(np.array([0.0, 0.0, soft.height + 1e-6]), np.array([0.0, 0.0, -0.05]))
+    history = simulate(soft, Motion(np.zeros(401), 1e-5), law=law, step=1e-6, start=start)
+    assert history.energies.relative_residual < 1e-4
+    assert history.energies.strain.max() > 0.0
+    flying = history.base_force[:, 2] == 0.0
+    last = np.flatnonzero(~flying)[-1] + 2
+    strain = history.energies.strain[last:]
+    peaks = last + 1 + np.flatnonzero((strain[1:-1] > strain[:-2]) & (strain[1:-1] >= strain[2:]))
+    # Strain energy peaks twice a period and fades by exp(−2 ζ ω t).
+    assert np.diff(history.time[peaks]).mean() == pytest.approx(np.pi / 2000.0, rel=0.02)
+    fading = np.log(history.energies.strain[peaks[-1]] / history.energies.strain[peaks[0]])
+    elapsed = history.time[peaks[-1]] - history.time[peaks[0]]
+    assert fading == pytest.approx(-2 * 0.02 * 2000.0 * elapsed, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"step": 1e-3}, r"step is 0\.001 s; at most 8\.28\de-05 s was expected"),
+        ({"step": 0.0}, "step is 0.0 s; a positive step"),
+        ({"theta0": 2.0}, "theta0 is 2.0 rad; an angle between"),
+        ({"out_of_plane": -1.6}, "out_of_plane is -1.6 rad"),
+        ({"omega0": np.nan}, "omega0 is nan"),
+        ({"motion": None}, "duration is None; without a motion"),
+    ],
+    ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
+)
+def test_arguments_out_of_range_are_refused(arguments, message):
+    body = rigid_body(PRISM)
+    law = ContactLaw.stiff(body, GRAVITY)
+    given = {"motion": Motion(np.zeros(3), 0.02), "law": law, **arguments}
+    with pytest.raises(ValueError, match=message):
+        simulate(body, given.pop("motion"), **given)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"model": "contact", "restitution": 0.9}, "no restitution of its own to be given"),
+        ({"model": "linear", "out_of_plane": 0.01}, 'are for the model "contact"; the model is "linear"'),
+        ({"model": "contract"}, 'There is no model "contract"'),
+    ],
+    ids=["restitution", "out of plane", "unknown model"],
+)
+def test_rock_refuses_what_a_model_cannot_take(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        rock(PRISM, REST, **arguments)
