@@ -10,8 +10,9 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.harmonic_run import Harmonic, harmonic_outcomes, harmonic_run
+from colonnade.dynamics.harmonic_run import RAMP_SHAPES, Harmonic, harmonic_outcomes, harmonic_run, restitution_up_to
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import rock
 from colonnade.dynamics.steady import symmetric_responses
 
@@ -24,9 +25,8 @@ MODELS = ("linear", "nonlinear")
 def level(motion, time):
     """Envelope of a harmonic motion, written once more."""
     rise, flat, end = motion.edges
-    if time < rise:
-        return time / rise
-    return 1.0 if time <= flat else max(0.0, (end - time) / (end - flat))
+    share = time / rise if time < rise else 1.0 if time <= flat else max(0.0, (end - time) / (end - flat))
+    return share if motion.ramp_shape == "linear" else math.sin(math.pi / 2 * share) ** 2
 
 
 def integrated(block, motion, amplitude, restitution, model, impacts):
@@ -63,15 +63,33 @@ def integrated(block, motion, amplitude, restitution, model, impacts):
             break
         now, arriving = float(solution.t[-1]), float(solution.y[1, -1])
         found.append((now, arriving))
-        state, side = [0.0, restitution[0 if side < 0 else 1] * arriving], -side
+        e = restitution(abs(arriving)) if callable(restitution) else restitution[0 if side < 0 else 1]
+        state, side = [0.0, float(e) * arriving], -side
     return np.array(found)
 
+
+LAW = RestitutionLaw.table([0.0, 0.3, 0.7, 2.0], [1.0, 0.95, 0.9, 0.8])
+"""Kinks lie among the speeds of the cases below."""
 
 CASES = {
     "from rest at phase 0": (PRISM, Harmonic.cycles(5.0 * P, 5), 1.6, (0.976, 0.976)),
     "linear rise and fall": (PRISM, Harmonic.cycles(6.0 * P, 3, ramp=2), 2.2, (0.9, 0.9)),
     "starting at its peak": (PRISM, Harmonic.cycles(7.0 * P, 4, phase=math.pi / 2), 3.0, (0.95, 0.95)),
     "unequal sides and e": (LOPSIDED, Harmonic.cycles(6.0 * LOPSIDED.p, 4, ramp=1), 2.0, (0.9, 0.8)),
+    "cosine rise and fall": (PRISM, Harmonic.cycles(6.0 * P, 3, ramp=2, ramp_shape="cosine"), 2.2, (0.9, 0.9)),
+    "cosine ramps shorter than a cycle": (
+        PRISM,
+        Harmonic.cycles(6.0 * P, 2, phase=0.6, ramp=0.4, ramp_shape="cosine"),
+        2.0,
+        (0.9, 0.9),
+    ),
+    "cosine ramps of unequal sides": (
+        LOPSIDED,
+        Harmonic.cycles(6.0 * LOPSIDED.p, 4, ramp=2, ramp_shape="cosine"),
+        2.0,
+        (0.9, 0.8),
+    ),
+    "e over the speed of the impact": (PRISM, Harmonic.cycles(6.0 * P, 4, ramp=1), 2.2, LAW),
     "long sub-harmonic arcs": (PRISM, Harmonic.cycles(7.5 * P, 12), 4.5, (0.976, 0.976)),
 }
 
@@ -88,9 +106,10 @@ def test_impacts_agree_with_an_adaptive_integration(block, motion, amplitude, re
 
 
 @pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("shape", RAMP_SHAPES)
 @pytest.mark.parametrize("restitution", [0.0, 0.3, 0.7])
-def test_rest_and_uplift_again_agree_with_the_engine_for_recorded_motions(model, restitution):
-    motion = Harmonic.cycles(3.0 * P, 6, ramp=1)
+def test_rest_and_uplift_again_agree_with_the_engine_for_recorded_motions(model, restitution, shape):
+    motion = Harmonic.cycles(3.0 * P, 6, ramp=1, ramp_shape=shape)
     count = 80_001
     interval = motion.edges[2] / (count - 1)
     run = harmonic_run(PRISM, motion, 1.3, (restitution,) * 2, model=model, samples=count, interval=interval)
@@ -139,8 +158,9 @@ def test_rocking_starts_strictly_above_the_threshold(model):
 
 
 @pytest.mark.parametrize("model", MODELS)
-def test_a_ramp_uplifts_the_block_where_its_envelope_first_reaches_the_threshold(model):
-    motion = Harmonic.cycles(4.0 * P, 2, ramp=6)
+@pytest.mark.parametrize("shape", RAMP_SHAPES)
+def test_a_ramp_uplifts_the_block_where_its_envelope_first_reaches_the_threshold(model, shape):
+    motion = Harmonic.cycles(4.0 * P, 2, ramp=6, ramp_shape=shape)
     count = 120_001
     interval = motion.edges[2] / (count - 1)
     run = harmonic_run(PRISM, motion, 1.8, (0.9, 0.9), model=model, samples=count, interval=interval)
@@ -149,6 +169,42 @@ def test_a_ramp_uplifts_the_block_where_its_envelope_first_reaches_the_threshold
     envelope = np.array([level(motion, t) for t in time])
     expected = int(np.argmax(np.abs(envelope * np.sin(motion.omega * time)) > threshold))
     assert abs(int(np.argmax(run.angle != 0)) - expected) <= 1
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_law_that_is_constant_is_the_constant(model):
+    motion, law = Harmonic.cycles(5.0 * P, 20, ramp=1), RestitutionLaw.table([0.0, 1.0], [0.9, 0.9])
+    ours, constant = (harmonic_run(PRISM, motion, 1.6, e, model=model) for e in (law, 0.9))
+    assert ours.impact_times.size > 20
+    np.testing.assert_array_equal(ours.impact_times, constant.impact_times)
+    amplitudes = np.linspace(0.9, 6.0, 60)
+    codes = [harmonic_outcomes(PRISM, motion, amplitudes, e, model) for e in (law, (0.9, 0.9))]
+    np.testing.assert_array_equal(*codes)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_block_left_to_itself_after_the_motion_loses_by_the_law(model):
+    motion = Harmonic.cycles(5.0 * P, 2)
+    free_loss = RestitutionLaw.table([0.0, 1e-9], [1.0, 0.0])
+    assert harmonic_run(PRISM, motion, 9.0, 1.0, model=model).outcome == "overturned"
+    stopped = harmonic_run(PRISM, motion, 2.5, free_loss, model=model)
+    assert stopped.outcome == "rocking"
+    kept = harmonic_run(PRISM, motion, 2.5, 0.0, model=model)
+    np.testing.assert_allclose(stopped.impact_velocities, kept.impact_velocities, rtol=1e-9)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_function_is_sampled_beyond_every_impact(model):
+    rng = np.random.default_rng(8)
+    nearest = 0.0
+    for _ in range(300):
+        block = LOPSIDED if rng.random() < 0.5 else PRISM
+        amplitude, omega = rng.uniform(1.02, 12.0), rng.uniform(0.5, 9.0)
+        law = restitution_up_to(block, lambda speed: 1.0 / (1.0 + 0.001 * speed), amplitude)
+        motion = Harmonic.cycles(omega * block.p, 10, phase=rng.uniform(0, 7), ramp=rng.choice([0, 1]))
+        run = harmonic_run(block, motion, amplitude, law, model=model)
+        nearest = max(nearest, np.abs(run.impact_velocities).max(initial=0.0) / law.speeds[-1])
+    assert 0.5 < nearest <= 1.0
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -194,12 +250,22 @@ def test_peaks_are_those_of_a_finely_sampled_history():
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
-    [({"model": "linera"}, 'no model "linera"'), ({"amplitude_ratio": -1.0}, "amplitude_ratio is -1.0")],
+    [
+        ({"model": "linera"}, 'no model "linera"'),
+        ({"amplitude_ratio": -1.0}, "amplitude_ratio is -1.0"),
+        ({"restitution": (0.9, 1.1)}, "restitution is 1.1"),
+        ({"restitution": lambda speed: 1.0 + speed}, "a number between 0 and 1 was expected"),
+    ],
 )
 def test_impossible_arguments_are_clear_errors(arguments, message):
     given = {"amplitude_ratio": 1.0, "restitution": (0.9, 0.9)} | arguments
     with pytest.raises(ValueError, match=message):
         harmonic_run(PRISM, Harmonic.cycles(10.0, 2), **given)
+
+
+def test_a_ramp_of_an_unknown_shape_is_refused_with_the_nearest_one():
+    with pytest.raises(ValueError, match=r'no ramp of the shape "cosin".*Did you mean "cosine"'):
+        Harmonic.cycles(10.0, 2, ramp=1, ramp_shape="cosin")
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -215,7 +281,7 @@ def test_extreme_motions_and_blocks_end_with_an_outcome(model):
         cycles, ramp, phase = rng.choice([1, 3, 20]), rng.choice([0.0, 0.3, 2.0]), rng.uniform(0, 7)
         amplitude = 10 ** rng.uniform(-0.1, 3) if rng.random() < 0.5 else rng.uniform(0.98, 1.1)
         restitution = rng.choice([0.0, 0.5, 0.976, 1.0], 2)
-        motion = Harmonic.cycles(omega, cycles, phase=phase, ramp=ramp)
+        motion = Harmonic.cycles(omega, cycles, phase=phase, ramp=ramp, ramp_shape=str(rng.choice(RAMP_SHAPES)))
         run = harmonic_run(block, motion, amplitude, restitution, model=model)
         assert np.isfinite(run.peak_ratio)
         assert (np.diff(run.impact_times) >= 0).all()

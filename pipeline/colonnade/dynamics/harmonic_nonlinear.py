@@ -2,7 +2,7 @@
 The nonlinear model under a harmonic base motion, by Taylor series with impacts located on the series themselves.
 
 While the block rocks on side s = sgn θ, u = α − s θ obeys, with x = p t and the base acceleration over gravity
-a/g = l sin φ, φ = Ω x + ψ, the level l constant or linear in x (a ramp), and q = s l,
+a/g = l sin φ, φ = Ω x + ψ, the level l constant or on a ramp, which is linear or half a cosine, and q = s l,
 
     u'' = sin u + q sin φ cos u.
 
@@ -25,6 +25,8 @@ from colonnade.dynamics.kernel import kernel
 Array = NDArray[np.float64]
 Codes = NDArray[np.int8]
 Triple = tuple[float, float, float]
+Piece = tuple[float, float, float, float]
+"""Level where a part begins, slope, swing and turn (rad/s): l(τ) = level + slope τ + swing cos(turn τ)."""
 Point = tuple[float, float, float, float]
 """Height and its first three derivatives by x."""
 
@@ -47,24 +49,61 @@ FRESH = 1e-4
 
 
 @kernel
+def _piece(begins: float, ends: float, duration: float, smooth: bool | None) -> Piece:
+    """Envelope of a part between two levels, linear or half a cosine."""
+    if smooth is None or begins == ends:
+        return begins, (ends - begins) / duration, 0.0, 0.0
+    return 0.5 * (begins + ends), 0.0, 0.5 * (begins - ends), pi / duration
+
+
+@kernel
+def _level(piece: Piece, since: float) -> tuple[float, float]:
+    """Level and its slope at a time since the part began."""
+    level, slope, swing, turn = piece
+    if swing == 0.0:
+        return level + slope * since, slope
+    return level + swing * cos(turn * since), -swing * turn * sin(turn * since)
+
+
+@kernel
+def _swing(
+    smooth: bool | None, forcing: Array, side: float, p: float, piece: Piece, since: float, ratio: float, phase: float
+) -> None:
+    """Set the Taylor coefficients in x of what half a cosine adds to q sin φ: two more sines."""
+    for k in range(ORDER - 1):
+        forcing[k] = 0.0
+    if smooth is not None:
+        amplitude, turn = 0.5 * side * piece[2], piece[3]
+        for direction in (1.0, -1.0):
+            angle, speed = phase + direction * turn * since, ratio + direction * turn / p
+            even, odd = amplitude * sin(angle), amplitude * cos(angle)
+            forcing[0] += even
+            for k in range(1, ORDER - 1):
+                share = speed * RECIPROCAL[k]
+                even, odd = odd * share, -even * share
+                forcing[k] += even
+
+
+@kernel
 def _expand(height: Array, work: Array, critical: float, ratio: float, q: float, change: float, phase: float) -> float:
     """
     Complete the Taylor coefficients of h about x = 0, of which the first two are given; return the step they allow.
 
-    `q` is the level at x = 0, `change` its slope; `work` has rows for the series of sin u, cos u, q sin φ and u'.
+    `q` is the level at x = 0, `change` its slope; `work` has rows for the series of sin u, cos u, q sin φ and u'. To
+    what the third holds, the series of (q + change x) sin φ is added.
     """
     sine, cosine, forcing, turn = work[0], work[1], work[2], work[3]
     angle = critical - height[0]
     sine[0], cosine[0] = sin(angle), cos(angle)
     even, odd, growth = sin(phase), cos(phase), 0.0
-    forcing[0] = q * even
+    forcing[0] += q * even
     turn[1], turn[2] = -height[1], sine[0] + forcing[0] * cosine[0]
     height[2] = -0.5 * turn[2]
     for k in range(1, ORDER - 1):
         # even: k-th Taylor coefficient of sin φ; growth: the one before.
         share = ratio * RECIPROCAL[k]
         even, odd, growth = odd * share, -even * share, even
-        forcing[k] = q * even + change * growth
+        forcing[k] += q * even + change * growth
         rising, falling, product = 0.0, 0.0, forcing[k] * cosine[0]
         for j in range(1, k + 1):
             rising += turn[j] * cosine[k - j]
@@ -192,28 +231,28 @@ def _summit(height: Array, high: float) -> float:
 
 @kernel
 def _uplift(
-    start: float, end: float, omega: float, phase: float, level: float, slope: float, negative: float, positive: float
+    start: float, end: float, begin: float, omega: float, phase: float, piece: Piece, negative: float, positive: float
 ) -> tuple[float, float]:
     """
     Find when in [start, end] a block at rest uplifts, and to which side; (inf, 0) where it stays.
 
-    The base acceleration over gravity is (level + slope (t − start)) sin(ω t + phase), its level ≥ 0; the block
-    uplifts to θ < 0 where that passes `negative`, to θ > 0 where its opposite passes `positive`.
+    The base acceleration over gravity is l(t − begin) sin(ω t + phase), l ≥ 0; the block uplifts to θ < 0 where that
+    passes `negative`, to θ > 0 where its opposite passes `positive`.
     """
-    angle = omega * start + phase
+    angle, level = omega * start + phase, _level(piece, start - begin)[0]
     now = level * sin(angle)
     if now > negative or -now > positive:
         return start, -1.0 if now > 0.0 else 1.0
-    if omega == 0.0 or max(level, level + slope * (end - start)) <= min(negative, positive):
+    if omega == 0.0 or max(level, _level(piece, end - begin)[0]) <= min(negative, positive):
         return np.inf, 0.0
-    if slope == 0.0:
+    if piece[1] == 0.0 and piece[2] == 0.0:
         first, second = np.inf, np.inf
         if level > negative:
             first = start + ((asin(negative / level) - angle) % (2.0 * pi)) / omega
         if level > positive:
             second = start + ((pi + asin(positive / level) - angle) % (2.0 * pi)) / omega
         return (min(first, second), -1.0 if first < second else 1.0) if min(first, second) < end else (np.inf, 0.0)
-    # On a ramp, half a wave at a time: the logarithm of |level sin φ| is concave there, so that it has one top.
+    # On a ramp, half a wave at a time: the logarithm of l |sin φ| is concave there, so that it has one top.
     low = start
     while low < end:
         half = np.floor((omega * low + phase) / pi + 1e-12)
@@ -222,12 +261,13 @@ def _uplift(
         bottom, top, right = low, low, high
         for _ in range(60):
             middle = 0.5 * (top + right)
-            growing = slope + (level + slope * (middle - start)) * omega / tan(omega * middle + phase) > 0.0
+            level, slope = _level(piece, middle - begin)
+            growing = slope + level * omega / tan(omega * middle + phase) > 0.0
             top, right = (middle, right) if growing else (top, middle)
-        if (level + slope * (top - start)) * abs(sin(omega * top + phase)) > threshold:
+        if _level(piece, top - begin)[0] * abs(sin(omega * top + phase)) > threshold:
             for _ in range(60):
                 middle = 0.5 * (bottom + top)
-                above = (level + slope * (middle - start)) * abs(sin(omega * middle + phase)) > threshold
+                above = _level(piece, middle - begin)[0] * abs(sin(omega * middle + phase)) > threshold
                 bottom, top = (bottom, middle) if above else (middle, top)
             return top, side
         low = high
@@ -235,11 +275,35 @@ def _uplift(
 
 
 @kernel
+def _restitution(sides: Array, law: Array, here: int, speed: float) -> float:
+    """Give e of an impact that ends an arc on side `here`: of the side, or at its |ω| (rad/s) where there is a law."""
+    size = law.shape[1]
+    if size == 0:
+        return float(sides[2, here])
+    low, high = -1, size
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if law[0, middle] <= speed else (low, middle)
+    if low < 0 or high == size:
+        return float(law[1, max(0, low)])
+    share = (speed - law[0, low]) / (law[0, high] - law[0, low])
+    return float(law[1, low] + share * (law[1, high] - law[1, low]))
+
+
+@kernel
 def run(
-    forcing: Triple, edges: Array, sides: Array, rest_angle: float, watch: Triple, samples: Array, impacts: Array
+    forcing: Triple,
+    edges: Array,
+    smooth: bool | None,
+    sides: Array,
+    law: Array,
+    rest_angle: float,
+    watch: Triple,
+    samples: Array,
+    impacts: Array,
 ) -> tuple[bool, float, int]:
     """Run the block from rest; arguments and results as for `harmonic.run`."""
-    critical, p, restitution = sides
+    critical, p = sides[0], sides[1]
     omega, phase, level = forcing
     watched, floor, interval = watch
     count, taken, peak, begin, reached = 0, 0, 0.0, 0.0, 0.0
@@ -254,12 +318,10 @@ def run(
         reached = level if part < 2 else 0.0
         if end <= begin:
             continue
-        slope = (reached - beginning) / (end - begin)
-        now = begin
+        piece, now = _piece(beginning, reached, end - begin, smooth), begin
         while now < end:
             if resting:
-                envelope = beginning + slope * (now - begin)
-                now, side = _uplift(now, end, omega, phase, envelope, slope, thresholds[0], thresholds[1])
+                now, side = _uplift(now, end, begin, omega, phase, piece, thresholds[0], thresholds[1])
                 while taken < samples.shape[0] and taken * interval <= min(now, end):
                     taken += 1
                 if side == 0.0:
@@ -267,12 +329,14 @@ def run(
                 resting, here = False, 1 if side > 0.0 else 0
                 height, rate = 0.0, 0.0
             stop = min(end, taken * interval) if taken < samples.shape[0] else end
-            envelope = beginning + slope * (now - begin)
+            since = now - begin
 
             # One series: to its end, to the stop or to the impact.
             series[0], series[1] = height, rate
-            q, change = side * envelope, side * slope / p[here]
-            allowed = _expand(series, work, critical[here], omega / p[here], q, change, omega * now + phase)
+            q, change = side * (piece[0] + piece[1] * since), side * piece[1] / p[here]
+            ratio, angle = omega / p[here], omega * now + phase
+            _swing(smooth, work[2], side, p[here], piece, since, ratio, angle)
+            allowed = _expand(series, work, critical[here], ratio, q, change, angle)
             remaining = p[here] * (stop - now)
             landed, x, last = _first_landing(series, min(remaining, allowed))
             before, height, rate = rate, last[0], last[1]
@@ -284,7 +348,7 @@ def run(
             now = stop if x == remaining else now + x / p[here]
 
             if not landed:
-                if height - critical[here] > atan(level if part < 2 else envelope) and rate > 0.0:
+                if height - critical[here] > atan(level if part < 2 else _level(piece, since)[0]) and rate > 0.0:
                     overturned = True
                     if taken >= samples.shape[0]:
                         return True, peak, count
@@ -299,9 +363,10 @@ def run(
                 impacts[count, 0], impacts[count, 1] = now, side * rate * p[here]
             count += 1
             there = 1 - here
-            height, rate = 0.0, max(0.0, -restitution[here] * rate * p[here] / p[there])
+            e = _restitution(sides, law, here, -rate * p[here])
+            height, rate = 0.0, max(0.0, -e * rate * p[here] / p[there])
             side, here = -side, there
-            base = (beginning + slope * (now - begin)) * sin(omega * now + phase)
+            base = _level(piece, now - begin)[0] * sin(omega * now + phase)
             holding = sin(critical[here]) + side * base * cos(critical[here])
             if holding >= 0.0 and 0.5 * rate * rate <= rest_angle * critical[here] * holding:
                 resting = True
@@ -315,18 +380,28 @@ def run(
     if (beyond and (rate >= 0.0 or energy <= 1.0)) or (not beyond and rate > 0.0 and energy > 1.0):
         return True, peak, count
     there = 1 - here
-    after = restitution[here] * p[here] / p[there] * sqrt(max(2.0 * (energy - cos(critical[here])), 0.0))
+    arriving = sqrt(max(2.0 * (energy - cos(critical[here])), 0.0)) * p[here]
+    after = _restitution(sides, law, here, arriving) * arriving / p[there]
     return 0.5 * after * after + cos(critical[there]) > 1.0, peak, count
 
 
 @kernel
 def column(
-    omega: float, phase: float, levels: Array, edges: Array, sides: Array, rest_angle: float, no_rocking: float
+    omega: float,
+    phase: float,
+    levels: Array,
+    edges: Array,
+    smooth: bool | None,
+    sides: Array,
+    law: Array,
+    rest_angle: float,
+    no_rocking: float,
 ) -> Codes:
     """Codes of the outcomes under many levels, as for `harmonic.column`."""
     outcomes = np.empty(levels.size, dtype=np.int8)
     none, watch = np.empty((0, 2)), (0.0, no_rocking, 1.0)
     for index in range(levels.size):
-        overturned, peak, _count = run((omega, phase, levels[index]), edges, sides, rest_angle, watch, none, none)
+        forcing = (omega, phase, levels[index])
+        overturned, peak, _count = run(forcing, edges, smooth, sides, law, rest_angle, watch, none, none)
         outcomes[index] = OVERTURNED if overturned else ROCKING if peak > no_rocking else NO_ROCKING
     return outcomes

@@ -2,28 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
-from math import inf, isfinite, pi, tan
+from math import cos, hypot, inf, isfinite, pi, sin, tan
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from colonnade.dynamics.block import Block
+from colonnade.dynamics.block import Block, Sided, pair
 from colonnade.dynamics.history import NO_ROCKING_RATIO
+from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.errors import nearest
 
 Array = NDArray[np.float64]
 Codes = NDArray[np.int8]
+Restitution = tuple[float, float] | RestitutionLaw
+"""e of impacts that end an arc at θ < 0, and at θ > 0; or e over the speed of the impact."""
 
 KERNELS = {"linear": "colonnade.dynamics.harmonic", "nonlinear": "colonnade.dynamics.harmonic_nonlinear"}
 """Where the kernels of each model stand; they are compiled on import, so only those asked for are."""
 
 OUTCOMES = ("no-rocking", "rocking", "overturned")
 """What the codes 0, 1 and 2 mean."""
+
+RAMP_SHAPES = ("linear", "cosine")
+"""How the amplitude rises and falls: in proportion to time, or as half a cosine, smooth at both ends."""
 
 
 @dataclass(frozen=True)
@@ -38,19 +44,27 @@ class Harmonic:
     phase : float
         rad.
     edges : tuple of float
-        s: end of the linear rise of l from 0 to 1, of its constant part, and of its linear fall; equal ones leave a
-        part out.
+        s: end of the rise of l from 0 to 1, of its constant part, and of its fall; equal ones leave a part out.
+    ramp_shape : {"linear", "cosine"}
+        Of rise and fall: x, or (1 − cos πx)/2, over their part x of the ramp.
     """
 
     omega: float
     phase: float
     edges: tuple[float, float, float]
+    ramp_shape: str = "linear"
+
+    def __post_init__(self) -> None:
+        check_ramp_shape(self.ramp_shape)
 
     @classmethod
-    def cycles(cls, omega: float, cycles: float, *, phase: float = 0.0, ramp: float = 0.0) -> Harmonic:
+    def cycles(
+        cls, omega: float, cycles: float, *, phase: float = 0.0, ramp: float = 0.0, ramp_shape: str = "linear"
+    ) -> Harmonic:
         """Whole or broken cycles at full amplitude between a rise and a fall of `ramp` cycles each."""
         period = 2 * pi / omega
-        return cls(omega, phase, (ramp * period, (ramp + cycles) * period, (2 * ramp + cycles) * period))
+        edges = (ramp * period, (ramp + cycles) * period, (2 * ramp + cycles) * period)
+        return cls(omega, phase, edges, ramp_shape)
 
 
 @dataclass(frozen=True)
@@ -91,11 +105,68 @@ def check_model(model: str) -> None:
         raise ValueError(f'There is no model "{model}" for harmonic motion.{nearest(model, list(KERNELS))}')
 
 
+def check_ramp_shape(shape: str) -> None:
+    """
+    Refuse a ramp of an unknown shape.
+
+    Raises
+    ------
+    ValueError
+        Naming the nearest one.
+    """
+    if shape not in RAMP_SHAPES:
+        raise ValueError(f'There is no ramp of the shape "{shape}".{nearest(shape, RAMP_SHAPES)}')
+
+
+def restitution_up_to(
+    block: Block, restitution: Sided | RestitutionLaw | Callable[[float], float] | None, amplitude_ratio: float
+) -> Restitution:
+    """
+    Put e into the form that the kernels take: a function is sampled as far as impacts can go.
+
+    Parameters
+    ----------
+    block : Block
+    restitution : float, pair of float, RestitutionLaw or function, optional
+        As of `rock`.
+    amplitude_ratio : float
+        Largest A that the base motion comes to.
+
+    Raises
+    ------
+    ValueError
+        If e is not between 0 and 1.
+
+    Notes
+    -----
+    With q the largest a/g, no impact of a block that has not overturned is faster than p (α + q) in the linear model,
+    whose S = h' − (h − α) obeys S' = −S − q sin φ; nor, in the nonlinear one, than the fall from α + atan q inwards
+    under −q throughout, ω²/p² = 2 (sqrt(1 + q²) − cos α + q sin α).
+    """
+    if restitution is None:
+        return pair(block.restitution)
+    if isinstance(restitution, RestitutionLaw):
+        return restitution
+    if callable(restitution):
+        q = amplitude_ratio * tan(block.critical_angle)
+        speeds = []
+        for side in (block.negative, block.positive):
+            alpha = side.critical_angle
+            fall = 2.0 * (hypot(1.0, q) - cos(alpha) + q * sin(alpha))
+            speeds.append(block.side_p(side) * max(alpha + q, fall**0.5))
+        return RestitutionLaw.of(restitution, largest_speed=max(speeds))
+    values = pair(restitution)
+    for value in values:
+        if not 0.0 <= value <= 1.0:
+            raise ValueError(f"restitution is {value}; a number between 0 and 1 was expected")
+    return values
+
+
 def harmonic_run(
     block: Block,
     motion: Harmonic,
     amplitude_ratio: float,
-    restitution: Sequence[float],
+    restitution: Sided | RestitutionLaw | Callable[[float], float] | None,
     *,
     model: str = "linear",
     samples: int = 0,
@@ -112,8 +183,8 @@ def harmonic_run(
     motion : Harmonic
     amplitude_ratio : float
         A = a / (g tan α).
-    restitution : pair of float
-        e of impacts that end an arc at θ < 0, and at θ > 0.
+    restitution : float, pair of float, RestitutionLaw or function
+        As of `rock`; None for the rigid-body value.
     model : {"linear", "nonlinear"}
     samples : int, optional
         Number of samples of the history wanted, at `interval` (s) from time 0.
@@ -126,7 +197,7 @@ def harmonic_run(
     Raises
     ------
     ValueError
-        If A is not positive or the model is not known.
+        If A is not positive, e is not between 0 and 1 or the model is not known.
     """
     check_model(model)
     if not (isfinite(amplitude_ratio) and amplitude_ratio > 0):
@@ -135,7 +206,8 @@ def harmonic_run(
     overturned, peak, count = _kernels(model).run(
         (motion.omega, motion.phase, amplitude_ratio * tan(block.critical_angle)),
         np.array(motion.edges),
-        _sides(block, restitution),
+        True if motion.ramp_shape == "cosine" else None,
+        *_sides(block, restitution_up_to(block, restitution, amplitude_ratio)),
         DEFAULT_REST_ANGLE,
         (peaks_from, inf, interval),
         history,
@@ -147,7 +219,7 @@ def harmonic_run(
 
 
 def harmonic_outcomes(
-    block: Block, motion: Harmonic, amplitude_ratio: Array, restitution: Sequence[float], model: str
+    block: Block, motion: Harmonic, amplitude_ratio: Array, restitution: Restitution, model: str
 ) -> Codes:
     """Outcomes of many A under one motion, indices into `OUTCOMES`, shape (n,)."""
     check_model(model)
@@ -156,7 +228,8 @@ def harmonic_outcomes(
         motion.phase,
         amplitude_ratio * tan(block.critical_angle),
         np.array(motion.edges),
-        _sides(block, restitution),
+        True if motion.ramp_shape == "cosine" else None,
+        *_sides(block, restitution),
         DEFAULT_REST_ANGLE,
         NO_ROCKING_RATIO,
     )
@@ -167,6 +240,10 @@ def _kernels(model: str) -> Any:
     return import_module(KERNELS[model])
 
 
-def _sides(block: Block, restitution: Sequence[float]) -> Array:
+def _sides(block: Block, restitution: Restitution) -> tuple[Array, Array]:
+    """Return α, p and e of both sides, and the law where e follows one."""
     sides = (block.negative, block.positive)
-    return np.array([[side.critical_angle for side in sides], [block.side_p(side) for side in sides], restitution])
+    alpha, p = [side.critical_angle for side in sides], [block.side_p(side) for side in sides]
+    if isinstance(restitution, RestitutionLaw):
+        return np.array([alpha, p, [np.nan, np.nan]]), np.array([restitution.speeds, restitution.values])
+    return np.array([alpha, p, restitution]), np.empty((2, 0))

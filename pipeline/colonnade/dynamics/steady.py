@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import atan2, cosh, pi, sinh, sqrt, tan
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from colonnade.dynamics.block import Block, Sided, pair
-from colonnade.dynamics.harmonic_run import Harmonic, harmonic_run
+from colonnade.dynamics.block import Block, Sided
+from colonnade.dynamics.harmonic_run import Harmonic, harmonic_run, restitution_up_to
+from colonnade.dynamics.restitution_law import RestitutionLaw
 
 Array = NDArray[np.float64]
 
@@ -55,10 +57,11 @@ def steady_response(
     *,
     frequency_ratio: ArrayLike,
     amplitude_ratio: ArrayLike,
-    restitution: Sided | None = None,
+    restitution: Sided | RestitutionLaw | Callable[[float], float] | None = None,
     settling: int = 400,
     phase: float = 0.0,
     ramp: float = 0.0,
+    ramp_shape: str = "linear",
     model: str = "linear",
 ) -> SteadyResponse:
     """
@@ -69,15 +72,17 @@ def steady_response(
     block : Block
     frequency_ratio, amplitude_ratio : array_like, shape (n,) and (m,)
         Ω = ω / p and A = a / (g tan α).
-    restitution : float or pair of float, optional
-        e; default the rigid-body value.
+    restitution : float, pair of float, RestitutionLaw or function, optional
+        e, as of `rock`; default the rigid-body value.
     settling : int, optional
         Cycles at full amplitude before the response is looked at. A deviation dies out as e² a cycle where there are
         two impacts in it: at e = 0.976 to 4e-9 within 400 cycles.
     phase : float, optional
         rad.
     ramp : float, optional
-        Cycles over which the amplitude rises linearly at first.
+        Cycles over which the amplitude rises at first.
+    ramp_shape : {"linear", "cosine"}
+        How it rises: in proportion to time, or as half a cosine.
     model : {"linear", "nonlinear"}
 
     Returns
@@ -95,14 +100,15 @@ def steady_response(
         raise ValueError("frequency_ratio has to be positive throughout")
     if settling < 1:
         raise ValueError(f"settling is {settling}; at least one cycle was expected")
-    e = pair(block.restitution if restitution is None else restitution)
+    e = restitution_up_to(block, restitution, float(amplitudes.max(initial=0.0)))
     watched = LARGEST_ORDER * (REPEATS + 1)
     shape = (omegas.size, amplitudes.size)
     order, period, amplitude = np.zeros(shape, dtype=np.int8), np.full(shape, np.nan), np.full(shape, np.nan)
     for row, omega in enumerate(omegas * block.p):
         cycle = 2 * pi / omega
         first = round(ramp) + settling
-        motion = Harmonic(omega, phase, (ramp * cycle, (first + watched) * cycle, (first + watched) * cycle))
+        edges = (ramp * cycle, (first + watched) * cycle, (first + watched) * cycle)
+        motion = Harmonic(omega, phase, edges, ramp_shape)
         for column, level in enumerate(amplitudes):
             run = harmonic_run(
                 block,

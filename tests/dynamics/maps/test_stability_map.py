@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from functools import cache
 
@@ -15,6 +16,7 @@ from colonnade.dynamics.maps.chart import assemble, stability_map
 from colonnade.dynamics.maps.column import _fraction, _intervals, map_column
 from colonnade.dynamics.maps.plan import plan_map
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.restitution_law import RestitutionLaw
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
@@ -163,6 +165,27 @@ def test_all_that_limits_depend_on_is_in_the_result():
     assert chart.options["scan_step"] == pytest.approx(0.0025)
 
 
+@pytest.mark.parametrize("model", MODELS)
+def test_a_law_of_e_over_speed_gives_its_own_map_and_stands_in_the_result(model):
+    options = {"frequency_ratio": [5.0, 6.0], "amplitude_ratio": np.linspace(1.0, 6.0, 26), "model": model}
+    lossy, law = stability_map(PRISM, restitution=0.8, **options), RestitutionLaw.table([0.0, 5.0], [0.8, 0.8])
+    same = stability_map(PRISM, restitution=law, **options)
+    np.testing.assert_array_equal(same.outcome, lossy.outcome)
+    np.testing.assert_array_equal(same.lower, lossy.lower)
+    assert (same.options["restitution_speeds"], same.options["restitution_values"]) == ([0.0, 5.0], [0.8, 0.8])
+    assert "restitution_negative" not in same.options
+    falling = stability_map(PRISM, restitution=lambda speed: 1.0 / (1.0 + 0.2 * speed), **options)
+    assert not np.array_equal(falling.outcome, lossy.outcome)
+    json.dumps(falling.options)
+
+
+def test_a_smooth_ramp_is_part_of_the_result_and_moves_the_limits():
+    options = {"restitution": 0.976, "frequency_ratio": [6.0], "amplitude_ratio": np.linspace(1.0, 30.0, 59), "ramp": 2}
+    linear, smooth = (stability_map(PRISM, width=0.1, ramp_shape=shape, **options) for shape in ("linear", "cosine"))
+    assert (linear.options["ramp_shape"], smooth.options["ramp_shape"]) == ("linear", "cosine")
+    assert abs(linear.lower[0] - smooth.lower[0]) > 0.01
+
+
 def test_a_ramp_raises_the_upper_limit():
     options = {"restitution": 0.976, "frequency_ratio": [7.81], "amplitude_ratio": np.linspace(1.0, 60.0, 60)}
     abrupt, ramped = (stability_map(PRISM, width=0.2, ramp=ramp, **options) for ramp in (0, 3))
@@ -199,6 +222,7 @@ def test_the_library_offers_the_map():
         ({"restitution": 1.1}, "restitution is 1.1"),
         ({"cycles": 0.5}, "at least one cycle"),
         ({"ramp": -1}, "ramp is -1"),
+        ({"ramp_shape": "line"}, 'no ramp of the shape "line"'),
         ({"phase": math.inf}, "phase is inf"),
         ({"width": 1e-5}, "edge is 0.0001 and width 1e-05"),
         ({"model": "contact"}, 'no model "contact"'),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
@@ -15,6 +15,7 @@ from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.maps.column import Codes, MapColumn, map_column
 from colonnade.dynamics.maps.plan import EDGE, WIDTH, MapPlan, plan_map
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.restitution_law import RestitutionLaw
 
 Array = NDArray[np.float64]
 
@@ -38,7 +39,8 @@ class StabilityMap:
     interval_frequency_ratio, interval_start, interval_end : ndarray, shape (k,)
         Every interval of A that overturns, islands included, by its Ω.
     options : dict
-        All that the limits depend on: model, cycles, phase, ramp, scan step, width, edge, restitution, rest rule.
+        All that the limits depend on: model, cycles, phase, ramp and its shape, scan step, width, edge,
+        restitution, rest rule.
     """
 
     frequency_ratio: Array
@@ -66,10 +68,11 @@ def stability_map(
     *,
     frequency_ratio: ArrayLike,
     amplitude_ratio: ArrayLike,
-    restitution: Sided | None = None,
+    restitution: Sided | RestitutionLaw | Callable[[float], float] | None = None,
     cycles: float = 20,
     phase: float = 0.0,
     ramp: float = 0,
+    ramp_shape: str = "linear",
     model: str = "linear",
     width: float = WIDTH,
     edge: float = EDGE,
@@ -85,21 +88,23 @@ def stability_map(
     block : Block
     frequency_ratio, amplitude_ratio : array_like, shape (n,) and (m,)
         Ω = ω / p and A = a / (g tan α), positive and increasing.
-    restitution : float or pair of float, optional
-        e; default the rigid-body value.
+    restitution : float, pair of float, RestitutionLaw or function, optional
+        e, as of `rock`; default the rigid-body value.
     cycles : float, optional
         Cycles at full amplitude, at least 1.
     phase : float, optional
         rad: the base acceleration is a sin(ω t + phase).
     ramp : float, optional
-        Cycles over which the amplitude rises linearly before, and falls after.
+        Cycles over which the amplitude rises before, and falls after.
+    ramp_shape : {"linear", "cosine"}
+        How it rises and falls: in proportion to time, or as half a cosine.
     model : {"linear", "nonlinear"}
     width : float, optional
         In A: intervals narrower than this make no limit.
     edge : float, optional
         In A: how closely the edges of intervals are found.
     motion : Motion, optional
-        A recorded base motion in place of the sine: scaled to A, stretched to Ω. `cycles`, `phase` and `ramp` are then
+        A recorded base motion in place of the sine: scaled to A, stretched to Ω. `cycles`, `phase` and ramps are then
         those of the recording.
     motion_frequency : float, optional
         Hz, the frequency of the recorded motion that Ω stretches.
@@ -130,6 +135,7 @@ def stability_map(
         cycles=cycles,
         phase=phase,
         ramp=ramp,
+        ramp_shape=ramp_shape,
         model=model,
         width=width,
         edge=edge,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import ceil, log2, pi
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,9 @@ from colonnade.dynamics.harmonic_run import OUTCOMES, Harmonic, harmonic_outcome
 from colonnade.dynamics.maps.plan import MapPlan
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
+
+if TYPE_CHECKING:
+    from colonnade.dynamics.maps.space import InSpace
 
 Array = NDArray[np.float64]
 Codes = NDArray[np.int8]
@@ -82,6 +86,8 @@ def _runs(plan: MapPlan, frequency_ratio: float) -> Runs:
         motion = plan.motion
         dt = motion.dt * plan.motion_frequency * 2 * pi / (frequency_ratio * block.p)
         unit = motion.acceleration * (block.uplift_acceleration / motion.peak)
+        if plan.space is not None:
+            return _in_space(plan.space, unit, dt, block.gravity)
 
         def recorded(amplitudes: Array) -> Codes:
             found = [
@@ -92,12 +98,29 @@ def _runs(plan: MapPlan, frequency_ratio: float) -> Runs:
 
         return recorded
 
-    harmonic = Harmonic.cycles(frequency_ratio * block.p, plan.cycles, phase=plan.phase, ramp=plan.ramp)
+    harmonic = Harmonic.cycles(
+        frequency_ratio * block.p, plan.cycles, phase=plan.phase, ramp=plan.ramp, ramp_shape=plan.ramp_shape
+    )
+
+    if plan.space is not None:
+        from colonnade.dynamics.maps.space import sampled
+
+        wave, dt = sampled(harmonic)
+        return _in_space(plan.space, block.uplift_acceleration * wave, dt, block.gravity)
 
     def sine(amplitudes: Array) -> Codes:
         return harmonic_outcomes(block, harmonic, amplitudes, plan.restitution, plan.model)
 
     return sine
+
+
+def _in_space(space: InSpace, unit: Array, dt: float, gravity: float) -> Runs:
+    from colonnade.dynamics.maps.space import outcomes
+
+    def moved(amplitudes: Array) -> Codes:
+        return outcomes(space, unit, dt, amplitudes, gravity)
+
+    return moved
 
 
 def _intervals(scan: Array, overturned: NDArray[np.bool_], runs: Runs, edge: float) -> Array:

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi, tan
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from colonnade.dynamics.block import Block, Sided, pair
-from colonnade.dynamics.harmonic_run import check_model
+from colonnade.dynamics.block import Block, Sided
+from colonnade.dynamics.harmonic_run import Restitution, check_model, check_ramp_shape, restitution_up_to
 from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
+
+if TYPE_CHECKING:
+    from colonnade.dynamics.maps.space import InSpace
 
 Array = NDArray[np.float64]
 
@@ -35,33 +40,39 @@ class MapPlan:
     Attributes
     ----------
     block : Block
-    restitution : tuple of float
-        e of impacts that end an arc at θ < 0, and at θ > 0.
+    restitution : tuple of float, or RestitutionLaw
+        e of impacts that end an arc at θ < 0, and at θ > 0; or e over the speed of the impact.
     model : str
     frequency_ratio, amplitude_ratio : ndarray
         Ω, shape (n,), and A, shape (m,), both increasing.
     cycles, phase, ramp : float
-        Cycles at full amplitude; phase of their beginning, rad; cycles of the linear rise before and fall after them.
+        Cycles at full amplitude; phase of their beginning, rad; cycles of the rise before and fall after them.
+    ramp_shape : str
+        Of rise and fall, one of `harmonic_run.RAMP_SHAPES`.
     width, edge : float
         In A, see `WIDTH` and `EDGE`.
     motion : Motion, optional
         A recorded base motion in place of the sine: scaled so that its largest |a| gives A, and stretched in time so
         that `motion_frequency` (Hz) gives Ω.
     motion_frequency : float, optional
+    space : InSpace, optional
+        Body and law of contact of the model "contact", whose restitution they are.
     """
 
     block: Block
-    restitution: tuple[float, float]
+    restitution: Restitution
     model: str
     frequency_ratio: Array
     amplitude_ratio: Array
     cycles: float
     phase: float
     ramp: float
+    ramp_shape: str
     width: float
     edge: float
     motion: Motion | None
     motion_frequency: float | None
+    space: InSpace | None = None
 
     @property
     def scan(self) -> Array:
@@ -90,15 +101,22 @@ class MapPlan:
         """Everything the result depends on beside block and axes, by name."""
         forcing: dict[str, Any]
         if self.motion is None:
-            forcing = {"cycles": self.cycles, "phase": self.phase, "ramp": self.ramp, "ramp_shape": "linear"}
+            forcing = {"cycles": self.cycles, "phase": self.phase, "ramp": self.ramp, "ramp_shape": self.ramp_shape}
         else:
             forcing = {"motion_frequency": self.motion_frequency, "motion_samples": self.motion.acceleration.size}
+        e: dict[str, Any]
+        if isinstance(self.restitution, RestitutionLaw):
+            e = {
+                "restitution_speeds": self.restitution.speeds.tolist(),
+                "restitution_values": self.restitution.values.tolist(),
+            }
+        else:
+            e = dict(zip(("restitution_negative", "restitution_positive"), self.restitution, strict=True))
         return {
             "model": self.model,
             "base_motion": "sine" if self.motion is None else "recorded",
             **forcing,
-            "restitution_negative": self.restitution[0],
-            "restitution_positive": self.restitution[1],
+            **e,
             "width": self.width,
             "edge": self.edge,
             "scan_step": float(np.diff(self.scan).max()),
@@ -106,6 +124,7 @@ class MapPlan:
             "no_rocking_ratio": NO_ROCKING_RATIO,
             "critical_angle": self.block.critical_angle,
             "p": self.block.p,
+            **({} if self.space is None else self.space.options),
         }
 
 
@@ -114,15 +133,17 @@ def plan_map(
     *,
     frequency_ratio: ArrayLike,
     amplitude_ratio: ArrayLike,
-    restitution: Sided | None = None,
+    restitution: Sided | RestitutionLaw | Callable[[float], float] | None = None,
     cycles: float = 20,
     phase: float = 0.0,
     ramp: float = 0,
+    ramp_shape: str = "linear",
     model: str = "linear",
     width: float = WIDTH,
     edge: float = EDGE,
     motion: Motion | None = None,
     motion_frequency: float | None = None,
+    space: InSpace | None = None,
 ) -> MapPlan:
     """
     Check what a map is asked for, and put it together; arguments as for `stability_map`.
@@ -132,11 +153,11 @@ def plan_map(
     ValueError
         If an argument is out of its range, an axis does not increase or the model is not known.
     """
-    check_model(model)
-    e = pair(block.restitution if restitution is None else restitution)
-    for value in e:
-        if not 0.0 <= value <= 1.0:
-            raise ValueError(f"restitution is {value}; a number between 0 and 1 was expected")
+    if space is None:
+        check_model(model)
+    check_ramp_shape(ramp_shape)
+    amplitudes = _axis("amplitude_ratio", amplitude_ratio, 2)
+    e = restitution_up_to(block, restitution, float(amplitudes[-1]))
     if not (np.isfinite(cycles) and cycles >= 1):
         raise ValueError(f"cycles is {cycles}; at least one cycle was expected")
     if not (np.isfinite(ramp) and ramp >= 0):
@@ -156,14 +177,16 @@ def plan_map(
         e,
         model,
         _axis("frequency_ratio", frequency_ratio, 1),
-        _axis("amplitude_ratio", amplitude_ratio, 2),
+        amplitudes,
         float(cycles),
         float(phase) % (2 * pi),
         float(ramp),
+        ramp_shape,
         float(width),
         float(edge),
         motion,
         motion_frequency,
+        space,
     )
 
 
