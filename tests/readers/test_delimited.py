@@ -332,7 +332,7 @@ def test_an_option_that_cannot_be_is_told(tmp_path: Path, options: dict[str, Any
 @pytest.fixture
 def long(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A file of several pieces, with a damaged line and a last one that is cut off."""
-    monkeypatch.setattr("colonnade.readers.samples.CELLS_AT_ONCE", 3000)
+    monkeypatch.setattr("colonnade.readers.body.PIECE", 20_000)
     path = tmp_path / "long.csv"
     rows = [f"{number / 200:.3f},{number % 97}.5,{-number}" for number in range(9000)]
     rows[4100] += ",7"

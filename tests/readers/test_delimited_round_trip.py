@@ -132,10 +132,25 @@ def test_numbers_of_fifteen_digits_are_exact_in_any_notation(tmp_path: Path, val
 def test_a_file_longer_than_a_piece_is_read_whole(
     tmp_path: Path, line_end: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("colonnade.readers.samples.CELLS_AT_ONCE", 3000)
+    monkeypatch.setattr("colonnade.readers.body.PIECE", 20_000)
     path = tmp_path / "record.csv"
     expected = np.arange(9000) / 8
     path.write_bytes(line_end.join(["t,x", *(f"{value},{-value}" for value in expected)]).encode())
     recording = read(path)
     np.testing.assert_array_equal(recording.channel("t").values, expected)
     np.testing.assert_array_equal(recording.channel("x").values, -expected)
+
+
+@pytest.mark.parametrize("size", [700, 4000, 1_000_000])
+def test_what_is_read_does_not_depend_on_the_pieces(tmp_path: Path, size: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = [f"{number / 8};{number % 7},5;ä{number}" for number in range(2000)]
+    rows[900:900] = ["", "", ""]
+    rows[1200], rows[1500] = "150,125;-;ä", "# a remark"
+    path = tmp_path / "record.csv"
+    path.write_text("t;x;said\r\n" + "\r\n".join(rows).replace(".", ","), encoding="utf-8", newline="")
+    expected = read(path)
+    monkeypatch.setattr("colonnade.readers.body.PIECE", size)
+    found = read(path)
+    assert (found.notes, found.warnings) == (expected.notes, expected.warnings)
+    for channel, same in zip(found.channels, expected.channels, strict=True):
+        np.testing.assert_array_equal(channel.values, same.values)

@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.rock import rock
 from colonnade.signals.quality import (
+    BLOCK,
     Flag,
     Verdict,
     check_clipping,
@@ -117,3 +118,37 @@ def test_the_worst_flag_of_a_sample_stands():
     flags, reasons = combine(verdicts, 3)
     assert flags.tolist() == [Flag.FAIL, Flag.SUSPECT, Flag.GOOD]
     assert reasons == ["a", "b"]
+
+
+@pytest.mark.parametrize("place", range(BLOCK - 4, BLOCK + 3))
+def test_a_spike_in_a_long_record_is_found_wherever_blocks_meet(place):
+    time = np.arange(3 * BLOCK) * 0.001
+    values = np.sin(time) + np.random.default_rng(5).normal(0, 1e-3, time.size)
+    values[place] += 1.0
+    assert np.flatnonzero(check_spikes(time, values, threshold=8.0).where).tolist() == [place]
+
+
+def test_the_step_of_a_coarse_converter_is_found_in_a_late_block():
+    """Half of its steps are zero, so that the median says nothing; a change by one step is no spike."""
+    time = np.arange(3 * BLOCK) * 0.001
+    values = np.zeros(time.size)
+    values[2 * BLOCK + 7] = 1.0
+    assert not check_spikes(time, values, threshold=8.0).reason
+    values[BLOCK + 100 : BLOCK + 110] = 0.01
+    assert np.flatnonzero(check_spikes(time, values, threshold=8.0).where).tolist() == [2 * BLOCK + 7]
+
+
+def test_many_spikes_are_held_against_their_neighbourhoods_as_few_are():
+    time = np.arange(20_000) * 0.001
+    values = np.sin(time) + np.random.default_rng(5).normal(0, 1e-3, time.size)
+    few, many = values.copy(), values.copy()
+    places = np.arange(50, 19_950, 40)
+    few[places[::20]] += 1.0
+    many[places] += 1.0
+    assert np.flatnonzero(check_spikes(time, few, threshold=8.0).where).tolist() == places[::20].tolist()
+    assert np.flatnonzero(check_spikes(time, many, threshold=8.0).where).tolist() == places.tolist()
+
+
+def test_numbers_too_large_to_add_up_are_numbers_nevertheless():
+    values = np.full(TIME.size, 1e308)
+    assert not check_missing(TIME, values).reason

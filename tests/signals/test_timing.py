@@ -18,6 +18,25 @@ def _reasons(stamps):
     ]
 
 
+@pytest.mark.parametrize("start", [0.0, -3.0, 1234.5])
+def test_an_exact_clock_is_read_at_once_and_as_any_other(monkeypatch, start):
+    stamps = start + EVEN
+    at_once = read_clock(stamps)
+    monkeypatch.setattr("colonnade.signals.timing._is_exact", lambda stamps: False)
+    step_by_step = read_clock(stamps)
+    assert at_once.is_exact
+    assert not step_by_step.is_exact
+    assert at_once.time.tolist() == step_by_step.time.tolist()
+    assert (at_once.interval, at_once.resolution) == (step_by_step.interval, step_by_step.resolution)
+
+
+def test_stamps_that_only_look_exact_where_numbers_are_coarse_are_not():
+    """Seconds since 1970 are told to 0.24 µs, which is more than 1e-7 of a step."""
+    clock = read_clock(1.7e9 + EVEN)
+    assert not clock.is_exact
+    assert "off an even clock" in check_jitter(clock, share=1e-6, factor=1.5).reason
+
+
 def test_an_even_clock_is_left_as_it_is():
     clock = read_clock(EVEN)
     assert clock.time.tolist() == EVEN.tolist()

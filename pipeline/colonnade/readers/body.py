@@ -1,4 +1,4 @@
-"""The part of a text file that holds the samples, as a stream and line by line."""
+"""The part of a text file that holds the samples: as a stream, in pieces of whole lines, and line by line."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from colonnade.readers.cells import Dialect
 from colonnade.readers.text_encoding import open_text
 
 UNREADABLE = "\ufffd"
+
+PIECE = 1 << 21
+"""Characters that are cut into cells at once."""
 
 
 class Body(TextIOBase):
@@ -44,9 +47,18 @@ class Body(TextIOBase):
             self._stream.readline()
         self._pending = self._stream.read(1).removeprefix("\ufeff")
 
-    def readable(self) -> bool:
-        """Tell pandas that it may read."""
-        return True
+    def pieces(self) -> Iterator[str]:
+        """Read it in pieces of whole lines, none of them blank."""
+        rest = ""
+        while text := self.read(PIECE):
+            text = rest + text
+            # A line may end in a carriage return alone, but not between that and a line feed.
+            end = text.rfind("\n") + 1 or text.rfind("\r", 0, -1) + 1
+            piece, rest = text[:end], text[end:]
+            if piece and not piece.isspace():
+                yield piece
+        if rest and not rest.isspace():
+            yield rest
 
     def read(self, size: int | None = -1, /) -> str:
         """Read about `size` characters."""
@@ -86,6 +98,22 @@ class Body(TextIOBase):
         elif not self._dialect.quoted:
             return line
         return self.separator.join(cells) + line[len(bare) :]
+
+
+class Piece(TextIOBase):
+    """A text that is read at once, and not encoded or copied before."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def readable(self) -> bool:
+        """Tell pandas that it may read."""
+        return True
+
+    def read(self, size: int | None = -1, /) -> str:
+        """Give all that is left."""
+        text, self._text = self._text, ""
+        return text
 
 
 def sample_lines(path: Path, dialect: Dialect, first: int) -> Iterator[tuple[int, str]]:

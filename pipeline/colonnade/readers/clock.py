@@ -17,6 +17,9 @@ TIME_NAME = re.compile(
     r"(?:t|time|zeit|messzeit|laufzeit|time\W?stamp|date\W?time|elapsed(?:\W?time)?|temps|tiempo|tempo|tid|χρόνοσ|χρονοσ"
     r"|seconds|sekunden|sec)(?:[\s_#-]*\d+)?(?:\s+-\s.*)?"
 )
+LOOKED_AT = 1000
+"""Values at the start of a column that show whether it may be a clock at all."""
+
 RISING_SHARE = 0.9
 """Share of steps that are positive in what is still a clock; the rest is for quality control to flag."""
 
@@ -120,7 +123,10 @@ def _may_be_time(unit: str | None) -> bool:
 def _rising_in_equal_steps(channels: tuple[RecordedChannel, ...]) -> str:
     """Hint at a first column that may be a clock nevertheless."""
     first = channels[0]
-    steps = np.diff(first.values[np.isfinite(first.values)])
-    if steps.size > 1 and np.all(steps > 0) and np.ptp(steps) < 1e-3 * steps.mean():
+    for values in (first.values[:LOOKED_AT], first.values):
+        steps = np.diff(values[np.isfinite(values)])
+        if not np.all(steps > 0):
+            return ""
+    if steps.size > 1 and np.ptp(steps) < 1e-3 * steps.mean():
         return f'; set time = "{first.heading}" if that is one: it rises in equal steps of {steps.mean():g}'
     return ""

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import csv
 import warnings
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Generator, Iterable, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import closing
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
@@ -14,16 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.errors import ReadError
-from colonnade.readers.body import Body
+from colonnade.readers.body import Body, Piece
 from colonnade.readers.cells import WHITESPACE, Dialect
 from colonnade.readers.timestamps import Timestamps
+from colonnade.signals.parallel import side_by_side, threads
 
 if TYPE_CHECKING:
     import pandas as pd
 
 Array = NDArray[np.float64]
-
-CELLS_AT_ONCE = 400_000
 
 
 @dataclass
@@ -150,7 +152,6 @@ def _read(
     stretch: Stretch | None,
     widest: int | None,
 ) -> Samples:
-    import pandas as pd
     from pandas.errors import ParserWarning
 
     width = len(kinds) + trailing
@@ -163,15 +164,14 @@ def _read(
         "quoting": csv.QUOTE_NONE,
         "skipinitialspace": dialect.padded,  # costs a quarter of the speed
         "na_values": list(missing),
-        "chunksize": max(1000, CELLS_AT_ONCE // (width + 1)),
         "low_memory": False,
     }
     pieces = _Pieces([[] for _ in kinds])
     clocks = {column: Timestamps() for column, kind in enumerate(kinds) if kind == "time"}
     with warnings.catch_warnings(), Body(path, dialect, first, widest) as body:
         warnings.simplefilter("error", ParserWarning)  # pandas only warns where it drops cells
-        separator = r"\s+" if body.separator == WHITESPACE else body.separator
-        with pd.read_csv(body, sep=separator, **options) as frames:
+        options["sep"] = r"\s+" if body.separator == WHITESPACE else body.separator
+        with closing(_frames(body.pieces(), options)) as frames:
             skipped, reaches_end = 0, True
             for frame in frames:
                 place = 0 if stretch is None else stretch.place(frame, skipped + pieces.rows, dialect)
@@ -187,12 +187,30 @@ def _read(
             f"{path.name}: none of its {skipped} samples lies within the test's window. Look at the file's times and "
             "at the test's `window`, which counts from the file's own zero."
         )
-    columns = []
-    for column in range(len(kinds)):
-        columns.append(np.concatenate(pieces.columns[column]))
-        pieces.columns[column].clear()
+    columns = side_by_side(_joined, pieces.columns)
     starts = [clock.start for clock in clocks.values() if clock.start is not None]
     return Samples(columns, np.concatenate(pieces.doubtful), starts[0] if starts else None, skipped, reaches_end)
+
+
+def _frames(texts: Iterable[str], options: dict[str, Any]) -> Generator[pd.DataFrame, None, None]:
+    """Cut pieces of text into cells, several at the same time; they come in their order."""
+    import pandas as pd
+
+    waiting: deque[Future[pd.DataFrame]] = deque()
+    with ThreadPoolExecutor(threads()) as pool:
+        for text in texts:
+            waiting.append(pool.submit(lambda text: pd.read_csv(Piece(text), **options), text))
+            if len(waiting) > threads():
+                yield waiting.popleft().result()
+        while waiting:
+            yield waiting.popleft().result()
+
+
+def _joined(pieces: list[Array]) -> Array:
+    """One array in place of its pieces."""
+    whole = np.concatenate(pieces)
+    pieces.clear()
+    return whole
 
 
 def _take(
@@ -203,8 +221,9 @@ def _take(
     kinds: Sequence[str],
 ) -> None:
     """Add a piece of the table to the columns."""
-    beyond = frame.iloc[:, len(kinds) :]
-    doubtful = beyond.notna().any(axis="columns").to_numpy()
+    doubtful = np.zeros(len(frame), dtype=bool)
+    for beyond in range(len(kinds), frame.shape[1]):
+        doubtful |= frame[beyond].notna().to_numpy()
     nothing = np.ones(len(frame), dtype=bool)
     # A short row has nothing in the last column that ever holds something.
     outer = {0, max((column for column, kind in enumerate(kinds) if kind != "empty"), default=0)}
@@ -221,10 +240,10 @@ def _take(
 
 
 def numbers_of(series: pd.Series, dialect: Dialect) -> Array:
-    """Values of a column: a copy of what pandas has read as numbers, else each cell by itself."""
+    """Values of a column: what pandas has read as numbers, else each cell by itself."""
     if series.dtype.kind in "biuf":
-        values = series.to_numpy(dtype=np.float64, copy=True)
+        values = series.to_numpy(dtype=np.float64)
     else:
         values = np.fromiter(map(dialect.number, series.to_list()), dtype=np.float64, count=len(series))
-    values[np.isinf(values)] = np.nan
-    return values
+    infinite = np.isinf(values)
+    return np.where(infinite, np.nan, values) if infinite.any() else values

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import percentile_filter
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -19,6 +18,9 @@ ENOUGH = 100_000
 
 NEIGHBOURHOOD = 201
 """Samples whose roughness a spike is held against."""
+
+BLOCK = 1 << 15
+"""Samples that are looked at together: what is computed of them stays near the processor."""
 
 FEW = 0.02
 """Share of doubtful samples up to which their neighbourhoods are looked at one by one."""
@@ -68,9 +70,9 @@ def combine(verdicts: Iterable[Verdict], size: int) -> tuple[NDArray[np.int8], l
 
 def check_missing(time: Array, values: Array) -> Verdict:
     """Flag samples without a value or a time."""
-    where = ~(np.isfinite(values) & np.isfinite(time))
-    if not where.any():
+    if is_finite(values) and is_finite(time):
         return Verdict.good(values.size)
+    where = ~(np.isfinite(values) & np.isfinite(time))
     return Verdict(Flag.MISSING, where, f"{counted(where)} without a value{first_at(time, where)}")
 
 
@@ -86,7 +88,10 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
         Largest magnitude that the recorder or transducer can give. The top code of 12 bits, 2047/2048 of it, counts as
         reached.
     """
-    where = np.abs(values) >= full_scale * (1 - 5e-4)
+    limit = full_scale * (1 - 5e-4)
+    if values.size == 0 or (values.max() < limit and values.min() > -limit):  # neither holds where a value is missing
+        return Verdict.good(values.size)
+    where = np.abs(values) >= limit
     if not where.any():
         return Verdict.good(values.size)
     reason = f"{counted(where)} at the end of the range (±{full_scale:g}){first_at(time, where)}: the value was larger"
@@ -96,8 +101,9 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
 def check_flat(time: Array, values: Array, *, duration: float) -> Verdict:
     """Flag stretches on which the value stays exactly the same for longer than `duration` (s)."""
     # Runs of steps without a change, each from the sample before its first step to that after its last.
-    still = np.concatenate(([False], values[1:] == values[:-1], [False]))
-    starts, stops = np.flatnonzero(~still[:-1] & still[1:]), np.flatnonzero(still[:-1] & ~still[1:])
+    still = np.zeros(values.size + 1, dtype=bool)
+    np.equal(values[1:], values[:-1], out=still[1:-1])
+    starts, stops = np.flatnonzero(still[1:] > still[:-1]), np.flatnonzero(still[1:] < still[:-1])
     long = time[stops] - time[starts] > duration
     if not long.any():
         return Verdict.good(values.size)
@@ -127,41 +133,87 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
     after it, and these samples agree. At an impact, where a record may have a cusp, a sample lies on one of the lines;
     a step lies on one as well, and passes.
     """
-    finite = np.isfinite(values)
-    if finite.sum() < 15:
+    filled = _filled(values)
+    if filled is None:
         return Verdict.good(values.size)
-    filled = values if finite.all() else np.interp(np.arange(values.size), np.flatnonzero(finite), values[finite])
-    bend, steps = np.abs(np.diff(filled, 2)), np.abs(np.diff(filled))
+    every = max(1, (values.size - 2) // ENOUGH)
+    usual = 1.4826 * float(np.median(_bend(filled[:-2:every], filled[1:-1:every], filled[2::every])))
     # A coarse converter gives mostly zeros: its step is then the least that can be told.
-    resolution = float(steps[steps > 0].min()) if (steps > 0).any() else 0.0
-    typical = max(1.4826 * float(np.median(bend[:: max(1, bend.size // ENOUGH)])), resolution)
+    typical = max(usual, _smallest_step(filled, usual))
     # A spike bends the line through the two samples before it by more than this; few others do.
-    doubtful = np.flatnonzero(bend > threshold * typical) + 2
+    doubtful = _bent(filled, threshold * typical) + 2
     doubtful = doubtful[(doubtful >= 3) & (doubtful < values.size - 4)]
     if doubtful.size == 0:
         return Verdict.good(values.size)
-    least = threshold * np.maximum(_roughness(bend, doubtful - 1), typical)
+    least = threshold * np.maximum(_roughness(filled, doubtful - 1), typical)
     single = doubtful[_standing_out(filled, doubtful, least, 1)]
     # Lines carried over two samples are less certain.
     double = doubtful[_standing_out(filled, doubtful, 1.5 * least, 2)]
     where = np.zeros(values.size, dtype=bool)
     where[np.concatenate((single, double, double + 1))] = True
-    where &= finite
+    if filled is not values:
+        where &= np.isfinite(values)
     if not where.any():
         return Verdict.good(values.size)
     return Verdict(Flag.FAIL, where, f"spikes on {counted(where)}{first_at(time, where)}")
 
 
-def _roughness(bend: Array, places: NDArray[np.intp]) -> Array:
-    """Spread of the second difference around some places."""
+def _filled(values: Array) -> Array | None:
+    """Values with lines over the missing ones; None where there are too few of them."""
+    if values.size >= 15 and is_finite(values):
+        return values
+    finite = np.isfinite(values)
+    if finite.sum() < 15:
+        return None
+    if finite.all():
+        return values
+    return np.interp(np.arange(values.size), np.flatnonzero(finite), values[finite])
+
+
+def _bend(before: Array, sample: Array, behind: Array) -> Array:
+    """Magnitude of the second difference."""
+    return np.asarray(np.abs((behind - sample) - (sample - before)))
+
+
+def _smallest_step(values: Array, enough: float) -> float:
+    """Smallest change between neighbours, or any that is not larger than `enough`; 0 where there is none."""
+    smallest = np.inf
+    for part in blocks(values.size - 1):
+        steps = np.abs(values[part.start + 1 : part.stop + 1] - values[part])
+        smallest = min(smallest, float(steps[steps > 0].min(initial=np.inf)))
+        if smallest <= enough:
+            return smallest
+    return smallest if np.isfinite(smallest) else 0.0
+
+
+def _bent(values: Array, limit: float) -> NDArray[np.intp]:
+    """Places of second differences larger than a limit."""
+    found = []
+    for part in blocks(values.size - 2):
+        steps = np.diff(values[part.start : part.stop + 2])
+        bend = np.abs(np.subtract(steps[1:], steps[:-1]))
+        if not bend.max() <= limit:
+            found.append(np.flatnonzero(bend > limit) + part.start)
+    return np.concatenate([np.empty(0, dtype=np.intp), *found])
+
+
+def _roughness(values: Array, places: NDArray[np.intp]) -> Array:
+    """Spread of the second difference around some of its places."""
     # The upper tenth, not the median: a motion recorded at few samples a period is rough now and then all along.
-    size = min(NEIGHBOURHOOD, bend.size)
-    if places.size > FEW * bend.size:
+    bends = values.size - 2
+    size = min(NEIGHBOURHOOD, bends)
+    if places.size > FEW * bends:
+        from scipy.ndimage import percentile_filter
+
+        bend = _bend(values[:-2], values[1:-1], values[2:])
         return np.asarray(percentile_filter(bend, 90, size=size, mode="nearest")[places]) / 1.645
-    half = size // 2
-    around = np.clip(places[:, None] + np.arange(-half, size - half), 0, bend.size - 1)
-    rank = int(0.9 * size)
-    return np.asarray(np.partition(bend[around], rank, axis=1)[:, rank]) / 1.645
+    half, rank = size // 2, int(0.9 * size)
+    spread = np.empty(places.size)
+    for part in blocks(places.size, BLOCK // size):
+        around = np.clip(places[part, None] + np.arange(-half, size - half), 0, bends - 1)
+        bend = _bend(values[around], values[around + 1], values[around + 2])
+        spread[part] = np.partition(bend, rank, axis=1)[:, rank] / 1.645
+    return spread
 
 
 def _standing_out(values: Array, places: NDArray[np.intp], least: Array, width: int) -> Mask:
@@ -201,6 +253,24 @@ def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:
         "in the same unit; look at its cable, sensor and range"
     )
     return Verdict(Flag.SUSPECT, np.ones(values.size, dtype=bool), reason)
+
+
+def is_finite(values: Array) -> bool:
+    """Whether all values are numbers, which their sum tells at once but for very large ones."""
+    with np.errstate(all="ignore"):
+        return bool(np.isfinite(values.sum())) or bool(np.isfinite(values).all())
+
+
+def blocks(size: int, length: int = BLOCK) -> Iterator[slice]:
+    """
+    Go through an array piece by piece.
+
+    Examples
+    --------
+    >>> list(blocks(5, 3))
+    [slice(0, 3, None), slice(3, 5, None)]
+    """
+    return (slice(start, min(start + length, size)) for start in range(0, size, length))
 
 
 def counted(where: Mask) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from colonnade.campaign.decision import Review
 from colonnade.errors import StageError, UnitError
 from colonnade.readers.recording import RecordedChannel, Recording, Window
 from colonnade.signals import quality, timing
+from colonnade.signals.parallel import side_by_side
 from colonnade.stages.judging import (
     ChannelInstructions,
     Limits,
@@ -104,9 +106,9 @@ def ingest(recordings: Mapping[str, Recording], instructions: Instructions) -> x
         If a column is not in its file.
     """
     warnings = [warning for recording in recordings.values() for warning in recording.warnings]
-    dataset = xr.Dataset(attrs={"notes": "; ".join(_notes(recordings))})
     stamps: dict[str, Array] = {}
     timed: dict[str, list[quality.Verdict]] = {}
+    tracks: list[_Track] = []
     for name, channel in instructions.channels.items():
         if channel.recorder not in recordings:
             raise StageError(
@@ -115,7 +117,7 @@ def ingest(recordings: Mapping[str, Recording], instructions: Instructions) -> x
             )
         recording = recordings[channel.recorder]
         column = _column(recording, name, channel, instructions)
-        warnings += _unit_warnings(recording, column, name, channel)
+        told = _unit_warnings(recording, column, name, channel)
         time, values = _windowed(column, instructions.window)
         dimension = _dimension(stamps, time, name, channel)
         if dimension not in stamps:
@@ -123,30 +125,64 @@ def ingest(recordings: Mapping[str, Recording], instructions: Instructions) -> x
             if not np.isfinite(clock.interval):
                 raise _too_short(name, time.size, instructions.window)
             stamps[dimension], timed[dimension] = time, clock_verdicts(time, clock, instructions.limits)
-            warnings += _rounding(recording, clock, instructions)
-        physical = values * channel.factor + channel.offset
-        verdicts = channel_verdicts(time, values, physical, channel, instructions.limits)
-        flags, reasons = quality.combine([*timed[dimension], *verdicts], values.size)
-        warnings += [f"channel {name}: {reason}." for reason in reasons]
-        seen, decisions = quality.combine(reviewed(name, time, instructions.review), values.size)
-        variable = variable_name(name)
-        attributes = {
-            "channel": name,
-            "quantity": channel.quantity,
-            "recorder": channel.recorder,
-            "recorded_unit": channel.unit or column.unit or "",
-            "column": column.heading,
-            "quality_report": "; ".join([*reasons, *decisions]),
-        }
-        dataset[variable] = (dimension, physical, {key: value for key, value in attributes.items() if value})
-        dataset[f"{variable}_recorded"] = (dimension, values)
-        dataset[f"{variable}_quality"] = (dimension, np.maximum(flags, seen))
-    dataset = dataset.assign_coords({dimension: (dimension, time) for dimension, time in stamps.items()})
+            told += _rounding(recording, clock, instructions)
+        tracks.append(_Track(name, channel, column, dimension, values, told))
+    judged = side_by_side(
+        lambda track: _judged(track, stamps[track.dimension], timed[track.dimension], instructions), tracks
+    )
+    variables: dict[str, Any] = {}
+    for described, reasons in judged:
+        variables |= described
+        warnings += reasons
+    dataset = xr.Dataset(
+        variables,
+        coords={dimension: (dimension, time) for dimension, time in stamps.items()},
+        attrs={"notes": "; ".join(_notes(recordings))},
+    )
     dataset = judge_against_the_table(dataset, instructions.channels, warnings)
     dataset.attrs["warnings"] = warnings
     if instructions.review.told:
         dataset.attrs["review"] = list(instructions.review.told)
     return dataset
+
+
+@dataclass(frozen=True)
+class _Track:
+    """One channel on its clock, with what there is to warn of before it is judged."""
+
+    name: str
+    channel: ChannelInstructions
+    column: RecordedChannel
+    dimension: str
+    values: Array
+    warnings: list[str]
+
+
+def _judged(
+    track: _Track, time: Array, timed: list[quality.Verdict], instructions: Instructions
+) -> tuple[dict[str, Any], list[str]]:
+    """Variables of a channel, and all that there is to warn of."""
+    channel, values = track.channel, track.values
+    physical = values * channel.factor
+    physical += channel.offset
+    verdicts = channel_verdicts(time, values, physical, channel, instructions.limits)
+    flags, reasons = quality.combine([*timed, *verdicts], values.size)
+    seen, decisions = quality.combine(reviewed(track.name, time, instructions.review), values.size)
+    variable = variable_name(track.name)
+    attributes = {
+        "channel": track.name,
+        "quantity": channel.quantity,
+        "recorder": channel.recorder,
+        "recorded_unit": channel.unit or track.column.unit or "",
+        "column": track.column.heading,
+        "quality_report": "; ".join([*reasons, *decisions]),
+    }
+    variables = {
+        variable: (track.dimension, physical, {key: value for key, value in attributes.items() if value}),
+        f"{variable}_recorded": (track.dimension, values),
+        f"{variable}_quality": (track.dimension, np.maximum(flags, seen) if decisions else flags),
+    }
+    return variables, [*track.warnings, *(f"channel {track.name}: {reason}." for reason in reasons)]
 
 
 def _notes(recordings: Mapping[str, Recording]) -> list[str]:

@@ -1,8 +1,9 @@
 """
 NetCDF and text on disk: whole or not at all.
 
-A file is made in memory, written beside its place under a temporary name and put there in one step; so a kill at any
-instant leaves the old file or the new one. Reading goes through memory too, and compares the stored hash of the values.
+A file is made in memory (a long one is not, see `long_arrays`), written beside its place under a temporary name and put
+there in one step; so a kill at any instant leaves the old file or the new one. Reading compares the stored hash of the
+values.
 """
 
 from __future__ import annotations
@@ -10,9 +11,10 @@ from __future__ import annotations
 import errno
 import os
 import shutil
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import netCDF4
 import xarray as xr
@@ -20,17 +22,17 @@ from xarray.backends import NetCDF4DataStore
 
 from colonnade.errors import StoreError
 from colonnade.store.attributes import listed, storable
-from colonnade.store.provenance import content_hash, coverage
+from colonnade.store.long_arrays import add_attribute, write_file
+from colonnade.store.provenance import content_hash, coverage, is_long
 from colonnade.store.variables import describe
 
 PARTIAL = ".partial"
 """Ending of temporary names; what is left of a killed run ends so."""
 
 _COMPRESSION = {"zlib": True, "complevel": 4, "shuffle": True}
-_LONG = 500_000
-"""Samples of a channel from which on it is stored as it is."""
-
 _LABEL = "_name"
+
+Told = TypeVar("Told")
 
 
 def write(dataset: xr.Dataset, path: Path, *, attributes: Mapping[str, Any]) -> str:
@@ -60,6 +62,8 @@ def write(dataset: xr.Dataset, path: Path, *, attributes: Mapping[str, Any]) -> 
     described.attrs = storable({"status": "done", "warnings": [], **dataset.attrs, **attributes, **coverage(dataset)})
     for variable in described.variables.values():
         variable.attrs = storable(variable.attrs)
+    if any(map(is_long, described.variables.values())):
+        return _put_long(path, described)
     described.attrs["content"] = content = content_hash(described)
     _put(path, _to_bytes(described, path))
     return content
@@ -174,21 +178,22 @@ def sweep(folder: Path) -> None:
 
 
 def _to_bytes(dataset: xr.Dataset, path: Path) -> memoryview:
+    opened = netCDF4.Dataset(path.name, "w", memory=1024)
+    _prepared(dataset).dump_to_store(_backend(opened))
+    return _trimmed(memoryview(opened.close()))
+
+
+def _prepared(dataset: xr.Dataset) -> xr.Dataset:
+    """Tell xarray how each variable is stored."""
     # Text as text: of an empty array of objects xarray would make numbers.
     texts = {name: value.astype(str) for name, value in dataset.variables.items() if value.dtype.kind == "O"}
     prepared = _without_labels(dataset.assign(texts))
     for variable in prepared.variables.values():
         if variable.dtype.kind in "fiu":
             # Missing samples are NaN and flagged; a fill value on a clock would be against CF.
-            variable.encoding = {"_FillValue": None} | (_COMPRESSION if _is_worth_compressing(variable) else {})
-    opened = netCDF4.Dataset(path.name, "w", memory=1024)
-    prepared.dump_to_store(_backend(opened))
-    return _trimmed(memoryview(opened.close()))
-
-
-def _is_worth_compressing(variable: xr.Variable) -> bool:
-    """Whether: zlib takes ten times as long for a noisy record as reading it, which matters for long ones only."""
-    return variable.ndim > 0 and (variable.dtype.kind in "iu" or variable.size <= _LONG)
+            how = {"contiguous": True} if is_long(variable) else _COMPRESSION if variable.ndim > 0 else {}
+            variable.encoding = {"_FillValue": None} | how
+    return prepared
 
 
 def _trimmed(image: memoryview) -> memoryview:
@@ -221,21 +226,44 @@ def _with_labels(stored: xr.Dataset) -> xr.Dataset:
     return restored
 
 
+def _put_long(path: Path, dataset: xr.Dataset) -> str:
+    """Write a result with long arrays, while its content is hashed; return the hash."""
+    prepared = _prepared(dataset)
+
+    def write_to(partial: Path) -> str:
+        with ThreadPoolExecutor(1) as beside:
+            content = beside.submit(content_hash, dataset)
+            write_file(partial, prepared)
+        add_attribute(partial, "content", content.result())
+        return content.result()
+
+    return _in_one_step(path, write_to)
+
+
 def _put(path: Path, data: bytes | memoryview) -> None:
+    def write_to(partial: Path) -> None:
+        with partial.open("wb") as stream:
+            stream.write(data)
+            stream.flush()
+            os.fsync(stream.fileno())
+
+    _in_one_step(path, write_to)
+
+
+def _in_one_step(path: Path, write_to: Callable[[Path], Told]) -> Told:
+    """Let a file be written under a temporary name and put it in place."""
     partial = path.with_name(f".{path.name}.{os.getpid()}{PARTIAL}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
-            with partial.open("wb") as stream:
-                stream.write(data)
-                stream.flush()
-                os.fsync(stream.fileno())
+            told = write_to(partial)
             partial.replace(path)
         except BaseException:  # Ctrl-C too: nothing half-written stays
             partial.unlink(missing_ok=True)
             raise
     except OSError as error:
         raise _unwritable(path, error) from error
+    return told
 
 
 def _unwritable(path: Path, error: OSError) -> StoreError:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -51,6 +52,11 @@ class Layout:
         return self.processed / "specimens"
 
     @property
+    def contacts(self) -> Path:
+        """Folder of the specimens' laws of contact."""
+        return self.processed / "contact"
+
+    @property
     def maps(self) -> Path:
         """Folder of stability maps."""
         return self.processed / "maps"
@@ -63,9 +69,25 @@ class Layout:
         """Picture of a stability map, beside its file."""
         return self.map(specimen_id, model).with_suffix(".svg")
 
+    def maps_figure(self, specimen_id: str, models: Sequence[str]) -> Path:
+        """Picture of several models' limits together."""
+        return self.maps / f"{specimen_id}-{'+'.join(models)}.svg"
+
+    def response(self, specimen_id: str, model: str) -> Path:
+        """File of a specimen's steady responses by one model."""
+        return self.maps / f"{specimen_id}-{model}-response.nc"
+
+    def response_figure(self, specimen_id: str, model: str) -> Path:
+        """Picture of the steady responses, beside their file."""
+        return self.response(specimen_id, model).with_suffix(".svg")
+
     def map_blocks(self, specimen_id: str, model: str) -> Path:
         """Folder of the finished blocks of a map that is under way."""
         return self.maps / f".{specimen_id}-{model}"
+
+    def response_blocks(self, specimen_id: str, model: str) -> Path:
+        """Folder of the finished blocks of steady responses that are under way."""
+        return self.maps / f".{specimen_id}-{model}-response"
 
     @property
     def report(self) -> Path:
@@ -118,6 +140,10 @@ class Layout:
     def specimen(self, specimen_id: str) -> Path:
         """File of a specimen's pooled restitution."""
         return self.specimens / f"{specimen_id}.nc"
+
+    def contact(self, specimen_id: str) -> Path:
+        """File of the contact law with which a specimen has its restitution."""
+        return self.contacts / f"{specimen_id}.nc"
 
     def specimen_error_log(self, specimen_id: str) -> Path:
         """Traceback of an internal error in pooling a specimen."""

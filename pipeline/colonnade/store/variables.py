@@ -27,7 +27,7 @@ MODELLED = "modelResult"
 AUXILIARY = "auxiliaryInformation"
 QUALITY = "qualityInformation"
 COORDINATE = "coordinate"
-MODEL_STAGES = frozenset({"predict", "ensemble", "map"})
+MODEL_STAGES = frozenset({"contact", "predict", "ensemble", "map"})
 
 
 @dataclass(frozen=True)
@@ -75,6 +75,7 @@ _ABOUT_X = "Rotation about +x: positive when the top moves to -y."
 _ABOUT_Z = "Rotation about +z, right-handed."
 _OUTLINE = "Of the side with the smaller critical angle."
 _WIDE = "Of the intervals that are at least as wide as the attribute `width`; missing where there is none."
+_ORDERS = "k: it repeats every k cycles of the base; 0 at rest, -1 irregular, -2 overturned."
 
 VARIABLES: dict[str, Variable] = {
     # clocks
@@ -127,6 +128,27 @@ VARIABLES: dict[str, Variable] = {
     "restitution_history_high": Variable("upper end of its interval, from the whole history"),
     "restitution_history_standard_error": Variable("standard error of the one from the whole history"),
     "restitution_history_residual": Variable("root mean square of measured minus simulated angle", "rad", QUALITY),
+    "estimator": Variable("estimator of the coefficient of restitution", None, COORDINATE, dtype="str"),
+    "estimate": Variable("coefficient of restitution by each estimator"),
+    "estimate_low": Variable("lower end of its interval, by each estimator"),
+    "estimate_high": Variable("upper end of its interval, by each estimator"),
+    "estimate_standard_error": Variable("standard error of the coefficient of restitution by each estimator"),
+    "impact_time_standard_error": Variable("standard error of the time of each impact", "s", QUALITY),
+    "impact_velocity": Variable("magnitude of the angular velocity before each impact", "rad s-1", MEASURED),
+    "impact_restitution": Variable("coefficient of restitution of each impact"),
+    "impact_restitution_standard_error": Variable("standard error of the one of each impact"),
+    "impact_used": Variable("whether the impact entered the estimate", None, QUALITY, dtype="int8"),
+    "restitution_slope": Variable("change of the restitution with the angular velocity before the impact", "s rad-1"),
+    "restitution_slope_standard_error": Variable("standard error of that change", "s rad-1", QUALITY),
+    "fitted_elapsed": Variable("time since the recorder's zero, fitted part", "s", COORDINATE),
+    "fitted_history": Variable("rocking angle of the fitted history", "rad", MODELLED, comment=_SIGN),
+    "history_residual": Variable("measured minus fitted rocking angle", "rad", QUALITY, comment=_SIGN),
+    "region_restitution": Variable("coefficient of restitution, the critical angle fitted too"),
+    "region_critical_angle": Variable("fitted critical angle over the one given"),
+    "region_restitution_error": Variable("standard error of the one with the critical angle fitted"),
+    "region_critical_angle_error": Variable("standard error of the ratio of critical angles"),
+    "region_correlation": Variable("correlation of restitution and critical angle in that fit"),
+    "between_test_scatter": Variable("standard deviation of the coefficient of restitution between tests"),
     "side_restitution": Variable("coefficient of restitution that predictions take, for angles below and above zero"),
     "rigid_restitution": Variable("coefficient of restitution of a rigid body without bounce", comment=_OUTLINE),
     "level": Variable("confidence level of the interval"),
@@ -173,6 +195,17 @@ VARIABLES: dict[str, Variable] = {
     "amplitude_ratio": Variable("amplitude of the base acceleration over g tan α", "1", MEASURED),
     "response_misfit": Variable("misfit of the orders 1, 2, 3 … of the response", "1", QUALITY),
     "impacts_per_cycle": Variable("impacts a period of the base motion", "1", MEASURED),
+    # contact
+    "contact_stiffness": Variable("normal stiffness of the contact per area of the base", "N m-3"),
+    "damping_fraction": Variable("critical damping fraction of the contact at each node"),
+    "effective_damping": Variable("damping fraction of the whole body on all its nodes"),
+    "friction": Variable("Coulomb's coefficient of friction between specimen and table"),
+    "contact_restitution": Variable("coefficient of restitution of the contact model's free vibration", "1", MODELLED),
+    "contact_step": Variable("step of the contact model", "s", AUXILIARY),
+    "energy_residual": Variable("largest gap in the energy balance over the largest energy", "1", QUALITY),
+    "tried_damping_fraction": Variable("critical damping fraction that was tried"),
+    "tried_stiffness": Variable("stiffness that was tried, over the first"),
+    "tried_restitution": Variable("coefficient of restitution that it gave", "1", MODELLED),
     # stability maps
     "outcome": Variable("outcome", None, MODELLED, dtype="int8"),
     "overturning_fraction": Variable("share of the cell around each amplitude ratio that overturns", "1", MODELLED),
@@ -182,6 +215,9 @@ VARIABLES: dict[str, Variable] = {
     "interval_frequency_ratio": Variable("frequency ratio of an interval that overturns", "1", MODELLED),
     "interval_start": Variable("amplitude ratio from which an interval overturns", "1", MODELLED),
     "interval_end": Variable("amplitude ratio up to which an interval overturns", "1", MODELLED),
+    "steady_order": Variable("order of the steady response", "1", MODELLED, dtype="int32", comment=_ORDERS),
+    "steady_period": Variable("period of the steady response", "s", MODELLED),
+    "steady_peak_ratio": Variable("peak angle of the steady response over the critical angle", "1", MODELLED),
 }
 
 _QUANTITY_UNITS = {
@@ -338,7 +374,7 @@ def _attributes(name: str, dataset: xr.Dataset) -> tuple[dict[str, Any], str]:
 
 
 def _flag_attributes(name: str) -> dict[str, Any]:
-    if name == "peak_used":
+    if name in ("peak_used", "impact_used"):
         return {"flag_values": np.array([0, 1], dtype=np.int8), "flag_meanings": "left_out used"}
     if name == "outcome":
         return {"flag_values": np.array([0, 1, 2], dtype=np.int8), "flag_meanings": "no_rocking rocking overturned"}
