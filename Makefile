@@ -12,6 +12,8 @@ PYTHONS := python3.14 python3.13 python3.12 python3.11 python3 python
 FITS := import sys, venv, ensurepip; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 14))
 BIN := .venv/bin
 INSTALLED := .venv/installed
+# Files of tests are shared out over the cores, each file to one of them.
+SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 
 .PHONY: demo test study drill format reports clean
 
@@ -23,7 +25,7 @@ test: $(INSTALLED)
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/python -m pytest -m "not slow and not drill"
+	$(BIN)/python -m pytest $(SHARED) -m "not slow and not drill"
 
 study: $(INSTALLED)
 	$(BIN)/python -m pytest -m slow
@@ -39,13 +41,16 @@ reports: $(INSTALLED)
 	$(BIN)/python reports/rebuild.py
 	$(BIN)/python reports/filter_bias.py
 	$(BIN)/python reports/convergence.py
+	$(BIN)/python reports/linear_bias.py
+	$(BIN)/python reports/restitution_study.py
 
 clean:
 	rm -rf .venv build demo dist .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find pipeline tests -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # An interpreter counts if it runs, is 3.11 to 3.14 and can make an environment; being on the PATH is not enough
-# (version managers leave stubs there). Installed again only when pyproject.toml is newer.
+# (version managers leave stubs there). Installed again only when pyproject.toml is newer. A package's sources
+# are compiled as they are first imported: most never are.
 $(INSTALLED): pyproject.toml
 	@if ! $(BIN)/python -c "$(FITS)" >/dev/null 2>&1; then \
 	  chosen=; \
@@ -69,5 +74,5 @@ $(INSTALLED): pyproject.toml
 	  echo "Making .venv with $$chosen ($$($$chosen --version))"; \
 	  $$chosen -m venv --clear .venv || exit 1; \
 	fi
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[demo,test]"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --editable ".[demo,test]"
 	@touch $(INSTALLED)

@@ -58,7 +58,7 @@ def test_an_interpreter_that_does_not_run_is_passed_over(clone):
     assert "Making .venv with python3 (Python 3.12.9)" in told.stdout
     assert (clone / "calls").read_text().splitlines() == [
         "-m venv --clear .venv",
-        "-m pip install --quiet --disable-pip-version-check --editable .[demo,test]",
+        "-m pip install --quiet --disable-pip-version-check --no-compile --editable .[demo,test]",
     ]
 
 

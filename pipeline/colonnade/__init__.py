@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from colonnade.dynamics.uncertainty import Uncertainty
     from colonnade.errors import ColonnadeError
     from colonnade.identification.angle import rocking_angle
-    from colonnade.identification.restitution import Restitution, identify_restitution
+    from colonnade.identification.restitution.identify import identify_restitution
+    from colonnade.identification.restitution.result import Restitution
     from colonnade.readers.motion import read_motion
     from colonnade.workflow.run import run
 
@@ -56,12 +57,12 @@ _ROOMS = {
     "History": "colonnade.dynamics.history",
     "Motion": "colonnade.dynamics.motion",
     "Reactions": "colonnade.dynamics.reactions",
-    "Restitution": "colonnade.identification.restitution",
+    "Restitution": "colonnade.identification.restitution.result",
     "RestitutionLaw": "colonnade.dynamics.restitution_law",
     "StabilityMap": "colonnade.dynamics.maps.chart",
     "Uncertainty": "colonnade.dynamics.uncertainty",
     "ensemble": "colonnade.dynamics.ensembles",
-    "identify_restitution": "colonnade.identification.restitution",
+    "identify_restitution": "colonnade.identification.restitution.identify",
     "reactions": "colonnade.dynamics.reactions",
     "read_motion": "colonnade.readers.motion",
     "rock": "colonnade.dynamics.rock",

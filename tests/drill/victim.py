@@ -14,20 +14,19 @@ from __future__ import annotations
 import os
 import sys
 
-import joblib
 from joblib.externals.loky import get_reusable_executor
 from joblib.externals.loky.backend.context import set_start_method
 
 from colonnade.errors import ColonnadeError
 from colonnade.workflow import run
+from colonnade.workflow.spreading import on_processes
 
 
 def workers_ready(workers: int) -> list[int]:
     """Start the processes that `colonnade.workflow.processes` will find there."""
     if workers == 1:
         return []
-    with joblib.parallel_config(backend="loky", inner_max_num_threads=1):
-        joblib.Parallel(n_jobs=workers, batch_size=1)(joblib.delayed(os.getpid)() for _ in range(2 * workers))
+    list(on_processes(abs, range(2 * workers), workers))
     return list(get_reusable_executor(reuse=True)._processes)
 
 

@@ -111,3 +111,22 @@ def shaken():
     base = 1.7 * PRISM.uplift_acceleration * envelope * np.sin(2 * np.pi * 4 * time)
     angle = rock(PRISM, Motion(base, 1 / RATE), restitution=0.93).angle
     return recorded(time, angle, base), time, angle, base
+
+
+@pytest.fixture
+def shaken_upwards(small_campaign, shaken):
+    """The small campaign with a vertical table accelerometer, and its test shaken along z as well: truth and record."""
+    top = 'unit = "g"\non = "table"\ndirection = [1, 0, 0]\n'
+    vertical_channel = '[setups.frame.channels.table_vertical]\ncolumn = "ACZ"\nquantity = "acceleration"\n'
+    text = small_campaign.path.read_text(encoding="utf-8")
+    text = text.replace(top, f'{top}\n{vertical_channel}unit = "g"\non = "table"\ndirection = [0, 0, 1]\n')
+    small_campaign.path.write_text(text, encoding="utf-8")
+    campaign = campaigns.load(small_campaign.path)
+    _, time, _, base = shaken
+    rate = 1 / (time[1] - time[0])
+    vertical = 0.35 * 9.81 * np.sin(2 * np.pi * 5.3 * time) * np.clip(np.minimum(time - 1, 7 - time), 0, 1)
+    angle = rock(PRISM, Motion(base, 1 / rate, vertical), restitution=0.93).angle
+    recordings = recorded(time, angle, base)["main"]
+    noisy = vertical / 9.80665 + np.random.default_rng(5).normal(0, 1e-4, time.size)
+    channel = RecordedChannel("ACZ", "g", noisy, time)
+    return campaign, Recording(recordings.path, recordings.format, (*recordings.channels, channel)), angle

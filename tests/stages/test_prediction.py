@@ -1,5 +1,7 @@
 """From the rocking angle to restitution, prediction and comparison."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -169,3 +171,69 @@ def test_a_tilted_table_is_felt_as_a_base_acceleration_the_other_way(small_campa
     # With its +x side lower the specimen leans, and rocks further, to θ > 0.
     assert float(tilted["rocking_angle"].max()) > float(level["rocking_angle"].max())
     np.testing.assert_array_equal(tilted["base_acceleration"], level["base_acceleration"])
+
+
+def predicted_with(campaign, recording, pooled, *, damage=None):
+    test = campaign.tests["shake-01"]
+    found = ingesting.ingest({"main": recording}, ingesting.instructions(campaign, test))
+    ready = conditioning.condition(found, conditioning.instructions(campaign, test))
+    measured = rocking_stage.rocking(ready, rocking_stage.instructions(campaign, test))
+    if damage is not None:
+        measured = damage(measured)
+    return predicting.predict(measured, pooled, predicting.instructions(campaign, test, "linear"))
+
+
+def test_a_recorded_vertical_motion_is_part_of_the_prediction(shaken_upwards, pooled):
+    campaign, recording, angle = shaken_upwards
+    given = pooled.assign(side_restitution=0 * pooled["side_restitution"] + 0.93)
+    predicted = predicted_with(campaign, recording, given)
+    without = predicted_with(campaign, recording, given, damage=lambda found: found.drop_vars(VERTICAL))
+    assert predicted.attrs["warnings"] == []
+    errors = [np.sqrt(np.mean((each["rocking_angle"].to_numpy() - angle) ** 2)) for each in (predicted, without)]
+    assert errors[0] < 0.01 * campaign.block("prism").critical_angle
+    assert errors[1] > 10 * errors[0]
+
+
+VERTICAL = "vertical_base_acceleration"
+
+
+def _with_gap(found):
+    found[VERTICAL][1000:1010] = np.nan
+    return found
+
+
+@pytest.mark.parametrize(
+    ("damage", "words"),
+    [
+        (_with_gap, r"misses 10 of \d+ samples, the first at 2\.000 s: predicted without it"),
+        (lambda found: found.assign({VERTICAL: 0 * found[VERTICAL]}), "accelerometer is dead"),
+        (lambda found: found.assign({VERTICAL: 5 * found[VERTICAL]}), "the specimen would leave the table"),
+        (lambda found: found.drop_vars(VERTICAL), "No channel of the table's vertical acceleration is usable"),
+    ],
+    ids=["a gap", "a dead channel", "a gain that is wrong", "a channel that was given up"],
+)
+def test_without_a_usable_vertical_motion_a_prediction_goes_on_and_says_so(shaken_upwards, pooled, damage, words):
+    campaign, recording, _ = shaken_upwards
+    predicted = predicted_with(campaign, recording, pooled, damage=damage)
+    without = predicted_with(campaign, recording, pooled, damage=lambda found: found.drop_vars(VERTICAL))
+    assert len(predicted.attrs["warnings"]) == 1
+    assert re.search(words, predicted.attrs["warnings"][0])
+    np.testing.assert_array_equal(predicted["rocking_angle"], without["rocking_angle"])
+
+
+@pytest.mark.parametrize(("share", "told"), [(0.09, []), (0.5, ["50% of that along x"])], ids=["a little", "much"])
+def test_motion_across_is_left_out_and_told_where_it_is_not_small(small_campaign, measured, pooled, share, told):
+    base = measured["shake-01"]["base_acceleration"]
+    across = measured["shake-01"].assign(transverse_base_acceleration=share * base)
+    read = predicting.instructions(small_campaign, small_campaign.tests["shake-01"], "linear")
+    warnings = predicting.predict(across, pooled, read).attrs["warnings"]
+    assert len(warnings) == len(told)
+    assert all(words in warning for words, warning in zip(told, warnings, strict=True))
+
+
+def test_an_ensemble_is_driven_by_the_vertical_motion_too(shaken_upwards, measured):
+    campaign, _, _ = shaken_upwards
+    vertical = 0.2 * measured["shake-01"]["base_acceleration"]
+    read = predicting.instructions(campaign, campaign.tests["shake-01"], "linear")
+    beginning = predicting.begin(measured["shake-01"].assign({VERTICAL: vertical}), read)
+    np.testing.assert_array_equal(beginning.motion.vertical, vertical)

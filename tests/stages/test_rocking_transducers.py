@@ -8,7 +8,7 @@ import pytest
 from colonnade import campaign as campaigns
 from colonnade.dynamics.block import Block
 from colonnade.errors import StageError
-from colonnade.identification.restitution import identify_restitution
+from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.stages import condition as conditioning
 from colonnade.stages import ingest as ingesting

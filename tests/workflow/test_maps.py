@@ -13,13 +13,57 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.chart import stability_map
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.steady import steady_response
 from colonnade.errors import CampaignError, StoreError
 from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.workflow import run
 from colonnade.workflow.map_plans import Wanted, measured_points
 from colonnade.workflow.maps import as_map, make_maps
+from colonnade.workflow.responses import as_response
 
 BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 FEW = Wanted(frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(6, 10), cycles=5.0)
+
+
+def asking(**changes):
+    return Wanted(**(vars(FEW) | changes))
+
+
+SINE = """\
+schema = 1
+campaign = "sine"
+title = "One sine test, of which the table alone was recorded"
+
+[specimens]
+prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg", restitution = 0.93}
+
+[setups.frame.channels]
+table = {column = "table", quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]}
+
+[[tests]]
+id = "sine-01"
+kind = "sine"
+frequency = "3 Hz"
+file = "sine-01.csv"
+specimen = "prism"
+setup = "frame"
+observed_outcome = "rocking"
+"""
+
+
+@pytest.fixture
+def sine_test(tmp_path):
+    """A campaign with one sine test of 12 cycles at 3 Hz, run up to the comparison."""
+    time = np.arange(0.0, 7.0, 0.005)
+    base = np.where((time > 1.5) & (time < 5.5), 1.5 * np.sin(2 * np.pi * 3.0 * (time - 1.5)), 0.0)
+    noisy = base + 0.002 * np.random.default_rng(3).standard_normal(time.size)
+    rows = np.column_stack((time, noisy))
+    np.savetxt(tmp_path / "sine-01.csv", rows, delimiter=",", header="time,table", comments="", fmt="%.6f")
+    (tmp_path / "campaign.toml").write_text(SINE, encoding="utf-8")
+    run(tmp_path, workers=1, until="compare")
+    return tmp_path
 
 
 def made(small, wanted=FEW, **options):
@@ -53,6 +97,60 @@ def test_several_processes_give_the_same_bit_for_bit(small):
     alone = content(small)
     small.layout.map("prism", "linear").unlink()
     assert content(small, workers=2) == alone
+
+
+def test_several_models_have_a_map_each_and_a_picture_together(small):
+    both = make_maps(small.folder, asking(models=("linear", "nonlinear")), workers=1)
+    assert [each.model for each in both] == ["linear", "nonlinear"]
+    together = small.layout.maps_figure("prism", ("linear", "nonlinear"))
+    assert {each.together for each in both} == {together}
+    drawn = together.read_text(encoding="utf-8")
+    for model in ("linear", "nonlinear"):
+        assert f"{model}: lower limit" in drawn
+        assert small.layout.map("prism", model).exists()
+    assert made(small).together is None
+
+
+def test_the_shape_of_a_ramp_makes_another_map(small):
+    assert made(small, asking(ramp=1.0)).action == "done"
+    smooth = made(small, asking(ramp=1.0, ramp_shape="cosine"))
+    assert smooth.action == "done"
+    assert as_map(files.read(smooth.path)).options["ramp_shape"] == "cosine"
+
+
+def test_steady_responses_are_those_of_the_library_and_made_once(small):
+    result = made(small, asking(responses=True))
+    stored = as_response(files.read(result.responses))
+    e = tuple(float(value) for value in files.read(small.layout.specimen("prism"))["side_restitution"])
+    expected = steady_response(BLOCK, restitution=e, frequency_ratio=np.linspace(2.0, 5.0, 6),
+                               amplitude_ratio=np.linspace(0.8, 2.0, 10))  # fmt: skip
+    assert set(np.unique(expected.order)) >= {-2, 0, 1}
+    for name in ("order", "period", "amplitude"):
+        np.testing.assert_array_equal(getattr(stored, name), getattr(expected, name), err_msg=name)
+    assert "every cycle" in result.responses_figure.read_text(encoding="utf-8")
+    assert made(small, asking(responses=True)).action == "up-to-date"
+    assert made(small, asking(responses=True, phase=1.0)).action == "done"
+    result.responses.unlink()
+    assert made(small, asking(responses=True, phase=1.0)).action == "done"
+
+
+def test_the_table_motion_of_a_sine_test_is_stretched_over_a_map(sine_test):
+    (result,) = make_maps(sine_test, asking(motion="sine-01", frequency_ratio=(2.0, 6.0), points=(5, 13)), workers=1)
+    stored = as_map(files.read(result.path))
+    assert stored.options["base_motion"] == "recorded"
+    assert stored.options["motion_frequency"] == pytest.approx(3.0, rel=1e-4)
+    base = files.read(Layout(sine_test).stage("sine-01", "rocking"))
+    axes = {"frequency_ratio": np.linspace(2.0, 6.0, 5), "amplitude_ratio": np.linspace(0.8, 2.0, 13)}
+    motion = Motion(base["base_acceleration"].to_numpy(), 0.005)
+    expected = stability_map(
+        BLOCK, restitution=0.93, motion=motion, motion_frequency=stored.options["motion_frequency"], **axes
+    )
+    np.testing.assert_array_equal(stored.outcome, expected.outcome)
+    # What the table did is nearly the sine of twelve cycles that it was told to do.
+    plain = stability_map(BLOCK, restitution=0.93, cycles=12, **axes)
+    assert np.mean(stored.outcome == plain.outcome) > 0.8
+    assert set(np.unique(stored.outcome)) == {0, 1, 2}
+    assert "recorded table motion" in result.figure.read_text(encoding="utf-8")
 
 
 def test_a_map_that_is_there_is_not_made_again_until_something_changes(small):
@@ -96,8 +194,18 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
         (Wanted(cycles=0.0), (), "at least one cycle"),
         (Wanted(motion="pulse-99"), (), 'no test "pulse-99"'),
         (Wanted(motion="pulse-01"), (), "pulse-01: its table motion cannot be stretched"),
+        (Wanted(motion="pulse-01", responses=True), (), "ask for them without a recorded motion"),
+        (Wanted(ramp_shape="round"), (), 'no ramp of the shape "round"'),
     ],
-    ids=["an unknown specimen", "a range backwards", "no cycle", "an unknown test", "a test that is no sine"],
+    ids=[
+        "an unknown specimen",
+        "a range backwards",
+        "no cycle",
+        "an unknown test",
+        "a test that is no sine",
+        "responses to a recorded motion",
+        "an unknown ramp",
+    ],
 )
 def test_what_cannot_be_mapped_is_told(small, wanted, specimens, found):
     with pytest.raises(CampaignError, match=found):

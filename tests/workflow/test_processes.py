@@ -23,6 +23,26 @@ try:
 except KeyboardInterrupt:
     sys.exit(130)
 """
+IMPORT = """
+import sys
+from colonnade.workflow.spreading import on_processes
+print("going", flush=True)
+try:
+    list(on_processes(abs, range(9), 2))
+    sys.exit("too late")
+except KeyboardInterrupt:
+    sys.exit(130)
+"""
+# Of two workers one at least is never given anything: a single number is there.
+WAIT = """
+import time
+from colonnade.workflow.spreading import on_processes
+list(on_processes(abs, [-1], 2))
+print("going", flush=True)
+time.sleep(600)
+"""
+PATIENCE = 60.0
+"""Seconds within which workers have to be gone; joblib's own would wait for work for 300."""
 
 
 def test_two_processes_give_what_one_gives(untouched, undisturbed):
@@ -37,13 +57,13 @@ def killer(monkeypatch):
     real = processes._in_worker
 
     def arm(test, folder, times):
-        def in_worker(number, chain, parent):
+        def in_worker(numbered):
             marks = [folder / f"{turn}.killed" for turn in range(times)]
             left = [mark for mark in marks if not mark.exists()]
-            if chain.test == test and left:
+            if numbered[1].test == test and left:
                 left[0].touch()
                 os.kill(os.getpid(), signal.SIGKILL)
-            return real(number, chain, parent)
+            return real(numbered)
 
         monkeypatch.setattr(processes, "_in_worker", in_worker)
 
@@ -83,38 +103,54 @@ def test_an_interrupt_in_this_process_frees_the_lock_and_leaves_whole_files(unto
 
 
 @pytest.fixture
-def going(untouched):
-    """A run with two workers, in a session of its own as from a terminal, of which a first test has ended."""
-    process = subprocess.Popen(
-        [sys.executable, "-c", RUN, str(untouched.folder)],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    assert process.stdout.readline() == "going\n"
-    yield process
-    for stream in (process.stdout, process.stderr):
-        stream.close()
-    process.wait()
+def start():
+    """Start a script in a session of its own, as from a terminal, and wait until it says that it goes."""
+    processes = []
+
+    def started(script, *arguments):
+        process = subprocess.Popen(
+            [sys.executable, "-c", script, *map(str, arguments)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+        processes.append(process)
+        assert process.stdout.readline() == "going\n"
+        return process
+
+    yield started
+    for process in processes:
+        for left in members(process.pid):
+            os.kill(left, signal.SIGKILL)
+        for stream in (process.stdout, process.stderr):
+            stream.close()
+        process.wait()
 
 
-def members(session: int) -> set[int]:
-    """Processes of a session, by /proc."""
-    found = set()
+@pytest.fixture
+def going(start, untouched):
+    """A run with two workers of which a first test has ended."""
+    return start(RUN, untouched.folder)
+
+
+def members(session: int) -> dict[int, str]:
+    """Processes of a session with their commands, by /proc."""
+    found = {}
     for entry in Path("/proc").glob("[0-9]*"):
         try:
             fields = (entry / "stat").read_text().rpartition(")")[2].split()
+            command = (entry / "cmdline").read_text()
         except OSError:
             continue
         if int(fields[3]) == session and fields[0] != "Z":
-            found.add(int(entry.name))
+            found[int(entry.name)] = command
     return found
 
 
-def left_after(session: int, seconds: float) -> set[int]:
-    """Processes of a session that are still there after so long."""
-    until = time.monotonic() + seconds
+def left_of(session: int) -> dict[int, str]:
+    """Processes of a session that do not end."""
+    until = time.monotonic() + PATIENCE
     while (there := members(session)) and time.monotonic() < until:
         time.sleep(0.05)
     return there
@@ -126,19 +162,39 @@ in_proc = pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="proce
 @in_proc
 def test_ctrl_c_ends_the_workers_quietly_and_the_next_run_goes_on(going, untouched, undisturbed):
     os.killpg(going.pid, signal.SIGINT)
-    assert going.wait(20) == 130
+    assert going.wait(PATIENCE) == 130
     assert "Traceback" not in going.stderr.read()
-    assert left_after(going.pid, 5.0) == set()
+    assert left_of(going.pid) == {}
     assert untouched.contents().items() <= undisturbed.contents().items()
     assert not untouched.run().failed
     assert untouched.contents() == undisturbed.contents()
 
 
 @in_proc
+@pytest.mark.parametrize("delay", [0.0, 0.1, 0.4], ids=lambda delay: f"after {delay} s")
+def test_ctrl_c_does_not_tear_workers_from_their_imports(start, delay):
+    starting = start(IMPORT)
+    while not any("popen_loky" in command for command in members(starting.pid).values()):
+        assert starting.poll() is None, starting.stderr.read()
+        time.sleep(0.005)
+    time.sleep(delay)
+    os.killpg(starting.pid, signal.SIGINT)
+    code, told = starting.wait(PATIENCE), starting.stderr.read()
+    assert (code, told) == (130, "")
+    assert left_of(starting.pid) == {}
+
+
+@in_proc
 def test_no_worker_outlives_a_run_that_is_killed(going):
     going.kill()
     going.wait()
-    left = left_after(going.pid, 3.0)
-    for process in left:
-        os.kill(process, signal.SIGKILL)
-    assert left == set()
+    assert left_of(going.pid) == {}
+
+
+@in_proc
+def test_a_worker_that_was_never_given_work_does_not_outlive_its_parent(start):
+    waiting = start(WAIT)
+    assert len(members(waiting.pid)) > 2
+    waiting.kill()
+    waiting.wait()
+    assert left_of(waiting.pid) == {}

@@ -8,11 +8,17 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
-from colonnade.campaign.fields import Duration, number, quantity, shown
+from colonnade.campaign.fields import Angle, Duration, number, one_of, quantity, shown
 from colonnade.campaign.table import Table
 
-MODELS = ("linear", "nonlinear")
-"""Models that `predict` runs."""
+DEFAULT_MODELS = ("linear", "nonlinear")
+"""Models that `predict` runs where the campaign does not say."""
+
+MODELS = (*DEFAULT_MODELS, "contact")
+"""Models that `predict` can run."""
+
+MESHES = ("rigid", "coarse", "medium", "fine")
+"""Bodies of the contact model: rigid on nodes, or elastic on one of three meshes."""
 
 
 def _bounded(low: float, high: float) -> tuple[Any, Any]:
@@ -37,17 +43,8 @@ def _deviation(largest: float) -> tuple[Any, Any]:
     return BeforeValidator(deviation), WithJsonSchema({"type": "number", "minimum": 0.0, "maximum": largest})
 
 
-def _count(low: int, high: int) -> tuple[Any, Any]:
-    def counted(value: object) -> int:
-        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-            raise ValueError(f"{shown(value)} was found. A whole number from {low} to {high} was expected.")
-        return value
-
-    return BeforeValidator(counted), WithJsonSchema({"type": "integer", "minimum": low, "maximum": high})
-
-
-def _auto_or_frequency() -> tuple[Any, Any]:
-    convert, schema = quantity("frequency", above_zero=True)
+def _auto_or(single: tuple[Any, Any]) -> tuple[Any, Any]:
+    convert, schema = single
 
     def either(value: object) -> Any:
         if value == "auto":
@@ -60,6 +57,15 @@ def _auto_or_frequency() -> tuple[Any, Any]:
     return BeforeValidator(either), WithJsonSchema({"anyOf": [{"const": "auto"}, schema.json_schema]})
 
 
+def _count(low: int, high: int) -> tuple[Any, Any]:
+    def counted(value: object) -> int:
+        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+            raise ValueError(f"{shown(value)} was found. A whole number from {low} to {high} was expected.")
+        return value
+
+    return BeforeValidator(counted), WithJsonSchema({"type": "integer", "minimum": low, "maximum": high})
+
+
 def _models(value: object) -> tuple[str, ...]:
     names = [value] if isinstance(value, str) else value
     if not isinstance(names, (list, tuple)) or not names or len(set(map(str, names))) != len(names):
@@ -70,7 +76,7 @@ def _models(value: object) -> tuple[str, ...]:
     return tuple(names)
 
 
-AutoFrequency = Annotated[Literal["auto"] | float, *_auto_or_frequency()]
+AutoFrequency = Annotated[Literal["auto"] | float, *_auto_or(quantity("frequency", above_zero=True))]
 Models = Annotated[
     tuple[str, ...],
     BeforeValidator(_models),
@@ -110,15 +116,38 @@ class EnsembleSettings(Table):
     """Standard deviation of the low-pass of the table's acceleration: how much its choice matters."""
 
 
+class ContactSettings(Table):
+    """What the contact model takes."""
+
+    mesh: Annotated[str, *one_of(*MESHES)] = _setting("rigid")
+    """Body of the contact model: "rigid" on nodes, or elastic on a "coarse", "medium" or "fine" mesh."""
+    step: Duration = _setting(1e-5, "s")
+    """Step of the contact model; it has to be stable."""
+    damping_fraction: Annotated[Literal["auto"] | float, *_auto_or(_deviation(10.0))] = _setting("auto")
+    """Critical damping fraction of the contact; "auto" takes the one that gives the specimen's restitution."""
+    penetration: Annotated[float, *_bounded(0.0, 0.01)] = _setting(1e-6, "of the height of the centre of mass")
+    """How deep the standing specimen sinks into its contact, which sets the contact's stiffness."""
+    friction: Annotated[float, *_deviation(10.0)] = _setting(0.6)
+    """Coulomb's coefficient between specimen and table."""
+    modulus: Annotated[float, *quantity("pressure", above_zero=True)] = _setting(2e11, "Pa")
+    """Young's modulus of an elastic specimen."""
+    poisson_ratio: Annotated[float, *_bounded(-1.0, 0.5)] = _setting(0.3)
+    """Poisson's ratio of an elastic specimen."""
+    out_of_plane: Angle = _setting(0.0, "rad")
+    """Rotation about x with which the contact model starts: a disturbance out of the plane."""
+
+
 class PredictSettings(Table):
     """What the predictions take."""
 
-    models: Models = _setting(MODELS)
+    models: Models = _setting(DEFAULT_MODELS)
     """Models of rocking that are run on the recorded base motion."""
     rest_angle: Annotated[float, *_bounded(0.0, 0.1)] = _setting(1e-6, "of α")
     """An arc after an impact that stays below this fraction of the critical angle is taken as rest."""
     ensemble: EnsembleSettings = EnsembleSettings()
     """The ensembles beside the predictions."""
+    contact: ContactSettings = ContactSettings()
+    """The contact model, where it is among the models."""
 
 
 class Processing(Table):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import rich_click as click
 
 import colonnade
+from colonnade.cli.calibrate import calibrate
 from colonnade.cli.check import check
 from colonnade.cli.demo import demo
 from colonnade.cli.identify import identify
@@ -17,7 +18,7 @@ from colonnade.cli.run import run
 from colonnade.cli.schema import schema
 from colonnade.cli.show import show
 
-COMMANDS = (demo, init, check, run, ingest, identify, predict, report, map_command, show, schema)
+COMMANDS = (demo, init, check, run, ingest, identify, predict, report, map_command, calibrate, show, schema)
 
 
 class InOrder(click.RichGroup):

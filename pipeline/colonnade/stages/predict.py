@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -10,12 +11,19 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict
 
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.channel import ALONG
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import History
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.errors import StageError
-from colonnade.identification.arcs import find_arcs
+from colonnade.identification.restitution.arcs import find_arcs
+from colonnade.stages import contact as contact_stage
+from colonnade.stages.driving import base_acceleration, left_out, transverse_acceleration, vertical_acceleration
+from colonnade.stages.transducers import transducers
+
+if TYPE_CHECKING:
+    from colonnade.dynamics.contact.history import ContactHistory
 
 Array = NDArray[np.float64]
 
@@ -24,7 +32,8 @@ class Instructions(BaseModel):
     """
     What this stage reads of the campaign: block, model, its rest rule, whether the base is at rest, and how it tilts.
 
-    `tilt` is the table's rotation about +y, rad: with it gravity pulls towards +x.
+    `tilt` is the table's rotation about +y, rad: with it gravity pulls towards +x. `has_vertical` says that the set-up
+    has an accelerometer of the table along z; `space` is what the contact model needs beside, None for the others.
     """
 
     model_config = ConfigDict(frozen=True)
@@ -34,6 +43,8 @@ class Instructions(BaseModel):
     rest_angle: float
     free_vibration: bool
     tilt: float = 0.0
+    has_vertical: bool = False
+    space: contact_stage.Instructions | None = None
 
 
 @dataclass(frozen=True)
@@ -41,13 +52,15 @@ class Beginning:
     """
     Where a prediction begins: the sample, the angle there (rad), and the base motion from there on.
 
-    `base` is the base acceleration of the whole record, m/s²; `motion` has the table's tilt in it.
+    `base` is the base acceleration of the whole record along x, m/s²; `motion` has the table's tilt in it, and its
+    motion along z where that is known throughout.
     """
 
     first: int
     theta0: float
     base: Array
     motion: Motion
+    warnings: list[str]
 
 
 def instructions(campaign: Campaign, test: Test, model: str) -> Instructions:
@@ -58,26 +71,36 @@ def instructions(campaign: Campaign, test: Test, model: str) -> Instructions:
         rest_angle=campaign.processing.predict.rest_angle,
         free_vibration=test.kind == "free-vibration",
         tilt=campaign.setups[test.setup].table_tilt or 0.0,
+        has_vertical=any(
+            abs(direction[2]) >= ALONG for direction in transducers(campaign.channels(test)).accelerations.values()
+        ),
+        space=contact_stage.instructions(campaign, test.specimen) if model == "contact" else None,
     )
 
 
-def predict(rocking: xr.Dataset, specimen: xr.Dataset, instructions: Instructions) -> xr.Dataset:
+def predict(
+    rocking: xr.Dataset, specimen: xr.Dataset, instructions: Instructions, contact: xr.Dataset | None = None
+) -> xr.Dataset:
     """
     Run a model on the base motion that was recorded.
 
     Parameters
     ----------
     rocking : xr.Dataset
-        Result of `rocking`: `base_acceleration`; of a free vibration, the measured angle that it starts from.
+        Result of `rocking`: `base_acceleration`, and that along z where it is there; of a free vibration, the measured
+        angle that it starts from.
     specimen : xr.Dataset
         Result of `specimen`: `restitution`.
     instructions : Instructions
+    contact : xr.Dataset, optional
+        Result of `contact`, of the contact model: its law.
 
     Returns
     -------
     predicted : xr.Dataset
-        `rocking_angle` on the clock of the record. A free vibration is predicted from the first peak after its first
-        impact, where the measured angle is known and the velocity is zero; before it the angle is NaN.
+        `rocking_angle` on the clock of the record; of the contact model also slide, uplift and rotation out of the
+        plane. A free vibration is predicted from the first peak after its first impact, where the measured angle is
+        known and the velocity is zero; before it the angle is NaN.
 
     Raises
     ------
@@ -85,6 +108,13 @@ def predict(rocking: xr.Dataset, specimen: xr.Dataset, instructions: Instruction
         If there is no base motion, or a free vibration shows no arc to start from.
     """
     beginning = begin(rocking, instructions)
+    time = rocking["elapsed"].to_numpy()
+    if contact is not None and instructions.space is not None:
+        moved = _in_space(beginning, contact, instructions.space)
+        described = _described(moved, time, beginning, specimen, instructions)
+        return described.assign(_space_variables(moved, beginning.first)).assign_attrs(
+            body=moved.body.description, warnings=[*beginning.warnings, *moved.warnings]
+        )
     history = rock(
         instructions.block,
         beginning.motion,
@@ -93,7 +123,7 @@ def predict(rocking: xr.Dataset, specimen: xr.Dataset, instructions: Instruction
         theta0=beginning.theta0,
         rest_angle=instructions.rest_angle,
     )
-    return _described(history, rocking["elapsed"].to_numpy(), beginning, specimen, instructions)
+    return _described(history, time, beginning, specimen, instructions)
 
 
 def begin(rocking: xr.Dataset, instructions: Instructions) -> Beginning:
@@ -106,34 +136,26 @@ def begin(rocking: xr.Dataset, instructions: Instructions) -> Beginning:
         As `predict`.
     """
     time = rocking["elapsed"].to_numpy()
-    base = np.zeros_like(time) if instructions.free_vibration else _base_acceleration(rocking)
-    first, theta0 = _start(rocking, instructions) if instructions.free_vibration else (0, 0.0)
+    if instructions.free_vibration:
+        (first, theta0), base, vertical, transverse = _start(rocking, instructions), np.zeros_like(time), None, None
+        warnings: list[str] = []
+    else:
+        first, theta0, base = 0, 0.0, base_acceleration(rocking)
+        vertical, warnings = vertical_acceleration(
+            rocking, gravity=instructions.block.gravity, expected=instructions.has_vertical
+        )
+        transverse = transverse_acceleration(rocking) if instructions.space is not None else None
+        if transverse is None:
+            warnings += left_out(rocking, base)
     # On a tilted table a part of gravity acts along x, as a base acceleration the other way would.
     felt = base[first:] - instructions.block.gravity * np.sin(instructions.tilt)
-    return Beginning(first, theta0, base, Motion(felt, float(time[1] - time[0])))
+    return Beginning(first, theta0, base, Motion(felt, float(time[1] - time[0]), vertical, transverse), warnings)
 
 
 def sides(specimen: xr.Dataset) -> tuple[float, float]:
     """Return e that predictions take, of impacts that end an arc at θ < 0 and at θ > 0."""
     negative, positive = (float(e) for e in specimen["side_restitution"].to_numpy())
     return negative, positive
-
-
-def _base_acceleration(rocking: xr.Dataset) -> Array:
-    if "base_acceleration" not in rocking:
-        raise StageError(
-            "There is no record of the table's motion along x in this test; a prediction needs one. "
-            'Add a channel with on = "table" and quantity = "acceleration" (or "displacement") to its set-up.'
-        )
-    base = rocking["base_acceleration"].to_numpy()
-    missing = int((~np.isfinite(base)).sum())
-    if missing:
-        where = float(rocking["elapsed"][int(np.argmin(np.isfinite(base)))])
-        raise StageError(
-            f"The base acceleration misses {missing} of {base.size} samples, the first at {where:.3f} s; all of them "
-            "were expected. Give the test a `window` that leaves them out, or mend the channel."
-        )
-    return base
 
 
 def _start(rocking: xr.Dataset, instructions: Instructions) -> tuple[int, float]:
@@ -152,6 +174,36 @@ def _start(rocking: xr.Dataset, instructions: Instructions) -> tuple[int, float]
         )
     first = int(np.searchsorted(time, arcs.peak_time[whole[0]]))
     return min(first, time.size - 2), float(arcs.peak_angle[whole[0]])
+
+
+def _in_space(beginning: Beginning, contact: xr.Dataset, instructions: contact_stage.Instructions) -> ContactHistory:
+    from colonnade.dynamics.contact.simulate import simulate
+
+    settings = instructions.settings
+    try:
+        return simulate(
+            contact_stage.body_of(instructions),
+            beginning.motion,
+            law=contact_stage.law_of(contact),
+            gravity=instructions.block.gravity,
+            step=settings.step,
+            theta0=beginning.theta0,
+            out_of_plane=settings.out_of_plane,
+        )
+    except ValueError as error:
+        raise StageError(f"processing.predict.contact: {error}") from error
+
+
+def _space_variables(history: ContactHistory, first: int) -> dict[str, tuple[str, Array]]:
+    """What the contact model says beyond the rocking angle, NaN up to the sample at which it starts."""
+    values = {
+        "slide": history.slide[:, 0],
+        "transverse_slide": history.slide[:, 1],
+        "uplift": history.uplift,
+        "out_of_plane_angle": history.out_of_plane,
+        "yaw": history.yaw,
+    }
+    return {name: ("elapsed", np.concatenate((np.full(first, np.nan), each))) for name, each in values.items()}
 
 
 def _described(
@@ -181,6 +233,6 @@ def _described(
             "outcome": history.outcome,
             "model": instructions.model,
             "restitution_source": specimen.attrs["restitution_source"],
-            "warnings": [],
+            "warnings": beginning.warnings,
         },
     )

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from pydantic import BaseModel, ConfigDict
@@ -10,9 +13,9 @@ from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.rock import MODELS
 from colonnade.errors import StageError
-from colonnade.identification.history_fit import METHOD as HISTORY_METHOD
-from colonnade.identification.history_fit import fit_history
-from colonnade.identification.restitution import identify_restitution
+from colonnade.identification.restitution.choice import METHODS, disagreement
+from colonnade.identification.restitution.identify import identify_restitution
+from colonnade.identification.restitution.result import Estimate, Restitution
 
 
 class Instructions(BaseModel):
@@ -47,9 +50,10 @@ def restitution(rocking: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     Returns
     -------
     identified : xr.Dataset
-        The peaks, fitted and measured, and `restitution` with its interval; beside it `restitution_history`, from the
-        whole history by each model. Where e cannot be identified it is NaN and the attribute `reason` (of the
-        histories, `history_reason`) says why: that is a result, not a failure.
+        `restitution` with its interval, the recommended one; `estimate` by each `estimator`, `restitution_history` from
+        the whole history by each model; peaks, impacts with e of each, the fitted history with what it leaves over, and
+        the joint region of e and the critical angle. Where e cannot be identified it is NaN and the attribute `reason`
+        (of the histories, `history_reason`) says why: that is a result, not a failure.
 
     Raises
     ------
@@ -61,27 +65,82 @@ def restitution(rocking: xr.Dataset, instructions: Instructions) -> xr.Dataset:
             "A free vibration without a usable displacement transducer on the specimen gives no restitution; "
             'at least one channel with on = "specimen" and quantity = "displacement" was expected.'
         )
-    time, angle = rocking["elapsed"].to_numpy(), rocking["rocking_angle"].to_numpy()
-    result = identify_restitution(
-        time,
-        angle,
+    result = _identified(rocking, instructions)
+    freed = _identified(rocking, instructions, free=("critical_angle",))
+    warnings = [f"No restitution from this test: {result.reason}"] if result.reason else []
+    warnings += [text for text in (disagreement(result), *(found.sentence for found in result.departures)) if text]
+    histories = {
+        estimate.name.removeprefix("history-"): estimate
+        for estimate in result.estimates
+        if estimate.name.startswith("history-")
+    }
+    by_model = [histories[model] for model in MODELS]
+    return xr.Dataset(
+        {
+            **{name: ((), _number(value)) for name, value in _scalars(result).items()},
+            **_peaks(result),
+            **_impacts(result),
+            **_history(result),
+            **_region(freed),
+            **_columns("estimate", "estimator", result.estimates),
+            **_columns("restitution_history", "model", by_model),
+            "restitution_history_residual": ("model", np.array([_number(each.residual) for each in by_model])),
+        },
+        coords={
+            "model": ("model", np.array(MODELS, dtype=object)),
+            "estimator": ("estimator", np.array([each.name for each in result.estimates], dtype=object)),
+        },
+        attrs={
+            "method": result.method,
+            "reason": result.reason,
+            "recommended": result.recommended,
+            "estimate_assumptions": [each.assumptions for each in result.estimates],
+            "estimate_reasons": [each.reason for each in result.estimates],
+            "history_model": "" if result.history is None else result.history.model,
+            "departures": [found.sentence for found in result.departures],
+            "history_method": METHODS["history-nonlinear"],
+            "history_reason": " ".join(dict.fromkeys(each.reason for each in by_model if each.reason)),
+            "warnings": warnings,
+        },
+    )
+
+
+def _identified(rocking: xr.Dataset, instructions: Instructions, *, free: tuple[str, ...] = ()) -> Restitution:
+    beside: dict[str, Any] = {
+        name: rocking[variable].to_numpy()
+        for name, variable in (("out_of_plane", "out_of_plane_angle"), ("slide", "slide"), ("uplift", "uplift"))
+        if variable in rocking
+    }
+    return identify_restitution(
+        rocking["elapsed"].to_numpy(),
+        rocking["rocking_angle"].to_numpy(),
         instructions.block,
         level=instructions.level,
         lowest_amplitude=instructions.lowest_amplitude,
         noise=float(np.nanmedian(rocking["rocking_angle_standard_error"])),
+        free=free,
+        **beside,
     )
-    histories = [fit_history(time, angle, instructions.block, result, model=model) for model in MODELS]
-    warnings = [f"No restitution from this test: {result.reason}"] if result.reason else []
-    # The linear model is an approximation, and is off by more than these errors where angles are large.
-    warnings += [text for each in histories if each.model == "nonlinear" if (text := each.disagreement(result))]
-    scalars = {
+
+
+def _number(value: float | None) -> float:
+    return np.nan if value is None else float(value)
+
+
+def _scalars(result: Restitution) -> dict[str, float | None]:
+    return {
         "restitution": result.value,
         "restitution_low": result.low,
         "restitution_high": result.high,
         "restitution_standard_error": result.standard_error,
         "level": result.level,
         "zero_offset": result.zero_offset,
+        "restitution_slope": result.constancy.slope,
+        "restitution_slope_standard_error": result.constancy.slope_standard_error,
     }
+
+
+def _peaks(result: Restitution) -> dict[str, Any]:
     columns = {
         "peak_time": result.peaks.time,
         "peak_angle": result.peaks.angle,
@@ -89,23 +148,51 @@ def restitution(rocking: xr.Dataset, instructions: Instructions) -> xr.Dataset:
         "fitted_angle": result.peaks.fitted_angle,
         "peak_used": result.peaks.used.astype(np.int8),
     }
-    by_model = {
-        "restitution_history": [each.value for each in histories],
-        "restitution_history_low": [each.low for each in histories],
-        "restitution_history_high": [each.high for each in histories],
-        "restitution_history_standard_error": [each.standard_error for each in histories],
-        "restitution_history_residual": [each.residual for each in histories],
+    return {name: ("peak", values) for name, values in columns.items()}
+
+
+def _impacts(result: Restitution) -> dict[str, Any]:
+    columns = {
+        "impact_time": result.impacts.time,
+        "impact_time_standard_error": result.impacts.time_standard_error,
+        "impact_velocity": result.impacts.velocity,
+        "impact_restitution": result.impacts.restitution,
+        "impact_restitution_standard_error": result.impacts.restitution_standard_error,
+        "impact_used": result.impacts.used.astype(np.int8),
     }
-    return xr.Dataset(
-        {name: ((), np.nan if value is None else value) for name, value in scalars.items()}
-        | {name: ("peak", values) for name, values in columns.items()}
-        | {name: ("model", np.array(values, dtype=np.float64)) for name, values in by_model.items()},
-        coords={"model": ("model", np.array(MODELS, dtype=object))},
-        attrs={
-            "method": result.method,
-            "reason": result.reason,
-            "history_method": HISTORY_METHOD,
-            "history_reason": " ".join(dict.fromkeys(each.reason for each in histories if each.reason)),
-            "warnings": warnings,
-        },
-    )
+    return {name: ("impact", values) for name, values in columns.items()}
+
+
+def _history(result: Restitution) -> dict[str, Any]:
+    if result.history is None:
+        return {}
+    return {
+        "fitted_elapsed": ("fitted_elapsed", result.history.time),
+        "fitted_history": ("fitted_elapsed", result.history.angle),
+        "history_residual": ("fitted_elapsed", result.history.residual),
+    }
+
+
+def _region(freed: Restitution) -> dict[str, Any]:
+    """Joint region of e and of the critical angle, both identified."""
+    history = freed.history
+    if history is None or "critical_angle" not in history.names:
+        return {}
+    place = [history.names.index(name) for name in ("restitution", "critical_angle")]
+    errors = np.sqrt(np.diag(history.covariance)[place])
+    values = {
+        "region_restitution": history.values[place[0]],
+        "region_critical_angle": history.values[place[1]],
+        "region_restitution_error": errors[0],
+        "region_critical_angle_error": errors[1],
+        "region_correlation": history.covariance[place[0], place[1]] / (errors[0] * errors[1]),
+    }
+    return {name: ((), float(value)) for name, value in values.items()}
+
+
+def _columns(name: str, dimension: str, estimates: Sequence[Estimate]) -> dict[str, Any]:
+    ends = {"": "value", "_low": "low", "_high": "high", "_standard_error": "standard_error"}
+    return {
+        f"{name}{end}": (dimension, np.array([_number(getattr(each, field)) for each in estimates]))
+        for end, field in ends.items()
+    }

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict
 
 from colonnade.campaign import Campaign
 from colonnade.dynamics.block import Block, Sided, pair
-from colonnade.identification.pooling import pool
+from colonnade.identification.restitution.pooling import pool
 
 
 class Instructions(BaseModel):
@@ -53,13 +53,13 @@ def specimen(identified: Mapping[str, xr.Dataset], instructions: Instructions) -
     errors = np.array([float(identified[name]["restitution_standard_error"]) for name in tests])
     block = instructions.block
     attributes = {"method": "", "reason": "", "warnings": []}
-    low = high = np.nan
+    low = high = between = np.nan
     if instructions.given is not None:
         value = pair(instructions.given)
         attributes |= {"restitution_source": "given", "method": "given in the campaign file"}
     elif tests:
         pooled = pool(values, errors, level=instructions.level)
-        value, low, high = pair(pooled.value), pooled.low, pooled.high
+        value, low, high, between = pair(pooled.value), pooled.low, pooled.high, pooled.between
         count = f"{len(tests)} free vibration{'s' if len(tests) > 1 else ''}"
         method = identified[tests[0]].attrs["method"]
         attributes |= {"restitution_source": "identified", "method": f"{method}; random effects over {count}"}
@@ -76,6 +76,7 @@ def specimen(identified: Mapping[str, xr.Dataset], instructions: Instructions) -
             "restitution": ((), float(np.mean(value))),
             "restitution_low": ((), low),
             "restitution_high": ((), high),
+            "between_test_scatter": ((), between),
             "level": ((), instructions.level),
             "rigid_restitution": ((), block.restitution),
             "critical_angle": ((), block.critical_angle),

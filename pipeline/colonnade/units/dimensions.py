@@ -13,6 +13,7 @@ DIMENSIONS: dict[str, tuple[str, str]] = {
     "acceleration": ("m s-2", "g"),
     "force": ("kg m s-2", "kN"),
     "inertia": ("kg m2", "kg m^2"),
+    "pressure": ("kg m-1 s-2", "GPa"),
     "voltage": ("V", "V"),
     "dimensionless": ("1", ""),
 }

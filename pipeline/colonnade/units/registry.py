@@ -26,6 +26,7 @@ milli- = 1e-3 = m-
 centi- = 1e-2 = c-
 kilo- = 1e3 = k-
 mega- = 1e6 = M-
+giga- = 1e9 = G-
 metre = [length] = m = meter
 kilogram = [mass] = kg = Kg = KG
 second = [time] = s = sec

@@ -7,8 +7,9 @@ import shutil
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from math import ceil
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,25 @@ Arrays = dict[str, NDArray[Any]]
 
 Counted = Callable[[int, int], None]
 """Told how many blocks are done, and of how many."""
+
+
+MOST_BLOCKS = 128
+"""Of a map: enough for any cluster, and few enough to keep."""
+
+
+class Spread(Protocol):
+    """`in_blocks` as far as work does not depend on it: where it runs and who is told is settled."""
+
+    def __call__(
+        self, work: Callable[[range], Mapping[str, NDArray[Any]]], blocks: Sequence[range], folder: Path, key: str
+    ) -> list[Arrays]:
+        """Return the results of each block."""
+
+
+def blocks_of(number: int) -> list[range]:
+    """Part a number of columns into at most `MOST_BLOCKS` blocks of equal size, the last one smaller."""
+    size = ceil(number / MOST_BLOCKS)
+    return [range(start, min(start + size, number)) for start in range(0, number, size)]
 
 
 def in_blocks(

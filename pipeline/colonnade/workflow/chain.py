@@ -198,15 +198,14 @@ def _standing(subject: str, step: Step, stored: Mapping[str, Any]) -> StageRun:
 
 
 def _attributes(campaign: Campaign, subject: str, step: Step, state: _State) -> dict[str, Any]:
-    is_specimen = step.stage == "specimen"
     attributes: dict[str, Any] = dict(
         global_attributes(
             campaign=campaign.campaign,
             title=campaign.title,
             facility=campaign.facility,
             stage=step.stage,
-            test=None if is_specimen else subject,
-            specimen=subject if is_specimen else None,
+            test=None if step.is_of_specimen else subject,
+            specimen=subject if step.is_of_specimen else None,
         )
     )
     attributes |= {

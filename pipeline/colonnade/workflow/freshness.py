@@ -70,7 +70,7 @@ def why_stale(stored: Mapping[str, Any], made_from: Mapping[str, Any], *, from_r
 
 def report_key(campaign: Campaign, layout: Layout, outdated: Collection[str], look: Look) -> str:
     """Hash of all that the report shows: the campaign as read, the results as `look` tells of them, and the code."""
-    results = sorted((*layout.tests.glob("*/*.nc"), *layout.specimens.glob("*.nc")))
+    results = sorted((*layout.tests.glob("*/*.nc"), *layout.specimens.glob("*.nc"), *layout.contacts.glob("*.nc")))
     shown = {
         path.relative_to(layout.processed).as_posix(): [look(path).get(part) for part in ("key", "status", "content")]
         for path in results

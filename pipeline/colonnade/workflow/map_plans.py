@@ -17,9 +17,11 @@ from colonnade.errors import CampaignError, StoreError, nearest
 from colonnade.identification.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.workflow.steps import CONTACT
 
 if TYPE_CHECKING:
     from colonnade.dynamics.maps.plan import MapPlan
+    from colonnade.dynamics.maps.space import InSpace
     from colonnade.dynamics.motion import Motion
 
 USUAL_FREQUENCIES = (1.0, 8.0)
@@ -28,6 +30,10 @@ LOWEST_AMPLITUDE, USUAL_AMPLITUDE = 0.5, 8.0
 """A from which a map starts, and up to which it goes at least: the upper limit lies high above the tests."""
 USUAL_POINTS = (100, 150)
 """Ω and A of a map."""
+USUAL_POINTS_IN_SPACE = (14, 31)
+"""The same of a map by the contact model, a run of which costs as much as thousands of the others."""
+LARGEST_AMPLITUDE_IN_SPACE = 3.5
+"""A up to which such a map goes, where the tests do not go further."""
 
 
 @dataclass(frozen=True)
@@ -37,25 +43,30 @@ class Wanted:
 
     Attributes
     ----------
-    model : str
+    models : tuple of str
+        Each gets a map of its own, and several a picture together.
     frequency_ratio, amplitude_ratio : pair of float or None
         First and last Ω and A; by default they hold the specimen's sine tests.
-    points : pair of int
-        How many of each.
-    cycles, phase, ramp : float
+    points : pair of int or None
+        How many of each; `USUAL_POINTS`, or of the contact model `USUAL_POINTS_IN_SPACE`, by default.
+    cycles, phase, ramp, ramp_shape : float, str
         Of the sine, see `dynamics.maps.chart.stability_map`.
     motion : str or None
         Id of a sine test whose recorded table motion is taken instead, stretched to Ω and scaled to A.
+    responses : bool
+        Also the steady responses to the sine, over the same Ω and A.
     """
 
-    model: str = "linear"
+    models: tuple[str, ...] = ("linear",)
     frequency_ratio: tuple[float, float] | None = None
     amplitude_ratio: tuple[float, float] | None = None
-    points: tuple[int, int] = USUAL_POINTS
+    points: tuple[int, int] | None = None
     cycles: float = 20.0
     phase: float = 0.0
     ramp: float = 0.0
+    ramp_shape: str = "linear"
     motion: str | None = None
+    responses: bool = False
 
 
 def measured_points(layout: Layout, specimen: str) -> list[MapPoint]:
@@ -78,6 +89,7 @@ def plan_of(
     layout: Layout,
     specimen: str,
     wanted: Wanted,
+    model: str,
     restitution: Sided,
     points: Sequence[MapPoint],
 ) -> MapPlan:
@@ -90,6 +102,7 @@ def plan_of(
     layout : Layout
     specimen : str
     wanted : Wanted
+    model : str
     restitution : float or pair of float
     points : sequence of MapPoint
         Sine tests that the map holds, where nothing else is wanted.
@@ -99,27 +112,56 @@ def plan_of(
     CampaignError
         If what is wanted is out of its range.
     """
-    from colonnade.dynamics.maps.plan import plan_map
+    from colonnade.dynamics.maps.plan import EDGE, STEPS_A_WIDTH, WIDTH, plan_map
 
+    if wanted.responses and wanted.motion is not None:
+        raise CampaignError("Steady responses are those to a sine: ask for them without a recorded motion.")
     motion, frequency = (None, None) if wanted.motion is None else _recorded(campaign, layout, wanted.motion)
     omegas = wanted.frequency_ratio or _around([point.frequency_ratio for point in points], USUAL_FREQUENCIES)
     largest = max((1.2 * point.amplitude_ratio for point in points), default=0.0)
-    amplitudes = wanted.amplitude_ratio or (LOWEST_AMPLITUDE, max(USUAL_AMPLITUDE, float(np.ceil(largest * 2) / 2)))
+    space = _space(campaign, layout, specimen) if model == CONTACT else None
+    usual, points_of = (
+        (USUAL_AMPLITUDE, USUAL_POINTS) if space is None else (LARGEST_AMPLITUDE_IN_SPACE, USUAL_POINTS_IN_SPACE)
+    )
+    amplitudes = wanted.amplitude_ratio or (LOWEST_AMPLITUDE, max(usual, float(np.ceil(largest * 2) / 2)))
+    grid = wanted.points or points_of
+    # A contact map runs its own points only: what is narrower than four of them makes no limit.
+    spacing = (amplitudes[1] - amplitudes[0]) / (grid[1] - 1)
+    width, edge = (WIDTH, EDGE) if space is None else (STEPS_A_WIDTH * spacing, spacing / 8)
     try:
         return plan_map(
             campaign.block(specimen),
-            frequency_ratio=np.linspace(*omegas, wanted.points[0]),
-            amplitude_ratio=np.linspace(*amplitudes, wanted.points[1]),
+            frequency_ratio=np.linspace(*omegas, grid[0]),
+            amplitude_ratio=np.linspace(*amplitudes, grid[1]),
             restitution=restitution,
             cycles=wanted.cycles,
             phase=wanted.phase,
             ramp=wanted.ramp,
-            model=wanted.model,
+            ramp_shape=wanted.ramp_shape,
+            model=model,
             motion=motion,
             motion_frequency=frequency,
+            width=width,
+            edge=edge,
+            space=space,
         )
     except ValueError as error:
         raise CampaignError(f"This map cannot be made: {error}.") from error
+
+
+def _space(campaign: Campaign, layout: Layout, specimen: str) -> InSpace:
+    """Body and law of contact of a specimen, as `predict` or `calibrate` has left it."""
+    from colonnade.dynamics.maps.space import InSpace
+    from colonnade.stages import contact
+
+    path = layout.contact(specimen)
+    law = files.read(path) if path.is_file() else None
+    if law is None or law.attrs["status"] != "done":
+        raise CampaignError(
+            f"{specimen}: its law of contact is not known yet. Run `colonnade calibrate` first, which finds it."
+        )
+    read = contact.instructions(campaign, specimen)
+    return InSpace(contact.body_of(read), contact.law_of(law), read.settings.step)
 
 
 def _around(values: Sequence[float], usual: tuple[float, float]) -> tuple[float, float]:

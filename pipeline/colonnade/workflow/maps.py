@@ -7,7 +7,6 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,23 +15,21 @@ from numpy.typing import NDArray
 
 from colonnade.campaign import Campaign, load
 from colonnade.errors import CampaignError, nearest
-from colonnade.identification.boundaries import MapPoint
+from colonnade.identification.boundaries import MapPoint, Misfit, bracket_boundaries, limit_misfit
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import global_attributes, hash_of
-from colonnade.workflow.blocks import Counted, forget, in_blocks
+from colonnade.workflow.blocks import Counted, Spread, blocks_of, forget, in_blocks
 from colonnade.workflow.freshness import source_hash, stored_attributes
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.map_plans import Wanted, measured_points, plan_of, restitution_of
+from colonnade.workflow.responses import make_responses
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from colonnade.dynamics.maps.chart import StabilityMap
     from colonnade.dynamics.maps.plan import MapPlan
-
-_MOST_BLOCKS = 128
-"""Of a map: enough for any cluster, and few enough to keep."""
 
 
 @dataclass(frozen=True)
@@ -46,8 +43,14 @@ class MapMade:
     restitution_source : str
         given, identified or rigid-body.
     path, figure : Path
+    together : Path or None
+        Picture of the limits of all models that were asked for, where there are several.
+    responses, responses_figure : Path or None
+        Steady responses, where they were asked for.
     measured : int
         Sine tests drawn on it.
+    lower, upper : Misfit or None
+        How far its limits lie from the measured boundary of overturning; None where that was not bracketed.
     action : str
         done, or up-to-date where it was there already.
     seconds : float
@@ -58,7 +61,12 @@ class MapMade:
     restitution_source: str
     path: Path
     figure: Path
+    together: Path | None
+    responses: Path | None
+    responses_figure: Path | None
     measured: int
+    lower: Misfit | None
+    upper: Misfit | None
     action: str
     seconds: float
 
@@ -104,10 +112,23 @@ def make_maps(
             raise CampaignError(f'{loaded.path.name} has no specimen "{name}".{nearest(name, loaded.specimens)}')
     layout = Layout(loaded.folder)
     with only_run(layout):
+        spread = partial(in_blocks, workers=workers, scheduler=scheduler, progress=progress)
         return [
-            _make(loaded, layout, name, wanted, workers, scheduler, progress)
+            made
             for name in (specimens or loaded.specimens)
+            for made in _of_specimen(loaded, layout, name, wanted, spread)
         ]
+
+
+def _of_specimen(campaign: Campaign, layout: Layout, specimen: str, wanted: Wanted, spread: Spread) -> list[MapMade]:
+    """Make the maps of one specimen, one a model, and of several models a picture together."""
+    models = list(dict.fromkeys(wanted.models))
+    together = layout.maps_figure(specimen, models) if len(models) > 1 else None
+    points = measured_points(layout, specimen)
+    made = [_make(campaign, layout, specimen, wanted, model, points, together, spread) for model in models]
+    if together is not None:
+        _draw([files.read(each.path) for each in made], points, together, specimen)
+    return made
 
 
 def _make(
@@ -115,20 +136,20 @@ def _make(
     layout: Layout,
     specimen: str,
     wanted: Wanted,
-    workers: int | None,
-    scheduler: str | None,
-    progress: Counted | None,
+    model: str,
+    points: Sequence[MapPoint],
+    together: Path | None,
+    spread: Spread,
 ) -> MapMade:
     started = time.perf_counter()
-    points = measured_points(layout, specimen)
     restitution, source = restitution_of(campaign, layout, specimen)
-    plan = plan_of(campaign, layout, specimen, wanted, restitution, points)
+    plan = plan_of(campaign, layout, specimen, wanted, model, restitution, points)
     key = hash_of({"code": source_hash(), "plan": _record(plan)})
-    path, figure = layout.map(specimen, wanted.model), layout.map_figure(specimen, wanted.model)
+    path, figure = layout.map(specimen, model), layout.map_figure(specimen, model)
     is_new = stored_attributes(path).get("key") != key
     if is_new:
-        blocks = layout.map_blocks(specimen, wanted.model)
-        chart = _chart(plan, blocks, key, workers, scheduler, progress)
+        blocks = layout.map_blocks(specimen, model)
+        chart = _chart(plan, blocks, key, spread)
         attributes: dict[str, Any] = dict(
             global_attributes(
                 campaign=campaign.campaign,
@@ -141,9 +162,29 @@ def _make(
         attributes |= {"key": key, "settings": json.dumps(plan.options), "restitution_source": source}
         files.write(as_dataset(chart), path, attributes=attributes)
         forget(blocks)
-    _draw(files.read(path), points, figure, specimen)
+    _draw([files.read(path)], points, figure, specimen)
+    responses = responses_figure = None
+    if wanted.responses:
+        responses, responses_figure = layout.response(specimen, model), layout.response_figure(specimen, model)
+        is_new |= make_responses(campaign, layout, specimen, plan, points, source, spread)
+    boundaries, stored = bracket_boundaries(points), as_map(files.read(path))
+    lower, upper = (limit_misfit(boundaries, stored.frequency_ratio, limit) for limit in (stored.lower, stored.upper))
     action, seconds = "done" if is_new else "up-to-date", time.perf_counter() - started
-    return MapMade(specimen, wanted.model, source, path, figure, len(points), action, seconds)
+    return MapMade(
+        specimen=specimen,
+        model=model,
+        restitution_source=source,
+        path=path,
+        figure=figure,
+        together=together,
+        responses=responses,
+        responses_figure=responses_figure,
+        measured=len(points),
+        lower=lower,
+        upper=upper,
+        action=action,
+        seconds=seconds,
+    )
 
 
 def as_dataset(chart: StabilityMap) -> xr.Dataset:
@@ -186,19 +227,12 @@ def as_map(stored: xr.Dataset) -> StabilityMap:
     )
 
 
-def _chart(
-    plan: MapPlan, folder: Path, key: str, workers: int | None, scheduler: str | None, progress: Counted | None
-) -> StabilityMap:
+def _chart(plan: MapPlan, folder: Path, key: str, spread: Spread) -> StabilityMap:
     from colonnade.dynamics.maps.chart import assemble
     from colonnade.dynamics.maps.column import MapColumn
 
-    number = plan.frequency_ratio.size
-    size = ceil(number / _MOST_BLOCKS)
-    blocks = [range(start, min(start + size, number)) for start in range(0, number, size)]
     columns = []
-    for arrays in in_blocks(
-        partial(_columns, plan), blocks, folder, key, workers=workers, scheduler=scheduler, progress=progress
-    ):
+    for arrays in spread(partial(_columns, plan), blocks_of(plan.frequency_ratio.size), folder, key):
         ends = np.cumsum(arrays["intervals_of_column"])
         intervals = np.split(arrays["intervals"], ends[:-1])
         columns += [
@@ -232,16 +266,17 @@ def _record(plan: MapPlan) -> dict[str, Any]:
     return {"block": repr(plan.block), "axes": axes, "options": plan.options, "motion": motion}
 
 
-def _draw(stored: xr.Dataset, points: Sequence[MapPoint], path: Path, specimen: str) -> None:
+def _draw(stored: Sequence[xr.Dataset], points: Sequence[MapPoint], path: Path, specimen: str) -> None:
     from colonnade import figures
 
-    chart = as_map(stored)
+    charts = [as_map(each) for each in stored]
+    models = [str(chart.options["model"]) for chart in charts]
     files.write_text(
         path,
         figures.to_svg(
-            figures.stability_map(chart, points),
-            identity=f"map-{specimen}-{chart.options['model']}",
-            title=f"Stability map of {specimen}, {chart.options['model']} model",
+            figures.stability_map(charts, points),
+            identity=f"map-{specimen}-{'-'.join(models)}",
+            title=f"Stability map of {specimen}, {' and '.join(models)} model",
             description=f"Outcomes over frequency ratio Ω and amplitude ratio A, with {len(points)} measured points.",
         ),
     )

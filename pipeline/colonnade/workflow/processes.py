@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import os
 import platform
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 from colonnade.errors import ColonnadeError
 from colonnade.workflow.chain import Chain, lost, walk
 from colonnade.workflow.results import StageRun
-from colonnade.workflow.spreading import settle_in, spread
-
-_AHEAD = 2
-"""Chains that are handed out a worker, the first of which it works on."""
+from colonnade.workflow.spreading import AHEAD, on_processes, spread
 
 
 def execute(chains: Sequence[Chain], workers: int | None, scheduler: str | None = None) -> Iterator[list[StageRun]]:
@@ -63,7 +58,7 @@ def execute(chains: Sequence[Chain], workers: int | None, scheduler: str | None 
                 del waiting[number]
                 yield runs
         except BrokenProcessPool:
-            for number in list(waiting)[: _AHEAD * count]:
+            for number in list(waiting)[: AHEAD * count]:
                 chain = waiting.pop(number)
                 try:
                     yield from (runs for _, runs in _in_workers({number: chain}, count))
@@ -72,24 +67,13 @@ def execute(chains: Sequence[Chain], workers: int | None, scheduler: str | None 
 
 
 def _in_workers(chains: Mapping[int, Chain], count: int) -> Iterator[tuple[int, list[StageRun]]]:
-    import joblib
-
     # A worker that has grown is replaced by a fresh one, of which nobody needs to know.
     warnings.filterwarnings("ignore", "A worker stopped while some jobs were given", UserWarning)
-    jobs = [joblib.delayed(_in_worker)(number, chain, os.getpid()) for number, chain in chains.items()]
-    with joblib.parallel_config(backend="loky", inner_max_num_threads=1):
-        parallel = joblib.Parallel(
-            n_jobs=count, return_as="generator_unordered", batch_size=1, pre_dispatch=_AHEAD * count
-        )
-        results: Any = parallel(jobs)
-        try:
-            yield from results
-        finally:
-            results.close()  # on Ctrl-C: stops the workers before the lock is given back
+    yield from on_processes(_in_worker, chains.items(), count)
 
 
-def _in_worker(number: int, chain: Chain, parent: int) -> tuple[int, list[StageRun]]:
-    settle_in(parent)
+def _in_worker(numbered: tuple[int, Chain]) -> tuple[int, list[StageRun]]:
+    number, chain = numbered
     return number, walk(chain)
 
 

@@ -16,7 +16,7 @@ from colonnade.workflow.freshness import RawIndex, report_key, source_hash
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.processes import execute
 from colonnade.workflow.results import RunResult, StageRun
-from colonnade.workflow.steps import STAGES, specimen_step
+from colonnade.workflow.steps import CONTACT, STAGES, contact_step, models_of, specimen_step
 from colonnade.workflow.summary import write_summary
 
 Progress = Callable[[StageRun, int, int], None]
@@ -91,16 +91,21 @@ def run(
             runs += _walked(chains(needed, "measuring"), catalogue, places, progress)
         if STAGES.index(last) >= STAGES.index("restitution"):
             runs += _pool(loaded, layout, catalogue, first)
-        failed = {stage.subject: stage.reason for stage in runs if stage.action == "failed"}
+        if STAGES.index(last) >= STAGES.index("predict"):
+            unpooled = _reasons(runs, of_specimens=True)
+            runs += _calibrate(loaded, [name for name in tests if loaded.tests[name].specimen not in unpooled], first)
+        failed = _reasons(runs, of_specimens=False)
+        unknown = _reasons(runs, of_specimens=True)
         if STAGES.index(last) >= STAGES.index("predict"):
             ready = []
             for name in tests:
-                if loaded.tests[name].specimen in failed:
+                if (specimen := loaded.tests[name].specimen) in unknown:
                     clear_behind(loaded, name, STAGES.index("restitution"))
+                    failed.setdefault(name, f"specimen {specimen}: {unknown[specimen]}")
                 elif name not in failed:
                     ready.append(name)
             runs += _walked(chains(ready, "predicting"), catalogue, places, progress)
-        failed |= {stage.subject: stage.reason for stage in runs if stage.action == "failed"}
+        failed |= _reasons(runs, of_specimens=False)
         kept = [name for name in loaded.tests if not loaded.review(name).excluded]
         whole = (*chains(kept, "measuring", "report"), *chains(kept, "predicting", "report"))
         look = catalogue.attributes
@@ -185,4 +190,23 @@ def _pool(campaign: Campaign, layout: Layout, catalogue: Catalogue, redo_from: s
     return [
         advance(campaign, name, specimen_step(campaign, name, paths), redo_from=redo_from, raw={})
         for name, paths in identified.items()
+    ]
+
+
+def _reasons(runs: Iterable[StageRun], *, of_specimens: bool) -> dict[str, str]:
+    """Why tests, or specimens, failed."""
+    return {
+        stage.subject: stage.reason
+        for stage in runs
+        if stage.action == "failed" and (stage.stage in ("specimen", CONTACT)) == of_specimens
+    }
+
+
+def _calibrate(campaign: Campaign, tests: Sequence[str], redo_from: str | None) -> list[StageRun]:
+    """Bring the laws of contact up to date of the specimens whose tests are predicted by that model."""
+    asked = {test.specimen for test in (campaign.tests[name] for name in tests) if CONTACT in models_of(campaign, test)}
+    return [
+        advance(campaign, name, contact_step(campaign, name), redo_from=redo_from, raw={})
+        for name in campaign.specimens
+        if name in asked
     ]

@@ -7,9 +7,8 @@ import re
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import closing
-from functools import cache
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import ExitStack, closing, contextmanager
 from importlib import import_module
 from typing import Any, TypeVar
 
@@ -19,6 +18,8 @@ from colonnade.workflow.freshness import source_hash
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
+AHEAD = 2
+"""Items that are handed out a process, the first of which it works on."""
 _PATROL = 0.1
 """Seconds between two looks of a worker at whether its parent is alive."""
 _PATIENCE = 10
@@ -70,18 +71,70 @@ def spread(
         return
     from joblib.externals.loky.process_executor import BrokenProcessPool
 
-    jobs = [joblib.delayed(_in_process)(work, item, os.getpid()) for item in items]
-    with joblib.parallel_config(backend="loky", inner_max_num_threads=1):
-        results: Any = joblib.Parallel(n_jobs=count, return_as="generator_unordered", batch_size=1)(jobs)
-        try:
-            yield from results
-        except BrokenProcessPool as error:
-            raise ColonnadeError(
-                "The system stopped a worker process, most often because memory ran out. What was finished is kept. "
-                "Run again with fewer workers (`--workers 1` takes the least memory)."
-            ) from error
-        finally:
-            results.close()  # on Ctrl-C: stops the workers before the lock is given back
+    try:
+        yield from on_processes(work, items, count)
+    except BrokenProcessPool as error:
+        raise ColonnadeError(
+            "The system stopped a worker process, most often because memory ran out. What was finished is kept. "
+            "Run again with fewer workers (`--workers 1` takes the least memory)."
+        ) from error
+
+
+def on_processes(work: Callable[[Item], Result], items: Iterable[Item], count: int) -> Iterator[Result]:
+    """
+    Call a function once for each item, in processes of this machine none of which outlives this one.
+
+    Parameters
+    ----------
+    work : callable
+        Of a module, not a lambda: other processes import it.
+    items : iterable
+        What it takes, light to send.
+    count : int
+        Processes, two at least. They stay for the next call.
+
+    Yields
+    ------
+    result
+        Of each item, in the order in which they end.
+
+    Raises
+    ------
+    BrokenProcessPool
+        If a process was stopped.
+    """
+    import joblib
+
+    # Each settles in as it starts, not with its first item: one that never gets any has to notice its parent's end too.
+    settled = {"initializer": _settle_in, "initargs": (os.getpid(),)}
+    with ExitStack() as stack:
+        with _interrupts_held_back():
+            stack.enter_context(joblib.parallel_config(backend="loky", inner_max_num_threads=1, **settled))
+            parallel = joblib.Parallel(
+                n_jobs=count, return_as="generator_unordered", batch_size=1, pre_dispatch=AHEAD * count
+            )
+            results: Any = parallel([joblib.delayed(work)(item) for item in items])
+            stack.enter_context(closing(results))  # on Ctrl-C: stops the workers before the lock is given back
+        yield from results
+
+
+@contextmanager
+def _interrupts_held_back() -> Iterator[None]:
+    """Keep Ctrl-C from processes that are started here, which inherit that: it would tear them from their imports."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    from multiprocessing import resource_tracker
+
+    from joblib.externals.loky.backend import resource_tracker as of_loky
+
+    for tracker in (resource_tracker, of_loky):  # whose own start would let Ctrl-C through again
+        tracker.ensure_running()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _on_cluster(work: Callable[[Item], Result], items: Sequence[Item], scheduler: str) -> Iterator[Result]:
@@ -156,13 +209,7 @@ def _on_worker(work: Callable[[Item], Result], item: Item) -> Result:
         return work(item)
 
 
-def _in_process(work: Callable[[Item], Result], item: Item, parent: int) -> Result:
-    settle_in(parent)
-    return work(item)
-
-
-@cache
-def settle_in(parent: int) -> None:
+def _settle_in(parent: int) -> None:
     """Leave Ctrl-C to the parent, and end when it is gone: a worker without a run's lock may not write."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with, args=(parent,), daemon=True).start()

@@ -19,6 +19,10 @@ STAGES = ("ingest", "condition", "rocking", "restitution", "predict", "ensemble"
 _ENSEMBLE = "ensemble "
 """What the name of an ensemble begins with among the results that `compare` reads."""
 
+CONTACT = "contact"
+"""The model that needs a law of contact; one run of it costs as much as thousands of the others, so it has no
+ensembles."""
+
 WITHOUT_PREDICTION = ("tilt", "other")
 """Kinds of test that have no base motion to predict from."""
 
@@ -31,7 +35,7 @@ class Step:
     Attributes
     ----------
     stage : str
-        One of `STAGES`, or "specimen".
+        One of `STAGES`, "specimen" or "contact".
     path : Path
         Of the result.
     upstream : dict of str to Path
@@ -53,8 +57,13 @@ class Step:
 
     @property
     def order(self) -> int:
-        """Place of its stage in `STAGES`; specimens are pooled with the restitution of their tests."""
-        return STAGES.index("restitution" if self.stage == "specimen" else self.stage)
+        """Place of its stage in `STAGES`; a specimen's own come with the stages of its tests that they serve."""
+        return STAGES.index({"specimen": "restitution", "contact": "predict"}.get(self.stage, self.stage))
+
+    @property
+    def is_of_specimen(self) -> bool:
+        """Whether it is about a specimen rather than a test."""
+        return self.stage in ("specimen", "contact")
 
     @property
     def is_from_raw(self) -> bool:
@@ -107,26 +116,48 @@ def specimen_step(campaign: Campaign, specimen_id: str, identified: Mapping[str,
     return Step("specimen", path, dict(identified), read, specimen.specimen)
 
 
+def contact_step(campaign: Campaign, specimen_id: str) -> Step:
+    """Step that finds the law of contact with which a specimen has its restitution."""
+    from colonnade.stages import contact
+
+    layout = Layout(campaign.folder)
+    return Step(
+        CONTACT,
+        layout.contact(specimen_id),
+        {"specimen": layout.specimen(specimen_id)},
+        contact.instructions(campaign, specimen_id),
+        lambda upstream, read: contact.contact(upstream["specimen"], read),
+    )
+
+
+def models_of(campaign: Campaign, test: Test) -> tuple[str, ...]:
+    """Models that a test is predicted by."""
+    return () if test.kind in WITHOUT_PREDICTION else campaign.processing.predict.models
+
+
 def predicting_steps(campaign: Campaign, test: Test) -> list[Step]:
     """Steps from what was measured to how far predictions agree."""
     from colonnade.stages import compare, ensemble, predict
 
     layout = Layout(campaign.folder)
     rocking, specimen = layout.stage(test.id, "rocking"), layout.specimen(test.specimen)
-    models = () if test.kind in WITHOUT_PREDICTION else campaign.processing.predict.models
+    models = models_of(campaign, test)
     predicted = {model: layout.stage(test.id, "predict", model) for model in models}
     steps = [
         Step(
             "predict",
             path,
-            {"rocking": rocking, "specimen": specimen},
+            {"rocking": rocking, "specimen": specimen}
+            | ({CONTACT: layout.contact(test.specimen)} if model == CONTACT else {}),
             predict.instructions(campaign, test, model),
-            lambda upstream, read: predict.predict(upstream["rocking"], upstream["specimen"], read),
+            lambda upstream, read: predict.predict(
+                upstream["rocking"], upstream["specimen"], read, upstream.get(CONTACT)
+            ),
             model,
         )
         for model, path in predicted.items()
     ]
-    spread = {model: layout.stage(test.id, "ensemble", model) for model in models}
+    spread = {model: layout.stage(test.id, "ensemble", model) for model in models if model != CONTACT}
     if campaign.processing.predict.ensemble.members == 0:
         spread = {}
     steps += [

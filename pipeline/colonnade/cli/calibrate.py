@@ -1,0 +1,90 @@
+"""`colonnade calibrate`: the contact damping with which each specimen rocks with its restitution."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import rich_click as click
+
+from colonnade.campaign.settings import MESHES
+from colonnade.cli.console import say, show_json, show_table
+from colonnade.cli.options import campaign_argument, json_option, workers_option
+
+
+@click.command(epilog="Example: colonnade calibrate demo --specimen prism --mesh rigid --mesh coarse")
+@campaign_argument
+@click.option("--specimen", multiple=True, metavar="ID", help="Only this specimen; may be given several times.")
+@click.option(
+    "--mesh", multiple=True, type=click.Choice(MESHES), help="Instead of the one in the settings; several may be given."
+)
+@click.option(
+    "--step",
+    multiple=True,
+    metavar="TIME",
+    help='Instead of the one in the settings, such as "10 us"; several may be given.',
+)
+@workers_option
+@json_option
+def calibrate(
+    campaign: Path,
+    specimen: tuple[str, ...],
+    mesh: tuple[str, ...],
+    step: tuple[str, ...],
+    workers: int | None,
+    as_json: bool,
+) -> int:
+    """
+    Find the contact damping that agrees with each specimen's restitution, for the contact model.
+
+    CAMPAIGN is a campaign.toml or its folder, by default the one you stand in; identify its free vibrations first.
+
+    Writes processed/contact/<SPECIMEN>.nc for the mesh and step of the settings (processing.predict.contact); others
+    are only shown.
+    """
+    from colonnade import units
+    from colonnade.errors import CampaignError, UnitError
+    from colonnade.workflow.calibration import calibrate as calibrated
+
+    try:
+        steps = [units.to_si(text, "time") for text in step]
+    except UnitError as error:
+        raise CampaignError(f"--step: {error}") from error
+    for text, value in zip(step, steps, strict=True):
+        if not value > 0.0:
+            raise CampaignError(f'--step: "{text}" was found. A time above zero was expected, such as "10 us".')
+    made = calibrated(campaign, specimens=specimen, meshes=mesh, steps=steps, workers=workers)
+    if as_json:
+        show_json(
+            [
+                {name: str(value) if isinstance(value, Path) else value for name, value in vars(each).items()}
+                for each in made
+            ]
+        )
+    else:
+        show_table(
+            ("specimen", "mesh", "step", "CDF ξ", "ξ_eff", "stiffness", "e", "e wanted", "seconds"),
+            [
+                (
+                    each.specimen,
+                    each.mesh,
+                    f"{each.step * 1e6:.3g} µs",
+                    _number(each.damping_fraction, ".3g"),
+                    _number(each.effective_damping, ".3g"),
+                    _number(each.stiffness, ".3g", " N/m³"),
+                    _number(each.restitution, ".4f"),
+                    _number(each.target, ".4f"),
+                    f"{each.seconds:.1f}",
+                )
+                for each in made
+            ],
+        )
+        for each in made:
+            if each.reason:
+                say(f"{each.specimen}, {each.mesh}: {each.reason}")
+            if each.path is not None:
+                say(f"law: {each.path}")
+    return int(any(each.restitution is None for each in made))
+
+
+def _number(value: float | None, form: str, unit: str = "") -> str:
+    return "–" if value is None else f"{value:{form}}{unit}"

@@ -1,0 +1,164 @@
+"""Contact: the law of contact with which a specimen rocks freely with its restitution, for the contact model."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import xarray as xr
+from pydantic import BaseModel, ConfigDict
+
+from colonnade.campaign import Campaign
+from colonnade.campaign.settings import ContactSettings
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.calibration import Calibration, calibrate
+from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.errors import StageError
+
+DAMPED = 0.4
+"""Critical damping fraction, the paper's, for which the modes of an elastic specimen are chosen."""
+
+
+class Instructions(BaseModel):
+    """What this stage reads of the campaign: the specimen in space, and the settings of the contact model."""
+
+    model_config = ConfigDict(frozen=True)
+
+    block: Block
+    shape: str
+    sizes: tuple[tuple[str, float], ...]
+    settings: ContactSettings
+
+
+def instructions(campaign: Campaign, specimen: str, settings: ContactSettings | None = None) -> Instructions:
+    """Gather what `contact` reads for one specimen; `settings` instead of the campaign's own."""
+    entry = campaign.specimens[specimen]
+    return Instructions(
+        block=entry.block(campaign.gravity),
+        shape=entry.shape,
+        sizes=tuple(sorted(entry.sizes().items())),
+        settings=settings or campaign.processing.predict.contact,
+    )
+
+
+def contact(specimen: xr.Dataset, instructions: Instructions) -> xr.Dataset:
+    """
+    Calibrate the contact of a specimen.
+
+    Parameters
+    ----------
+    specimen : xr.Dataset
+        Result of `specimen`: the restitution that predictions take.
+    instructions : Instructions
+
+    Returns
+    -------
+    law : xr.Dataset
+        `contact_stiffness` (N/m³), `damping_fraction`, `friction`, `effective_damping`, the `contact_restitution` that
+        they give and all that was tried. A damping fraction given in the campaign is not calibrated, but its
+        restitution is computed.
+
+    Raises
+    ------
+    StageError
+        If the specimen cannot be meshed, or the step is too long for the contact.
+    """
+    settings = instructions.settings
+    given = settings.damping_fraction != "auto"
+    body = body_of(instructions)
+    law = _law(body, instructions, float(settings.damping_fraction) if given else 0.0)
+    target = float(specimen["restitution"])
+    try:
+        found = calibrate(
+            body,
+            law,
+            target,
+            gravity=instructions.block.gravity,
+            step=settings.step,
+            fractions=(law.damping_fraction,) if given else None,
+            vary_stiffness=not given,
+        )
+    except ValueError as error:
+        raise StageError(f"processing.predict.contact: {error}") from error
+    return _described(found, "" if given else found.reason)
+
+
+def law_of(calibrated: xr.Dataset) -> ContactLaw:
+    """Return the law of contact that a result of `contact` describes."""
+    return ContactLaw(
+        stiffness=float(calibrated["contact_stiffness"]),
+        damping_fraction=float(calibrated["damping_fraction"]),
+        friction=float(calibrated["friction"]),
+    )
+
+
+@lru_cache(maxsize=4)
+def body_of(instructions: Instructions) -> ContactBody:
+    """
+    Build the body of the contact model; meshing takes its time, so the last few are kept.
+
+    Raises
+    ------
+    StageError
+        If a body without dimensions is to be meshed.
+    """
+    settings, sizes = instructions.settings, dict(instructions.sizes)
+    if settings.mesh == "rigid":
+        from colonnade.dynamics.contact.layout import rigid_body
+
+        return rigid_body(instructions.block)
+    if not sizes:
+        raise StageError(
+            f'processing.predict.contact.mesh is "{settings.mesh}", but this specimen is of shape '
+            f'"{instructions.shape}" and has no dimensions to be meshed. mesh = "rigid" was expected.'
+        )
+    from colonnade.dynamics.contact.elastic import elastic_body
+    from colonnade.dynamics.contact.reduction import keep_modes_for_step
+
+    body = elastic_body(
+        sizes,
+        instructions.block.mass,
+        mesh=settings.mesh,
+        modulus=settings.modulus,
+        poisson_ratio=settings.poisson_ratio,
+    )
+    # The modes that stay are those that a step follows whatever the damping that calibration comes to.
+    fraction = DAMPED if settings.damping_fraction == "auto" else float(settings.damping_fraction)
+    try:
+        return keep_modes_for_step(body, _law(body, instructions, fraction), settings.step)
+    except ValueError as error:
+        raise StageError(f"processing.predict.contact.step: {error}") from error
+
+
+def _law(body: ContactBody, instructions: Instructions, fraction: float) -> ContactLaw:
+    return ContactLaw.stiff(
+        body,
+        instructions.block.gravity,
+        damping_fraction=fraction,
+        friction=instructions.settings.friction,
+        penetration=instructions.settings.penetration,
+    )
+
+
+def _described(found: Calibration, warning: str) -> xr.Dataset:
+    scalars = {
+        "contact_stiffness": found.law.stiffness,
+        "damping_fraction": found.law.damping_fraction,
+        "friction": found.law.friction,
+        "effective_damping": found.effective_damping,
+        "contact_restitution": found.restitution,
+        "restitution": found.target,
+        "contact_step": found.step,
+        "energy_residual": found.residual,
+    }
+    tried = {
+        "tried_damping_fraction": found.fractions,
+        "tried_stiffness": found.stiffnesses,
+        "tried_restitution": found.restitutions,
+    }
+    return xr.Dataset(
+        {name: ((), value) for name, value in scalars.items()}
+        | {name: ("trial", np.asarray(values)) for name, values in tried.items()},
+        attrs={"body": found.body, "warnings": [warning] if warning else []},
+    )

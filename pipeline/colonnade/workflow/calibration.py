@@ -1,0 +1,182 @@
+"""Laws of contact of a campaign's specimens: those that its settings ask for are stored, others only shown."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from colonnade.campaign import Campaign, load
+from colonnade.campaign.settings import ContactSettings
+from colonnade.errors import CampaignError, ColonnadeError, nearest
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.workflow.chain import advance
+from colonnade.workflow.freshness import stored_attributes
+from colonnade.workflow.lock import only_run
+from colonnade.workflow.spreading import spread
+from colonnade.workflow.steps import contact_step
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True)
+class Calibrated:
+    """
+    The law of contact of one specimen, on one mesh with one step.
+
+    Attributes
+    ----------
+    specimen, mesh, body : str
+        Its id; of the settings; what it is made of, for people.
+    step : float
+        s.
+    target, restitution : float or None
+        e asked for, and reached; None where it failed.
+    damping_fraction, effective_damping, stiffness : float or None
+        ξ at each node, of the whole body, and N/m³.
+    energy_residual : float or None
+        Of the run with this law.
+    reason : str
+        Why it failed, or does not agree; else empty.
+    path : Path or None
+        Where it is stored: of the campaign's own settings.
+    seconds : float
+        Of computing; 0 where it was stored already.
+    """
+
+    specimen: str
+    mesh: str
+    body: str
+    step: float
+    target: float | None
+    restitution: float | None
+    damping_fraction: float | None
+    effective_damping: float | None
+    stiffness: float | None
+    energy_residual: float | None
+    reason: str
+    path: Path | None
+    seconds: float
+
+
+@dataclass(frozen=True)
+class _Task:
+    campaign: Campaign
+    specimen: str
+    settings: ContactSettings
+
+
+def calibrate(
+    campaign: Path | str,
+    *,
+    specimens: Sequence[str] = (),
+    meshes: Sequence[str] = (),
+    steps: Sequence[float] = (),
+    workers: int | None = None,
+) -> list[Calibrated]:
+    """
+    Find the contact damping with which each specimen rocks freely with its restitution.
+
+    Parameters
+    ----------
+    campaign : Path or str
+        A campaign.toml or its folder; its free vibrations have been identified.
+    specimens : sequence of str, optional
+        Ids; default all.
+    meshes : sequence of str, optional
+        Bodies; default that of the settings.
+    steps : sequence of float, optional
+        s; default that of the settings.
+    workers : int, optional
+        Processes; default one a core.
+
+    Returns
+    -------
+    calibrated : list of Calibrated
+        Specimen by specimen, mesh by mesh, step by step.
+
+    Raises
+    ------
+    CampaignError
+        If the campaign file is not usable, or a specimen is not in it or not identified yet.
+    StoreError
+        If a run is under way, or results cannot be written.
+    """
+    loaded = load(Path(campaign))
+    layout = Layout(loaded.folder)
+    for name in specimens:
+        if name not in loaded.specimens:
+            raise CampaignError(f'{loaded.path.name} has no specimen "{name}".{nearest(name, loaded.specimens)}')
+    chosen = list(specimens or loaded.specimens)
+    for name in chosen:
+        if stored_attributes(layout.specimen(name)).get("status") != "done":
+            raise CampaignError(f"{name}: its restitution is not known yet. Run `colonnade identify` first.")
+    own = loaded.processing.predict.contact
+    tasks = [
+        _Task(loaded, name, own.model_copy(update={"mesh": mesh, "step": step}))
+        for name, mesh, step in product(chosen, meshes or (own.mesh,), steps or (own.step,))
+    ]
+    with only_run(layout):
+        found = dict(spread(_calibrated, list(enumerate(tasks)), workers=workers))
+    return [found[number] for number in range(len(tasks))]
+
+
+def _calibrated(numbered: tuple[int, _Task]) -> tuple[int, Calibrated]:
+    """Calibrate one, through the store where it is what the campaign's settings ask for."""
+    number, task = numbered
+    campaign, layout = task.campaign, Layout(task.campaign.folder)
+    started = time.perf_counter()
+    path = None
+    if task.settings == campaign.processing.predict.contact:
+        path = layout.contact(task.specimen)
+        done = advance(campaign, task.specimen, contact_step(campaign, task.specimen), redo_from=None, raw={})
+        result, reason = (None, done.reason) if done.action == "failed" else (files.read(path), "")
+    else:
+        from colonnade.stages import contact
+
+        try:
+            pooled = files.read(layout.specimen(task.specimen))
+            result = contact.contact(pooled, contact.instructions(campaign, task.specimen, task.settings))
+            reason = ""
+        except ColonnadeError as error:
+            result, reason = None, str(error)
+    known = _known(result)
+    return number, Calibrated(
+        specimen=task.specimen,
+        mesh=task.settings.mesh,
+        body="" if result is None else str(result.attrs["body"]),
+        step=known["contact_step"] or task.settings.step,
+        target=known["restitution"],
+        restitution=known["contact_restitution"],
+        damping_fraction=known["damping_fraction"],
+        effective_damping=known["effective_damping"],
+        stiffness=known["contact_stiffness"],
+        energy_residual=known["energy_residual"],
+        reason=reason or _warning(result),
+        path=None if result is None else path,
+        seconds=time.perf_counter() - started,
+    )
+
+
+def _known(result: xr.Dataset | None) -> dict[str, float | None]:
+    names = (
+        "contact_step",
+        "restitution",
+        "contact_restitution",
+        "damping_fraction",
+        "effective_damping",
+        "contact_stiffness",
+        "energy_residual",
+    )
+    return {name: None if result is None else float(result[name]) for name in names}
+
+
+def _warning(result: xr.Dataset | None) -> str:
+    """Return why a law that was found does not agree, if it does not."""
+    warnings = [] if result is None else result.attrs["warnings"]
+    return warnings if isinstance(warnings, str) else " ".join(warnings)

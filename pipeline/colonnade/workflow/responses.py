@@ -1,0 +1,158 @@
+"""Steady responses of a specimen to sines over Ω and A: planned as its stability map, made in blocks, stored, drawn."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.campaign import Campaign
+from colonnade.identification.boundaries import MapPoint
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.store.provenance import global_attributes, hash_of
+from colonnade.workflow.blocks import Spread, blocks_of, forget
+from colonnade.workflow.freshness import source_hash, stored_attributes
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from colonnade.dynamics.maps.plan import MapPlan
+    from colonnade.dynamics.steady import SteadyResponse
+
+SETTLING = 400
+"""Cycles at full amplitude before a response is looked at."""
+
+
+def make_responses(
+    campaign: Campaign,
+    layout: Layout,
+    specimen: str,
+    plan: MapPlan,
+    points: Sequence[MapPoint],
+    restitution_source: str,
+    spread: Spread,
+) -> bool:
+    """
+    Make the steady responses of a specimen, where they are not there yet, and draw them.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    layout : Layout
+    specimen : str
+    plan : MapPlan
+        Its block, axes, model, restitution and sine are taken; instead of its cycles there are `SETTLING` ones.
+    points : sequence of MapPoint
+        Measured sine tests that are drawn on them.
+    restitution_source : str
+    spread : Spread
+
+    Returns
+    -------
+    made : bool
+        Whether they were made anew.
+
+    Raises
+    ------
+    StoreError
+        If they cannot be written.
+    """
+    settings = _settings(plan)
+    axes = [plan.frequency_ratio.tolist(), plan.amplitude_ratio.tolist()]
+    known = {"block": repr(plan.block), "axes": axes, "settings": settings}
+    key = hash_of({"code": source_hash(), "responses": known})
+    path = layout.response(specimen, plan.model)
+    is_new = stored_attributes(path).get("key") != key
+    if is_new:
+        blocks = layout.response_blocks(specimen, plan.model)
+        parts = spread(partial(_columns, plan), blocks_of(plan.frequency_ratio.size), blocks, key)
+        attributes: dict[str, Any] = dict(
+            global_attributes(
+                campaign=campaign.campaign,
+                title=campaign.title,
+                facility=campaign.facility,
+                stage="map",
+                specimen=specimen,
+            )
+        )
+        attributes |= {"key": key, "settings": json.dumps(settings), "restitution_source": restitution_source}
+        files.write(_as_dataset(plan, parts), path, attributes=attributes)
+        forget(blocks)
+    _draw(as_response(files.read(path)), plan, points, layout, specimen)
+    return is_new
+
+
+def as_response(stored: xr.Dataset) -> SteadyResponse:
+    """Return stored responses as the library gives them."""
+    from colonnade.dynamics.steady import SteadyResponse
+
+    return SteadyResponse(
+        stored["frequency_ratio"].to_numpy(),
+        stored["amplitude_ratio"].to_numpy(),
+        stored["steady_order"].to_numpy().astype(np.int8),
+        stored["steady_period"].to_numpy(),
+        stored["steady_peak_ratio"].to_numpy(),
+    )
+
+
+def _settings(plan: MapPlan) -> dict[str, Any]:
+    """All that the responses depend on beside block and axes, by the names of a map's options."""
+    kept = ("model", "phase", "ramp", "ramp_shape", "rest_angle", "critical_angle", "p")
+    options = plan.options
+    return {name: options[name] for name in options if name in kept or name.startswith("restitution_")} | {
+        "settling": SETTLING
+    }
+
+
+def _columns(plan: MapPlan, indices: range) -> dict[str, NDArray[Any]]:
+    """Work of a block: the responses at some Ω, as arrays."""
+    from colonnade.dynamics.steady import steady_response
+
+    response = steady_response(
+        plan.block,
+        settling=SETTLING,
+        phase=plan.phase,
+        ramp=plan.ramp,
+        ramp_shape=plan.ramp_shape,
+        model=plan.model,
+        frequency_ratio=plan.frequency_ratio[indices.start : indices.stop],
+        amplitude_ratio=plan.amplitude_ratio,
+        restitution=plan.restitution,
+    )
+    return {"order": response.order, "period": response.period, "amplitude": response.amplitude}
+
+
+def _as_dataset(plan: MapPlan, parts: Sequence[dict[str, NDArray[Any]]]) -> xr.Dataset:
+    import xarray as xr
+
+    cells = ("frequency_ratio", "amplitude_ratio")
+    order, period, amplitude = (np.concatenate([part[name] for part in parts]) for name in parts[0])
+    return xr.Dataset(
+        {
+            "steady_order": (cells, order.astype(np.int32)),
+            "steady_period": (cells, period),
+            "steady_peak_ratio": (cells, amplitude),
+        },
+        coords={"frequency_ratio": plan.frequency_ratio, "amplitude_ratio": plan.amplitude_ratio},
+        attrs=_settings(plan),
+    )
+
+
+def _draw(response: SteadyResponse, plan: MapPlan, points: Sequence[MapPoint], layout: Layout, specimen: str) -> None:
+    from colonnade import figures
+
+    settings = _settings(plan)
+    files.write_text(
+        layout.response_figure(specimen, plan.model),
+        figures.to_svg(
+            figures.response_orders(response, points, settings),
+            identity=f"response-{specimen}-{plan.model}",
+            title=f"Steady responses of {specimen}, {plan.model} model",
+            description=f"Orders over frequency ratio Ω and amplitude ratio A, with {len(points)} measured points.",
+        ),
+    )

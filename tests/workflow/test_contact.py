@@ -1,0 +1,92 @@
+"""The contact model in a campaign: its law by specimen, its predictions beside the others, its maps."""
+
+import json
+
+import numpy as np
+import pytest
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.contact.layout import rigid_body
+from colonnade.dynamics.contact.simulate import simulate
+from colonnade.dynamics.motion import Motion
+from colonnade.errors import CampaignError
+from colonnade.stages.contact import law_of
+from colonnade.store import files
+from colonnade.workflow.calibration import calibrate
+from colonnade.workflow.map_plans import Wanted
+from colonnade.workflow.maps import make_maps
+
+BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+
+SETTINGS = """
+[processing.predict]
+models = ["nonlinear", "contact"]
+contact = {step = "30 us", damping_fraction = 0.3}
+
+[setups.frame.channels]"""
+
+
+@pytest.fixture
+def in_space(small):
+    small.edit("\n[setups.frame.channels]", SETTINGS)
+    return small
+
+
+def test_a_campaign_is_predicted_by_the_contact_model_beside_the_others(in_space):
+    redone = in_space.redone()
+    assert redone["prism", "contact"] == "never run"
+    law = files.read(in_space.layout.contact("prism"))
+    assert float(law["damping_fraction"]) == 0.3
+    assert 0.9 < float(law["contact_restitution"]) < 1.0
+
+    predicted = files.read(in_space.layout.stage("pulse-01", "predict", "contact"))
+    rocking = files.read(in_space.layout.stage("pulse-01", "rocking"))
+    time = rocking["elapsed"].to_numpy()
+    motion = Motion(rocking["base_acceleration"].to_numpy(), float(time[1] - time[0]))
+    history = simulate(rigid_body(BLOCK), motion, law=law_of(law), gravity=BLOCK.gravity, step=3e-5)
+    np.testing.assert_array_equal(predicted["rocking_angle"].to_numpy(), history.angle)
+    np.testing.assert_array_equal(predicted["uplift"].to_numpy(), history.uplift)
+    assert predicted.attrs["outcome"] == history.outcome
+
+    summary = in_space.summary()
+    for test in ("free-01", "pulse-01"):
+        assert set(summary["tests"][test]["predicted"]) == {"nonlinear", "contact"}
+    assert not in_space.layout.stage("pulse-01", "ensemble", "contact").exists()
+    assert in_space.redone() == {}
+
+
+def test_a_specimen_without_a_law_fails_its_tests_with_what_to_do(in_space):
+    in_space.edit('step = "30 us"', 'step = "10 ms"')
+    stages = in_space.run().stages
+    reasons = {stage.reason for stage in stages if stage.action == "failed"}
+    assert any("Take a shorter step or a softer contact" in reason for reason in reasons)
+    assert in_space.summary()["tests"]["pulse-01"]["status"] == "failed"
+
+
+def test_calibration_shows_other_bodies_and_stores_the_settings_own(in_space):
+    own, coarse = calibrate(in_space.folder, meshes=("rigid", "coarse"), workers=1)
+    assert (own.mesh, own.path, own.reason) == ("rigid", in_space.layout.contact("prism"), "")
+    assert own.restitution == float(files.read(own.path)["contact_restitution"])
+    assert (coarse.mesh, coarse.path) == ("coarse", None)
+    assert "1224 degrees of freedom" in coarse.body
+    # The same damping at each node damps the meshed body, whose nodes carry little of its mass, less.
+    assert coarse.effective_damping < 0.5 * own.effective_damping
+    assert coarse.restitution > own.restitution
+
+
+def test_calibration_needs_a_restitution(untouched):
+    with pytest.raises(CampaignError, match="Run `colonnade identify` first"):
+        calibrate(untouched.folder)
+
+
+def test_a_map_needs_the_law_and_then_is_made(in_space):
+    wanted = Wanted(("contact",), (2.0, 3.0), (0.8, 6.0), (2, 3), cycles=2.0)
+    with pytest.raises(CampaignError, match="Run `colonnade calibrate` first"):
+        make_maps(in_space.folder, wanted, workers=1)
+    calibrate(in_space.folder, workers=1)
+    (made,) = make_maps(in_space.folder, wanted, workers=1)
+    stored = files.read(made.path)
+    assert stored["outcome"].to_numpy()[:, [0, -1]].tolist() == [[0, 2], [0, 2]]
+    options = json.loads(stored.attrs["settings"])
+    assert (options["model"], options["damping_fraction"], options["contact_step"]) == ("contact", 0.3, 3e-5)
+    assert make_maps(in_space.folder, wanted, workers=1)[0].action == "up-to-date"
