@@ -8,7 +8,7 @@ from colonnade.errors import ReadError, StageError
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.signals.quality import Flag
 from colonnade.stages.ingest import ingest, instructions
-from colonnade.store.variables import describe
+from colonnade.store.description import describe
 
 
 def _changed(recordings, name, change):

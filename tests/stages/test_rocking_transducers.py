@@ -13,7 +13,7 @@ from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.stages import condition as conditioning
 from colonnade.stages import ingest as ingesting
 from colonnade.stages import rocking as rocking_stage
-from colonnade.store.variables import describe
+from colonnade.store.description import describe
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 HALF_WIDTH = 0.043

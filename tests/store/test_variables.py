@@ -1,102 +1,13 @@
-"""The table of variables: names that CF takes, units that UDUNITS reads, nothing stored undescribed."""
+"""The table of variables: units that UDUNITS reads."""
 
 from __future__ import annotations
 
-import re
-
-import numpy as np
-import pytest
-import xarray as xr
 from compliance_checker.cfunits import Unit
-from hypothesis import given
-from hypothesis import strategies as st
 
-from colonnade.errors import StoreError
-from colonnade.store.variables import VARIABLES, channel_attributes, describe, udunits, variable_name
-
-CHANNEL_IDS = st.from_regex(r"[A-Za-z0-9][A-Za-z0-9._-]{0,8}((_channel)|(_quality)|(_recorded)){0,2}", fullmatch=True)
-
-
-@given(CHANNEL_IDS)
-def test_every_channel_id_gives_a_name_that_cf_takes_and_no_table_entry_of_a_clock(channel_id):
-    name = variable_name(channel_id)
-    assert re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name)
-    assert not re.fullmatch(r"time|elapsed(_.*)?|.*_(recorded|quality|standard_error)", name, re.IGNORECASE)
-
-
-@given(CHANNEL_IDS, CHANNEL_IDS)
-def test_channels_that_differ_after_mapping_get_different_names(first, second):
-    mapped = [re.sub(r"[.-]", "_", channel_id).casefold() for channel_id in (first, second)]
-    assert (variable_name(first).casefold() == variable_name(second).casefold()) == (mapped[0] == mapped[1])
-
-
-@pytest.mark.parametrize(
-    ("first", "second"), [("time", "time_channel"), ("2nd", "id_2nd"), ("elapsed", "elapsed_channel")]
-)
-def test_an_escaped_name_is_not_another_channels_name(first, second):
-    assert variable_name(first) != variable_name(second)
+from colonnade.store.variables import VARIABLES
 
 
 def test_every_unit_of_the_table_is_one_that_udunits_reads():
     for name, variable in VARIABLES.items():
         if variable.units is not None:
             assert Unit(variable.units) is not None, name
-
-
-@pytest.mark.parametrize(
-    ("recorded", "number", "si"),
-    [
-        ("g", 9.80665, "m s-2"),
-        ("Gal", 0.01, "m s-2"),
-        ("mm", 1e-3, "m"),
-        ("mV", 1e-3, "V"),
-        ("deg/s", np.pi / 180, "rad s-1"),
-    ],
-)
-def test_a_recorded_unit_means_the_same_to_udunits(recorded, number, si):
-    assert Unit(udunits(recorded)).convert(1.0, Unit(si)) == pytest.approx(number, rel=1e-12)
-
-
-def test_a_unit_that_nobody_knows_is_not_spelt():
-    assert udunits("furlong per fortnight") is None
-
-
-def channel(**attributes):
-    return xr.DataArray(np.zeros(3), dims="elapsed", attrs={"channel": "top", "quantity": "displacement"} | attributes)
-
-
-def test_a_channel_is_described_with_what_goes_with_it():
-    dataset = xr.Dataset(
-        {
-            "top": channel(recorded_unit="V"),
-            "top_recorded": ("elapsed", np.zeros(3)),
-            "top_quality": ("elapsed", np.ones(3, dtype=np.int64)),
-        },
-        coords={"elapsed": np.arange(3.0)},
-    )
-    described = describe(dataset)
-    assert described["top"].attrs["units"] == "m"
-    assert described["top"].attrs["ancillary_variables"] == "top_quality"
-    assert described["top_recorded"].attrs["units"] == "V"
-    assert described["top_quality"].dtype == np.int8
-    assert described["top_quality"].attrs["flag_values"].tolist() == [1, 2, 3, 4, 9]
-    assert described["elapsed"].attrs["units"] == "s"
-    assert dataset["elapsed"].attrs == {}, "the stage's own dataset is left alone"
-
-
-def test_a_model_is_not_called_a_measurement():
-    dataset = xr.Dataset({"rocking_angle": ("elapsed", np.zeros(2))})
-    kinds = [
-        describe(dataset, stage)["rocking_angle"].attrs["coverage_content_type"] for stage in ("rocking", "predict")
-    ]
-    assert kinds == ["physicalMeasurement", "modelResult"]
-
-
-def test_a_variable_that_nobody_describes_is_refused_with_the_nearest_name():
-    with pytest.raises(StoreError, match=r"'rocking_angel'.*Did you mean \"rocking_angle\""):
-        describe(xr.Dataset({"rocking_angel": ("elapsed", np.zeros(2))}))
-
-
-def test_an_unknown_quantity_is_refused():
-    with pytest.raises(StoreError, match="channel top: 'displacment' is not a quantity"):
-        channel_attributes("top", "displacment")

@@ -15,7 +15,7 @@ from colonnade.errors import StageError
 from colonnade.signals.alignment import Offset, link
 from colonnade.signals.clock import uniform_clock
 from colonnade.signals.record import Record, even_record
-from colonnade.store.variables import variable_name
+from colonnade.store.description import variable_name
 
 Array = NDArray[np.float64]
 

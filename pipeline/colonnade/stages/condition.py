@@ -18,7 +18,7 @@ from colonnade.stages.clocks import TOGETHER, ClockInstructions, common_clock, l
 from colonnade.stages.plausibility import PlausibilityInstructions, doubts
 from colonnade.stages.plausibility import instructions as plausibility_instructions
 from colonnade.stages.zeroing import rest_window, zeroed
-from colonnade.store.variables import variable_name
+from colonnade.store.description import variable_name
 
 Array = NDArray[np.float64]
 

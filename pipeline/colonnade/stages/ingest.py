@@ -26,7 +26,7 @@ from colonnade.stages.judging import (
     judge_against_the_table,
     reviewed,
 )
-from colonnade.store.variables import variable_name
+from colonnade.store.description import variable_name
 
 Array = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict
 
 from colonnade.campaign.decision import Review
 from colonnade.signals import quality, timing
-from colonnade.store.variables import variable_name
+from colonnade.store.description import variable_name
 
 Array = NDArray[np.float64]
 

@@ -21,7 +21,7 @@ from colonnade.signals.named_motion import Series, check_motion
 from colonnade.stages.reference_motions import Source, load, sources
 from colonnade.stages.transducers import outline, transducers
 from colonnade.stages.zeroing import COUPLED
-from colonnade.store.variables import variable_name
+from colonnade.store.description import variable_name
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, pole_position
 from colonnade.identification.inertial import Accelerometer, Gyroscope
 from colonnade.identification.sensors import Transducer
-from colonnade.store.variables import variable_name
+from colonnade.store.description import variable_name
 
 Vector = tuple[float, float, float]
 

@@ -22,9 +22,9 @@ from xarray.backends import NetCDF4DataStore
 
 from colonnade.errors import StoreError
 from colonnade.store.attributes import listed, storable
+from colonnade.store.description import describe
 from colonnade.store.long_arrays import add_attribute, write_file
 from colonnade.store.provenance import content_hash, coverage, is_long
-from colonnade.store.variables import describe
 
 PARTIAL = ".partial"
 """Ending of temporary names; what is left of a killed run ends so."""

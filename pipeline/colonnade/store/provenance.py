@@ -133,7 +133,7 @@ def content_hash(dataset: xr.Dataset) -> str:
     Parameters
     ----------
     dataset : xr.Dataset
-        Described by `store.variables.describe`.
+        Described by `store.description.describe`.
 
     Returns
     -------

@@ -1,33 +1,19 @@
 """
 The one table of variables: units, names and CF attributes of everything that colonnade stores.
 
-A stage returns values; `describe` says what they are. A variable that neither this table nor the naming of channels
-knows is an error, so that nothing enters the store undescribed.
+A stage returns values; `store.description` says by this table what they are.
 """
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
-
-from colonnade import units
-from colonnade.errors import StoreError, UnitError, nearest
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-FLAG_VALUES = (1, 2, 3, 4, 9)
-FLAG_MEANINGS = "good not_evaluated suspect fail missing"
+from typing import Any
 
 MEASURED = "physicalMeasurement"
 MODELLED = "modelResult"
 AUXILIARY = "auxiliaryInformation"
 QUALITY = "qualityInformation"
 COORDINATE = "coordinate"
-MODEL_STAGES = frozenset({"contact", "predict", "ensemble", "map"})
 
 
 @dataclass(frozen=True)
@@ -219,163 +205,3 @@ VARIABLES: dict[str, Variable] = {
     "steady_period": Variable("period of the steady response", "s", MODELLED),
     "steady_peak_ratio": Variable("peak angle of the steady response over the critical angle", "1", MODELLED),
 }
-
-_QUANTITY_UNITS = {
-    "displacement": "m",
-    "velocity": "m s-1",
-    "acceleration": "m s-2",
-    "angle": "rad",
-    "angular_velocity": "rad s-1",
-    "force": "N",
-}
-_UDUNITS = frozenset({"V", "mV", "A", "mA", "m", "cm", "mm", "um", "s", "ms", "Hz", "kHz", "N", "kN", "rad", "mrad"})
-"""Units that are spelt alike here and in UDUNITS; there `g` is the gram, so that all others are written in SI."""
-
-_RESERVED_NAME = re.compile(r"(elapsed(_.*)?|time|.*_(recorded|quality|standard_error))(_channel)*", re.IGNORECASE)
-_NUMBERED_NAME = re.compile(r"(id_)*\d", re.IGNORECASE)
-
-
-def variable_name(channel_id: str) -> str:
-    """
-    Name of a channel's variable: the channel's id, made a valid CF name.
-
-    Parameters
-    ----------
-    channel_id : str
-        Letters, digits, ``.``, ``_`` and ``-``. Ids that differ after ``.`` and ``-`` have become ``_`` get different
-        names.
-
-    Examples
-    --------
-    >>> variable_name("top-left"), variable_name("2nd"), variable_name("time"), variable_name("top_quality")
-    ('top_left', 'id_2nd', 'time_channel', 'top_quality_channel')
-    """
-    name = re.sub(r"[.-]", "_", channel_id)
-    if _NUMBERED_NAME.match(name):
-        name = f"id_{name}"
-    # A channel may not take the name of a clock, or of what is stored beside another channel.
-    return f"{name}_channel" if _RESERVED_NAME.fullmatch(name) else name
-
-
-def udunits(unit: str | None) -> str | None:
-    """
-    UDUNITS spelling of a recorded unit, None where it has none.
-
-    Examples
-    --------
-    >>> udunits("Volts"), udunits("g's"), udunits("furlong"), udunits(None)
-    ('V', '9.80665 m s-2', None, None)
-    """
-    if unit is None:
-        return None
-    try:
-        usual = units.normalise_unit(unit)
-        factor, si_unit = units.si_factor(unit)
-    except UnitError:
-        return None
-    if usual in _UDUNITS:
-        return usual
-    return si_unit if factor == 1.0 else f"{factor!r} {si_unit}"
-
-
-def channel_attributes(channel_id: str, quantity: str, recorded_unit: str | None = None) -> dict[str, Any]:
-    """
-    Attributes of a channel's values in SI.
-
-    Parameters
-    ----------
-    channel_id : str
-        As in campaign.toml.
-    quantity : str
-        displacement, velocity, acceleration, angle, angular_velocity, force (stored in SI) or other (stored in the
-        unit of the recording, if that is one that CF can spell).
-    recorded_unit : str, optional
-        As in the file.
-
-    Raises
-    ------
-    StoreError
-        If the quantity is none of these.
-    """
-    if quantity == "other":
-        unit = udunits(recorded_unit)
-    elif quantity in _QUANTITY_UNITS:
-        unit = _QUANTITY_UNITS[quantity]
-    else:
-        raise StoreError(
-            f"channel {channel_id}: '{quantity}' is not a quantity that can be stored."
-            + nearest(quantity, [*_QUANTITY_UNITS, "other"])
-        )
-    words = "" if quantity == "other" else f"{quantity.replace('_', ' ')}, "
-    return Variable(f"{words}channel {channel_id}", unit, MEASURED).attributes()
-
-
-def describe(dataset: xr.Dataset, stage: str = "") -> xr.Dataset:
-    """
-    Attach CF and ACDD attributes to every variable of a stage's result.
-
-    Parameters
-    ----------
-    dataset : xr.Dataset
-        As a stage returns it. A channel's variable has at least the attributes ``channel`` and ``quantity``, and
-        ``recorded_unit`` where its file gives one; ``<channel>_recorded`` and ``<channel>_quality`` go with it.
-    stage : str, optional
-        Name of the stage: results of a model are marked as such.
-
-    Returns
-    -------
-    described : xr.Dataset
-        A new dataset, in the table's types; attributes that the stage gave are kept.
-
-    Raises
-    ------
-    StoreError
-        If a variable is neither in the table nor a channel.
-    """
-    described = dataset.copy()
-    for name in map(str, dataset.variables):
-        attributes, dtype = _attributes(name, dataset)
-        if stage in MODEL_STAGES and attributes.get("coverage_content_type") == MEASURED:
-            attributes["coverage_content_type"] = MODELLED
-        companions = [companion for companion in (f"{name}_quality", f"{name}_standard_error") if companion in dataset]
-        if companions:
-            attributes["ancillary_variables"] = " ".join(companions)
-        variable = dataset[name].variable
-        if dtype != "str" and variable.dtype != np.dtype(dtype):
-            variable = variable.astype(dtype)
-        own = {key: value for key, value in variable.attrs.items() if value is not None and value != ""}
-        described = described.assign({name: (variable.dims, variable.data, attributes | own)})
-    return described
-
-
-def _attributes(name: str, dataset: xr.Dataset) -> tuple[dict[str, Any], str]:
-    if name in VARIABLES:
-        entry = VARIABLES[name]
-        return entry.attributes() | (_flag_attributes(name) if entry.dtype == "int8" else {}), entry.dtype
-    if name.startswith("elapsed_"):
-        clock = name.removeprefix("elapsed_")
-        return Variable(f"time since the zero of clock {clock}", "s", COORDINATE).attributes(), "float64"
-    own = dataset[name].attrs
-    if "channel" in own and "quantity" in own:
-        return channel_attributes(own["channel"], own["quantity"], own.get("recorded_unit")), "float64"
-    base, _, form = name.rpartition("_")
-    channel = dataset[base].attrs.get("channel") if base in dataset else None
-    if channel is not None and form == "recorded":
-        unit = own.get("recorded_unit") or dataset[base].attrs.get("recorded_unit")
-        recorded = Variable(f"as in the file, channel {channel}", udunits(unit), MEASURED)
-        return recorded.attributes() | ({"recorded_unit": unit} if unit else {}), "float64"
-    if channel is not None and form == "quality":
-        quality = Variable(f"quality of channel {channel}", None, QUALITY, "quality_flag", "int8")
-        return quality.attributes() | _flag_attributes(name), "int8"
-    raise StoreError(
-        f"variable '{name}' of {dict(dataset[name].sizes)} is not described: it is not in the table of variables, and "
-        f"without the attributes `channel` and `quantity` it is no channel either." + nearest(name, VARIABLES)
-    )
-
-
-def _flag_attributes(name: str) -> dict[str, Any]:
-    if name in ("peak_used", "impact_used"):
-        return {"flag_values": np.array([0, 1], dtype=np.int8), "flag_meanings": "left_out used"}
-    if name == "outcome":
-        return {"flag_values": np.array([0, 1, 2], dtype=np.int8), "flag_meanings": "no_rocking rocking overturned"}
-    return {"flag_values": np.array(FLAG_VALUES, dtype=np.int8), "flag_meanings": FLAG_MEANINGS}
