@@ -4,6 +4,7 @@
 # make drill    500 kills, full and read-only disks (as root), two runs at once, 2000 damaged files: half an hour
 # make format   rewrites the sources in the project's style
 # make reports  rebuilds the reference reports in reports/ and the picture of the README
+# make contact-study  measures the contact model anew: reports/contact-study.md, half an hour
 # make clean    removes what the other targets made
 #
 # Written for GNU make 3.81 (macOS) and later. README.md says what to type without make.
@@ -15,7 +16,7 @@ INSTALLED := .venv/installed
 # Files of tests are shared out over the cores, each file to one of them.
 SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 
-.PHONY: demo test study drill format reports clean
+.PHONY: demo test study drill format reports contact-study clean
 
 demo: $(INSTALLED)
 	@$(BIN)/colonnade demo demo
@@ -43,6 +44,9 @@ reports: $(INSTALLED)
 	$(BIN)/python reports/convergence.py
 	$(BIN)/python reports/linear_bias.py
 	$(BIN)/python reports/restitution_study.py
+
+contact-study: $(INSTALLED)
+	$(BIN)/python reports/contact_study.py
 
 clean:
 	rm -rf .venv build demo dist .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache

@@ -180,11 +180,13 @@ def _refusal(dataset: h5py.Dataset, unpacked: int, size: int) -> str:
 
 def _take(place: str, dataset: h5py.Dataset, content: Content) -> None:
     """Add a dataset; a table gives each of its columns of numbers."""
-    attributes = _attributes(_items(dataset.attrs))
-    if DIMENSION_ONLY in str(dataset.attrs.get("NAME", b"")):
+    # Each attribute is read once: a text whose length is damaged costs as many bytes, up to 4 GB, before it is refused.
+    kept = dict(_items(dataset.attrs))
+    if DIMENSION_ONLY in str(kept.get("NAME", b"")):
         return
     if not dataset.dtype.names:
-        content.variables.append(Variable(place, dataset[()], _dimensions(dataset), attributes))
+        dimensions, attributes = _dimensions(dataset, kept), _attributes(kept.items())
+        content.variables.append(Variable(place, dataset[()], dimensions, attributes))
         return
     table = dataset[()]
     for name in dataset.dtype.names:
@@ -194,14 +196,13 @@ def _take(place: str, dataset: h5py.Dataset, content: Content) -> None:
             content.left_out[f"{place}/{name}"] = "it holds no numbers"
 
 
-def _dimensions(dataset: h5py.Dataset) -> tuple[str | None, ...]:
+def _dimensions(dataset: h5py.Dataset, kept: dict[str, Any]) -> tuple[str | None, ...]:
     """
-    Paths of the variables that are the dataset's dimensions; of a coordinate it is its own.
+    Paths of the variables that are the dataset's dimensions, by its attributes; of a coordinate it is its own.
 
     Taken from the attributes in which they are kept: HDF5's own functions for them end the process where those are
     damaged.
     """
-    kept = dict(_items(dataset.attrs))
     if SCALE in str(kept.get("CLASS", "")):
         return (str(dataset.name).strip("/"), *(None,) * (dataset.ndim - 1))
     scales = np.atleast_1d(kept.get("DIMENSION_LIST", np.empty(0, dtype=object)))

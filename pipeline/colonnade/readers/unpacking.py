@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-LARGEST = 1 << 30
+LARGEST = 1 << 28
 """Bytes that a file's variables may unpack to, however small it is."""
 LARGEST_RATIO = 100
 """Beyond `LARGEST`, as many times its own bytes."""
