@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import struct
 import subprocess
 import sys
@@ -16,7 +17,7 @@ import xlwt
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
 from colonnade.readers.diadem_tdm import described_in_tdm
-from colonnade.readers.registry import read
+from colonnade.readers.registry import formats, read
 from colonnade.readers.stored_numbers import beside
 
 TIME = np.arange(60) * 0.01
@@ -29,7 +30,7 @@ def test_a_damaged_class_of_a_dimension_scale_does_not_end_the_process(tmp_path:
         file.create_dataset("time", data=TIME).make_scale("time")
         file.create_dataset("top", data=TIME).dims[0].attach_scale(file["time"])
     path.write_bytes(path.read_bytes().replace(b"DIMENSION_SCALE", b"DiMENSION_SCALE"))
-    reading = "import sys; from colonnade.readers.registry import read; read(sys.argv[1])"
+    reading = "import sys; from colonnade.readers.registry import formats, read; read(sys.argv[1])"
     told = subprocess.run([sys.executable, "-c", reading, str(path)], capture_output=True, text=True)
     assert told.returncode == 0, told.stderr
 
@@ -63,6 +64,27 @@ def test_a_file_that_ends_within_the_first_line_of_a_channel_says_so(
     recording = read(path)
     assert len(recording.channels) == whole - 1
     assert "cut off" in " ".join(recording.warnings)
+
+
+@pytest.mark.parametrize(
+    ("name", "count", "damaged"),
+    [
+        ("cosmos", r"(?i)(follow on\s+)\d+(\s+lines)", r"\g<1>99999999999999999999\g<2>"),
+        ("cosmos", r"(?i)(with\s+)\d+(\s+text lines)", r"\g<1>99999999999999999999\g<2>"),
+        ("bhrc", r"(DURATION\s*=\s*)[\d.]+()", r"\g<1>.\g<2>"),
+    ],
+    ids=["COSMOS lines of values", "COSMOS lines of text", "BHRC duration"],
+)
+def test_a_number_in_a_header_that_is_none_is_a_refusal(
+    written: Callable[..., Path], name: str, count: str, damaged: str
+) -> None:
+    path = written(name)
+    text, changed = re.subn(count, damaged, path.read_text(encoding="ascii"))
+    assert changed
+    path.write_text(text, encoding="ascii")
+    format = formats()[name]
+    with pytest.raises(ReadError):
+        format.read(path, format.options())
 
 
 @pytest.mark.parametrize(("step", "begin"), [(np.inf, 0.0), (1e308, 0.0), (0.005, np.inf), (np.nan, 0.0)])

@@ -19,7 +19,7 @@ from colonnade.readers.running_numbers import read_running
 
 FIRST_LINE = "* VOL"
 COMPONENT = re.compile(r"\s*COMP\s+(?P<name>\S+)")
-SIZE = re.compile(r"\s*NO\. OF POINTS\s*=\s*(?P<points>\d+)\s+DURATION\s*=\s*(?P<duration>[\d.]+)")
+SIZE = re.compile(r"\s*NO\. OF POINTS\s*=\s*(?P<points>\d{1,12})\s+DURATION\s*=\s*(?P<duration>\d+\.?\d*|\.\d+)")
 UNITS = re.compile(r"\s*UNITS ARE SECONDS AND\s+(?P<unit>\S+)")
 KNOWN_UNITS = {"g/10": ("g", 0.1), "g": ("g", 1.0), "cm/sec2": ("cm/s^2", 1.0), "cm/sec/sec": ("cm/s^2", 1.0)}
 """Unit and factor of the units that a header names; a tenth of g has no sign of its own."""

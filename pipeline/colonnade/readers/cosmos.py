@@ -20,21 +20,24 @@ from colonnade.readers.registry import Format, Recognition
 from colonnade.readers.running_numbers import read_running
 
 END_OF_DATA = re.compile(r"/&|end.of.data", re.IGNORECASE)
-FIRST_LINE = re.compile(r"\(Format v[\d.]+\s+with\s+(?P<lines>\d+)\s+text lines\)", re.IGNORECASE)
+FIRST_LINE = re.compile(r"\(Format v[\d.]+\s+with\s+(?P<lines>\d{1,12})\s+text lines\)", re.IGNORECASE)
 BLOCK = re.compile(
-    r"\s*\d+\s+(?P<kind>Integer|Real)-header values follow on\s+(?P<lines>\d+)\s+lines.*?\(\d*[EFI](?P<width>[1-9]\d*)",
+    r"\s*\d+\s+(?P<kind>Integer|Real)-header values follow on\s+(?P<lines>\d{1,12})\s+lines"
+    r".*?\(\d*[EFI](?P<width>[1-9]\d{0,3})",
     re.IGNORECASE,
 )
-COMMENTS = re.compile(r"\s*(?P<lines>\d+)\s+Comment line", re.IGNORECASE)
+COMMENTS = re.compile(r"\s*(?P<lines>\d{1,12})\s+Comment line", re.IGNORECASE)
 DATA = re.compile(
-    r"\s*(?P<points>\d+)\s+(?P<quantity>\w+)\s+(?:pts|points|data)\b"
-    r"(?:.*?approx\s+(?P<seconds>[\d.]+)\s+secs)?.*?units?\s*=\s*(?P<unit>[^(,\s]*).*?\((?P<count>\d*)[EFI](?P<width>[1-9]\d*)",
+    r"\s*(?P<points>\d{1,12})\s+(?P<quantity>\w+)\s+(?:pts|points|data)\b"
+    r"(?:.*?approx\s+(?P<seconds>\d+\.?\d*|\.\d+)\s+secs)?.*?units?\s*=\s*(?P<unit>[^(,\s]*).*?\((?P<count>\d{0,4})[EFI](?P<width>[1-9]\d{0,3})",
     re.IGNORECASE,
 )
 STEP = 61
 """Place, from 0, of the time step in ms among the real header values (COSMOS 1.20, Table 9, value 62)."""
 UNITS = {"cm/sec2": "cm/s^2", "cm/sec/sec": "cm/s^2", "cm/sec": "cm/s"}
-START = re.compile(r"start time\s*:\s*(\d+)/(\d+)/(\d+),?\s+(\d+):(\d+):([\d.]+)\s*(\w*)", re.IGNORECASE)
+START = re.compile(
+    r"start time\s*:\s*(\d{1,4})/(\d{1,4})/(\d{1,4}),?\s+(\d{1,2}):(\d{1,2}):([\d.]+)\s*(\w*)", re.IGNORECASE
+)
 COMPONENT = re.compile(r"^Sta\s+Cha\w*[\s:]*(?P<name>.*?)\s*(?:\(Rcrdr|Location|$)", re.IGNORECASE)
 
 
