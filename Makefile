@@ -4,6 +4,7 @@
 # make drill    500 kills, full and read-only disks (as root), two runs at once, 2000 damaged files: half an hour
 # make format   rewrites the sources in the project's style
 # make reports  rebuilds the reference reports in reports/ and the picture of the README
+# make restitution-study  5000 records with known truth: reports/restitution-study.md, ten minutes and more
 # make contact-study  measures the contact model anew: reports/contact-study.md, half an hour
 # make clean    removes what the other targets made
 #
@@ -16,7 +17,7 @@ INSTALLED := .venv/installed
 # Files of tests are shared out over the cores, each file to one of them.
 SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 
-.PHONY: demo test study drill format reports contact-study clean
+.PHONY: demo test study drill format reports restitution-study contact-study clean
 
 demo: $(INSTALLED)
 	@$(BIN)/colonnade demo demo
@@ -43,6 +44,8 @@ reports: $(INSTALLED)
 	$(BIN)/python reports/filter_bias.py
 	$(BIN)/python reports/convergence.py
 	$(BIN)/python reports/linear_bias.py
+
+restitution-study: $(INSTALLED)
 	$(BIN)/python reports/restitution_study.py
 
 contact-study: $(INSTALLED)
