@@ -15,7 +15,7 @@ from colonnade.dynamics.block import Block
 from colonnade.identification.boundaries import MapPoint
 from colonnade.laboratory import paper_programme, prism_programme, write_campaign
 from colonnade.laboratory.programme import Programme
-from colonnade.report import charts, results
+from colonnade.report import charts, restitution_charts, results
 from colonnade.store.layout import Layout
 
 HERE = Path(__file__).resolve().parent
@@ -152,7 +152,9 @@ def draw(campaign: Campaign, summary: dict[str, Any], folder: Path, name: str, p
     }
     panels = [charts.span_panel(test, stored[test.id], block) for test in tests if test.kind == "earthquake"]
     described = " ".join(f"{panel.title}: the prism" for panel in panels)
-    found = [charts.peak_series(test, stored[test.id]) for test in tests if test.kind == "free-vibration"]
+    free = [test for test in tests if test.kind == "free-vibration"]
+    found = [restitution_charts.peak_series(test, stored[test.id], block) for test in free]
+    series = [each for each in found if each is not None]
     points = [
         MapPoint(name, record["frequency_ratio"], record["amplitude_ratio"], record["outcome"], record["order"])
         for name, record in ((test.id, summary["tests"][test.id]) for test in tests if test.kind == "sine")
@@ -160,7 +162,7 @@ def draw(campaign: Campaign, summary: dict[str, Any], folder: Path, name: str, p
     title = "Measured and predicted rocking at three Spans"
     drawn = {
         title: ("spans", charts.spans(f"{name}-spans", title, described, panels)),
-        "Peaks with fit": ("peaks", charts.peaks(f"{name}-peaks", [each for each in found if each is not None], block)),
+        "Peaks with fit": ("peaks", restitution_charts.peaks(f"{name}-peaks", series, block)),
         "Measured map of the prism": ("map", charts.measured_map(f"{name}-map", points)),
     }
     for part, text in drawn.values():

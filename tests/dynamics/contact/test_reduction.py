@@ -12,6 +12,7 @@ from colonnade.dynamics.contact.explicit import highest_frequency
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.mesh import prism_mesh, round_mesh
 from colonnade.dynamics.contact.reduction import (
+    FOLLOWED,
     keep_modes,
     keep_modes_for_step,
     point_flexibility,
@@ -91,9 +92,9 @@ def test_a_step_of_ten_microseconds_keeps_modes_that_the_engine_advances_with_cl
     law = ContactLaw.stiff(reduced, 9.81)
     kept = keep_modes_for_step(reduced, law, 1e-5)
     count = kept.frequencies.size
-    assert count >= 6
-    assert longest_step(kept, law) >= 1e-5
-    assert longest_step(keep_modes(reduced, reduced.frequencies[count + 1]), law) < 1e-5
+    assert count >= 4
+    assert longest_step(kept, law) >= 1e-5 / FOLLOWED
+    assert longest_step(keep_modes(reduced, reduced.frequencies[count + 1]), law) < 1e-5 / FOLLOWED
     history = simulate(kept, law=law, theta0=0.05, duration=0.3, step=1e-5)
     assert history.impact_times.size == 1
     assert history.energies.closes
