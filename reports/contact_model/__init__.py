@@ -1,0 +1,1 @@
+"""The study of the contact model, part by part."""
