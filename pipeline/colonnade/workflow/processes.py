@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import platform
-import warnings
 from collections.abc import Iterator, Mapping, Sequence
 
 from colonnade.errors import ColonnadeError
@@ -67,8 +66,6 @@ def execute(chains: Sequence[Chain], workers: int | None, scheduler: str | None 
 
 
 def _in_workers(chains: Mapping[int, Chain], count: int) -> Iterator[tuple[int, list[StageRun]]]:
-    # A worker that has grown is replaced by a fresh one, of which nobody needs to know.
-    warnings.filterwarnings("ignore", "A worker stopped while some jobs were given", UserWarning)
     yield from on_processes(_in_worker, chains.items(), count)
 
 

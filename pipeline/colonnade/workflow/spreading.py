@@ -7,6 +7,7 @@ import re
 import signal
 import threading
 import time
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from importlib import import_module
@@ -105,6 +106,9 @@ def on_processes(work: Callable[[Item], Result], items: Iterable[Item], count: i
     """
     import joblib
 
+    # A worker that has grown is replaced, and Ctrl-C leaves work undone: of neither does joblib have to tell.
+    warnings.filterwarnings("ignore", "A worker stopped while some jobs were given", UserWarning)
+    warnings.filterwarnings("ignore", ".*You could benefit from adjusting the input task iterator", UserWarning)
     # Each settles in as it starts, not with its first item: one that never gets any has to notice its parent's end too.
     settled = {"initializer": _settle_in, "initargs": (os.getpid(),)}
     with ExitStack() as stack:
@@ -114,8 +118,28 @@ def on_processes(work: Callable[[Item], Result], items: Iterable[Item], count: i
                 n_jobs=count, return_as="generator_unordered", batch_size=1, pre_dispatch=AHEAD * count
             )
             results: Any = parallel([joblib.delayed(work)(item) for item in items])
-            stack.enter_context(closing(results))  # on Ctrl-C: stops the workers before the lock is given back
+            stack.enter_context(_stopped_quietly(results))
         yield from results
+
+
+@contextmanager
+def _stopped_quietly(results: Any) -> Iterator[None]:
+    """Stop the workers at the end, on Ctrl-C before the lock is given back."""
+    told = threading.excepthook
+
+    def tell(failure: threading.ExceptHookArgs) -> None:
+        # Stopped before its first items were sent, loky looks for them in vain once its workers are gone.
+        if failure.exc_type is not KeyError:
+            told(failure)
+
+    try:
+        yield
+    finally:
+        threading.excepthook = tell
+        try:
+            results.close()
+        finally:
+            threading.excepthook = told
 
 
 @contextmanager
