@@ -31,6 +31,11 @@ def test_import_loads_no_heavy_library(module):
     assert loaded_by(f"import {module}") == set()
 
 
+def test_help_needs_no_campaign():
+    code = "import sys, colonnade.cli.app; print('colonnade.campaign' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "False\n"
+
+
 def test_a_name_loads_what_it_needs_when_it_is_used():
     assert "numpy" not in HEAVY
     assert loaded_by("import colonnade; colonnade.Block.prism(width=1, depth=1, height=4, mass=1)") == set()

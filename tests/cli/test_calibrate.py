@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import json
 
+from colonnade.campaign.settings import MESHES
+from colonnade.cli.calibrate import calibrate
+
 CONTACT = """
 [processing.predict.contact]
 step = "30 us"
@@ -23,6 +26,11 @@ def test_the_law_is_shown_and_stored(colonnade, campaign):
     assert f"law: {campaign / 'processed' / 'contact' / 'prism.nc'}" in told.stdout
     (made,) = json.loads(colonnade("calibrate", "--workers", "1", "--json").stdout)
     assert (made["specimen"], made["mesh"], made["damping_fraction"], made["reason"]) == ("prism", "rigid", 0.3, "")
+
+
+def test_the_meshes_are_those_of_the_settings():
+    (mesh,) = (option for option in calibrate.params if option.name == "mesh")
+    assert mesh.type.choices == MESHES
 
 
 def test_a_step_without_a_unit_or_above_zero_is_refused(colonnade, campaign):

@@ -25,10 +25,11 @@ except KeyboardInterrupt:
 """
 IMPORT = """
 import sys
+import time
 from colonnade.workflow.spreading import on_processes
 print("going", flush=True)
 try:
-    list(on_processes(abs, range(9), 2))
+    list(on_processes(time.sleep, [600] * 9, 2))
     sys.exit("too late")
 except KeyboardInterrupt:
     sys.exit(130)

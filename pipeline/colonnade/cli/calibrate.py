@@ -6,7 +6,6 @@ from pathlib import Path
 
 import rich_click as click
 
-from colonnade.campaign.settings import MESHES
 from colonnade.cli.console import say, show_json, show_table
 from colonnade.cli.options import campaign_argument, json_option, workers_option
 
@@ -15,7 +14,10 @@ from colonnade.cli.options import campaign_argument, json_option, workers_option
 @campaign_argument
 @click.option("--specimen", multiple=True, metavar="ID", help="Only this specimen; may be given several times.")
 @click.option(
-    "--mesh", multiple=True, type=click.Choice(MESHES), help="Instead of the one in the settings; several may be given."
+    "--mesh",
+    multiple=True,
+    type=click.Choice(("rigid", "coarse", "medium", "fine")),
+    help="Instead of the one in the settings; several may be given.",
 )
 @click.option(
     "--step",
