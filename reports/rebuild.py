@@ -14,7 +14,6 @@ from colonnade.campaign import Campaign, load
 from colonnade.dynamics.block import Block
 from colonnade.identification.boundaries import MapPoint
 from colonnade.laboratory import paper_programme, prism_programme, write_campaign
-from colonnade.laboratory.programme import Programme
 from colonnade.report import charts, restitution_charts, results
 from colonnade.store.layout import Layout
 
@@ -40,26 +39,33 @@ TABLE_1 = {
 """The paper's specimens (its Table 1) from their dimensions, and what the table prints."""
 
 
-def rebuild(folder: Path, picture: Path | None = None, *, whole: bool = True) -> None:
-    """Write the reference reports into a folder; without `whole` only those that take seconds."""
+TITLES = {
+    "short": "The ten tests of `colonnade demo --short`",
+    "demo": "The paper's programme, as `colonnade demo` performs it",
+}
+
+
+def rebuild(folder: Path, picture: Path | None = None) -> None:
+    """Write the reference reports into a folder, and the picture of the README where one is wanted."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "table-1.md").write_text(table_1(), encoding="utf-8")
-    _campaign(folder, "short", prism_programme, "The ten tests of `colonnade demo --short`", None)
-    if whole:
-        _campaign(folder, "demo", paper_programme, "The paper's programme, as `colonnade demo` performs it", picture)
+    for name, programme in (("short", prism_programme), ("demo", paper_programme)):
+        with tempfile.TemporaryDirectory() as scratch:
+            written = write_campaign(Path(scratch) / "demo", seed=0, programme=programme, workers=None)
+            run(written.path)
+            tell(written.path, folder, name, picture if name == "demo" else None)
 
 
-def _campaign(folder: Path, name: str, programme: Programme, title: str, picture: Path | None) -> None:
-    """Perform and run a virtual campaign, and tell what came of it."""
-    with tempfile.TemporaryDirectory() as scratch:
-        written = write_campaign(Path(scratch) / "demo", seed=0, programme=programme, workers=None)
-        run(written.path)
-        campaign = load(written.path)
-        summary = json.loads(Layout(campaign.folder).summary_json.read_text(encoding="utf-8"))
-        numbers = demo_numbers(written.truth, summary)
-        drawn = draw(campaign, summary, folder, name, picture)
+def tell(path: Path, folder: Path, name: str, picture: Path | None = None) -> None:
+    """Lay the results of a virtual campaign that was run beside its truth, as numbers and as a page with figures."""
+    campaign = load(path)
+    layout = Layout(campaign.folder)
+    summary = json.loads(layout.summary_json.read_text(encoding="utf-8"))
+    truth = json.loads((campaign.folder / "truth" / "truth.json").read_text(encoding="utf-8"))
+    numbers = demo_numbers(truth, summary)
     (folder / f"{name}.json").write_text(json.dumps(numbers, indent=1) + "\n", encoding="utf-8")
-    (folder / f"{name}.md").write_text(demo_table(numbers, title, drawn), encoding="utf-8")
+    drawn = draw(campaign, summary, folder, name, picture)
+    (folder / f"{name}.md").write_text(demo_table(numbers, TITLES[name], drawn), encoding="utf-8")
 
 
 def table_1() -> str:

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import importlib.util
+import json
 import os
+from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 from hypothesis import settings
@@ -15,19 +19,18 @@ settings.load_profile("colonnade")
 
 LONGEST = (
     "test_readme.py",
-    "test_reports.py",
     "test_wheel.py",
     "test_processes.py",
     "test_spreading.py",
     "test_kills.py",
 )
-"""Files that take half a minute and more."""
+"""Files that take half a minute and more: the first compiles what the others use, the second compiles nothing."""
 
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin with the longest files: where several processes share the files, none is left with one in the end."""
-    items.sort(key=lambda item: item.path.name not in LONGEST)
+    items.sort(key=lambda item: LONGEST.index(item.path.name) if item.path.name in LONGEST else len(LONGEST))
 
 
 SHARED_DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
@@ -39,3 +42,39 @@ def shared_data() -> Path:
     if not SHARED_DATA.is_dir():
         pytest.skip(f"the collection of other laboratories' files is not here ({SHARED_DATA})")
     return SHARED_DATA
+
+
+REPORTS = Path(__file__).resolve().parents[1] / "reports"
+
+
+@pytest.fixture(scope="session")
+def rebuild() -> ModuleType:
+    """The program that writes the reference reports."""
+    specification = importlib.util.spec_from_file_location("rebuild", REPORTS / "rebuild.py")
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="session")
+def as_reported() -> Callable[[Path, str], None]:
+    """Hold a report written anew in a folder against the reference report of that name, and against the truth."""
+
+    def check(folder: Path, name: str) -> None:
+        now, then = (json.loads((each / f"{name}.json").read_text(encoding="utf-8")) for each in (folder, REPORTS))
+        assert now["restitution"].keys() == then["restitution"].keys()
+        for specimen, restitution in then["restitution"].items():
+            for key, value in restitution.items():
+                assert now["restitution"][specimen][key] == pytest.approx(value, abs=5e-5)
+            assert now["restitution"][specimen]["low"] <= restitution["true"] <= now["restitution"][specimen]["high"]
+        assert now["tests"].keys() == then["tests"].keys()
+        for test, known in then["tests"].items():
+            found = now["tests"][test]
+            assert found["outcome"]["measured"] == known["outcome"]["measured"] == found["outcome"]["true"], test
+            assert found["order"] == known["order"], test
+            measured = known["peak_ratio"]["measured"]
+            # A whole-record peak differs between platforms only as far as rocking is sensitive.
+            expected = None if measured is None else pytest.approx(measured, rel=0.1, abs=1e-3)
+            assert found["peak_ratio"]["measured"] == expected, test
+
+    return check

@@ -27,9 +27,15 @@ def commands() -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def outputs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where the reader stands."""
+    return tmp_path_factory.mktemp("reader")
+
+
+@pytest.fixture(scope="module")
+def outputs(folder: Path) -> dict[str, str]:
     """What each command that starts `colonnade` printed; the first that fails ends the run."""
-    folder, printed = tmp_path_factory.mktemp("reader"), {}
+    printed = {}
     (campaign,) = blocks("toml")
     for command in commands():
         command = command.removeprefix(".venv/bin/")
@@ -48,6 +54,11 @@ def test_every_command_runs_and_the_demo_is_near_its_truth(outputs):
     assert {"colonnade demo demo --short", "colonnade check first", "colonnade run first"} <= outputs.keys()
     assert "which the interval holds" in outputs["colonnade demo demo --short"]
     assert "wrong" not in outputs["colonnade demo demo --short"]
+
+
+def test_its_demo_has_the_numbers_of_the_reference_report(outputs, folder, tmp_path, rebuild, as_reported):
+    rebuild.tell(folder / "demo" / "campaign.toml", tmp_path, "short")
+    as_reported(tmp_path, "short")
 
 
 def test_the_first_campaign_gives_its_column_a_restitution(outputs):
