@@ -69,6 +69,16 @@ def test_a_balance_that_does_not_close_is_told():
     assert "Try a step shorter than 1e-05 s" in told[0]
 
 
+def test_what_cannot_lift_the_block_is_not_missing():
+    """Shaken below its threshold, the block has hardly any energy to compare with."""
+    body = rigid_body(PRISM)
+    shaken = Motion(0.8 * PRISM.uplift_acceleration * np.sin(2 * np.pi * 3 * 0.005 * np.arange(401)), 0.005)
+    history = simulate(body, shaken, law=ContactLaw.stiff(body, 9.81), step=2e-5)
+    assert history.outcome == "no-rocking"
+    assert not history.energies.closes
+    assert history.warnings == ()
+
+
 def test_tilt_is_the_angle_of_the_axis_whatever_the_yaw():
     half = 0.5 * np.array([0.0, 1e-7, 0.3, np.pi / 2])
     zero = np.zeros(4)
