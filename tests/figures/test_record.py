@@ -7,6 +7,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from colonnade.figures import Curve, Peak, Quantity, whole_record
+from colonnade.figures.histories import Spread
 from colonnade.figures.style import MODELS
 
 TIME = np.linspace(0.0, 10.0, 2001)
@@ -94,3 +95,13 @@ def test_drawing_changes_no_setting_of_matplotlib():
     before = dict(matplotlib.rcParams)
     whole()
     assert dict(matplotlib.rcParams) == before
+
+
+def test_the_legend_of_all_models_and_a_band_stays_within_the_figure():
+    band = Spread(TIME, np.array([0.05, 0.95]), np.array([swing(0.2).values, swing(0.5).values]), 0.0)
+    models = {name: swing(0.3) for name in MODELS}
+    figure = whole_record(swing(0.4), models, spreads={"nonlinear": band})
+    (legend,) = figure.legends
+    assert len(legend.get_texts()) == len(MODELS) + 2
+    figure.canvas.draw()
+    assert legend.get_window_extent().x1 < figure.bbox.x1

@@ -16,6 +16,9 @@ LEFT, RIGHT, TOP, BOTTOM, GAP = 0.92, 0.5, 0.34, 0.44, 0.14
 LABEL = 0.52
 """Distance of the labels of vertical axes from their panel, inches: numbers of any length fit between."""
 
+ROOMY = 4
+"""Lines up to which a legend has its usual spacing; more, as all models with a band, have to stand closer."""
+
 COLUMNS = 3
 """Columns beside each other: more would be too narrow to read."""
 
@@ -112,6 +115,7 @@ def legend_above(figure: Figure, axes: Sequence[Axes]) -> None:
     """Name each line once, in the room that `stacked_panels` and `side_by_side` leave above all panels."""
     named = _named(axes)
     if named:
+        closer = {"columnspacing": 0.9, "handlelength": 1.6, "handletextpad": 0.4} if len(named) > ROOMY else {}
         figure.legend(
             list(named.values()),
             list(named),
@@ -120,7 +124,7 @@ def legend_above(figure: Figure, axes: Sequence[Axes]) -> None:
             ncols=len(named),
             borderaxespad=0.0,
             borderpad=0.0,
-            columnspacing=1.4,
+            **{"columnspacing": 1.4, **closer},
         )
 
 
