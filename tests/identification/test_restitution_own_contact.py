@@ -9,22 +9,32 @@ from colonnade.dynamics.contact.layout import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.motion import Motion
 from colonnade.identification.restitution.identify import identify_restitution
+from colonnade.identification.restitution.pooling import pool
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 
 
+def free_rocking(body, *, damping_fraction, released, duration):
+    """Free rocking from a share of α, as a recorder of 1 kHz sees it."""
+    law = ContactLaw.stiff(body, PRISM.gravity, damping_fraction=damping_fraction)
+    still = Motion(np.zeros(round(1e3 * duration) + 1), 1e-3)
+    return simulate(body, still, law=law, theta0=released * PRISM.critical_angle)
+
+
+def identify(rocked):
+    noise = np.random.default_rng(1).normal(0.0, 1e-3 * PRISM.critical_angle, rocked.time.size)
+    return identify_restitution(rocked.time, rocked.angle + noise, PRISM)
+
+
 @pytest.fixture(scope="module")
 def rocked():
-    """Free rocking on four corners, damped so that nothing bounces, as a recorder of 1 kHz sees it."""
-    body = rigid_body(PRISM, grid=(2, 2))
-    law = ContactLaw.stiff(body, PRISM.gravity, damping_fraction=2.0)
-    return simulate(body, Motion(np.zeros(4001), 1e-3), law=law, theta0=0.5 * PRISM.critical_angle)
+    """On four corners, damped so that nothing bounces."""
+    return free_rocking(rigid_body(PRISM, grid=(2, 2)), damping_fraction=2.0, released=0.5, duration=4.0)
 
 
 @pytest.fixture(scope="module")
 def identified(rocked):
-    noise = np.random.default_rng(1).normal(0.0, 1e-3 * PRISM.critical_angle, rocked.time.size)
-    return identify_restitution(rocked.time, rocked.angle + noise, PRISM)
+    return identify(rocked)
 
 
 def test_the_recommended_e_is_the_mean_velocity_ratio(rocked, identified):
@@ -39,3 +49,19 @@ def test_e_of_each_impact_is_its_own_velocity_ratio(rocked, identified):
     ratios = rocked.impact_restitution[1 : 1 + found.size]
     deviations = (found[: ratios.size] - ratios) / error[: ratios.size]
     assert np.abs(deviations[:8]).max() < 3.5
+
+
+def test_where_it_bounces_the_interval_is_wider_and_holds_the_mean_velocity_ratio():
+    results, ratios = [], []
+    for released in (0.3, 0.7):
+        rocked = free_rocking(rigid_body(PRISM), damping_fraction=0.28, released=released, duration=6.0)
+        assert rocked.airborne > 0.1
+        result = identify(rocked)
+        times = result.impacts.time[result.impacts.used]
+        seen = rocked.impact_restitution[np.abs(times[:, None] - rocked.impact_times).argmin(axis=1)]
+        assert result.low < seen.mean() < result.high
+        assert 5e-4 < result.high - result.low < 4e-3
+        results.append(result)
+        ratios.append(seen)
+    pooled = pool([each.value for each in results], [each.standard_error for each in results])
+    assert pooled.low < np.concatenate(ratios).mean() < pooled.high
