@@ -46,7 +46,8 @@ def test_cells_are_shaded_by_the_share_that_overturns(charts):
 def test_what_the_limits_depend_on_stands_above(charts):
     title = stability_map(charts[0]).axes[0].get_title(loc="left")
     assert "4 cycles, no ramp" in title
-    assert "at least 0.1 wide" in title
+    assert "at least 0.1 wide, scanned in steps of" in title
+    assert stability_map(charts).axes[0].get_title(loc="left").endswith("at least 0.1 wide")
 
 
 def test_ramps_and_a_law_of_e_are_told_above():

@@ -1,6 +1,7 @@
 """The contact model in a campaign: its law by specimen, its predictions beside the others, its maps."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -90,3 +91,17 @@ def test_a_map_needs_the_law_and_then_is_made(in_space):
     options = json.loads(stored.attrs["settings"])
     assert (options["model"], options["damping_fraction"], options["contact_step"]) == ("contact", 0.3, 3e-5)
     assert make_maps(in_space.folder, wanted, workers=1)[0].action == "up-to-date"
+
+
+def test_limits_beside_those_of_the_contact_model_are_found_alike(in_space):
+    calibrate(in_space.folder, workers=1)
+    plain = Wanted(("linear",), (2.0, 3.0), (0.8, 6.0), (2, 3), cycles=2.0)
+    (alone,) = make_maps(in_space.folder, plain, workers=1)
+    assert alone.action == "done"
+    assert _width(alone) == 0.01
+    beside = make_maps(in_space.folder, replace(plain, models=("linear", "contact")), workers=1)
+    assert [_width(made) for made in beside] == [4 * 2.6, 4 * 2.6]
+
+
+def _width(made):
+    return json.loads(files.read(made.path).attrs["settings"])["width"]

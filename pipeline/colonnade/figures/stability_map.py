@@ -83,7 +83,7 @@ def stability_map(
         draw_points(axes, points, prefix="measured: ")
         figure = cast(Figure, axes.get_figure(root=True))
         if own:
-            axes.set_title(_words(first.options), fontsize=8, color="#5b6675")
+            axes.set_title(_words(charts), fontsize=8, color="#5b6675")
             handles, labels = axes.get_legend_handles_labels()
             shade = Patch(facecolor=SHADE(1.0), label=f"overturned, share of cell ({first.options['model']})")
             figure.legend(
@@ -132,13 +132,16 @@ def cell_edges(centres: Array) -> Array:
     return np.concatenate([centres[:1], middles, centres[-1:]])
 
 
-def _words(options: Mapping[str, Any]) -> str:
-    """Return in words what the limits depend on."""
+def _words(charts: Sequence[StabilityMap]) -> str:
+    """Return in words what the limits depend on; of several maps, how finely each was scanned is left to its own."""
+    options = charts[0].options
     motion = "recorded table motion, stretched"
     if options["base_motion"] == "sine":
         motion = f"{options['cycles']:g} cycles, {words_of_sine(options)}"
     e = words_of_restitution(options)
-    return f"{motion}; {e}; limits at least {options['width']:g} wide, scanned in steps of {options['scan_step']:.2g}"
+    widths = " | ".join(dict.fromkeys(f"{chart.options['width']:.2g}" for chart in charts))
+    scanned = f", scanned in steps of {options['scan_step']:.2g}" if len(charts) == 1 else ""
+    return f"{motion}; {e}; limits at least {widths} wide{scanned}"
 
 
 def words_of_sine(options: Mapping[str, Any]) -> str:

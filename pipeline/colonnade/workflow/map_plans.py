@@ -44,7 +44,7 @@ class Wanted:
     Attributes
     ----------
     models : tuple of str
-        Each gets a map of its own, and several a picture together.
+        Each gets a map of its own, and several a picture together, with limits that are found alike.
     frequency_ratio, amplitude_ratio : pair of float or None
         First and last Ω and A; by default they hold the specimen's sine tests.
     points : pair of int or None
@@ -120,14 +120,16 @@ def plan_of(
     omegas = wanted.frequency_ratio or _around([point.frequency_ratio for point in points], USUAL_FREQUENCIES)
     largest = max((1.2 * point.amplitude_ratio for point in points), default=0.0)
     space = _space(campaign, layout, specimen) if model == CONTACT else None
-    usual, points_of = (
-        (USUAL_AMPLITUDE, USUAL_POINTS) if space is None else (LARGEST_AMPLITUDE_IN_SPACE, USUAL_POINTS_IN_SPACE)
-    )
+    with_space = CONTACT in wanted.models
+    usual = LARGEST_AMPLITUDE_IN_SPACE if with_space else USUAL_AMPLITUDE
     amplitudes = wanted.amplitude_ratio or (LOWEST_AMPLITUDE, max(usual, float(np.ceil(largest * 2) / 2)))
-    grid = wanted.points or points_of
-    # A contact map runs its own points only: what is narrower than four of them makes no limit.
-    spacing = (amplitudes[1] - amplitudes[0]) / (grid[1] - 1)
-    width, edge = (WIDTH, EDGE) if space is None else (STEPS_A_WIDTH * spacing, spacing / 8)
+    in_space = wanted.points or USUAL_POINTS_IN_SPACE
+    grid = in_space if space is not None else wanted.points or USUAL_POINTS
+    # A contact map runs its own points only: what is narrower than four of them makes no limit, nor does it for the
+    # models that are laid beside it.
+    spacing = (amplitudes[1] - amplitudes[0]) / (in_space[1] - 1)
+    width = STEPS_A_WIDTH * spacing if with_space else WIDTH
+    edge = EDGE if space is None else spacing / 8
     try:
         return plan_map(
             campaign.block(specimen),
