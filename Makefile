@@ -1,7 +1,7 @@
 # make demo     writes the virtual campaign into demo/ and runs it: open demo/report/index.html
 # make test     style, types, import rules, tests, and the built wheel in a fresh environment
 # make study    the slow tests: seeds 0-19 of the virtual campaign, other laboratories' files
-# make drill    500 kills, full and read-only disks (as root), two runs at once, 2000 damaged files: half an hour
+# make drill    500 kills, full and read-only disks (as root), two runs at once, 2000 damaged files: two hours
 # make format   rewrites the sources in the project's style
 # make reports  rebuilds the reference reports in reports/ and the picture of the README
 # make restitution-study  5000 records with known truth: reports/restitution-study.md, ten minutes and more
