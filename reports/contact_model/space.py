@@ -95,7 +95,7 @@ def measure_ensemble(law: ContactLaw, members: int = MEMBERS, workers: int = 1) 
         count=members,
         seed=SEED,
     )
-    found = gather(list(Parallel(n_jobs=workers)(delayed(run_member)(plan, member) for member in range(members))))
+    found = gather(plan, Parallel(n_jobs=workers)(delayed(run_member)(plan, member) for member in range(members)))
     low, middle, high = np.quantile(found.restitution, (0.05, 0.5, 0.95))
     return {
         "members": members,
@@ -104,7 +104,7 @@ def measure_ensemble(law: ContactLaw, members: int = MEMBERS, workers: int = 1) 
         "restitution": (low, middle, high),
         "band": float((found.bands[-1] - found.bands[0]).max() / PRISM.critical_angle),
         "out_of_plane": float(found.largest_out_of_plane.max()),
-        "correlations": found.correlations(),
+        "correlations": found.correlations(found.restitution),
     }
 
 

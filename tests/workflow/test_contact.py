@@ -56,6 +56,44 @@ def test_a_campaign_is_predicted_by_the_contact_model_beside_the_others(in_space
     assert in_space.redone() == {}
 
 
+def test_every_result_of_the_contact_model_tells_its_law_and_its_nodes(in_space):
+    in_space.run()
+    law = files.read(in_space.layout.contact("prism"))
+    predicted = files.read(in_space.layout.stage("pulse-01", "predict", "contact"))
+    body = rigid_body(BLOCK)
+    for told in (law, predicted):
+        np.testing.assert_allclose(told["node_mass"], body.node_mass)
+        assert float(told["node_weight"].sum()) == pytest.approx(BLOCK.mass * BLOCK.gravity, rel=1e-12)
+        assert float(told["effective_damping"]) == law_of(law).effective_damping(body)
+    assert 0.0 <= float(predicted["energy_residual"]) < 0.01
+
+
+def test_an_ensemble_of_the_contact_model_is_compared_and_reported_while_it_is_asked_for(in_space):
+    in_space.edit("[processing.predict]", "[processing.predict]\nensemble = {members = 5, contact = {members = 3}}")
+    in_space.edit('step = "30 us"', 'step = "90 us", penetration = 1e-5')
+    in_space.run(until="report")
+    bands = files.read(in_space.layout.stage("pulse-01", "ensemble", "contact"))
+    assert bands.sizes["member"] == 3
+    assert set(bands["input"].to_numpy()) == {"friction", "damping_fraction", "out_of_plane"}
+    told = in_space.summary()["tests"]["pulse-01"]["predicted"]["contact"]
+    assert told["overturning_probability"] == float(bands["overturning_probability"])
+    report = in_space.layout.report.parent
+    page = (report / "tests" / "pulse-01.html").read_text(encoding="utf-8")
+    assert "Contact model: the misfit lies" in page
+    methods = (report / "methods.html").read_text(encoding="utf-8")
+    assert "repeated 3 times with other friction (± 20%), damping fraction (± 20%)" in methods
+    assert "a rigid body in space" in methods
+    assert "in steps of 90 µs" in methods
+    specimen = (report / "specimens" / "prism.html").read_text(encoding="utf-8")
+    assert "critical damping fraction ξ at a node" in specimen
+    assert "25, 0.408 to 1.63 kg and 4 to 16 N each" in specimen
+
+    in_space.edit("contact = {members = 3}", "contact = {members = 0}")
+    in_space.run(until="report")
+    assert "Contact model: the misfit lies" not in (report / "tests" / "pulse-01.html").read_text(encoding="utf-8")
+    assert "with other friction" not in (report / "methods.html").read_text(encoding="utf-8")
+
+
 def test_a_specimen_without_a_law_fails_its_tests_with_what_to_do(in_space):
     in_space.edit('step = "30 us"', 'step = "10 ms"')
     stages = in_space.run().stages

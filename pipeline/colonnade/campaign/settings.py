@@ -97,6 +97,19 @@ class RestitutionSettings(Table):
     """Probability of the interval that is given for e."""
 
 
+class ContactEnsembleSettings(Table):
+    """What the ensembles of the contact model take: how many runs, and in which ranges its inputs lie."""
+
+    members: Annotated[int, *_count(0, 100_000)] = _setting(0)
+    """Runs of the contact model over what is not known of it, each as long as its prediction; 0 for none."""
+    friction: Annotated[float, *_deviation(1.0)] = _setting(0.2, "of the friction")
+    """Half of the range of friction, about that of the contact model; each value in it is as likely."""
+    damping_fraction: Annotated[float, *_deviation(1.0)] = _setting(0.2, "of the damping fraction")
+    """Half of the range of the contact's damping, about that of the contact model."""
+    out_of_plane: Angle = _setting(1e-3, "rad")
+    """Half of the range of the rotation about x at the start, about that of the contact model."""
+
+
 class EnsembleSettings(Table):
     """What the ensembles beside the predictions take: how many runs, and how well their inputs are known."""
 
@@ -114,6 +127,8 @@ class EnsembleSettings(Table):
     """Standard deviation of the recorder's clock rate."""
     filter: Annotated[float, *_deviation(0.5)] = _setting(0.1, "of the cut-off")
     """Standard deviation of the low-pass of the table's acceleration: how much its choice matters."""
+    contact: ContactEnsembleSettings = ContactEnsembleSettings()
+    """The ensembles of the contact model, where it is among the models."""
 
 
 class ContactSettings(Table):
@@ -148,6 +163,10 @@ class PredictSettings(Table):
     """The ensembles beside the predictions."""
     contact: ContactSettings = ContactSettings()
     """The contact model, where it is among the models."""
+
+    def members(self, model: str) -> int:
+        """Runs of a model's ensemble; 0 for none."""
+        return self.ensemble.contact.members if model == "contact" else self.ensemble.members
 
 
 class Processing(Table):

@@ -75,7 +75,7 @@ class Plan:
     @property
     def stride(self) -> int:
         """Samples of the record to each of the band."""
-        return ceil(self.motion.acceleration.size / LONGEST_CLOCK)
+        return stride_of(self.motion)
 
     def central(self) -> History:
         """Run the model on what was recorded, nothing varied."""
@@ -131,6 +131,8 @@ class Ensemble:
         rad, quantiles of θ at each time.
     inputs, peak_ratio, overturning_time : ndarray
         Of each member, as of `Part`.
+    names : tuple of str
+        Of the inputs.
     """
 
     time: Array
@@ -140,6 +142,7 @@ class Ensemble:
     inputs: Array
     peak_ratio: Array
     overturning_time: Array
+    names: tuple[str, ...] = INPUTS
 
     @property
     def overturning_probability(self) -> float:
@@ -164,9 +167,13 @@ class Ensemble:
 
         Members that overturn share the highest rank. Inputs that do not vary are left out; NaN where no peak differs.
         """
-        peaks = _ranks(np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio))
-        varied = {name: column for name, column in zip(INPUTS, self.inputs.T, strict=True) if np.ptp(column) > 0.0}
-        return {name: _correlation(peaks, _ranks(column)) for name, column in varied.items()}
+        return self.correlations(np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio))
+
+    def correlations(self, values: Array) -> dict[str, float]:
+        """Rank correlation of the members' values, shape (members,), NaN being highest, with each input that varies."""
+        ranks = _ranks(values)
+        varied = {name: column for name, column in zip(self.names, self.inputs.T, strict=True) if np.ptp(column) > 0.0}
+        return {name: _correlation(ranks, _ranks(column)) for name, column in varied.items()}
 
 
 def ensemble(
@@ -220,6 +227,11 @@ def ensemble(
     e = block.restitution if restitution is None else restitution
     plan = Plan(block, motion, e, uncertainty, count, seed, model, theta0, rest_angle)
     return gather(plan, [run_members(plan, 0, count)])
+
+
+def stride_of(motion: Motion) -> int:
+    """Give the samples of a record to each of a band."""
+    return ceil(motion.acceleration.size / LONGEST_CLOCK)
 
 
 def run_members(plan: Plan, start: int, stop: int) -> Part:

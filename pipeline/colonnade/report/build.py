@@ -112,7 +112,7 @@ def render(
     groups, maps = overview.by_specimen(campaign, gathered.rows), overview.measured_maps(campaign, gathered.rows)
     specimens = []
     for name in campaign.specimens:
-        pooled = results.of_specimen(layout, name)
+        pooled = results.of_specimen(campaign, layout, name)
         gathered.used.versions |= dict.fromkeys(pooled.versions)
         specimens.append(specimens_page.of_specimen(campaign, name, pooled, gathered.free_vibrations[name]))
         yield (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import platform
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any
@@ -18,7 +18,7 @@ LIBRARIES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "pandas", "matplotl
 
 _LONGEST = 6
 
-_STORED = {
+_STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
     "spike threshold": ("ingest", "spike_threshold", "{:g} robust standard deviations"),
     "flat duration": ("ingest", "flat_duration", "{:g} s"),
     "gap": ("ingest", "gap", "{:g} sampling intervals"),
@@ -32,6 +32,11 @@ _STORED = {
     "lowest amplitude": ("restitution", "lowest_amplitude", "{:g} α"),
     "level": ("restitution", "level", "{:.0%}"),
     "rest angle": ("predict", "rest_angle", "{:g} α"),
+    "mesh": ("predict", "mesh", "{}"),
+    "contact step": ("predict", "step", lambda step: wording.quantity(step, "µs")),
+    "friction": ("predict", "friction", "{:g}"),
+    "damping fraction": ("predict", "damping_fraction", "{:g}"),
+    "initial rotation": ("predict", "out_of_plane", "{:g} rad"),
     "runs": ("ensemble", "members", "{:d}"),
     "deviation of e": ("ensemble", "restitution", "{:g}"),
     "deviation of α": ("ensemble", "critical_angle", "{:.1%}"),
@@ -39,6 +44,10 @@ _STORED = {
     "deviation of gain": ("ensemble", "gain", "{:.1%}"),
     "deviation of clock": ("ensemble", "clock", "{:g}"),
     "deviation of filter": ("ensemble", "filter", "{:.0%}"),
+    "runs in space": ("ensemble", "runs", "{:d}"),
+    "range of friction": ("ensemble", "friction_range", "± {:.0%}"),
+    "range of damping": ("ensemble", "damping_range", "± {:.0%}"),
+    "range of rotation": ("ensemble", "out_of_plane_range", "± {:g} rad"),
 }
 """Settings by the name that the text uses: stage, key, and how the value is written."""
 
@@ -113,12 +122,12 @@ def _within(settings: Mapping[str, Any], key: str) -> Any:
     return None
 
 
-def _written(value: Any, form: str) -> str:
+def _written(value: Any, form: str | Callable[[float], str]) -> str:
     if value == "auto":
         return "auto"
     if isinstance(value, list):
         return f"{value[0]:g} s to {value[1]:g} s"
-    return form.format(value)
+    return form.format(value) if isinstance(form, str) else form(value)
 
 
 def _is_on_specimen(results: Results, given: Mapping[str, Any]) -> bool:

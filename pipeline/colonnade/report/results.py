@@ -123,16 +123,21 @@ def of_test(campaign: Campaign, layout: Layout, test: Test) -> Results:
     return _gather(_files_of(campaign, layout, test))
 
 
-def of_specimen(layout: Layout, specimen: str) -> Results:
-    """Read what is stored of a specimen, under the stage name ``specimen``."""
-    return _gather(iter([("specimen", layout.specimen(specimen))]))
+def of_specimen(campaign: Campaign, layout: Layout, specimen: str) -> Results:
+    """Read what is stored of a specimen: restitution as ``specimen``, the law of contact, if any, as ``contact``."""
+    paths = {"specimen": layout.specimen(specimen)}
+    if "contact" in campaign.processing.predict.models:
+        paths["contact"] = layout.contact(specimen)
+    return _gather(iter(paths.items()))
 
 
 def _files_of(campaign: Campaign, layout: Layout, test: Test) -> Iterator[tuple[str, Path]]:
     for stage in STAGES:
         if stage in ("predict", "ensemble"):
-            for model in campaign.processing.predict.models:
-                yield f"{stage} {model}", layout.stage(test.id, stage, model)
+            predict = campaign.processing.predict
+            for model in predict.models:
+                if stage == "predict" or predict.members(model) > 0:
+                    yield f"{stage} {model}", layout.stage(test.id, stage, model)
         elif stage != "restitution" or test.kind == "free-vibration":
             yield stage, layout.stage(test.id, stage)
 

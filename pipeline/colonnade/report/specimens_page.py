@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from math import isfinite, tan
 from typing import NamedTuple
 
+import numpy as np
 from markupsafe import Markup
+from numpy.typing import NDArray
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.specimen import Specimen
@@ -17,6 +19,8 @@ from colonnade.figures import EstimateGroup, EstimateRow, ImpactSeries, PeakSeri
 from colonnade.report import restitution, restitution_charts, wording
 from colonnade.report.restitution import EstimateText
 from colonnade.report.results import Message, Results
+
+Array = NDArray[np.float64]
 
 SOURCES = {
     "given": "given in the campaign file",
@@ -59,7 +63,11 @@ class FreeVibration(NamedTuple):
 
 @dataclass(frozen=True)
 class SpecimenPage:
-    """Everything that the page of a specimen shows; `e` is the value that predictions take, with its interval."""
+    """
+    Everything that the page of a specimen shows.
+
+    `e` is the value that predictions take, with its interval; `contact` the law of the contact model, name and value.
+    """
 
     id: str
     shape: str
@@ -72,6 +80,7 @@ class SpecimenPage:
     ratio: str
     method: str
     reason: str
+    contact: tuple[tuple[str, str], ...]
     warnings: tuple[Message, ...]
     failures: tuple[Message, ...]
     between: str
@@ -119,6 +128,7 @@ def of_specimen(
         ratio=wording.number(value / block.restitution, 4) if known and value is not None else wording.NOTHING,
         method=pooled.text("specimen", "method"),
         reason=pooled.text("specimen", "reason"),
+        contact=_contact(pooled),
         warnings=pooled.warnings,
         failures=pooled.failures,
         free_vibrations=tuple(free_vibrations),
@@ -134,6 +144,37 @@ def _between(pooled: Results) -> str:
         return ""
     within = pooled.middle("specimen", "test_restitution_standard_error")
     return f"{between:.2g} (standard deviation of e); standard error within a test {wording.number(within, 2)}"
+
+
+def _contact(pooled: Results) -> tuple[tuple[str, str], ...]:
+    """Write the law of contact that gives the specimen's e, and what it acts on."""
+    if "contact_stiffness" not in pooled.datasets.get("contact", ()):
+        return ()
+
+    def value(name: str) -> float | None:
+        return pooled.value("contact", name)
+
+    nodes = pooled.datasets["contact"]
+    masses, weights = (nodes[name].to_numpy() for name in ("node_mass", "node_weight"))
+    return (
+        ("body", pooled.text("contact", "body")),
+        ("critical damping fraction ξ at a node", wording.number(value("damping_fraction"), 4)),
+        ("damping fraction ξ_eff of the whole body", wording.number(value("effective_damping"), 4)),
+        ("stiffness", f"{wording.number(value('contact_stiffness'))} N/m³ of base area"),
+        ("friction µ", wording.number(value("friction"))),
+        ("base nodes", f"{masses.size}, {_range(masses, 'kg')} and {_range(weights, 'N')} each"),
+        (
+            "e of a free vibration",
+            f"{wording.number(value('contact_restitution'), 4)}; {wording.number(value('restitution'), 4)} was wanted",
+        ),
+        ("step", wording.quantity(value("contact_step"), "µs")),
+        ("energy that is missing after it", f"{100 * (value('energy_residual') or 0.0):.2g} % of the largest"),
+    )
+
+
+def _range(values: Array, unit: str) -> str:
+    low, high = (wording.number(float(value)) for value in (values.min(), values.max()))
+    return f"{low} {unit}" if low == high else f"{low} to {high} {unit}"
 
 
 def _drawn(

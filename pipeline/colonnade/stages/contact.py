@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -55,9 +56,8 @@ def contact(specimen: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     Returns
     -------
     law : xr.Dataset
-        `contact_stiffness` (N/m³), `damping_fraction`, `friction`, `effective_damping`, the `contact_restitution` that
-        they give and all that was tried. A damping fraction given in the campaign is not calibrated, but its
-        restitution is computed.
+        What `law_variables` tells, the `contact_restitution` that it gives and all that was tried. A damping fraction
+        given in the campaign is not calibrated, but its restitution is computed.
 
     Raises
     ------
@@ -81,7 +81,36 @@ def contact(specimen: xr.Dataset, instructions: Instructions) -> xr.Dataset:
         )
     except ValueError as error:
         raise StageError(f"processing.predict.contact: {error}") from error
-    return _described(found, "" if given else found.reason)
+    return _described(found, "" if given else found.reason).assign(
+        law_variables(body, found.law, instructions.block.gravity)
+    )
+
+
+def law_variables(body: ContactBody, law: ContactLaw, gravity: float) -> dict[str, Any]:
+    """
+    Tell what a body touches the table with.
+
+    Parameters
+    ----------
+    body : ContactBody
+    law : ContactLaw
+    gravity : float
+        m/s².
+
+    Returns
+    -------
+    variables : dict
+        `contact_stiffness` (N/m³), `damping_fraction`, `friction`, `effective_damping`; by `node` its `node_mass` (kg)
+        and the `node_weight` (N) that it bears of the standing body.
+    """
+    return {
+        "contact_stiffness": ((), law.stiffness),
+        "damping_fraction": ((), law.damping_fraction),
+        "friction": ((), law.friction),
+        "effective_damping": ((), law.effective_damping(body)),
+        "node_mass": ("node", body.node_mass),
+        "node_weight": ("node", law.node_weights(body, gravity)),
+    }
 
 
 def law_of(calibrated: xr.Dataset) -> ContactLaw:
@@ -143,10 +172,6 @@ def _law(body: ContactBody, instructions: Instructions, fraction: float) -> Cont
 
 def _described(found: Calibration, warning: str) -> xr.Dataset:
     scalars = {
-        "contact_stiffness": found.law.stiffness,
-        "damping_fraction": found.law.damping_fraction,
-        "friction": found.law.friction,
-        "effective_damping": found.effective_damping,
         "contact_restitution": found.restitution,
         "restitution": found.target,
         "contact_step": found.step,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from statistics import NormalDist
 
 import numpy as np
@@ -104,7 +105,49 @@ def ensemble(
         rest_angle=instructions.prediction.rest_angle,
     )
     found = gather(plan, [run_members(plan, 0, plan.count)])
-    return _described(found, rocking["elapsed"].to_numpy()[beginning.first :: plan.stride], plan)
+    deviations = dict(zip(INPUTS, plan.uncertainty.deviations.tolist(), strict=True))
+    bands = described(found, rocking["elapsed"].to_numpy()[beginning.first :: plan.stride], deviations)
+    return bands.assign_attrs(
+        model=plan.model,
+        members=plan.count,
+        noise=plan.uncertainty.noise,
+        cutoff_hz=plan.uncertainty.cutoff,
+        warnings=[],
+    )
+
+
+def described(found: Ensemble, time: Array, deviations: Mapping[str, float]) -> xr.Dataset:
+    """
+    Put an ensemble into a dataset.
+
+    Parameters
+    ----------
+    found : Ensemble
+    time : ndarray, shape (n,)
+        Of its bands, on the record's clock, s.
+    deviations : mapping of str to float
+        Standard deviation of each input.
+    """
+    low, high = found.overturning_interval()
+    sensitivity = found.sensitivity()
+    return xr.Dataset(
+        {
+            "rocking_angle": ("elapsed", found.central),
+            "rocking_angle_band": (("quantile", "elapsed"), found.bands),
+            "overturning_probability": ((), found.overturning_probability),
+            "overturning_probability_low": ((), low),
+            "overturning_probability_high": ((), high),
+            "member_peak_ratio": ("member", found.peak_ratio),
+            "member_overturning_time": ("member", found.overturning_time + float(time[0])),
+            "input_deviation": ("input", np.array([deviations[name] for name in sensitivity])),
+            "peak_sensitivity": ("input", np.array(list(sensitivity.values()))),
+        },
+        coords={
+            "elapsed": ("elapsed", time),
+            "quantile": ("quantile", found.levels),
+            "input": ("input", np.array(list(sensitivity), dtype=object)),
+        },
+    )
 
 
 def _uncertainty(
@@ -136,34 +179,3 @@ def _base_noise(conditioned: xr.Dataset, table: tuple[str, ...]) -> tuple[float,
     noise = np.array([float(given.get("noise", 0.0)) for given in used])
     cutoff = min((float(given["cutoff_hz"]) for given in used if "cutoff_hz" in given), default=None)
     return float(np.sqrt(np.sum(noise**2))) / noise.size, cutoff
-
-
-def _described(found: Ensemble, time: Array, plan: Plan) -> xr.Dataset:
-    low, high = found.overturning_interval()
-    sensitivity = found.sensitivity()
-    deviations = dict(zip(INPUTS, plan.uncertainty.deviations.tolist(), strict=True))
-    return xr.Dataset(
-        {
-            "rocking_angle": ("elapsed", found.central),
-            "rocking_angle_band": (("quantile", "elapsed"), found.bands),
-            "overturning_probability": ((), found.overturning_probability),
-            "overturning_probability_low": ((), low),
-            "overturning_probability_high": ((), high),
-            "member_peak_ratio": ("member", found.peak_ratio),
-            "member_overturning_time": ("member", found.overturning_time + float(time[0])),
-            "input_deviation": ("input", np.array([deviations[name] for name in sensitivity])),
-            "peak_sensitivity": ("input", np.array(list(sensitivity.values()))),
-        },
-        coords={
-            "elapsed": ("elapsed", time),
-            "quantile": ("quantile", found.levels),
-            "input": ("input", np.array(list(sensitivity), dtype=object)),
-        },
-        attrs={
-            "model": plan.model,
-            "members": plan.count,
-            "noise": plan.uncertainty.noise,
-            "cutoff_hz": plan.uncertainty.cutoff,
-            "warnings": [],
-        },
-    )

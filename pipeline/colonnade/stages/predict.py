@@ -99,8 +99,9 @@ def predict(
     -------
     predicted : xr.Dataset
         `rocking_angle` on the clock of the record; of the contact model also slide, uplift and rotation out of the
-        plane. A free vibration is predicted from the first peak after its first impact, where the measured angle is
-        known and the velocity is zero; before it the angle is NaN.
+        plane, its law with masses and weights of the nodes, and how well its energy balance closes. A free vibration
+        is predicted from the first peak after its first impact, where the measured angle is known and the velocity is
+        zero; before it the angle is NaN.
 
     Raises
     ------
@@ -112,9 +113,11 @@ def predict(
     if contact is not None and instructions.space is not None:
         moved = _in_space(beginning, contact, instructions.space)
         described = _described(moved, time, beginning, specimen, instructions)
-        return described.assign(_space_variables(moved, beginning.first)).assign_attrs(
-            body=moved.body.description, warnings=[*beginning.warnings, *moved.warnings]
-        )
+        return described.assign(
+            _space_variables(moved, beginning.first)
+            | contact_stage.law_variables(moved.body, moved.law, moved.block.gravity)
+            | {"energy_residual": ((), moved.energies.relative_residual)}
+        ).assign_attrs(body=moved.body.description, warnings=[*beginning.warnings, *moved.warnings])
     history = rock(
         instructions.block,
         beginning.motion,

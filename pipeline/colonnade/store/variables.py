@@ -167,7 +167,7 @@ VARIABLES: dict[str, Variable] = {
     "member_overturning_time": Variable("time at which each run overturns, missing where it stands", "s", MODELLED),
     "input": Variable("input that varies from run to run", None, COORDINATE, dtype="str"),
     "input_deviation": Variable(
-        "its standard deviation", comment="Of restitution as such, of theta0 in rad, else relative."
+        "its standard deviation", comment="Of restitution as such, of theta0 and out_of_plane in rad, else relative."
     ),
     "peak_sensitivity": Variable("rank correlation of the peak with the input", "1", MODELLED),
     # sine tests
@@ -186,6 +186,8 @@ VARIABLES: dict[str, Variable] = {
     "damping_fraction": Variable("critical damping fraction of the contact at each node"),
     "effective_damping": Variable("damping fraction of the whole body on all its nodes"),
     "friction": Variable("Coulomb's coefficient of friction between specimen and table"),
+    "node_mass": Variable("mass of each base node", "kg"),
+    "node_weight": Variable("weight that each base node bears of the standing specimen", "N"),
     "contact_restitution": Variable("coefficient of restitution of the contact model's free vibration", "1", MODELLED),
     "contact_step": Variable("step of the contact model", "s", AUXILIARY),
     "energy_residual": Variable("largest gap in the energy balance over the largest energy", "1", QUALITY),

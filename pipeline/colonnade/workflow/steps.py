@@ -20,8 +20,7 @@ _ENSEMBLE = "ensemble "
 """What the name of an ensemble begins with among the results that `compare` reads."""
 
 CONTACT = "contact"
-"""The model that needs a law of contact; one run of it costs as much as thousands of the others, so it has no
-ensembles."""
+"""The model that needs a law of contact."""
 
 WITHOUT_PREDICTION = ("tilt", "other")
 """Kinds of test that have no base motion to predict from."""
@@ -137,7 +136,7 @@ def models_of(campaign: Campaign, test: Test) -> tuple[str, ...]:
 
 def predicting_steps(campaign: Campaign, test: Test) -> list[Step]:
     """Steps from what was measured to how far predictions agree."""
-    from colonnade.stages import compare, ensemble, predict
+    from colonnade.stages import compare, predict
 
     layout = Layout(campaign.folder)
     rocking, specimen = layout.stage(test.id, "rocking"), layout.specimen(test.specimen)
@@ -157,22 +156,9 @@ def predicting_steps(campaign: Campaign, test: Test) -> list[Step]:
         )
         for model, path in predicted.items()
     ]
-    spread = {model: layout.stage(test.id, "ensemble", model) for model in models if model != CONTACT}
-    if campaign.processing.predict.ensemble.members == 0:
-        spread = {}
-    steps += [
-        Step(
-            "ensemble",
-            path,
-            {"conditioned": layout.stage(test.id, "condition"), "rocking": rocking, "specimen": specimen},
-            ensemble.instructions(campaign, test, model),
-            lambda upstream, read: ensemble.ensemble(
-                upstream["conditioned"], upstream["rocking"], upstream["specimen"], read
-            ),
-            model,
-        )
-        for model, path in spread.items()
-    ]
+    ensembles = [_ensemble(campaign, test, model) for model in models if campaign.processing.predict.members(model) > 0]
+    spread = {step.model: step.path for step in ensembles}
+    steps += ensembles
     steps.append(
         Step(
             "compare",
@@ -183,6 +169,37 @@ def predicting_steps(campaign: Campaign, test: Test) -> list[Step]:
         )
     )
     return steps
+
+
+def _ensemble(campaign: Campaign, test: Test, model: str) -> Step:
+    """Step that repeats the prediction of a model over what is not exactly known."""
+    from colonnade.stages import contact_ensemble, ensemble
+
+    layout = Layout(campaign.folder)
+    path, rocking = layout.stage(test.id, "ensemble", model), layout.stage(test.id, "rocking")
+    if model == CONTACT:
+        return Step(
+            "ensemble",
+            path,
+            {"rocking": rocking, CONTACT: layout.contact(test.specimen)},
+            contact_ensemble.instructions(campaign, test),
+            lambda upstream, read: contact_ensemble.contact_ensemble(upstream["rocking"], upstream[CONTACT], read),
+            model,
+        )
+    return Step(
+        "ensemble",
+        path,
+        {
+            "conditioned": layout.stage(test.id, "condition"),
+            "rocking": rocking,
+            "specimen": layout.specimen(test.specimen),
+        },
+        ensemble.instructions(campaign, test, model),
+        lambda upstream, read: ensemble.ensemble(
+            upstream["conditioned"], upstream["rocking"], upstream["specimen"], read
+        ),
+        model,
+    )
 
 
 def _compare(upstream: Mapping[str, Any], read: Any) -> xr.Dataset:

@@ -30,7 +30,7 @@ PLAN = ContactPlan(
 
 @pytest.fixture(scope="module")
 def ensemble():
-    return gather([run_member(PLAN, member) for member in range(PLAN.count)])
+    return gather(PLAN, [run_member(PLAN, member) for member in range(PLAN.count)])
 
 
 def test_inputs_stay_in_their_ranges_and_differ(ensemble):
@@ -42,21 +42,25 @@ def test_inputs_stay_in_their_ranges_and_differ(ensemble):
 
 def test_a_member_is_the_run_with_what_it_drew_whoever_runs_it_and_when():
     again, first = run_member(PLAN, 7), run_member(replace(PLAN, count=8), 7)
-    law = replace(LAW, friction=again.friction, damping_fraction=again.damping_fraction)
-    single = simulate(BODY, law=law, theta0=PLAN.theta0, duration=0.5, step=5e-5, out_of_plane=again.out_of_plane)
+    friction, fraction, out_of_plane = again.inputs
+    law = replace(LAW, friction=friction, damping_fraction=fraction)
+    single = simulate(BODY, law=law, theta0=PLAN.theta0, duration=0.5, step=5e-5, out_of_plane=out_of_plane)
     np.testing.assert_array_equal(again.angle, single.angle)
     np.testing.assert_array_equal(again.angle, first.angle)
-    assert run_member(replace(PLAN, seed=6), 7).friction != again.friction
+    assert run_member(replace(PLAN, seed=6), 7).inputs[0] != friction
 
 
 def test_more_damping_takes_more_at_an_impact(ensemble):
-    correlations = ensemble.correlations()
+    correlations = ensemble.correlations(ensemble.restitution)
     assert correlations.keys() == set(INPUTS)
     assert correlations["damping_fraction"] < -0.9
     assert np.all((ensemble.restitution > 0.94) & (ensemble.restitution < 0.99))
 
 
-def test_bands_lie_in_their_order_and_hold_what_is_certain(ensemble):
+def test_bands_lie_in_their_order_about_the_run_with_nothing_varied(ensemble):
+    plain = simulate(BODY, law=LAW, theta0=PLAN.theta0, duration=0.5, step=5e-5, out_of_plane=PLAN.out_of_plane[1] / 2)
+    np.testing.assert_array_equal(ensemble.central, plain.angle)
+    np.testing.assert_array_equal(ensemble.time, plain.time)
     assert np.all(np.diff(ensemble.bands, axis=0) >= 0.0)
     np.testing.assert_allclose(ensemble.bands[:, 0], PLAN.theta0, atol=1e-6)
     assert np.ptp(ensemble.bands[:, -1]) > 1e-3 * BLOCK.critical_angle
@@ -64,8 +68,9 @@ def test_bands_lie_in_their_order_and_hold_what_is_certain(ensemble):
 
 def test_a_block_released_past_its_critical_angle_overturns_in_every_member():
     plan = replace(PLAN, theta0=1.05 * BLOCK.critical_angle, duration=2.0, count=2)
-    ensemble = gather([run_member(plan, member) for member in range(2)])
-    assert ensemble.overturned.all()
+    ensemble = gather(plan, [run_member(plan, member) for member in range(2)])
+    assert ensemble.overturning_probability == 1.0
+    assert np.all((ensemble.overturning_time >= 0.0) & (ensemble.overturning_time < 2.0))
     assert np.isnan(ensemble.peak_ratio).all()
 
 
@@ -82,5 +87,5 @@ def test_a_plan_that_cannot_be_is_refused(change, told):
 def test_a_member_beyond_the_plan_is_refused():
     with pytest.raises(IndexError, match="no member 12"):
         run_member(PLAN, 12)
-    with pytest.raises(ValueError, match="no members"):
-        gather([])
+    with pytest.raises(ValueError, match="0 members; 12 were expected"):
+        gather(PLAN, [])

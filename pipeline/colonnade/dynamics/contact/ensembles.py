@@ -11,17 +11,16 @@ from numpy.typing import NDArray
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.calibration import free_restitution
+from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.simulate import plane_block, simulate
+from colonnade.dynamics.contact.simulate import motion_at_rest, plane_block, simulate
+from colonnade.dynamics.ensembles import LEVELS, Ensemble, stride_of
 from colonnade.dynamics.motion import Motion
 
 Array = NDArray[np.float64]
 Range = tuple[float, float]
 
 INPUTS = ("friction", "damping_fraction", "out_of_plane")
-
-LEVELS = (0.05, 0.5, 0.95)
-"""Quantiles of the band."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +32,7 @@ class ContactPlan:
     ----------
     body : ContactBody
     law : ContactLaw
-        Whose friction and damping fraction each member replaces by its own.
+        Whose friction and damping fraction each member replaces by its own; of the central run as it is.
     friction, damping_fraction, out_of_plane : pair of float
         Lowest and highest value, all in between equally likely; the rotation about x at the start in rad.
     motion : Motion, optional
@@ -73,6 +72,29 @@ class ContactPlan:
             if not low <= high:
                 raise ValueError(f"{name} is ({low}, {high}); the lowest value and then the highest were expected")
 
+    @property
+    def table(self) -> Motion:
+        """Motion of the table, at rest where none was given."""
+        if self.motion is not None:
+            return self.motion
+        return motion_at_rest(plane_block(self.body, self.gravity), self.duration)
+
+    def central(self) -> ContactHistory:
+        """Run the model with its law and the middle rotation out of the plane."""
+        return self.run(self.law, sum(self.out_of_plane) / 2)
+
+    def run(self, law: ContactLaw, out_of_plane: float) -> ContactHistory:
+        """Run the model with a law and a rotation about x at the start, rad."""
+        return simulate(
+            self.body,
+            self.table,
+            law=law,
+            gravity=self.gravity,
+            step=self.step,
+            theta0=self.theta0,
+            out_of_plane=out_of_plane,
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class Member:
@@ -81,63 +103,40 @@ class Member:
 
     Attributes
     ----------
-    friction, damping_fraction, out_of_plane : float
-        What it drew.
+    inputs : ndarray, shape (3,)
+        What it drew, in the order of `INPUTS`.
     restitution : float
         As of `free_restitution`; NaN without an impact.
     peak_ratio, largest_out_of_plane : float
         Largest |θ| and largest rotation about x over the critical angle α; NaN where it overturned.
-    overturned : bool
-    time, angle : ndarray, shape (n,)
-        s, rad.
+    overturning_time : float
+        s; NaN where it stands.
+    angle : ndarray, shape (n,)
+        rad, at each `stride_of` samples of the motion.
     """
 
-    friction: float
-    damping_fraction: float
-    out_of_plane: float
+    inputs: Array
     restitution: float
     peak_ratio: float
     largest_out_of_plane: float
-    overturned: bool
-    time: Array
+    overturning_time: float
     angle: Array
 
 
-@dataclass(frozen=True, eq=False)
-class ContactEnsemble:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ContactEnsemble(Ensemble):
     """
     What the members did together.
 
     Attributes
     ----------
-    inputs : ndarray, shape (m, 3)
-        Of each member, in the order of `INPUTS`.
-    restitution, peak_ratio, largest_out_of_plane : ndarray, shape (m,)
-    overturned : ndarray of bool, shape (m,)
-    time : ndarray, shape (n,)
-        s.
-    bands : ndarray, shape (len(LEVELS), n)
-        Quantiles of the angle, rad.
+    restitution, largest_out_of_plane : ndarray, shape (members,)
+        As of `Member`.
     """
 
-    inputs: Array
     restitution: Array
-    peak_ratio: Array
     largest_out_of_plane: Array
-    overturned: NDArray[np.bool_]
-    time: Array
-    bands: Array
-
-    def correlations(self) -> dict[str, float]:
-        """Rank correlation of the restitution with each input that varies."""
-        from scipy.stats import spearmanr
-
-        kept = np.isfinite(self.restitution)
-        return {
-            name: float(spearmanr(values[kept], self.restitution[kept]).statistic)
-            for name, values in zip(INPUTS, self.inputs.T, strict=True)
-            if np.ptp(values[kept]) > 0.0
-        }
+    names: tuple[str, ...] = INPUTS
 
 
 def run_member(plan: ContactPlan, member: int) -> Member:
@@ -155,49 +154,41 @@ def run_member(plan: ContactPlan, member: int) -> Member:
         raise IndexError(f"there is no member {member}; one from 0 to {plan.count - 1} was expected")
     draws = np.random.default_rng((plan.seed, member)).uniform(size=len(INPUTS))
     lows, highs = np.array([getattr(plan, name) for name in INPUTS]).T
-    friction, fraction, out_of_plane = (float(value) for value in lows + draws * (highs - lows))
-    history = simulate(
-        plan.body,
-        plan.motion,
-        law=replace(plan.law, friction=friction, damping_fraction=fraction),
-        gravity=plan.gravity,
-        duration=plan.duration,
-        step=plan.step,
-        theta0=plan.theta0,
-        out_of_plane=out_of_plane,
-    )
-    overturned = history.outcome == "overturned"
-    alpha = plane_block(plan.body, plan.gravity).critical_angle
+    inputs = lows + draws * (highs - lows)
+    friction, fraction, out_of_plane = inputs.tolist()
+    history = plan.run(replace(plan.law, friction=friction, damping_fraction=fraction), out_of_plane)
+    stands = history.outcome != "overturned"
+    alpha = history.block.critical_angle
     return Member(
-        friction=friction,
-        damping_fraction=fraction,
-        out_of_plane=out_of_plane,
+        inputs=inputs,
         restitution=free_restitution(history),
-        peak_ratio=np.nan if overturned else float(np.abs(history.angle).max() / alpha),
-        largest_out_of_plane=np.nan if overturned else float(np.abs(history.out_of_plane).max() / alpha),
-        overturned=overturned,
-        time=history.time,
-        angle=history.angle,
+        peak_ratio=float(np.abs(history.angle).max() / alpha) if stands else np.nan,
+        largest_out_of_plane=float(np.abs(history.out_of_plane).max() / alpha) if stands else np.nan,
+        overturning_time=history.overturning_time,
+        angle=history.angle[:: stride_of(plan.table)],
     )
 
 
-def gather(members: Sequence[Member]) -> ContactEnsemble:
+def gather(plan: ContactPlan, members: Sequence[Member]) -> ContactEnsemble:
     """
-    Put members together.
+    Put all members of a plan together, and run what they vary about.
 
     Raises
     ------
     ValueError
-        If there are none.
+        If it is not as many as the plan has.
     """
-    if not members:
-        raise ValueError("There are no members; at least one was expected")
+    if len(members) != plan.count:
+        raise ValueError(f"there are {len(members)} members; {plan.count} were expected")
+    stride = stride_of(plan.table)
     return ContactEnsemble(
-        inputs=np.array([[getattr(each, name) for name in INPUTS] for each in members]),
-        restitution=np.array([each.restitution for each in members]),
-        peak_ratio=np.array([each.peak_ratio for each in members]),
-        largest_out_of_plane=np.array([each.largest_out_of_plane for each in members]),
-        overturned=np.array([each.overturned for each in members]),
-        time=members[0].time,
+        time=plan.table.time[::stride],
+        central=plan.central().angle[::stride],
+        levels=np.asarray(LEVELS),
         bands=np.quantile([each.angle for each in members], LEVELS, axis=0),
+        inputs=np.array([each.inputs for each in members]),
+        peak_ratio=np.array([each.peak_ratio for each in members]),
+        overturning_time=np.array([each.overturning_time for each in members]),
+        restitution=np.array([each.restitution for each in members]),
+        largest_out_of_plane=np.array([each.largest_out_of_plane for each in members]),
     )

@@ -131,8 +131,14 @@ class ContactHistory(History):
 
     @property
     def impact_restitution(self) -> Array:
-        """Velocity after over before each impact, shape (m,); negative where the block went back to the same side."""
-        return np.asarray(self.rebound_velocities / self.impact_velocities)
+        """
+        Velocity after over before each impact, shape (m,).
+
+        Negative where the block went back to the same side, NaN where it came without velocity.
+        """
+        unknown = np.full(self.impact_velocities.shape, np.nan)
+        moving = self.impact_velocities != 0.0
+        return np.divide(self.rebound_velocities, self.impact_velocities, out=unknown, where=moving)
 
     @property
     def effective_damping(self) -> float:
@@ -142,8 +148,7 @@ class ContactHistory(History):
     @property
     def node_weights(self) -> Array:
         """What each base node bears of the standing body's weight, N, shape (n,); their masses are the body's."""
-        stiffness = self.law.node_stiffness(self.body)
-        return np.asarray(self.body.mass * self.block.gravity * stiffness / stiffness.sum())
+        return self.law.node_weights(self.body, self.block.gravity)
 
     @property
     def warnings(self) -> tuple[str, ...]:

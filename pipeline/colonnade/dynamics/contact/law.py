@@ -95,6 +95,11 @@ class ContactLaw:
         """Normal damping 2 ξ sqrt(m k) of each base node, N s/m, shape (n,)."""
         return np.asarray(2.0 * self.damping_fraction * np.sqrt(body.node_mass * self.node_stiffness(body)))
 
+    def node_weights(self, body: ContactBody, gravity: float) -> Array:
+        """What each base node bears of the standing body's weight, N, shape (n,)."""
+        stiffness = self.node_stiffness(body)
+        return np.asarray(body.mass * gravity * stiffness / stiffness.sum())
+
     def effective_damping(self, body: ContactBody) -> float:
         """
         Damping fraction ξ_eff of the whole body that bounces on all its nodes, Σc / (2 sqrt(M Σk)).

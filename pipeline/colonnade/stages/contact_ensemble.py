@@ -1,0 +1,101 @@
+"""Ensemble of the contact model: over its friction, its damping, and how straight the specimen stood at the start."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from pydantic import BaseModel, ConfigDict
+
+from colonnade.campaign import Campaign, Test
+from colonnade.dynamics.contact.ensembles import INPUTS, ContactPlan, Range, gather, run_member
+from colonnade.errors import StageError
+from colonnade.stages import contact as contact_stage
+from colonnade.stages import predict
+from colonnade.stages.ensemble import described
+
+
+class Instructions(BaseModel):
+    """
+    What this stage reads of the campaign.
+
+    Attributes
+    ----------
+    prediction : predict.Instructions
+    space : contact_stage.Instructions
+    runs : int
+    friction_range, damping_range : float
+        Half of the range, over the value that it lies about.
+    out_of_plane_range : float
+        Half of the range, rad.
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    prediction: predict.Instructions
+    space: contact_stage.Instructions
+    runs: int
+    friction_range: float
+    damping_range: float
+    out_of_plane_range: float
+
+
+def instructions(campaign: Campaign, test: Test) -> Instructions:
+    """Gather what `contact_ensemble` reads for one test."""
+    settings = campaign.processing.predict.ensemble.contact
+    return Instructions(
+        prediction=predict.instructions(campaign, test, "contact"),
+        space=contact_stage.instructions(campaign, test.specimen),
+        runs=settings.members,
+        friction_range=settings.friction,
+        damping_range=settings.damping_fraction,
+        out_of_plane_range=abs(settings.out_of_plane),
+    )
+
+
+def contact_ensemble(rocking: xr.Dataset, contact: xr.Dataset, instructions: Instructions) -> xr.Dataset:
+    """
+    Run the contact model many times on the base motion that was recorded, over what is not known of it.
+
+    Parameters
+    ----------
+    rocking, contact : xr.Dataset
+        As of `predict`.
+    instructions : Instructions
+
+    Returns
+    -------
+    bands : xr.Dataset
+        As of `ensemble`. By `input` it has the standard deviation of values that are equally likely in their range.
+
+    Raises
+    ------
+    StageError
+        As `predict`.
+    """
+    beginning = predict.begin(rocking, instructions.prediction)
+    settings, law = instructions.space.settings, contact_stage.law_of(contact)
+    plan = ContactPlan(
+        contact_stage.body_of(instructions.space),
+        law,
+        friction=_about(law.friction, instructions.friction_range * law.friction),
+        damping_fraction=_about(law.damping_fraction, instructions.damping_range * law.damping_fraction),
+        out_of_plane=_about(settings.out_of_plane, instructions.out_of_plane_range),
+        motion=beginning.motion,
+        theta0=beginning.theta0,
+        gravity=instructions.space.block.gravity,
+        step=settings.step,
+        count=instructions.runs,
+    )
+    try:
+        found = gather(plan, [run_member(plan, member) for member in range(plan.count)])
+    except ValueError as error:
+        raise StageError(f"processing.predict.contact: {error}") from error
+    middles = dict(zip(INPUTS, (law.friction, law.damping_fraction, 1.0), strict=True))
+    deviations = {name: np.ptp(getattr(plan, name)) / np.sqrt(12.0) / (middles[name] or 1.0) for name in INPUTS}
+    stride = -(-beginning.motion.acceleration.size // found.time.size)
+    bands = described(found, rocking["elapsed"].to_numpy()[beginning.first :: stride], deviations)
+    return bands.assign_attrs(model="contact", members=plan.count, warnings=[])
+
+
+def _about(middle: float, half: float) -> Range:
+    return middle - half, middle + half
