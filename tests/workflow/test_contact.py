@@ -82,6 +82,9 @@ def test_an_ensemble_of_the_contact_model_is_compared_and_reported_while_it_is_a
     assert "Contact model: the misfit lies" in page
     methods = (report / "methods.html").read_text(encoding="utf-8")
     assert "repeated 3 times with other friction (± 20%), damping fraction (± 20%)" in methods
+    assert "by the nonlinear and contact models" in methods
+    assert "Each but the contact model was repeated 5 times" in methods
+    assert "α 0.5%; p 0.5%;" in methods
     assert "a rigid body in space" in methods
     assert "in steps of 90 µs" in methods
     specimen = (report / "specimens" / "prism.html").read_text(encoding="utf-8")

@@ -44,10 +44,10 @@ _STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
     "deviation of gain": ("ensemble", "gain", "{:.1%}"),
     "deviation of clock": ("ensemble", "clock", "{:g}"),
     "deviation of filter": ("ensemble", "filter", "{:.0%}"),
-    "runs in space": ("ensemble", "runs", "{:d}"),
-    "range of friction": ("ensemble", "friction_range", "± {:.0%}"),
-    "range of damping": ("ensemble", "damping_range", "± {:.0%}"),
-    "range of rotation": ("ensemble", "out_of_plane_range", "± {:g} rad"),
+    "runs in space": ("ensemble contact", "runs", "{:d}"),
+    "range of friction": ("ensemble contact", "friction_range", "± {:.0%}"),
+    "range of damping": ("ensemble contact", "damping_range", "± {:.0%}"),
+    "range of rotation": ("ensemble contact", "out_of_plane_range", "± {:g} rad"),
 }
 """Settings by the name that the text uses: stage, key, and how the value is written."""
 
@@ -63,7 +63,9 @@ class Used:
         """Take note of what a test's results were made with."""
         for name, (stage, key, form) in _STORED.items():
             for stored_stage, settings in results.settings.items():
-                value = _within(settings, key) if stored_stage.split()[0] == stage else None
+                # The contact model's ensemble varies other things than those of the plane models.
+                own = stored_stage if stored_stage == "ensemble contact" else stored_stage.split()[0]
+                value = _within(settings, key) if own == stage else None
                 if value is not None:
                     self._note(name, _written(value, form), test)
         for given in results.channels.values():

@@ -160,7 +160,10 @@ def _contact(pooled: Results) -> tuple[tuple[str, str], ...]:
         ("body", pooled.text("contact", "body")),
         ("critical damping fraction ξ at a node", wording.number(value("damping_fraction"), 4)),
         ("damping fraction ξ_eff of the whole body", wording.number(value("effective_damping"), 4)),
-        ("stiffness", f"{wording.number(value('contact_stiffness'))} N/m³ of base area"),
+        (
+            "stiffness",
+            f"{wording.number(1e-9 * (value('contact_stiffness') or 0.0))} N/mm³: N a mm² of base and mm of depth",
+        ),
         ("friction µ", wording.number(value("friction"))),
         ("base nodes", f"{masses.size}, {_range(masses, 'kg')} and {_range(weights, 'N')} each"),
         (
