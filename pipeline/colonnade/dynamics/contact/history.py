@@ -138,7 +138,7 @@ class ContactHistory(History):
         """
         unknown = np.full(self.impact_velocities.shape, np.nan)
         moving = self.impact_velocities != 0.0
-        return np.divide(self.rebound_velocities, self.impact_velocities, out=unknown, where=moving)
+        return np.asarray(np.divide(self.rebound_velocities, self.impact_velocities, out=unknown, where=moving))
 
     @property
     def effective_damping(self) -> float:
