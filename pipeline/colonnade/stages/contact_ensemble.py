@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict
 
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.contact.ensembles import INPUTS, ContactPlan, Range, gather, run_member
+from colonnade.dynamics.ensembles import stride_of
 from colonnade.errors import StageError
 from colonnade.stages import contact as contact_stage
 from colonnade.stages import predict
@@ -92,8 +93,8 @@ def contact_ensemble(rocking: xr.Dataset, contact: xr.Dataset, instructions: Ins
         raise StageError(f"processing.predict.contact: {error}") from error
     middles = dict(zip(INPUTS, (law.friction, law.damping_fraction, 1.0), strict=True))
     deviations = {name: np.ptp(getattr(plan, name)) / np.sqrt(12.0) / (middles[name] or 1.0) for name in INPUTS}
-    stride = -(-beginning.motion.acceleration.size // found.time.size)
-    bands = described(found, rocking["elapsed"].to_numpy()[beginning.first :: stride], deviations)
+    time = rocking["elapsed"].to_numpy()[beginning.first :: stride_of(beginning.motion)]
+    bands = described(found, time, deviations)
     return bands.assign_attrs(model="contact", members=plan.count, warnings=[])
 
 
