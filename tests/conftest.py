@@ -17,6 +17,9 @@ os.environ.setdefault("MPLBACKEND", "Agg")
 settings.register_profile("colonnade", deadline=None, derandomize=True)
 settings.load_profile("colonnade")
 
+COMPILING = ("dynamics", "identification")
+"""Folders whose tests compile, in one process each, the kernels that all later processes then find compiled."""
+
 LONGEST = (
     "test_readme.py",
     "test_wheel.py",
@@ -24,13 +27,19 @@ LONGEST = (
     "test_spreading.py",
     "test_kills.py",
 )
-"""Files that take half a minute and more: the first compiles what the others use, the second compiles nothing."""
+"""Files that take half a minute and more."""
+
+
+def _turn(item: pytest.Item) -> int:
+    if not set(COMPILING).isdisjoint(item.path.parts):
+        return 0
+    return 1 + (LONGEST.index(item.path.name) if item.path.name in LONGEST else len(LONGEST))
 
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with the longest files: where several processes share the files, none is left with one in the end."""
-    items.sort(key=lambda item: LONGEST.index(item.path.name) if item.path.name in LONGEST else len(LONGEST))
+    """First what compiles, then the longest files: where several processes share the files, none is left with one in the end."""
+    items.sort(key=_turn)
 
 
 SHARED_DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
