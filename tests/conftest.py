@@ -38,7 +38,7 @@ def _turn(item: pytest.Item) -> int:
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """First what compiles, then the longest files: where several processes share the files, none is left with one in the end."""
+    """First what compiles, then the longest files, so that no process is left with one of these in the end."""
     items.sort(key=_turn)
 
 
