@@ -14,7 +14,7 @@ PYTHONS := python3.14 python3.13 python3.12 python3.11 python3 python
 FITS := import sys, venv, ensurepip; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 14))
 BIN := .venv/bin
 INSTALLED := .venv/installed
-# Files of tests are shared out over the cores, each file to one of them.
+# Files of tests are shared out over the cores, each file to one of them, where it computes in one thread.
 SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 
 .PHONY: demo test study drill format reports restitution-study contact-study clean
@@ -27,7 +27,7 @@ test: $(INSTALLED)
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/python -m pytest $(SHARED) -m "not slow and not drill"
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest $(SHARED) -m "not slow and not drill"
 
 study: $(INSTALLED)
 	$(BIN)/python -m pytest -m slow

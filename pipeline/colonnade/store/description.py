@@ -135,20 +135,19 @@ def describe(dataset: xr.Dataset, stage: str = "") -> xr.Dataset:
     StoreError
         If a variable is neither in the table nor a channel.
     """
-    described = dataset.copy()
-    for name in map(str, dataset.variables):
+    described = {}
+    for name, variable in ((str(name), variable) for name, variable in dataset.variables.items()):
         attributes, dtype = _attributes(name, dataset)
         if stage in MODEL_STAGES and attributes.get("coverage_content_type") == MEASURED:
             attributes["coverage_content_type"] = MODELLED
         companions = [companion for companion in (f"{name}_quality", f"{name}_standard_error") if companion in dataset]
         if companions:
             attributes["ancillary_variables"] = " ".join(companions)
-        variable = dataset[name].variable
         if dtype != "str" and variable.dtype != np.dtype(dtype):
             variable = variable.astype(dtype)
         own = {key: value for key, value in variable.attrs.items() if value is not None and value != ""}
-        described = described.assign({name: (variable.dims, variable.data, attributes | own)})
-    return described
+        described[name] = (variable.dims, variable.data, attributes | own)
+    return dataset.assign(described)
 
 
 def _attributes(name: str, dataset: xr.Dataset) -> tuple[dict[str, Any], str]:
@@ -158,13 +157,13 @@ def _attributes(name: str, dataset: xr.Dataset) -> tuple[dict[str, Any], str]:
     if name.startswith("elapsed_"):
         clock = name.removeprefix("elapsed_")
         return Variable(f"time since the zero of clock {clock}", "s", COORDINATE).attributes(), "float64"
-    own = dataset[name].attrs
+    own = dataset.variables[name].attrs
     if "channel" in own and "quantity" in own:
         return channel_attributes(own["channel"], own["quantity"], own.get("recorded_unit")), "float64"
     base, _, form = name.rpartition("_")
-    channel = dataset[base].attrs.get("channel") if base in dataset else None
+    channel = dataset.variables[base].attrs.get("channel") if base in dataset else None
     if channel is not None and form == "recorded":
-        unit = own.get("recorded_unit") or dataset[base].attrs.get("recorded_unit")
+        unit = own.get("recorded_unit") or dataset.variables[base].attrs.get("recorded_unit")
         recorded = Variable(f"as in the file, channel {channel}", udunits(unit), MEASURED)
         return recorded.attributes() | ({"recorded_unit": unit} if unit else {}), "float64"
     if channel is not None and form == "quality":
