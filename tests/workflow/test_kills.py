@@ -90,4 +90,4 @@ def kill_and_compare(small, undisturbed, kills: int, workers: int, seed: int) ->
 
 
 def test_an_ingest_that_is_killed_is_taken_up_again(untouched, undisturbed):
-    assert sum(kill_and_compare(untouched, undisturbed, 3, workers=1, seed=1).values()) == 3
+    assert sum(kill_and_compare(untouched, undisturbed, 5, workers=1, seed=1).values()) == 5

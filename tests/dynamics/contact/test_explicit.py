@@ -220,8 +220,14 @@ def test_the_force_of_an_impact_converges_with_the_modes_that_are_kept() -> None
 
 @pytest.mark.slow
 @pytest.mark.parametrize("stiffness", [1e11, 1e12], ids=["1e11 N/m³", "1e12 N/m³"])
-@pytest.mark.parametrize("divisions", [(5, 3, 16), (8, 6, 28), (10, 10, 55)], ids=["coarse", "medium", "fine"])
-def test_the_papers_meshes_reduced_strike_as_unreduced(divisions: tuple[int, int, int], stiffness: float) -> None:
+@pytest.mark.parametrize(
+    ("divisions", "whole"),
+    [((5, 3, 16), 0.005), ((8, 6, 28), 0.005), ((10, 10, 55), 0.01)],
+    ids=["coarse", "medium", "fine"],
+)
+def test_the_papers_meshes_reduced_strike_as_unreduced(
+    divisions: tuple[int, int, int], whole: float, stiffness: float
+) -> None:
     body = assemble(prism_mesh(0.086, 0.086, 0.456, divisions), 26.10)
     law = ContactLaw(stiffness, damping_fraction=0.4, friction=0.6)
-    check_agreement(*both_impacts(body, law, step=1e-7, duration=4e-3), whole=0.01, force=0.01)
+    check_agreement(*both_impacts(body, law, step=1e-7, duration=4e-3), whole=whole, force=0.01)
