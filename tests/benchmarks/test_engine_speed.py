@@ -173,8 +173,9 @@ class Heyoka:
 def _harmonic(omega, level, end, impacts):
     sides = np.array(SIDES)
     edges = np.array([0.0, end / P, end / P])
-    none = np.empty((0, 2))
-    _, _, count = harmonic_nonlinear.run((omega * P, 0.0, level), edges, sides, REST, (0.0, 1e-3, 1.0), none, impacts)
+    forcing, constant, none = (omega * P, 0.0, level), np.empty((2, 0)), np.empty((0, 2))
+    watch = (0.0, 1e-3, 1.0)
+    _, _, count = harmonic_nonlinear.run(forcing, edges, None, sides, constant, REST, watch, none, impacts)
     return impacts[:count] * [P, 1 / P]
 
 
