@@ -26,6 +26,8 @@ def test_the_law_is_shown_and_stored(colonnade, campaign):
     assert f"law: {campaign / 'processed' / 'contact' / 'prism.nc'}" in told.stdout
     (made,) = json.loads(colonnade("calibrate", "--workers", "1", "--json").stdout)
     assert (made["specimen"], made["mesh"], made["damping_fraction"], made["reason"]) == ("prism", "rigid", 0.3, "")
+    assert "velocity ratio" in told.stdout
+    assert 1e-4 < abs(made["restitution"] - made["velocity_ratio"]) < 2e-3
 
 
 def test_the_meshes_are_those_of_the_settings():

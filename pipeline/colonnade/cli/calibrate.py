@@ -40,6 +40,9 @@ def calibrate(
 
     CAMPAIGN is a campaign.toml or its folder, by default the one you stand in; identify its free vibrations first.
 
+    e is identified from the rocking angle of a free vibration of the model, as from a record. The mean velocity ratio
+    of its impacts is shown with it: a contact that bounces also loses energy between impacts, so the two differ.
+
     Writes processed/contact/<SPECIMEN>.nc for the mesh and step of the settings (processing.predict.contact); others
     are only shown.
     """
@@ -64,7 +67,7 @@ def calibrate(
         )
     else:
         show_table(
-            ("specimen", "mesh", "step", "CDF ξ", "ξ_eff", "stiffness", "e", "e wanted", "seconds"),
+            ("specimen", "mesh", "step", "CDF ξ", "ξ_eff", "stiffness", "e", "e wanted", "velocity ratio", "seconds"),
             [
                 (
                     each.specimen,
@@ -75,6 +78,7 @@ def calibrate(
                     _number(each.stiffness, ".3g", " N/m³"),
                     _number(each.restitution, ".4f"),
                     _number(each.target, ".4f"),
+                    _number(each.velocity_ratio, ".4f"),
                     f"{each.seconds:.1f}",
                 )
                 for each in made

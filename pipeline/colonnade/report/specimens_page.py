@@ -167,9 +167,10 @@ def _contact(pooled: Results) -> tuple[tuple[str, str], ...]:
         ("friction µ", wording.number(value("friction"))),
         ("base nodes", f"{masses.size}, {_range(masses, 'kg')} and {_range(weights, 'N')} each"),
         (
-            "e of a free vibration",
+            "e identified from its free vibration",
             f"{wording.number(value('contact_restitution'), 4)}; {wording.number(value('restitution'), 4)} was wanted",
         ),
+        ("mean velocity ratio of the same impacts", wording.number(value("contact_velocity_ratio"), 4)),
         ("step", wording.quantity(value("contact_step"), "µs")),
         ("energy that is missing after it", f"{100 * (value('energy_residual') or 0.0):.2g} % of the largest"),
     )

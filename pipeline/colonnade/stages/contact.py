@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -13,16 +13,22 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.settings import ContactSettings
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody
-from colonnade.dynamics.contact.calibration import Calibration, calibrate
+from colonnade.dynamics.contact.calibration import Calibration, calibrate, free_restitution
+from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.errors import StageError
+from colonnade.identification.restitution.identify import identify_restitution
 
 DAMPED = 0.4
 """Critical damping fraction, the paper's, for which the modes of an elastic specimen are chosen."""
 
 
 class Instructions(BaseModel):
-    """What this stage reads of the campaign: the specimen in space, and the settings of the contact model."""
+    """
+    What this stage reads of the campaign: the specimen in space, and the settings of the contact model.
+
+    `lowest_amplitude` is that of the identification, |θ|/α.
+    """
 
     model_config = ConfigDict(frozen=True)
 
@@ -30,6 +36,7 @@ class Instructions(BaseModel):
     shape: str
     sizes: tuple[tuple[str, float], ...]
     settings: ContactSettings
+    lowest_amplitude: float
 
 
 def instructions(campaign: Campaign, specimen: str, settings: ContactSettings | None = None) -> Instructions:
@@ -40,6 +47,7 @@ def instructions(campaign: Campaign, specimen: str, settings: ContactSettings | 
         shape=entry.shape,
         sizes=tuple(sorted(entry.sizes().items())),
         settings=settings or campaign.processing.predict.contact,
+        lowest_amplitude=campaign.processing.restitution.lowest_amplitude,
     )
 
 
@@ -56,8 +64,9 @@ def contact(specimen: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     Returns
     -------
     law : xr.Dataset
-        What `law_variables` tells, the `contact_restitution` that it gives and all that was tried. A damping fraction
-        given in the campaign is not calibrated, but its restitution is computed.
+        What `law_variables` gives, all that was tried, and of the free vibration with this law the
+        `contact_restitution`, identified from its rocking angle as from a record, and the `contact_velocity_ratio`. A
+        damping fraction given in the campaign is not calibrated, but its restitution is computed.
 
     Raises
     ------
@@ -78,12 +87,23 @@ def contact(specimen: xr.Dataset, instructions: Instructions) -> xr.Dataset:
             step=settings.step,
             fractions=(law.damping_fraction,) if given else None,
             vary_stiffness=not given,
+            identify=partial(identified, lowest_amplitude=instructions.lowest_amplitude),
         )
     except ValueError as error:
         raise StageError(f"processing.predict.contact: {error}") from error
     return _described(found, "" if given else found.reason).assign(
         law_variables(body, found.law, instructions.block.gravity)
     )
+
+
+def identified(history: ContactHistory, *, lowest_amplitude: float) -> float:
+    """
+    Restitution that a laboratory would identify from the rocking angle of a free vibration.
+
+    If the identification refuses it, as after two or three arcs, the mean velocity ratio of the impacts.
+    """
+    result = identify_restitution(history.time, history.angle, history.block, lowest_amplitude=lowest_amplitude)
+    return free_restitution(history) if result.value is None else result.value
 
 
 def law_variables(body: ContactBody, law: ContactLaw, gravity: float) -> dict[str, Any]:
@@ -173,6 +193,7 @@ def _law(body: ContactBody, instructions: Instructions, fraction: float) -> Cont
 def _described(found: Calibration, warning: str) -> xr.Dataset:
     scalars = {
         "contact_restitution": found.restitution,
+        "contact_velocity_ratio": found.velocity_ratio,
         "restitution": found.target,
         "contact_step": found.step,
         "energy_residual": found.residual,

@@ -61,6 +61,7 @@ _ABOUT_X = "Rotation about +x: positive when the top moves to -y."
 _ABOUT_Z = "Rotation about +z, right-handed."
 _OUTLINE = "Of the side with the smaller critical angle."
 _WIDE = "Of the intervals that are at least as wide as the attribute `width`; missing where there is none."
+_FEW_ARCS = "If too few arcs stand above the lowest amplitude to identify it, the mean velocity ratio of the impacts."
 _ORDERS = "k: it repeats every k cycles of the base; 0 at rest, -1 irregular, -2 overturned."
 
 VARIABLES: dict[str, Variable] = {
@@ -188,7 +189,15 @@ VARIABLES: dict[str, Variable] = {
     "friction": Variable("Coulomb's coefficient of friction between specimen and table"),
     "node_mass": Variable("mass of each base node", "kg"),
     "node_weight": Variable("weight that each base node bears of the standing specimen", "N"),
-    "contact_restitution": Variable("coefficient of restitution of the contact model's free vibration", "1", MODELLED),
+    "contact_restitution": Variable(
+        "coefficient of restitution identified from the rocking angle of the contact model's free vibration",
+        "1",
+        MODELLED,
+        comment=_FEW_ARCS,
+    ),
+    "contact_velocity_ratio": Variable(
+        "mean velocity ratio of the impacts of the contact model's free vibration", "1", MODELLED
+    ),
     "contact_step": Variable("step of the contact model", "s", AUXILIARY),
     "energy_residual": Variable("largest gap in the energy balance over the largest energy", "1", QUALITY),
     "tried_damping_fraction": Variable("critical damping fraction that was tried"),

@@ -36,7 +36,9 @@ class Calibrated:
     step : float
         s.
     target, restitution : float or None
-        e asked for, and reached; None where it failed.
+        e asked for, and identified from the rocking angle of the free vibration; None where it failed.
+    velocity_ratio : float or None
+        Mean velocity ratio of the impacts of the same free vibration.
     damping_fraction, effective_damping, stiffness : float or None
         ξ at each node, of the whole body, and N/m³.
     energy_residual : float or None
@@ -55,6 +57,7 @@ class Calibrated:
     step: float
     target: float | None
     restitution: float | None
+    velocity_ratio: float | None
     damping_fraction: float | None
     effective_damping: float | None
     stiffness: float | None
@@ -153,6 +156,7 @@ def _calibrated(numbered: tuple[int, _Task]) -> tuple[int, Calibrated]:
         step=known["contact_step"] or task.settings.step,
         target=known["restitution"],
         restitution=known["contact_restitution"],
+        velocity_ratio=known["contact_velocity_ratio"],
         damping_fraction=known["damping_fraction"],
         effective_damping=known["effective_damping"],
         stiffness=known["contact_stiffness"],
@@ -168,6 +172,7 @@ def _known(result: xr.Dataset | None) -> dict[str, float | None]:
         "contact_step",
         "restitution",
         "contact_restitution",
+        "contact_velocity_ratio",
         "damping_fraction",
         "effective_damping",
         "contact_stiffness",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from math import acosh, ceil, exp, log, nan
 
 import numpy as np
@@ -18,6 +19,7 @@ from colonnade.dynamics.contact.simulate import plane_block, simulate
 from colonnade.dynamics.contact.stability import longest_step
 
 Array = NDArray[np.float64]
+Identify = Callable[[ContactHistory], float]
 
 FRACTIONS = (0.0, 0.01, 0.03, 0.1, 0.3, 1.0)
 """Critical damping fractions that are tried first; e falls along most of them, and rises again where ξ is large."""
@@ -51,7 +53,9 @@ class Calibration:
     law : ContactLaw
         The one whose restitution is nearest to the one asked for.
     restitution : float
-        Of a free vibration with it: exp of the mean of ln e_n.
+        Of a free vibration with it, by `identify`.
+    velocity_ratio : float
+        Of the same free vibration: `free_restitution`.
     target : float
     fractions, stiffnesses, restitutions : ndarray, shape (k,)
         All that was tried, in its order (ξ; in multiples of the stiffness of the law asked for), and what it gave.
@@ -69,6 +73,7 @@ class Calibration:
 
     law: ContactLaw
     restitution: float
+    velocity_ratio: float
     target: float
     fractions: Array
     stiffnesses: Array
@@ -129,6 +134,7 @@ def calibrate(
     impacts: int = IMPACTS,
     fractions: Sequence[float] | None = None,
     vary_stiffness: bool = True,
+    identify: Identify | None = None,
 ) -> Calibration:
     """
     Find the damping of contact, and if need be its stiffness, with which a body's free rocking has a restitution.
@@ -152,6 +158,9 @@ def calibrate(
         Damping fractions that are tried first, rising; default `FRACTIONS`. With a single one its e is computed.
     vary_stiffness : bool, optional
         Whether the stiffness may be changed.
+    identify : callable, optional
+        Restitution of a free vibration, NaN if it gives none; default `free_restitution`. A bouncing contact loses
+        energy between impacts too, so velocities at impacts give another e than the decay of the rocking angle.
 
     Returns
     -------
@@ -170,7 +179,7 @@ def calibrate(
             f"release is {release} of the critical angle and impacts {impacts}; a release from {SMALLEST_RELEASE:g} "
             "to 1 and at least one impact were expected"
         )
-    runs = _Runs(body, law, gravity, step, release, impacts, restitution)
+    runs = _Runs(body, law, gravity, step, release, impacts, restitution, identify)
     for stiffness in STIFFNESSES if vary_stiffness else (1.0,):
         bracket = _bracket(runs.at(stiffness), restitution, FRACTIONS if fractions is None else fractions)
         if bracket is not None:
@@ -191,8 +200,10 @@ class _Runs:
         release: float,
         impacts: int,
         restitution: float,
+        identify: Identify | None,
     ) -> None:
         self._body, self._law, self._gravity, self._step, self._impacts = body, law, gravity, step, impacts
+        self._identify = identify or partial(free_restitution, impacts=impacts)
         self._target = restitution
         block = plane_block(body, gravity)
         self._theta0 = release * block.critical_angle
@@ -219,7 +230,7 @@ class _Runs:
                 step=self._step,
             )
             self._costs.append((time.process_time() - began) / self._duration)
-            self._found[stiffness, fraction] = free_restitution(history, impacts=self._impacts), history
+            self._found[stiffness, fraction] = self._identify(history), history
         return self._found[stiffness, fraction][0]
 
     def result(self) -> Calibration:
@@ -233,13 +244,14 @@ class _Runs:
             )
         if not np.isfinite(values).any():
             raise ValueError(
-                f"No free vibration of this body ({self._body.description}) had an impact; a block that rocks was "
+                f"No free vibration of this body ({self._body.description}) gave a restitution; a block that rocks was "
                 "expected"
             )
         value, history = list(self._found.values())[int(np.nanargmin(np.abs(values - self._target)))]
         return Calibration(
             law=history.law,
             restitution=value,
+            velocity_ratio=free_restitution(history, impacts=self._impacts),
             target=self._target,
             fractions=np.array([fraction for _, fraction in self._found]),
             stiffnesses=np.array([stiffness for stiffness, _ in self._found]),

@@ -1,0 +1,66 @@
+"""The law of contact of a specimen: the e that it is calibrated to is the one that a laboratory would identify."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from colonnade.campaign.settings import ContactSettings
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.contact.calibration import TOLERANCE, free_restitution
+from colonnade.dynamics.contact.layout import rigid_body
+from colonnade.dynamics.contact.simulate import simulate
+from colonnade.identification.restitution.identify import identify_restitution
+from colonnade.stages import contact as calibrating
+
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+STEP = 3e-5
+
+
+def calibrated(restitution, **settings):
+    read = calibrating.Instructions(
+        block=PRISM,
+        shape="prism",
+        sizes=(),
+        settings=ContactSettings(step=f"{STEP} s", **settings),
+        lowest_amplitude=0.02,
+    )
+    return calibrating.contact(xr.Dataset({"restitution": restitution}), read)
+
+
+@pytest.fixture(scope="module")
+def law():
+    return calibrated(0.976)
+
+
+@pytest.fixture(scope="module")
+def history(law):
+    """A free vibration with this law from the same release, as long: e of this contact falls with the amplitude."""
+    return simulate(
+        rigid_body(PRISM),
+        law=calibrating.law_of(law),
+        theta0=0.5 * PRISM.critical_angle,
+        duration=5.4,
+        step=float(law["contact_step"]),
+    )
+
+
+def test_a_laboratory_identifies_the_e_that_was_asked_for(law, history):
+    assert float(law["contact_restitution"]) == pytest.approx(0.976, abs=TOLERANCE)
+    every = round(1e-3 / history.time[1])
+    time, angle = history.time[::every], history.angle[::every]
+    noise = np.random.default_rng(3).normal(0.0, 1e-3 * PRISM.critical_angle, time.size)
+    assert identify_restitution(time, angle + noise, PRISM).value == pytest.approx(0.976, abs=3e-4)
+
+
+def test_the_mean_velocity_ratio_is_another_e_and_is_stored_with_it(law, history):
+    ratio = float(law["contact_velocity_ratio"])
+    assert ratio == pytest.approx(free_restitution(history), abs=3e-4)
+    assert float(law["contact_restitution"]) - ratio > 4e-4
+
+
+def test_with_too_few_arcs_to_identify_an_e_it_is_the_mean_velocity_ratio(law):
+    history = simulate(
+        rigid_body(PRISM), law=calibrating.law_of(law), theta0=0.5 * PRISM.critical_angle, duration=0.5, step=STEP
+    )
+    assert identify_restitution(history.time, history.angle, PRISM).value is None
+    assert calibrating.identified(history, lowest_amplitude=0.02) == free_restitution(history)
