@@ -127,7 +127,7 @@ def test_a_wrong_cell_is_told_by_row_and_column(row, column, cell, told, tmp_pat
 def test_a_column_of_the_laboratorys_own_is_warned_of_and_a_mistyped_key_refused(tmp_path):
     rows = [[*row, "Anna"] for row in ROWS]
     campaign = with_log(tmp_path, "log.csv", table(";", [[*HEADS, "Operator"], *rows]).encode())
-    assert 'log.csv: column "Operator" is not a key of a test and is not used.' in campaign.warnings
+    assert 'log.csv: column "Operator" is not a key of a test and is not used.' in map(str, campaign.warnings)
     with pytest.raises(CampaignError, match=r'log\.csv, row 1: there is no key "windw"\. Did you mean "window"\?'):
         with_log(tmp_path, "log.csv", table(";", [[*HEADS, "windw"], *rows]).encode())
 

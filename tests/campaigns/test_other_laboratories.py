@@ -97,7 +97,8 @@ def test_the_dead_channel_is_flagged_and_told(wooden_block):
     recorded = wooden_block.result("sine-2Hz", "ingest")
     assert (recorded["block_quality"].to_numpy() == 3).all()
     assert any(
-        "block" in warning and "practically dead" in warning for warning in wooden_block.test("sine-2Hz")["warnings"]
+        "block" in warning["text"] and "practically dead" in warning["text"]
+        for warning in wooden_block.test("sine-2Hz")["warnings"]
     )
 
 

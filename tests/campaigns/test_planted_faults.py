@@ -95,7 +95,9 @@ def _warnings(folder, test):
     run(folder / "campaign.toml", only=[test], until="condition", workers=1)
     layout = Layout(folder)
     return [
-        warning for stage in ("ingest", "condition") for warning in read(layout.stage(test, stage)).attrs["warnings"]
+        warning.text
+        for stage in ("ingest", "condition")
+        for warning in read(layout.stage(test, stage)).attrs["warnings"]
     ]
 
 
@@ -266,7 +268,7 @@ def test_no_channel_of_the_demo_is_doubted(tmp_path):
     layout = Layout(folder)
     for test in load(folder).tests:
         told = [
-            warning
+            warning.text
             for stage in ("ingest", "condition")
             for warning in read(layout.stage(test, stage)).attrs["warnings"]
         ]

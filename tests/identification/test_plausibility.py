@@ -66,7 +66,7 @@ def _times(rotation, index, factor):
 
 def _said(sound, change=lambda rotation: rotation):
     rotation, base, block = sound
-    return suspicions(1 / RATE, change(rotation), base, block)
+    return list(map(str, suspicions(1 / RATE, change(rotation), base, block)))
 
 
 def test_a_sound_set_up_is_not_doubted(sound):
@@ -121,7 +121,7 @@ def test_swapped_columns_are_named(sound):
 def test_swapped_columns_are_named_even_where_gains_make_up_for_heights():
     rotation, base = _free(PRISM, (0.44, 0.04))
     # What is left is that the points of a block do not move in straight lines.
-    (told,) = suspicions(1 / RATE, _swapped(rotation, (11.0, 1.0)), base, PRISM)
+    (told,) = map(str, suspicions(1 / RATE, _swapped(rotation, (11.0, 1.0)), base, PRISM))
     assert "look swapped" in told
 
 
@@ -148,7 +148,7 @@ def test_all_of_them_wrong_alike_is_told_as_such(sound):
 def test_rocking_tells_how_wrong_the_tables_acceleration_is(factor, found):
     rotation, base = _shaken(PRISM, (0.44, 0.04))
     assert base_scale(1 / RATE, rotation, factor * base, PRISM) == pytest.approx(found, rel=0.08)
-    told = suspicions(1 / RATE, rotation, factor * base, PRISM)
+    told = list(map(str, suspicions(1 / RATE, rotation, factor * base, PRISM)))
     assert ["against what the table's acceleration does" in each for each in told] == ([True] if factor < 0 else [])
 
 

@@ -115,9 +115,9 @@ def test_the_worst_flag_of_a_sample_stands():
         Verdict(Flag.SUSPECT, np.array([True, True, False]), "b"),
         Verdict.good(3),
     ]
-    flags, reasons = combine(verdicts, 3)
+    flags, found = combine(verdicts, 3)
     assert flags.tolist() == [Flag.FAIL, Flag.SUSPECT, Flag.GOOD]
-    assert reasons == ["a", "b"]
+    assert [each.text for each in found] == ["a", "b"]
 
 
 @pytest.mark.parametrize("place", range(BLOCK - 4, BLOCK + 3))

@@ -29,7 +29,7 @@ def _conditioned(campaign, name, recordings):
 
 
 def _doubts(campaign, name, recordings):
-    return _conditioned(campaign, name, recordings).attrs["warnings"]
+    return list(map(str, _conditioned(campaign, name, recordings).attrs["warnings"]))
 
 
 def _changed(campaign, *changes):
@@ -142,7 +142,7 @@ def test_an_accelerometer_on_the_specimen_shows_gravity_at_rest(at_rest, said, s
     recordings["main"] = replace(main, channels=(*main.channels, RecordedChannel("HEAD", "g", head, time)))
     campaign = _changed(small_campaign, ("[[tests]]", ACCELEROMETER + "\n[[tests]]"))
     conditioned = _conditioned(campaign, "free-01", recordings)
-    told = " ".join(conditioned.attrs["warnings"])
+    told = " ".join(map(str, conditioned.attrs["warnings"]))
     assert said in told
     assert bool(told) == bool(said)
     assert float(conditioned["head"][-200:].mean()) == pytest.approx(9.81, abs=1e-3)

@@ -96,6 +96,6 @@ def test_a_lost_transducer_leaves_the_angle_to_the_other_and_is_said(small_campa
     recordings, _time, _angle, _ = free_vibration
     recordings["main"].channel("LVDT 2").values[:] = np.nan
     result = _rocking(small_campaign, "free-01", recordings)
-    assert any("bottom could not be used" in warning for warning in result.attrs["warnings"])
+    assert any("bottom could not be used" in warning.text for warning in result.attrs["warnings"])
     assert "slide is not separated" in result.attrs["separation"]
     assert float(result["peak_ratio"]) == pytest.approx(0.5, abs=2e-3)

@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 
 from colonnade.errors import StoreError
+from colonnade.findings import note, serious
 from colonnade.store import files
 
 
@@ -20,7 +21,11 @@ def record(values=(0.0, 1.0, np.nan)):
             "top_quality": ("elapsed", np.array([1, 1, 9])),
         },
         coords={"elapsed": np.arange(3) * 0.005},
-        attrs={"warnings": ["top: 1 sample is missing"], "outcome": "", "nothing": None},
+        attrs={
+            "warnings": [serious("gain", "top: ten times off", follows=("unit",)), note("spikes", "top: 1 spike")],
+            "outcome": "",
+            "nothing": None,
+        },
     )
 
 
@@ -30,7 +35,7 @@ def test_a_result_comes_back_as_it_went(tmp_path):
     stored = files.read(path)
     np.testing.assert_array_equal(stored["top"], record()["top"])
     np.testing.assert_array_equal(stored["elapsed"], record()["elapsed"])
-    assert stored.attrs["warnings"] == ["top: 1 sample is missing"]
+    assert stored.attrs["warnings"] == record().attrs["warnings"]
     assert (stored.attrs["status"], stored.attrs["outcome"], stored.attrs["key"]) == ("done", "", "k")
     assert "nothing" not in stored.attrs
     assert stored["top"].attrs["bridged"] == 1

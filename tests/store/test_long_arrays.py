@@ -13,6 +13,7 @@ import pytest
 import xarray as xr
 
 from colonnade.errors import StoreError
+from colonnade.findings import note
 from colonnade.store import files
 
 SIZE = 2000
@@ -35,7 +36,7 @@ def record(first=0.0):
             "near": ("elapsed_near", np.arange(10.0), {"channel": "near", "quantity": "displacement"}),
         },
         coords={"elapsed": np.arange(SIZE) * 0.005, "elapsed_near": np.arange(10) * 0.5},
-        attrs={"warnings": ["top: 1 sample is missing"]},
+        attrs={"warnings": [note("missing samples", "top: 1 sample is missing")]},
     )
 
 
@@ -44,7 +45,7 @@ def test_a_long_result_comes_back_as_it_went(tmp_path):
     content = files.write(record(), path, attributes={"stage": "ingest", "key": "k"})
     stored = files.read(path)
     assert stored.attrs["content"] == content
-    assert stored.attrs["warnings"] == ["top: 1 sample is missing"]
+    assert stored.attrs["warnings"] == record().attrs["warnings"]
     for name, variable in record().variables.items():
         np.testing.assert_array_equal(stored[name], variable)
         assert stored[name].dims == variable.dims

@@ -7,7 +7,7 @@ import io
 
 import pytest
 
-from colonnade.campaign.summary import Summary
+from colonnade.campaign.summary import Summary, Warned
 from colonnade.store import files
 from colonnade.workflow.summary import _table
 
@@ -48,11 +48,13 @@ def test_the_table_has_a_row_a_test_with_the_same_numbers(undisturbed):
 @pytest.mark.parametrize("told", ["=HYPERLINK(1)", "+1+1", "-1+1", "@SUM(A1)", "\t=1", "\r=1"])
 def test_text_that_a_spreadsheet_would_calculate_is_quoted(undisturbed, told):
     summary = Summary.model_validate_json(undisturbed.layout.summary_json.read_text(encoding="utf-8"))
-    test = summary.tests["pulse-01"].model_copy(update={"warnings": (told, "=2"), "reason": told})
+    test = summary.tests["pulse-01"].model_copy(
+        update={"warnings": (Warned(severity="note", kind="x", text=told),), "reason": told}
+    )
     table = _table(summary.model_copy(update={"tests": {"pulse-01": test}}))
     (row,) = csv.DictReader(io.StringIO(table, newline=""))
     expected = f"'{told}".replace("\r", "\n")
-    assert (row["reason"], row["warnings"]) == (expected, f"{expected}; =2")
+    assert (row["reason"], row["warnings"]) == (expected, f"note: {told}".replace("\r", "\n"))
     assert float(row["peak_ratio"]) == test.peak_ratio
 
 
@@ -61,5 +63,5 @@ def test_warnings_of_stages_are_the_tests_warnings(small):
     text[50] = "0.245000,OVERFLOW,0.0"
     small.raw("pulse-01").write_text("\n".join(text) + "\n", encoding="utf-8")
     small.run()
-    assert any("OVERFLOW" in warning for warning in small.summary()["tests"]["pulse-01"]["warnings"])
+    assert any("OVERFLOW" in warning["text"] for warning in small.summary()["tests"]["pulse-01"]["warnings"])
     assert small.summary()["tests"]["pulse-02"]["warnings"] == []

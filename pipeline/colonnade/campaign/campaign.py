@@ -19,6 +19,7 @@ from colonnade.campaign.specimen import AnySpecimen, Specimen
 from colonnade.campaign.table import Table
 from colonnade.campaign.test import Test
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
+from colonnade.findings import Finding
 
 SCHEMA = 1
 """Version of the contract of campaign.toml."""
@@ -74,7 +75,7 @@ class Campaign:
     processing : Processing
     path, folder : Path
         The campaign file and its folder, absolute and resolved.
-    warnings : tuple of str
+    warnings : tuple of Finding
         What is accepted but not yet used, and what looks odd.
     reviews : dict of str to Review
         What people decided in review.toml, of the tests that it names.
@@ -92,7 +93,7 @@ class Campaign:
     tests: dict[str, Test]
     path: Path
     folder: Path
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Finding, ...] = ()
     reviews: dict[str, Review] = field(default_factory=dict)
 
     def review(self, test: str) -> Review:
@@ -113,7 +114,7 @@ class Campaign:
         return {name: test for name, test in self.tests.items() if test.specimen == specimen}
 
 
-def resolved(written: CampaignFile, path: Path, warnings: tuple[str, ...]) -> Campaign:
+def resolved(written: CampaignFile, path: Path, warnings: tuple[Finding, ...]) -> Campaign:
     """Make the campaign of a valid file."""
     fields: dict[str, Any] = {name: getattr(written, name) for name in CampaignFile.model_fields}
     fields["schema"] = fields.pop("version")

@@ -9,6 +9,7 @@ from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.channel import ALONG, Channel
 from colonnade.campaign.setup import Setup
 from colonnade.campaign.specimen import AnySpecimen, Cone, Cylinder
+from colonnade.findings import Finding, note, warning
 
 OFF_SIDE = 0.02
 """Fraction of its radius by which the point of a line of sight may lie off the side of a round specimen."""
@@ -19,7 +20,7 @@ _USED = {
 }
 
 
-def notices(campaign: CampaignFile) -> tuple[str, ...]:
+def notices(campaign: CampaignFile) -> tuple[Finding, ...]:
     """
     List the warnings of a valid campaign.
 
@@ -29,7 +30,7 @@ def notices(campaign: CampaignFile) -> tuple[str, ...]:
 
     Returns
     -------
-    warnings : tuple of str
+    warnings : tuple of Finding
     """
     unused: dict[str, list[str]] = {}
     for what, where in _unused(campaign):
@@ -37,9 +38,9 @@ def notices(campaign: CampaignFile) -> tuple[str, ...]:
     return (*(_not_yet(what, places) for what, places in unused.items()), *dict.fromkeys(_odd(campaign)))
 
 
-def _not_yet(what: str, places: list[str]) -> str:
+def _not_yet(what: str, places: list[str]) -> Finding:
     more = f" and {len(places) - 1} more" if len(places) > 1 else ""
-    return f"{what} is understood but not yet used ({places[0]}{more})."
+    return warning("not used", f"{what} is understood but not yet used ({places[0]}{more}).")
 
 
 def _unused(campaign: CampaignFile) -> Iterator[tuple[str, str]]:
@@ -60,23 +61,25 @@ def _unused_of_channel(channel: Channel) -> Iterator[str]:
         yield "a motion of the table that is along none of x, y and z"
 
 
-def _odd(campaign: CampaignFile) -> Iterator[str]:
+def _odd(campaign: CampaignFile) -> Iterator[Finding]:
     for name, specimen in campaign.specimens.items():
         for deviation in specimen.deviations(campaign.gravity):
-            yield f"specimens.{name}.{deviation}"
+            yield warning("specimen", f"specimens.{name}.{deviation}")
     for test in campaign.tests:
         if test.kind == "sine" and test.frequency is None:
-            yield f"tests[{test.id}] is a sine test without frequency; the table's recorded motion alone will tell it."
+            text = f"tests[{test.id}] is a sine test without frequency; the table's recorded motion alone will tell it."
+            yield note("no frequency", text)
         setup = campaign.setups[test.setup]
         yield from _off_side(test.setup, setup, test.specimen, campaign.specimens[test.specimen])
         for recorder in setup.recorders:
             if recorder not in test.files:
-                yield f'tests[{test.id}] has no file of recorder "{recorder}"; its channels are absent in this test.'
+                text = f'tests[{test.id}] has no file of recorder "{recorder}"; its channels are absent in this test.'
+                yield note("no file of a recorder", text)
     if not campaign.tests:
-        yield "There is no test yet."
+        yield warning("no test", "There is no test yet.")
 
 
-def _off_side(setup_name: str, setup: Setup, specimen_name: str, specimen: AnySpecimen) -> Iterator[str]:
+def _off_side(setup_name: str, setup: Setup, specimen_name: str, specimen: AnySpecimen) -> Iterator[Finding]:
     """Tell of lines of sight at the side of a round specimen whose point is not on it."""
     for name, channel in setup.channels.items():
         if channel.sensing != "surface" or channel.normal is not None or channel.at is None:
@@ -91,8 +94,9 @@ def _off_side(setup_name: str, setup: Setup, specimen_name: str, specimen: AnySp
             case _:
                 continue
         if abs(hypot(x, y) - radius) > OFF_SIDE * radius:
-            yield (
+            yield warning(
+                "geometry",
                 f"setups.{setup_name}.channels.{name}.at is {1e3 * hypot(x, y):.4g} mm from the axis of "
                 f"{specimen_name}, whose side is {1e3 * radius:.4g} mm from it there; the point where the line of "
-                "sight meets it was expected."
+                "sight meets it was expected.",
             )

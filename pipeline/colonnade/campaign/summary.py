@@ -7,6 +7,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
+from colonnade.findings import Finding, Severity
+
 Outcome = Literal["no-rocking", "rocking", "overturned"]
 Order = int | Literal["irregular"] | None
 
@@ -140,6 +142,32 @@ class TestPrototype(_Record):
     """Largest slide, m."""
 
 
+class Warned(_Record):
+    """What a stage found."""
+
+    severity: Severity
+    """serious: results are wrong until it is put right; warning: a result may be affected; note: the results hold."""
+    kind: str
+    """In a few words what it is about; findings of one kind are counted together."""
+    text: str
+    """What was found, where, and what to do."""
+    stage: str = ""
+    """That found it."""
+    explained: bool = False
+    """Whether it follows from one before it in the list."""
+
+    @classmethod
+    def of(cls, finding: Finding, *, explained: bool) -> Warned:
+        """Take over a finding."""
+        return cls(
+            severity=finding.severity,
+            kind=finding.kind,
+            text=finding.text,
+            stage=finding.stage,
+            explained=explained,
+        )
+
+
 class TestSummary(_Record):
     """A test."""
 
@@ -147,8 +175,8 @@ class TestSummary(_Record):
     """Whether its stages have run."""
     reason: str | None = None
     """Why it failed, or is left out by the manual review."""
-    warnings: tuple[str, ...] = ()
-    """What its stages warned of."""
+    warnings: tuple[Warned, ...] = ()
+    """What its stages found: the worst first, causes before what follows from them."""
     kind: str
     """As in the campaign file."""
     specimen: str

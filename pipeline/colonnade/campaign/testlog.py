@@ -15,6 +15,7 @@ from typing import Any
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.test import Test
 from colonnade.errors import nearest
+from colonnade.findings import Finding, note
 
 EXCEL_SUFFIXES = (".xlsx", ".xlsm", ".xls", ".xlsb", ".ods")
 _NUMBERS = ("span", "time_scale")
@@ -36,7 +37,8 @@ class Log:
         As they would stand in campaign.toml.
     rows : tuple of int
         Row of each in the file, from 1.
-    problems, warnings : tuple of str
+    problems : tuple of str
+    warnings : tuple of Finding
         Finished paragraphs.
     """
 
@@ -44,7 +46,7 @@ class Log:
     tests: tuple[dict[str, Any], ...] = ()
     rows: tuple[int, ...] = ()
     problems: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Finding, ...] = ()
 
 
 def read_log(path: Path) -> Log:
@@ -133,8 +135,10 @@ def _workbook(path: Path) -> list[list[Any]]:
         raise ValueError(f"{path.name} cannot be read as a workbook ({error}). Save it again, or as CSV.") from None
 
 
-def _judge(heads: Sequence[str], name: str, row: int) -> tuple[list[str], list[str]]:
-    problems, warnings, keys = [], [], Test.purposes()
+def _judge(heads: Sequence[str], name: str, row: int) -> tuple[list[str], list[Finding]]:
+    problems: list[str] = []
+    warnings: list[Finding] = []
+    keys = Test.purposes()
     for head in dict.fromkeys(head for head in heads if head and heads.count(head) > 1):
         problems.append(
             f'{name}, row {row}: the column head "{head}" stands there twice. Each key may have one column.'
@@ -145,7 +149,7 @@ def _judge(heads: Sequence[str], name: str, row: int) -> tuple[list[str], list[s
         if get_close_matches(head.casefold(), keys, n=1, cutoff=0.75):
             problems.append(f'{name}, row {row}: there is no key "{head}".{nearest(head, keys)}')
         else:
-            warnings.append(f'{name}: column "{head}" is not a key of a test and is not used.')
+            warnings.append(note("unused column", f'{name}: column "{head}" is not a key of a test and is not used.'))
     return problems, warnings
 
 

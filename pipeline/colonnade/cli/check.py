@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING
 import rich_click as click
 
 from colonnade.cli.console import say, show_json
+from colonnade.cli.findings import lines_of, records_of
 from colonnade.cli.options import campaign_argument, json_option
 from colonnade.cli.progress import counting
 
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign
+    from colonnade.findings import Finding as Found
     from colonnade.readers.recording import Recording
 
 
@@ -23,7 +25,7 @@ class Finding:
     """What `check` has to say about one test."""
 
     problems: list[str] = field(default_factory=list)
-    warnings: list[str] = field(default_factory=list)
+    warnings: list[Found] = field(default_factory=list)
 
 
 @click.command(epilog="Example: colonnade check demo")
@@ -42,8 +44,11 @@ def check(campaign: Path, as_json: bool) -> int:
     loaded = load(campaign)
     findings = _examine(loaded)
     if as_json:
-        tests = {name: vars(finding) for name, finding in findings.items()}
-        show_json({"campaign": str(loaded.path), "warnings": list(loaded.warnings), "tests": tests})
+        tests = {
+            name: {"problems": finding.problems, "warnings": records_of(finding.warnings)}
+            for name, finding in findings.items()
+        }
+        show_json({"campaign": str(loaded.path), "warnings": records_of(loaded.warnings), "tests": tests})
     else:
         _tell(loaded, findings)
     return int(any(finding.problems for finding in findings.values()))
@@ -51,6 +56,7 @@ def check(campaign: Path, as_json: bool) -> int:
 
 def _examine(campaign: Campaign) -> dict[str, Finding]:
     from colonnade.errors import ReadError, StageError
+    from colonnade.findings import note
     from colonnade.readers.registry import read
     from colonnade.stages.ingest import ingest, instructions
 
@@ -65,7 +71,7 @@ def _examine(campaign: Campaign) -> dict[str, Finding]:
             finding, recordings = Finding(), {}
             findings[name] = finding
             if excluded := campaign.review(name).excluded:
-                finding.warnings.append(f"{excluded} (review.toml).")
+                finding.warnings.append(note("excluded", f"{excluded} (review.toml)."))
                 advance()
                 continue
             for recorder, path in test.files.items():
@@ -101,14 +107,14 @@ def _missing_columns(campaign: Campaign, test: str, recordings: dict[str, Record
 
 def _tell(campaign: Campaign, findings: dict[str, Finding]) -> None:
     say(f"{campaign.path}: {_count(len(campaign.tests), 'test')}, {_count(len(campaign.specimens), 'specimen')}")
-    for warning in campaign.warnings:
-        say(f"  warning: {warning}")
+    for line in lines_of(campaign.warnings):
+        say(f"  {line}")
     for name, finding in findings.items():
         say(f"{name}: {'would fail' if finding.problems else 'good'}")
         for problem in finding.problems:
             say(f"  problem: {_indented(problem)}")
-        for warning in finding.warnings:
-            say(f"  warning: {_indented(warning)}")
+        for line in lines_of(finding.warnings):
+            say(f"  {_indented(line)}")
     failing = sum(bool(finding.problems) for finding in findings.values())
     say(f"{_count(failing, 'test')} would fail." if failing else "All good; nothing was written.")
 

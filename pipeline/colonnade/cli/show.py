@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import rich_click as click
 
 from colonnade.cli.console import show_fields, show_json, show_table, shown
+from colonnade.cli.findings import line_of
 from colonnade.cli.options import json_option
 from colonnade.cli.records import KnownCampaign, Record, specimen_records, test_records
 
@@ -157,7 +158,7 @@ def _test_cells(record: Record) -> tuple[str, ...]:
         outcome,
         shown(record["peak_ratio"]),
         ", ".join(predicted),
-        record["reason"] or "; ".join(record["warnings"]),
+        record["reason"] or "; ".join(map(line_of, record["warnings"])),
     )
 
 
@@ -178,6 +179,8 @@ def _flat(record: Mapping[str, Any], prefix: str = "") -> list[tuple[str, str]]:
     for key, value in record.items():
         if isinstance(value, Mapping):
             lines += _flat(value, f"{prefix}{key}.")
+        elif key == "warnings":
+            lines += [(f"{prefix}{key}", line_of(each)) for each in value]
         elif value is not None and value != []:
             lines.append((f"{prefix}{key}", shown(value)))
     return lines

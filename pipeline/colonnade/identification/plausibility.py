@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.dynamics.block import Block
+from colonnade.findings import Finding, serious
 from colonnade.identification.factors import as_expected, cause
 from colonnade.identification.scale import Scale, filled_in, scale_of
 
@@ -88,7 +89,7 @@ class Rotation:
         )
 
 
-def suspicions(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> list[str]:
+def suspicions(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> list[Finding]:
     """
     Say which transducers cannot be right, with the probable cause.
 
@@ -103,8 +104,8 @@ def suspicions(interval: float, rotation: Rotation, acceleration: Array | None, 
 
     Returns
     -------
-    suspicions : list of str
-        Sentences; empty where all agree, or where the specimen does not rock enough to tell.
+    suspicions : list of Finding
+        Empty where all agree, or where the specimen does not rock enough to tell.
 
     Notes
     -----
@@ -148,7 +149,7 @@ def _scales(interval: float, rotation: Rotation, acceleration: Array | None, blo
     return [scale_of(interval, angle, noise, acceleration, block) for angle, noise in zip(angles, noises, strict=True)]
 
 
-def _swapped(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> str | None:
+def _swapped(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> Finding | None:
     """Say of two transducers that with their readings exchanged they agree on one rotation, and far better."""
     for first, second in combinations(range(len(rotation.names)), 2):
         before = _residual(rotation, (first, second))
@@ -159,10 +160,11 @@ def _swapped(interval: float, rotation: Rotation, acceleration: Array | None, bl
                 continue
             again = _scales(interval, exchanged, acceleration, block)
             if all(again[index].is_known and as_expected(again[index].value) for index in (first, second)):
-                return (
+                return serious(
+                    "swapped channels",
                     f"channels {rotation.names[first]} and {rotation.names[second]} look swapped: with their {what} "
                     f"exchanged, what they leave unexplained by one rotation falls from {1e3 * before:.2g} to "
-                    f"{1e3 * after:.2g} mm"
+                    f"{1e3 * after:.2g} mm",
                 )
     return None
 
@@ -178,25 +180,31 @@ def _residual(rotation: Rotation, used: tuple[int, ...]) -> float:
     return float(np.sqrt(np.nanmean(misfit**2)))
 
 
-def _gains(rotation: Rotation, scales: Sequence[Scale], known: list[int], right: list[int]) -> list[str]:
+def _gains(rotation: Rotation, scales: Sequence[Scale], known: list[int], right: list[int]) -> list[Finding]:
     wrong = [index for index in known if index not in right]
     common = float(np.median([scales[index].value for index in wrong])) if wrong else 1.0
     alike = [index for index in wrong if as_expected(scales[index].value / common)]
     if not right and len(alike) == len(rotation.names) > 1:
         return [
-            f"channels {' and '.join(rotation.names)} all show {common:.3g} times the rotation that the equation of "
-            f"motion gives for this specimen: {cause(common, 'displacement')}, in all of them; or the specimen's "
-            "dimensions, or the sampling rate"
+            serious(
+                "gain",
+                f"channels {' and '.join(rotation.names)} all show {common:.3g} times the rotation that the equation "
+                f"of motion gives for this specimen: {cause(common, 'displacement')}, in all of them; or the "
+                "specimen's dimensions, or the sampling rate",
+            )
         ]
     beside = f", and that {', '.join(rotation.names[index] for index in right)} shows" if right else ""
     return [
-        f"channel {rotation.names[index]} shows {scales[index].value:.3g} times the rotation that the equation of "
-        f"motion gives{beside}: {cause(scales[index].value, 'displacement')}"
+        serious(
+            "gain",
+            f"channel {rotation.names[index]} shows {scales[index].value:.3g} times the rotation that the equation of "
+            f"motion gives{beside}: {cause(scales[index].value, 'displacement')}",
+        )
         for index in wrong
     ]
 
 
-def _dead(rotation: Rotation, scales: Sequence[Scale], right: list[int]) -> list[str]:
+def _dead(rotation: Rotation, scales: Sequence[Scale], right: list[int]) -> list[Finding]:
     """Tell transducers that stand still while others turn."""
     if not right:
         return []
@@ -213,13 +221,17 @@ def _dead(rotation: Rotation, scales: Sequence[Scale], right: list[int]) -> list
             and shown < 0.1 * expected
         ):
             told.append(
-                f"channel {name} hardly moves ({1e3 * shown:.2g} mm RMS) where the rotation that {others} shows would "
-                f"give {1e3 * expected:.2g} mm: it is dead, or its gain is far too small; look at cable and sensor"
+                serious(
+                    "dead channel",
+                    f"channel {name} hardly moves ({1e3 * shown:.2g} mm RMS) where the rotation that {others} shows "
+                    f"would give {1e3 * expected:.2g} mm: it is dead, or its gain is far too small; look at cable and "
+                    "sensor",
+                )
             )
     return told
 
 
-def _signs(rotation: Rotation, scales: Sequence[Scale], known: list[int]) -> list[str]:
+def _signs(rotation: Rotation, scales: Sequence[Scale], known: list[int]) -> list[Finding]:
     """Tell transducers that turn against the others, and all of them against the table."""
     angles = rotation.readings / rotation.levers[:, None]
     leader = known[0]
@@ -233,10 +245,14 @@ def _signs(rotation: Rotation, scales: Sequence[Scale], known: list[int]) -> lis
     if len(set(sides.values())) == 1:
         if against and all(sign < 0 for sign in against.values()):
             names = " and ".join(rotation.names[index] for index in sides)
+            which = "all of them" if len(sides) > 1 else "this channel"
             return [
-                f"channel{'s' if len(sides) > 1 else ''} {names} turn{'' if len(sides) > 1 else 's'} against what the "
-                "table's acceleration does: the sign of the table's acceleration is wrong, or that of "
-                f"{'all of them' if len(sides) > 1 else 'this channel'} (`direction`, or the sign of the gain)"
+                serious(
+                    "sign",
+                    f"channel{'s' if len(sides) > 1 else ''} {names} turn{'' if len(sides) > 1 else 's'} against what "
+                    "the table's acceleration does: the sign of the table's acceleration is wrong, or that of "
+                    f"{which} (`direction`, or the sign of the gain)",
+                )
             ]
         return []
     groups = [[index for index in sides if sides[index] == side] for side in (1.0, -1.0)]
@@ -247,4 +263,4 @@ def _signs(rotation: Rotation, scales: Sequence[Scale], known: list[int]) -> lis
         more, sure = [index for index in sides if index not in fewer], True
     names, others = (", ".join(rotation.names[index] for index in group) for group in (fewer, more))
     which = f"the sign of {names} is wrong" if sure else f"the sign of one of the two is wrong, {names} or {others}"
-    return [f"channel {names} turns against {others}: {which} (`direction`, or the sign of the gain)"]
+    return [serious("sign", f"channel {names} turns against {others}: {which} (`direction`, or the sign of the gain)")]

@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from colonnade.findings import Finding, serious, warning
 from colonnade.identification.factors import as_expected, cause
 from colonnade.signals.filters import lowpass, second_derivative
 
@@ -79,7 +80,7 @@ def guilty(found: float, by_specimen: float | None) -> Literal["", "acceleration
     return "either"
 
 
-def disagreement(acceleration: str, displacement: str, found: float, wrong: str) -> str:
+def disagreement(acceleration: str, displacement: str, found: float, wrong: str) -> Finding:
     """
     Say what a ratio that is not one means.
 
@@ -98,21 +99,23 @@ def disagreement(acceleration: str, displacement: str, found: float, wrong: str)
         "either": f"one of the two is wrong, {acceleration} or {displacement}",
     }[wrong]
     if as_expected(found):
-        return (
+        return serious(
+            "sign",
             f"channel {acceleration} and the second derivative of {displacement} have opposite signs: {which} "
-            "(`direction`, or the sign of the gain)"
+            "(`direction`, or the sign of the gain)",
         )
-    return (
+    return serious(
+        "gain",
         f"channel {acceleration} is {found:.3g} times the second derivative of {displacement}: {which}; "
-        f"{cause(found, 'acceleration')}"
+        f"{cause(found, 'acceleration')}",
     )
 
 
-def dead(interval: float, acceleration: TableChannel, displacement: TableChannel) -> str:
-    """Say which of the two stands still, or that they are not of one motion; empty where nothing is to be said."""
+def dead(interval: float, acceleration: TableChannel, displacement: TableChannel) -> Finding | None:
+    """Say which of the two stands still, or that they are not of one motion; None where nothing is to be said."""
     recorded, derived = _band(interval, acceleration, displacement)
     if abs(_correlation(recorded, derived)) > OTHER_MOTION:
-        return ""
+        return None
     due, shown = _integrated(recorded, interval), _integrated(derived, interval)
     # Noise as a second derivative is told from motion where the displacement itself is.
     moves = shown.std() > STANDING * displacement.noise
@@ -122,17 +125,19 @@ def dead(interval: float, acceleration: TableChannel, displacement: TableChannel
     if moves and derived.std() > STANDING * acceleration.noise and recorded.std() < DEAD * derived.std():
         return _standing(acceleration.name, displacement.name, recorded.std(), derived.std(), "m/s²")
     if moves and shakes:
-        return (
+        return warning(
+            "table motion",
             f"channels {acceleration.name} and {displacement.name} both move, but not as one table does (correlation "
-            f"{_correlation(recorded, derived):.2f}): look at their columns and recorders"
+            f"{_correlation(recorded, derived):.2f}): look at their columns and recorders",
         )
-    return ""
+    return None
 
 
-def _standing(still: str, other: str, shown: float, due: float, unit: str) -> str:
-    return (
+def _standing(still: str, other: str, shown: float, due: float, unit: str) -> Finding:
+    return serious(
+        "dead channel",
         f"channel {still} hardly moves ({shown:.2g} {unit} RMS) where {other} gives {due:.2g} {unit}: it is dead, or "
-        "its gain is far too small; look at cable and sensor"
+        "its gain is far too small; look at cable and sensor",
     )
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from colonnade.campaign import Campaign, Test
 from colonnade.errors import StoreError
+from colonnade.findings import Finding, at_stage, in_order
 from colonnade.store import files
 from colonnade.store.layout import Layout
 
@@ -25,10 +26,23 @@ GOOD = 1
 
 @dataclass(frozen=True)
 class Message:
-    """A warning or a reason, and the stage that gave it."""
+    """
+    A finding or a reason, and the stage that gave it.
+
+    Attributes
+    ----------
+    stage, text : str
+    severity, kind : str
+        Of a finding; empty for a reason.
+    explained : bool
+        Whether it follows from a finding before it.
+    """
 
     stage: str
     text: str
+    severity: str = ""
+    kind: str = ""
+    explained: bool = False
 
 
 @dataclass(frozen=True)
@@ -50,8 +64,10 @@ class Results:
     datasets : mapping of str to Dataset
         Results that are done, by stage; those of `predict` and `ensemble` by ``predict <model>``. Of `ingest` and
         `condition` the samples are not kept: a page of a hundred tests has to fit into memory.
-    failures, warnings : tuple of Message
+    failures : tuple of Message
         In the order of the stages.
+    warnings : tuple of Message
+        The worst first, and behind its cause what follows from it.
     raw_files : tuple of (str, str)
         Name and SHA-256.
     versions : tuple of str
@@ -145,7 +161,7 @@ def _files_of(campaign: Campaign, layout: Layout, test: Test) -> Iterator[tuple[
 def _gather(paths: Iterator[tuple[str, Path]]) -> Results:
     datasets: dict[str, xr.Dataset] = {}
     failures: list[Message] = []
-    warnings: list[Message] = []
+    warnings: list[Finding] = []
     raw: dict[str, str] = {}
     versions: dict[str, None] = {}
     channels: dict[str, dict[str, Any]] = {}
@@ -160,7 +176,7 @@ def _gather(paths: Iterator[tuple[str, Path]]) -> Results:
         except StoreError as error:
             failures.append(Message(stage, str(error)))
             continue
-        warnings += [Message(stage, text) for text in _listed(dataset.attrs.get("warnings"))]
+        warnings += at_stage(dataset.attrs.get("warnings", []), stage)
         names, hashes = (_listed(dataset.attrs.get(name)) for name in ("raw_files", "raw_sha256"))
         raw |= dict(zip(names, hashes, strict=False))
         versions |= dict.fromkeys(
@@ -183,7 +199,10 @@ def _gather(paths: Iterator[tuple[str, Path]]) -> Results:
     return Results(
         datasets,
         tuple(failures),
-        tuple(warnings),
+        tuple(
+            Message(each.stage, each.text, str(each.severity), each.kind, explained)
+            for each, explained in in_order(warnings)
+        ),
         tuple(raw.items()),
         tuple(versions),
         channels,

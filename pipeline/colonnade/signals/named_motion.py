@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from colonnade.findings import Finding, warning
 from colonnade.signals.filters import lowpass
 
 Array = NDArray[np.float64]
@@ -85,7 +86,7 @@ class Match:
 
 def check_motion(
     record: Series, name: str, named: Series, *, time_scale: float | None, others: Mapping[str, Series]
-) -> list[str]:
+) -> list[Finding]:
     """
     Compare what was recorded with the motion that was named.
 
@@ -103,8 +104,8 @@ def check_motion(
 
     Returns
     -------
-    suspicions : list of str
-        Sentences; empty where the record is that motion, whatever its amplitude.
+    suspicions : list of Finding
+        Empty where the record is that motion, whatever its amplitude.
     """
     scale = time_scale if time_scale is not None else best_scale(record, named)
     found = match(record, named.stretched(scale))
@@ -112,23 +113,27 @@ def check_motion(
         return _differences(record, name, named.stretched(scale), found, scale)
     if -found.correlation >= AGREES:
         return [
-            f'the table moved as "{name}" with the other polarity (correlation {found.correlation:.2f}): turn the sign '
-            "of the table's acceleration, or say so in the motion's name"
+            warning(
+                "polarity",
+                f'the table moved as "{name}" with the other polarity (correlation {found.correlation:.2f}): turn the '
+                "sign of the table's acceleration, or say so in the motion's name",
+                follows=("sign",),
+            )
         ]
     begun = f'the table did not move as "{name}" at time scale {scale:.4g} (correlation {found.correlation:.2f}'
     other_scale = best_scale(record, named)
     again = match(record, named.stretched(other_scale))
     if abs(again.correlation) >= max(AGREES, abs(found.correlation) + BETTER):
         turned = " and the other polarity" if again.correlation < 0 else ""
-        return [
-            f"{begun}), but with time scale {other_scale:.4g}{turned} ({again.correlation:.2f}): look at time_scale"
-        ]
+        text = f"{begun}), but with time scale {other_scale:.4g}{turned} ({again.correlation:.2f}): look at time_scale"
+        return [warning("time scale", text)]
     for other, series in others.items():
         likely = [value for value in (scale, best_scale(record, series)) if value > 0]
         fit = max((match(record, series.stretched(value)) for value in likely), key=lambda each: abs(each.correlation))
         if abs(fit.correlation) >= max(AGREES, abs(found.correlation) + BETTER):
-            return [f'{begun}): it moved as "{other}" ({fit.correlation:.2f})']
-    return [f"{begun}; {AGREES:g} is needed): it is another motion, or the table did not follow"]
+            return [warning("another motion", f'{begun}): it moved as "{other}" ({fit.correlation:.2f})')]
+    text = f"{begun}; {AGREES:g} is needed): it is another motion, or the table did not follow"
+    return [warning("another motion", text, follows=("dead channel", "table motion"))]
 
 
 def match(record: Series, motion: Series) -> Match:
@@ -196,7 +201,7 @@ def _duration(series: Series) -> float:
     return float(last - first) * series.interval
 
 
-def _differences(record: Series, name: str, motion: Series, found: Match, scale: float) -> list[str]:
+def _differences(record: Series, name: str, motion: Series, found: Match, scale: float) -> list[Finding]:
     """Parts of the motion that are not in the record, or otherwise."""
     one, other = (series.acceleration for series in _below_one_cutoff(record, motion))
     interval = record.interval
@@ -206,9 +211,11 @@ def _differences(record: Series, name: str, motion: Series, found: Match, scale:
     told = []
     before, after = float(energy[inside.start]) if inside.start else 0.0, 1 - float(energy[inside.stop - 1])
     if before > LEAST_ENERGY:
-        told.append(f'the first {inside.start * interval:.3g} s of "{name}" are missing from the record')
+        missing = f'the first {inside.start * interval:.3g} s of "{name}" are missing from the record'
+        told.append(warning("cut motion", missing))
     if after > LEAST_ENERGY:
-        told.append(f'the last {(other.size - inside.stop) * interval:.3g} s of "{name}" are missing from the record')
+        missing = f'the last {(other.size - inside.stop) * interval:.3g} s of "{name}" are missing from the record'
+        told.append(warning("cut motion", missing))
     given = other[inside]
     recorded = one[inside.start + begin : inside.stop + begin]
     size = max(int(STRETCH * scale / interval), 4)
@@ -223,8 +230,11 @@ def _differences(record: Series, name: str, motion: Series, found: Match, scale:
     if odd.any():
         low, high = ((starts[np.flatnonzero(odd)[end]] + inside.start) * interval / scale for end in (0, -1))
         told.append(
-            f'the table did not move as "{name}" from {low:.3g} to {high + STRETCH:.3g} s of its own time: a part is '
-            "missing or another"
+            warning(
+                "cut motion",
+                f'the table did not move as "{name}" from {low:.3g} to {high + STRETCH:.3g} s of its own time: a part '
+                "is missing or another",
+            )
         )
     return told
 

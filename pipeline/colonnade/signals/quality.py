@@ -9,6 +9,8 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from colonnade.findings import Finding, Severity
+
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
@@ -26,6 +28,10 @@ FEW = 0.02
 """Share of doubtful samples up to which their neighbourhoods are looked at one by one."""
 
 
+FEW_SPIKES = 0.001
+"""Share of the samples up to which spikes are only noted."""
+
+
 class Flag(IntEnum):
     """Quality of a sample: good and suspect samples are used, failed and missing ones are bridged."""
 
@@ -38,11 +44,31 @@ class Flag(IntEnum):
 
 @dataclass(frozen=True)
 class Verdict:
-    """A check's flag, the samples it applies to (shape (n,)), and the reason, empty where all is good."""
+    """
+    What a check says of a record.
+
+    Attributes
+    ----------
+    flag : Flag
+    where : ndarray of bool, shape (n,)
+        The samples it applies to.
+    reason : str
+        Empty where all is good.
+    kind : str
+    severity : Severity
+        Of the finding that it makes.
+    """
 
     flag: Flag
     where: Mask
     reason: str
+    kind: str = "samples"
+    severity: Severity = Severity.WARNING
+
+    @property
+    def finding(self) -> Finding:
+        """The reason, with how much it matters."""
+        return Finding(self.reason, self.kind, self.severity)
 
     @classmethod
     def good(cls, size: int) -> Verdict:
@@ -50,22 +76,22 @@ class Verdict:
         return cls(Flag.GOOD, np.zeros(size, dtype=bool), "")
 
 
-def combine(verdicts: Iterable[Verdict], size: int) -> tuple[NDArray[np.int8], list[str]]:
+def combine(verdicts: Iterable[Verdict], size: int) -> tuple[NDArray[np.int8], list[Finding]]:
     """
-    Merge verdicts into one flag a sample, the worst one, and the list of reasons.
+    Merge verdicts into one flag a sample, the worst one, and the list of what was found.
 
     Returns
     -------
     flags : ndarray of int8, shape (size,)
-    reasons : list of str
+    found : list of Finding
     """
     flags = np.full(size, Flag.GOOD, dtype=np.int8)
-    reasons = []
+    found = []
     for verdict in verdicts:
         if verdict.reason:
             flags[verdict.where] = np.maximum(flags[verdict.where], np.int8(verdict.flag))
-            reasons.append(verdict.reason)
-    return flags, reasons
+            found.append(verdict.finding)
+    return flags, found
 
 
 def check_missing(time: Array, values: Array) -> Verdict:
@@ -73,7 +99,7 @@ def check_missing(time: Array, values: Array) -> Verdict:
     if is_finite(values) and is_finite(time):
         return Verdict.good(values.size)
     where = ~(np.isfinite(values) & np.isfinite(time))
-    return Verdict(Flag.MISSING, where, f"{counted(where)} without a value{first_at(time, where)}")
+    return Verdict(Flag.MISSING, where, f"{counted(where)} without a value{first_at(time, where)}", "missing samples")
 
 
 def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
@@ -95,7 +121,7 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
     if not where.any():
         return Verdict.good(values.size)
     reason = f"{counted(where)} at the end of the range (±{full_scale:g}){first_at(time, where)}: the value was larger"
-    return Verdict(Flag.SUSPECT, where, reason)
+    return Verdict(Flag.SUSPECT, where, reason, "end of the range")
 
 
 def check_flat(time: Array, values: Array, *, duration: float) -> Verdict:
@@ -111,8 +137,10 @@ def check_flat(time: Array, values: Array, *, duration: float) -> Verdict:
     for start, stop in zip(starts[long], stops[long], strict=True):
         where[start : stop + 1] = True
     if where.all():
-        return Verdict(Flag.SUSPECT, where, f"the channel is dead: every sample is {values[0]:g}")
-    return Verdict(Flag.SUSPECT, where, f"{counted(where)} flat for more than {duration:g} s{first_at(time, where)}")
+        reason = f"the channel is dead: every sample is {values[0]:g}"
+        return Verdict(Flag.SUSPECT, where, reason, "dead channel", Severity.SERIOUS)
+    reason = f"{counted(where)} flat for more than {duration:g} s{first_at(time, where)}"
+    return Verdict(Flag.SUSPECT, where, reason, "flat stretch")
 
 
 def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
@@ -155,7 +183,9 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
         where &= np.isfinite(values)
     if not where.any():
         return Verdict.good(values.size)
-    return Verdict(Flag.FAIL, where, f"spikes on {counted(where)}{first_at(time, where)}")
+    # They are bridged: a few do not touch the result.
+    severity = Severity.NOTE if where.mean() <= FEW_SPIKES else Severity.WARNING
+    return Verdict(Flag.FAIL, where, f"spikes on {counted(where)}{first_at(time, where)}", "spikes", severity)
 
 
 def _filled(values: Array) -> Array | None:
@@ -252,7 +282,7 @@ def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:
         f"the channel is practically dead: its standard deviation is {spread:.3g}, that of the table's {expected:.3g} "
         "in the same unit; look at its cable, sensor and range"
     )
-    return Verdict(Flag.SUSPECT, np.ones(values.size, dtype=bool), reason)
+    return Verdict(Flag.SUSPECT, np.ones(values.size, dtype=bool), reason, "dead channel", Severity.SERIOUS)
 
 
 def is_finite(values: Array) -> bool:

@@ -96,6 +96,7 @@ def check_order(stamps: Array, clock: Clock) -> Verdict:
         Flag.FAIL,
         where,
         f"{counted(where)} whose time is out of order, the first being sample {int(np.argmax(where)) + 1}",
+        "time column",
     )
 
 
@@ -112,7 +113,9 @@ def check_gaps(clock: Clock, *, factor: float) -> Verdict:
     where[kept[after]] = where[kept[after + 1]] = True
     lost = int(np.rint(longer[after] - 1).sum())
     gaps = f"{after.size} gap{'s' if after.size > 1 else ''} in time"
-    return Verdict(Flag.SUSPECT, where, f"{gaps}, about {lost} samples lost{first_at(clock.time, where)}")
+    return Verdict(
+        Flag.SUSPECT, where, f"{gaps}, about {lost} samples lost{first_at(clock.time, where)}", "lost samples"
+    )
 
 
 def check_jitter(clock: Clock, *, share: float, factor: float) -> Verdict:
@@ -129,7 +132,7 @@ def check_jitter(clock: Clock, *, share: float, factor: float) -> Verdict:
     where[kept[1:][uneven]] = True
     spread = 1e3 * clock.interval * float(off[uneven].max())
     reason = f"{counted(where)} up to {spread:.3g} ms off an even clock of {1e3 * clock.interval:.6g} ms"
-    return Verdict(Flag.SUSPECT, where, reason)
+    return Verdict(Flag.SUSPECT, where, reason, "time column")
 
 
 def _is_exact(stamps: Array) -> bool:

@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict
 from colonnade.campaign import Channel
 from colonnade.campaign.setup import Align, Recorder
 from colonnade.errors import StageError
+from colonnade.findings import Finding, note, serious, warning
 from colonnade.signals.alignment import Offset, link
 from colonnade.signals.clock import uniform_clock
 from colonnade.signals.record import Record, even_record
@@ -64,7 +65,7 @@ def _link(channels: Mapping[str, Channel], clock: Align) -> tuple[str, str, floa
     return clock.channel, clock.own_channel, -1.0 if against else 1.0
 
 
-def own_records(recorded: xr.Dataset, read: ClockInstructions, warnings: list[str]) -> dict[str, Record]:
+def own_records(recorded: xr.Dataset, read: ClockInstructions, warnings: list[Finding]) -> dict[str, Record]:
     """Put each channel on an even clock of its own, its delay taken off; unusable ones are left out and told."""
     records = {}
     for name, delay in read.delays.items():
@@ -74,12 +75,12 @@ def own_records(recorded: xr.Dataset, read: ClockInstructions, warnings: list[st
         try:
             records[name] = even_record(stamps, variable.to_numpy(), flags)
         except ValueError as error:
-            warnings.append(f"channel {name} is left out: it {error}.")
+            warnings.append(serious("channel left out", f"channel {name} is left out: it {error}."))
     return records
 
 
 def recorder_offsets(
-    records: Mapping[str, Record], quantities: Mapping[str, str], read: ClockInstructions, warnings: list[str]
+    records: Mapping[str, Record], quantities: Mapping[str, str], read: ClockInstructions, warnings: list[Finding]
 ) -> dict[str, Offset]:
     """
     Find the delays of the recorders against the main one, where they are known.
@@ -91,7 +92,7 @@ def recorder_offsets(
     quantities : mapping of str to str
         By channel.
     read : ClockInstructions
-    warnings : list of str
+    warnings : list of Finding
         What is in doubt is added to it.
 
     Raises
@@ -102,7 +103,8 @@ def recorder_offsets(
     offsets = {"main": Offset(0.0, 0.0, 1.0)}
     for recorder, (channel, own_channel, sign) in read.links.items():
         if channel not in records or own_channel not in records:
-            warnings.append(f"recorder {recorder} could not be aligned, as {channel} or {own_channel} is not usable.")
+            reason = f"recorder {recorder} could not be aligned, as {channel} or {own_channel} is not usable."
+            warnings.append(serious("clock", reason, follows=("dead channel", "channel left out")))
             continue
         try:
             found = link(
@@ -121,12 +123,17 @@ def recorder_offsets(
             offsets[recorder] = found
         if found.doubt:
             state = "aligned" if found.is_determined else "taken to start with the main one"
-            warnings.append(f"recorder {recorder} was {state} by {channel} and {own_channel}: {found.doubt}.")
+            weight = warning if found.is_determined else serious
+            doubt = f"recorder {recorder} was {state} by {channel} and {own_channel}: {found.doubt}."
+            warnings.append(weight("clock", doubt, follows=("dead channel",)))
         if found.drift is not None:
             warnings.append(
-                f"recorder {recorder}: its clock runs {found.drift} against the main recorder's, by {channel} and "
-                f"{own_channel}; the delay changes by {1e3 * abs(found.drift.change):.2g} ms over the motion. This was "
-                "taken off. A common sampling clock or trigger line would avoid it."
+                note(
+                    "clock drift",
+                    f"recorder {recorder}: its clock runs {found.drift} against the main recorder's, by {channel} and "
+                    f"{own_channel}; the delay changes by {1e3 * abs(found.drift.change):.2g} ms over the motion. This "
+                    "was taken off. A common sampling clock or trigger line would avoid it.",
+                )
             )
     return offsets
 

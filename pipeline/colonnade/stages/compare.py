@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import amplitude
+from colonnade.findings import MEASUREMENT, Finding, serious
 from colonnade.signals.metrics import nrmse
 from colonnade.stages.sine import Sine, sine
 from colonnade.stages.spread import spread
@@ -69,10 +70,11 @@ def compare(
     same_part = [_peak_ratio(rocking, predicted[model], instructions.block, measured_ratio) for model in models]
     rows = [_row(rocking, predicted[model], instructions.block) for model in models]
     ratios = np.array([float(predicted[model]["peak_ratio"]) for model in models])
-    warnings = []
+    warnings: list[Finding] = []
     measured, observed = rocking.attrs["outcome"], instructions.observed_outcome
     if measured and observed and not _agree(measured, observed):
-        warnings.append(f"The transducers say {measured}, the test log says {observed}: look at the record.")
+        text = f"The transducers say {measured}, the test log says {observed}: look at the record."
+        warnings.append(serious("outcome", text, follows=MEASUREMENT))
     steady = sine(rocking, predicted, instructions.block, instructions.frequency) if instructions.is_sine else Sine()
     return xr.Dataset(
         {

@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict
 
 from colonnade.campaign import Campaign, Test
 from colonnade.errors import StageError
+from colonnade.findings import Finding
 from colonnade.signals.alignment import Offset
 from colonnade.signals.filters import default_lowpass
 from colonnade.signals.record import on_clock, smoothed
@@ -116,7 +117,7 @@ def condition(recorded: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     StageError
         If no channel has a good sample, or the channels share no time.
     """
-    warnings: list[str] = []
+    warnings: list[Finding] = []
     records = own_records(recorded, instructions.clocks, warnings)
     quantities = {name: quantity for name, (quantity, _, _) in instructions.channels.items()}
     recorders = {name: recorder for name, (_, _, recorder) in instructions.channels.items()}

@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from colonnade.campaign.channel import ALONG
+from colonnade.findings import Finding, note, warning
 from colonnade.identification.inertial import Accelerometer
 from colonnade.identification.readings import Readings
 from colonnade.signals.filters import second_derivative
@@ -25,7 +26,7 @@ LEAST_NOISE = 1e-9
 """m, rad, …: what a reading without noise is taken to have, so that it has a weight."""
 
 
-def base_motion(conditioned: xr.Dataset, channels: Transducers, warnings: list[str]) -> dict[str, Array]:
+def base_motion(conditioned: xr.Dataset, channels: Transducers, warnings: list[Finding]) -> dict[str, Array]:
     """
     Average the table's channels along each axis; without an accelerometer along x, differentiate its displacement.
 
@@ -48,9 +49,14 @@ def base_motion(conditioned: xr.Dataset, channels: Transducers, warnings: list[s
             float(conditioned[name].attrs["cutoff_hz"]) for name in channels.displacements if name in conditioned
         )
         base["base_acceleration"] = second_derivative(base["base_displacement"], interval, cutoff)
+        is_meant = not any(abs(direction[0]) >= ALONG for direction in channels.accelerations.values())
+        told = note if is_meant else warning
         warnings.append(
-            "The base acceleration is the second derivative of the table's displacement, as no table accelerometer "
-            f"is usable: nothing above {cutoff:.3g} Hz is in it."
+            told(
+                "derived base motion",
+                "The base acceleration is the second derivative of the table's displacement, as no table accelerometer "
+                f"is usable: nothing above {cutoff:.3g} Hz is in it.",
+            )
         )
     return base
 

@@ -17,6 +17,7 @@ from colonnade.dynamics.contact.calibration import Calibration, calibrate, free_
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.errors import StageError
+from colonnade.findings import warning
 from colonnade.identification.restitution.identify import identify_restitution
 
 DAMPED = 0.4
@@ -190,7 +191,7 @@ def _law(body: ContactBody, instructions: Instructions, fraction: float) -> Cont
     )
 
 
-def _described(found: Calibration, warning: str) -> xr.Dataset:
+def _described(found: Calibration, reason: str) -> xr.Dataset:
     scalars = {
         "contact_restitution": found.restitution,
         "contact_velocity_ratio": found.velocity_ratio,
@@ -206,5 +207,5 @@ def _described(found: Calibration, warning: str) -> xr.Dataset:
     return xr.Dataset(
         {name: ((), value) for name, value in scalars.items()}
         | {name: ("trial", np.asarray(values)) for name, values in tried.items()},
-        attrs={"body": found.body, "warnings": [warning] if warning else []},
+        attrs={"body": found.body, "warnings": [warning("contact law", reason)] if reason else []},
     )

@@ -7,11 +7,15 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from colonnade.errors import StageError
+from colonnade.findings import MEASUREMENT, Finding, serious, warning
 
 Array = NDArray[np.float64]
 
 LARGEST_TRANSVERSE = 0.1
 """Of the peak along x: what the base may move across without a word, though a plane model leaves it out."""
+
+VERTICAL = "vertical motion"
+"""Kind of what is told of the motion along z."""
 
 LEAST_VERTICAL = 1e-6
 """m/s², from lowest to highest: an accelerometer that reads less is dead."""
@@ -36,13 +40,13 @@ def base_acceleration(rocking: xr.Dataset) -> Array:
     if missing:
         where = float(rocking["elapsed"][int(np.argmin(np.isfinite(base)))])
         raise StageError(
-            f"The base acceleration misses {missing} of {base.size} samples, the first at {where:.3f} s; all of them "
-            "were expected. Give the test a `window` that leaves them out, or mend the channel."
+            f"The base acceleration is missing {missing} of {base.size} samples, the first at {where:.3f} s; all "
+            "of them were expected. Give the test a `window` that leaves them out, or mend the channel."
         )
     return base
 
 
-def vertical_acceleration(rocking: xr.Dataset, *, gravity: float, expected: bool) -> tuple[Array | None, list[str]]:
+def vertical_acceleration(rocking: xr.Dataset, *, gravity: float, expected: bool) -> tuple[Array | None, list[Finding]]:
     """
     Return the acceleration of the base along z, as far as a prediction can take it.
 
@@ -59,30 +63,31 @@ def vertical_acceleration(rocking: xr.Dataset, *, gravity: float, expected: bool
     -------
     vertical : ndarray, shape (n,), or None
         m/s², positive upwards; None where it is not known throughout, or lets go of the specimen.
-    warnings : list of str
+    warnings : list of Finding
         Why it is None although there is a channel.
     """
     if "vertical_base_acceleration" not in rocking:
         reason = "No channel of the table's vertical acceleration is usable: predicted without it."
-        return None, [reason] if expected else []
+        return None, [warning(VERTICAL, reason, follows=MEASUREMENT)] if expected else []
     vertical = rocking["vertical_base_acceleration"].to_numpy()
     finite = np.isfinite(vertical)
     if not finite.all():
         where = float(rocking["elapsed"][int(np.argmin(finite))])
         reason = (
-            f"The vertical acceleration of the base misses {int((~finite).sum())} of {vertical.size} samples, the "
+            f"The vertical acceleration of the base is missing {int((~finite).sum())} of {vertical.size} samples, the "
             f"first at {where:.3f} s: predicted without it."
         )
-        return None, [reason]
+        return None, [warning(VERTICAL, reason, follows=("lost samples", "missing samples"))]
     if np.ptp(vertical) < LEAST_VERTICAL:
-        return None, ["The table's vertical accelerometer is dead, it does not even show noise: predicted without it."]
+        reason = "The table's vertical accelerometer is dead, it does not even show noise: predicted without it."
+        return None, [warning(VERTICAL, reason, follows=("dead channel",))]
     if not vertical.min() > -gravity:
         where = float(rocking["elapsed"][int(vertical.argmin())])
         reason = (
             f"The vertical acceleration of the base comes to {vertical.min():.4g} m/s² at {where:.3f} s, so that the "
             "specimen would leave the table: predicted without it. Are its gain, its direction and its zero right?"
         )
-        return None, [reason]
+        return None, [serious(VERTICAL, reason, follows=MEASUREMENT)]
     return vertical, []
 
 
@@ -94,7 +99,7 @@ def transverse_acceleration(rocking: xr.Dataset) -> Array | None:
     return transverse if np.isfinite(transverse).all() else None
 
 
-def left_out(rocking: xr.Dataset, base: Array) -> list[str]:
+def left_out(rocking: xr.Dataset, base: Array) -> list[Finding]:
     """Say that the motion along y is left out of the plane models, where it is not small beside that along x."""
     if "transverse_base_acceleration" not in rocking:
         return []
@@ -103,4 +108,5 @@ def left_out(rocking: xr.Dataset, base: Array) -> list[str]:
     if peak <= LARGEST_TRANSVERSE * along:
         return []
     share = f"{peak / along:.0%} of that along x" if along > 0.0 else "and none along x"
-    return [f"The base moved across as well, by {peak:.3g} m/s² at most, {share}: the plane models leave it out."]
+    text = f"The base moved across as well, by {peak:.3g} m/s² at most, {share}: the plane models leave it out."
+    return [warning("motion across", text, follows=MEASUREMENT)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from colonnade import units
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.decision import Review
 from colonnade.errors import StageError, UnitError
+from colonnade.findings import Finding, note, serious
 from colonnade.readers.recording import RecordedChannel, Recording, Window
 from colonnade.signals import quality, timing
 from colonnade.signals.parallel import side_by_side
@@ -29,6 +30,9 @@ from colonnade.stages.judging import (
 from colonnade.store.description import variable_name
 
 Array = NDArray[np.float64]
+
+RAW_FILE = "raw file"
+"""Kind of what a reader warns of: damage, cells without a number, what it had to guess."""
 
 
 class Instructions(BaseModel):
@@ -105,7 +109,7 @@ def ingest(recordings: Mapping[str, Recording], instructions: Instructions) -> x
     ReadError
         If a column is not in its file.
     """
-    warnings = [warning for recording in recordings.values() for warning in recording.warnings]
+    warnings = [Finding.of(told, RAW_FILE) for recording in recordings.values() for told in recording.warnings]
     stamps: dict[str, Array] = {}
     timed: dict[str, list[quality.Verdict]] = {}
     tracks: list[_Track] = []
@@ -131,9 +135,10 @@ def ingest(recordings: Mapping[str, Recording], instructions: Instructions) -> x
         lambda track: _judged(track, stamps[track.dimension], timed[track.dimension], instructions), tracks
     )
     variables: dict[str, Any] = {}
-    for described, reasons in judged:
+    for described, found in judged:
         variables |= described
-        warnings += reasons
+        warnings += found
+    warnings += _of_clocks(tracks, timed)
     dataset = xr.Dataset(
         variables,
         coords={dimension: (dimension, time) for dimension, time in stamps.items()},
@@ -155,18 +160,18 @@ class _Track:
     column: RecordedChannel
     dimension: str
     values: Array
-    warnings: list[str]
+    warnings: list[Finding]
 
 
 def _judged(
     track: _Track, time: Array, timed: list[quality.Verdict], instructions: Instructions
-) -> tuple[dict[str, Any], list[str]]:
-    """Variables of a channel, and all that there is to warn of."""
+) -> tuple[dict[str, Any], list[Finding]]:
+    """Variables of a channel, and all that there is to warn of but for its clock's."""
     channel, values = track.channel, track.values
     physical = values * channel.factor
     physical += channel.offset
     verdicts = channel_verdicts(time, values, physical, channel, instructions.limits)
-    flags, reasons = quality.combine([*timed, *verdicts], values.size)
+    flags, found = quality.combine([*timed, *verdicts], values.size)
     seen, decisions = quality.combine(reviewed(track.name, time, instructions.review), values.size)
     variable = variable_name(track.name)
     attributes = {
@@ -175,14 +180,25 @@ def _judged(
         "recorder": channel.recorder,
         "recorded_unit": channel.unit or track.column.unit or "",
         "column": track.column.heading,
-        "quality_report": "; ".join([*reasons, *decisions]),
+        "quality_report": "; ".join(map(str, [*found, *decisions])),
     }
     variables = {
         variable: (track.dimension, physical, {key: value for key, value in attributes.items() if value}),
         f"{variable}_recorded": (track.dimension, values),
         f"{variable}_quality": (track.dimension, np.maximum(flags, seen) if decisions else flags),
     }
-    return variables, [*track.warnings, *(f"channel {track.name}: {reason}." for reason in reasons)]
+    own = [verdict.finding for verdict in verdicts if verdict.reason]
+    return variables, [*track.warnings, *(replace(each, text=f"channel {track.name}: {each}.") for each in own)]
+
+
+def _of_clocks(tracks: list[_Track], timed: Mapping[str, list[quality.Verdict]]) -> list[Finding]:
+    """What the checks of a clock found, once for all channels on it."""
+    found = []
+    for dimension, verdicts in timed.items():
+        names = [track.name for track in tracks if track.dimension == dimension]
+        told = f"channel{'s' if len(names) > 1 else ''} {', '.join(names)}"
+        found += [replace(verdict.finding, text=f"{told}: {verdict.reason}.") for verdict in verdicts if verdict.reason]
+    return found
 
 
 def _notes(recordings: Mapping[str, Recording]) -> list[str]:
@@ -208,7 +224,9 @@ def _column(
     )
 
 
-def _unit_warnings(recording: Recording, column: RecordedChannel, name: str, channel: ChannelInstructions) -> list[str]:
+def _unit_warnings(
+    recording: Recording, column: RecordedChannel, name: str, channel: ChannelInstructions
+) -> list[Finding]:
     if column.unit is None or channel.unit is None:
         return []
     try:
@@ -218,8 +236,11 @@ def _unit_warnings(recording: Recording, column: RecordedChannel, name: str, cha
     if agree:
         return []
     return [
-        f'channel {name}: {recording.path.name} says "{column.unit}" for column "{column.heading}", the campaign file '
-        f'says "{channel.unit}", which was taken. One of them is wrong.'
+        serious(
+            "unit",
+            f'channel {name}: {recording.path.name} says "{column.unit}" for column "{column.heading}", the campaign '
+            f'file says "{channel.unit}", which was taken. One of them is wrong.',
+        )
     ]
 
 
@@ -240,12 +261,15 @@ def _too_short(name: str, size: int, window: tuple[float, float] | None) -> Stag
     )
 
 
-def _rounding(recording: Recording, clock: timing.Clock, instructions: Instructions) -> list[str]:
+def _rounding(recording: Recording, clock: timing.Clock, instructions: Instructions) -> list[Finding]:
     if not clock.resolution > instructions.limits.jitter * clock.interval:
         return []
     return [
-        f"{recording.path.name}: the times are rounded to {1e3 * clock.resolution:g} ms; an even clock of "
-        f"{1 / clock.interval:.5g} Hz meets them all and is used."
+        note(
+            "rounded times",
+            f"{recording.path.name}: the times are rounded to {1e3 * clock.resolution:g} ms; an even clock of "
+            f"{1 / clock.interval:.5g} Hz meets them all and is used.",
+        )
     ]
 
 

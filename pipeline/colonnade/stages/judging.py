@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict
 
 from colonnade.campaign.decision import Review
+from colonnade.findings import Finding
 from colonnade.signals import quality, timing
 from colonnade.store.description import variable_name
 
@@ -97,7 +99,7 @@ def reviewed(name: str, time: Array, review: Review) -> list[quality.Verdict]:
 
 
 def judge_against_the_table(
-    dataset: xr.Dataset, channels: Mapping[str, ChannelInstructions], warnings: list[str]
+    dataset: xr.Dataset, channels: Mapping[str, ChannelInstructions], warnings: list[Finding]
 ) -> xr.Dataset:
     """Flag accelerometers on the specimen that are practically dead beside those of the table along their axis."""
     accelerometers = {name: channel for name, channel in channels.items() if channel.quantity == "acceleration"}
@@ -115,7 +117,7 @@ def judge_against_the_table(
         if verdict.reason:
             flags = dataset[f"{variable}_quality"]
             dataset[f"{variable}_quality"] = (flags.dims, np.maximum(flags.to_numpy(), np.int8(verdict.flag)))
-            warnings.append(f"channel {name}: {verdict.reason}.")
+            warnings.append(replace(verdict.finding, text=f"channel {name}: {verdict.reason}."))
             report = dataset[variable].attrs.get("quality_report", "")
             dataset[variable].attrs["quality_report"] = "; ".join(filter(None, (report, verdict.reason)))
     return dataset

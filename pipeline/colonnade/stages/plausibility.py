@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -13,6 +14,7 @@ from pydantic import BaseModel, ConfigDict
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, Pose
+from colonnade.findings import Finding, serious
 from colonnade.identification import plausibility, table_motion
 from colonnade.identification.factors import as_expected, cause
 from colonnade.identification.plausibility import Rotation
@@ -91,7 +93,7 @@ def instructions(campaign: Campaign, test: Test) -> PlausibilityInstructions:
     )
 
 
-def doubts(conditioned: xr.Dataset, read: PlausibilityInstructions) -> list[str]:
+def doubts(conditioned: xr.Dataset, read: PlausibilityInstructions) -> list[Finding]:
     """
     Say what of a test's channels cannot be right, with the probable cause.
 
@@ -103,8 +105,8 @@ def doubts(conditioned: xr.Dataset, read: PlausibilityInstructions) -> list[str]
 
     Returns
     -------
-    doubts : list of str
-        Warnings; empty where all agree.
+    doubts : list of Finding
+        Empty where all agree.
     """
     time = conditioned["elapsed"].to_numpy()
     interval = float(time[1] - time[0])
@@ -122,7 +124,7 @@ def doubts(conditioned: xr.Dataset, read: PlausibilityInstructions) -> list[str]
     found += _gravity(conditioned, read.block.gravity)
     if read.motion and acceleration is not None:
         found += _named_motion(acceleration / blamed, interval, read)
-    return [f"{each[0].upper()}{each[1:]}." for each in found]
+    return [replace(each, text=f"{each.text[0].upper()}{each.text[1:]}.") for each in found]
 
 
 def _along_x(conditioned: xr.Dataset, channels: Mapping[str, float]) -> list[table_motion.TableChannel]:
@@ -176,9 +178,9 @@ def _table(
     accelerations: list[table_motion.TableChannel],
     displacements: list[table_motion.TableChannel],
     by_specimen: float | None,
-) -> tuple[list[str], float]:
+) -> tuple[list[Finding], float]:
     """Doubts about the table's channels, and how many times too large its acceleration is by them."""
-    found: list[str] = []
+    found: list[Finding] = []
     for acceleration, displacement in product(accelerations, displacements):
         ratio = table_motion.ratio(interval, acceleration, displacement)
         if ratio is None:
@@ -193,14 +195,17 @@ def _table(
     if not found and by_specimen is not None and not as_expected(by_specimen):
         names = " and ".join(each.name for each in accelerations)
         found.append(
-            f"channel {names} is {abs(by_specimen):.3g} times what the specimen's rocking asks for: "
-            f"{cause(by_specimen, 'acceleration')}"
+            serious(
+                "gain",
+                f"channel {names} is {abs(by_specimen):.3g} times what the specimen's rocking asks for: "
+                f"{cause(by_specimen, 'acceleration')}",
+            )
         )
         return found, abs(by_specimen)
     return found, 1.0
 
 
-def _gravity(conditioned: xr.Dataset, gravity: float) -> list[str]:
+def _gravity(conditioned: xr.Dataset, gravity: float) -> list[Finding]:
     """Doubts about accelerometers on the specimen, by what they show of gravity at rest."""
     found = []
     for variable in conditioned.data_vars.values():
@@ -212,16 +217,20 @@ def _gravity(conditioned: xr.Dataset, gravity: float) -> list[str]:
         ratio = shown / due
         if as_expected(ratio) and ratio > 0:
             continue
-        why = "its sign is wrong" if as_expected(ratio) else cause(ratio, "acceleration")
+        turned = as_expected(ratio)
+        why = "its sign is wrong" if turned else cause(ratio, "acceleration")
         found.append(
-            f"channel {variable.attrs['channel']} shows {shown:.3g} m/s² at rest, where gravity's part along it is "
-            f"{due:.3g} m/s²: {why}"
+            serious(
+                "sign" if turned else "gain",
+                f"channel {variable.attrs['channel']} shows {shown:.3g} m/s² at rest, where gravity's part along it is "
+                f"{due:.3g} m/s²: {why}",
+            )
         )
     return found
 
 
-def _named_motion(acceleration: Array, interval: float, read: PlausibilityInstructions) -> list[str]:
-    warnings: list[str] = []
+def _named_motion(acceleration: Array, interval: float, read: PlausibilityInstructions) -> list[Finding]:
+    warnings: list[Finding] = []
     names = {name.casefold(): name for name in read.references}
     named = names.get((read.motion or "").casefold())
     if named is None:

@@ -17,6 +17,7 @@ from colonnade.dynamics.history import History
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.errors import StageError
+from colonnade.findings import Finding, serious
 from colonnade.identification.restitution.arcs import find_arcs
 from colonnade.stages import contact as contact_stage
 from colonnade.stages.driving import base_acceleration, left_out, transverse_acceleration, vertical_acceleration
@@ -60,7 +61,7 @@ class Beginning:
     theta0: float
     base: Array
     motion: Motion
-    warnings: list[str]
+    warnings: list[Finding]
 
 
 def instructions(campaign: Campaign, test: Test, model: str) -> Instructions:
@@ -117,7 +118,7 @@ def predict(
             _space_variables(moved, beginning.first)
             | contact_stage.law_variables(moved.body, moved.law, moved.block.gravity)
             | {"energy_residual": ((), moved.energies.relative_residual)}
-        ).assign_attrs(body=moved.body.description, warnings=[*beginning.warnings, *moved.warnings])
+        ).assign_attrs(body=moved.body.description, warnings=[*beginning.warnings, *_of_engine(moved)])
     history = rock(
         instructions.block,
         beginning.motion,
@@ -127,6 +128,10 @@ def predict(
         rest_angle=instructions.rest_angle,
     )
     return _described(history, time, beginning, specimen, instructions)
+
+
+def _of_engine(moved: ContactHistory) -> list[Finding]:
+    return [serious("energy balance", text) for text in moved.warnings]
 
 
 def begin(rocking: xr.Dataset, instructions: Instructions) -> Beginning:
@@ -141,7 +146,7 @@ def begin(rocking: xr.Dataset, instructions: Instructions) -> Beginning:
     time = rocking["elapsed"].to_numpy()
     if instructions.free_vibration:
         (first, theta0), base, vertical, transverse = _start(rocking, instructions), np.zeros_like(time), None, None
-        warnings: list[str] = []
+        warnings: list[Finding] = []
     else:
         first, theta0, base = 0, 0.0, base_acceleration(rocking)
         vertical, warnings = vertical_acceleration(

@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from colonnade.campaign import Campaign
 from colonnade.errors import ReadError
+from colonnade.findings import Finding, warning
 from colonnade.readers import el_centro
 from colonnade.signals.named_motion import Series
 
@@ -49,7 +50,7 @@ def sources(campaign: Campaign) -> dict[str, Source]:
     return found
 
 
-def load(known: Mapping[str, Source], warnings: list[str]) -> dict[str, Series]:
+def load(known: Mapping[str, Source], warnings: list[Finding]) -> dict[str, Series]:
     """Read reference motions; what cannot be read is told and left out."""
     from colonnade.readers.motion import read_motion
 
@@ -61,7 +62,7 @@ def load(known: Mapping[str, Source], warnings: list[str]) -> dict[str, Series]:
             else:
                 motion = read_motion(source.path, unit="m/s^2", dt=source.interval, column=source.column)
         except ReadError as error:
-            warnings.append(f'The reference motion "{name}" cannot be used: {error}')
+            warnings.append(warning("reference motion", f'The reference motion "{name}" cannot be used: {error}'))
             continue
         loaded[name] = Series(motion.acceleration, motion.dt)
     return loaded

@@ -13,6 +13,7 @@ from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.rock import MODELS
 from colonnade.errors import StageError
+from colonnade.findings import MEASUREMENT, Finding, warning
 from colonnade.identification.restitution.choice import METHODS, disagreement
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.identification.restitution.result import Estimate, Restitution
@@ -67,8 +68,7 @@ def restitution(rocking: xr.Dataset, instructions: Instructions) -> xr.Dataset:
         )
     result = _identified(rocking, instructions)
     freed = _identified(rocking, instructions, free=("critical_angle",))
-    warnings = [f"No restitution from this test: {result.reason}"] if result.reason else []
-    warnings += [text for text in (disagreement(result), *(found.sentence for found in result.departures)) if text]
+    warnings = _warnings(result)
     histories = {
         estimate.name.removeprefix("history-"): estimate
         for estimate in result.estimates
@@ -103,6 +103,16 @@ def restitution(rocking: xr.Dataset, instructions: Instructions) -> xr.Dataset:
             "warnings": warnings,
         },
     )
+
+
+def _warnings(result: Restitution) -> list[Finding]:
+    """What speaks against the value, or why there is none."""
+    told = [
+        ("no restitution", f"No restitution from this test: {result.reason}" if result.reason else ""),
+        ("two values of e", disagreement(result)),
+        *((found.name, found.sentence) for found in result.departures),
+    ]
+    return [warning(kind, text, follows=MEASUREMENT) for kind, text in told if text]
 
 
 def _identified(rocking: xr.Dataset, instructions: Instructions, *, free: tuple[str, ...] = ()) -> Restitution:

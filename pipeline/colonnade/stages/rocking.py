@@ -14,6 +14,7 @@ from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline
 from colonnade.errors import StageError
+from colonnade.findings import Finding, warning
 from colonnade.identification.course import course
 from colonnade.identification.motion import SpecimenMotion, specimen_motion
 from colonnade.identification.readings import Circumstances, Table
@@ -88,7 +89,7 @@ def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     StageError
         If nothing of the test is usable, or ground-relative transducers lack the table's displacement.
     """
-    warnings: list[str] = []
+    warnings: list[Finding] = []
     time = conditioned["elapsed"].to_numpy()
     base = base_motion(conditioned, instructions.transducers, warnings)
     used = [name for name in instructions.transducers.on_specimen if name in conditioned]
@@ -115,12 +116,13 @@ def _motion(
     instructions: Instructions,
     used: list[str],
     base: Mapping[str, Array],
-    warnings: list[str],
+    warnings: list[Finding],
 ) -> SpecimenMotion:
     known = instructions.transducers
     missing = sorted(set(known.on_specimen) - set(used))
     if missing:
-        warnings.append(f"The angle is from {', '.join(used)} alone; {', '.join(missing)} could not be used.")
+        text = f"The angle is from {', '.join(used)} alone; {', '.join(missing)} could not be used."
+        warnings.append(warning("fewer transducers", text, follows=("channel left out", "dead channel")))
     on_ground = [name for name in used if name in known.positions and known.positions[name].on_ground]
     if on_ground and "base_displacement" not in base and not instructions.free_vibration:
         raise StageError(

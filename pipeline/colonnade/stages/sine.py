@@ -11,6 +11,7 @@ import xarray as xr
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import NO_ROCKING_RATIO
+from colonnade.findings import Finding, warning
 from colonnade.identification.forcing import FEWEST_CYCLES, Forcing, fit_forcing
 from colonnade.identification.response import Response, response_order
 
@@ -24,7 +25,7 @@ class Sine:
 
     variables: dict[str, Any] = field(default_factory=dict)
     attributes: dict[str, str] = field(default_factory=dict)
-    warnings: list[str] = field(default_factory=list)
+    warnings: list[Finding] = field(default_factory=list)
 
 
 def sine(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], block: Block, frequency: float | None) -> Sine:
@@ -54,12 +55,16 @@ def sine(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], block: Block,
             "that this sine test has no amplitude ratio and no order of response."
         )
         given = {} if frequency is None else {"frequency_ratio": ((), 2 * np.pi * frequency / block.p)}
-        return Sine(given, {"response_order": "", "response_order_reason": reason}, [reason])
+        return Sine(given, {"response_order": "", "response_order_reason": reason}, [warning("no steady sine", reason)])
     result = Sine(_forcing_variables(forcing, block))
     if frequency is not None and abs(forcing.frequency / frequency - 1) > FREQUENCY_TOLERANCE:
         result.warnings.append(
-            f"The table moved at {forcing.frequency:.4g} Hz; the test's frequency is given as {frequency:g} Hz. The "
-            "recorded one is used: correct the test's `frequency`, or the recorder's sampling rate if that is wrong."
+            warning(
+                "frequency",
+                f"The table moved at {forcing.frequency:.4g} Hz; the test's frequency is given as {frequency:g} Hz. "
+                "The recorded one is used: correct the test's `frequency`, or the recorder's sampling rate if that is "
+                "wrong.",
+            )
         )
     measured = _measured(rocking, forcing)
     orders = [_text(_predicted(predicted[model], forcing, block)) for model in sorted(predicted)]

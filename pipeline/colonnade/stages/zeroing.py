@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.errors import StageError
+from colonnade.findings import MEASUREMENT, Finding, serious, warning
 from colonnade.signals.rest import RestWindow, find_rest
 
 Array = NDArray[np.float64]
@@ -26,7 +27,7 @@ def rest_window(
     zero: str | tuple[float, float],
     free_vibration: bool,
     duration: float,
-    warnings: list[str],
+    warnings: list[Finding],
 ) -> RestWindow | None:
     """
     Find the window of the true rest state: of a free vibration the end, of all others the start.
@@ -42,7 +43,7 @@ def rest_window(
     free_vibration : bool
     duration : float
         Of the window, s.
-    warnings : list of str
+    warnings : list of Finding
         What moves in it is added.
 
     Returns
@@ -66,8 +67,12 @@ def rest_window(
     window = find_rest(clock, noises, end=end, duration=duration)
     if not window.quiet:
         warnings.append(
-            f"Zero was taken from {window.start:.3g} to {window.stop:.3g} s, but {window.reason}. Give the test a "
-            '`zero` such as ["0 s", "0.5 s"] where specimen and table stood still.'
+            warning(
+                "zero",
+                f"Zero was taken from {window.start:.3g} to {window.stop:.3g} s, but {window.reason}. Give the test a "
+                '`zero` such as ["0 s", "0.5 s"] where specimen and table stood still.',
+                follows=MEASUREMENT,
+            )
         )
     return window
 
@@ -79,7 +84,7 @@ def zeroed(
     attributes: dict[str, Any],
     window: RestWindow,
     resting: float,
-    warnings: list[str],
+    warnings: list[Finding],
 ) -> Array | None:
     """
     Bring a channel to its true value at rest; what was taken off is noted in its attributes.
@@ -95,7 +100,7 @@ def zeroed(
     window : RestWindow
     resting : float
         True value at rest, SI: gravity's part along an accelerometer on the upright specimen, 0 for all else.
-    warnings : list of str
+    warnings : list of Finding
 
     Returns
     -------
@@ -116,8 +121,11 @@ def zeroed(
     still = values[inside][np.isfinite(values[inside])]
     if still.size == 0:
         warnings.append(
-            f"channel {name} is left out: it has no value from {window.start:.3g} to {window.stop:.3g} s, where its "
-            "zero is taken. Give the test another `zero`."
+            serious(
+                "channel left out",
+                f"channel {name} is left out: it has no value from {window.start:.3g} to {window.stop:.3g} s, where "
+                "its zero is taken. Give the test another `zero`.",
+            )
         )
         return None
     attributes["zero"] = float(still.mean()) - resting
@@ -126,9 +134,12 @@ def zeroed(
         attributes["rest_value"] = resting
         if abs(float(still.mean())) < COUPLED * abs(resting):
             warnings.append(
-                f"channel {name}: at rest it shows {float(still.mean()):.3g} m/s² where gravity's part along it is "
-                f"{resting:.3g} m/s²: a sensor or amplifier that passes no constant value (AC), or one zeroed in the "
-                "recorder. Gravity was added to it."
+                warning(
+                    "gravity",
+                    f"channel {name}: at rest it shows {float(still.mean()):.3g} m/s² where gravity's part along it is "
+                    f"{resting:.3g} m/s²: a sensor or amplifier that passes no constant value (AC), or one zeroed in "
+                    "the recorder. Gravity was added to it.",
+                )
             )
     if window.quiet:
         attributes["noise"] = max(float(still.std()), float(attributes["noise"]))

@@ -21,7 +21,7 @@ import xarray as xr
 from xarray.backends import NetCDF4DataStore
 
 from colonnade.errors import StoreError
-from colonnade.store.attributes import listed, storable
+from colonnade.store.attributes import restored, storable
 from colonnade.store.description import describe
 from colonnade.store.long_arrays import add_attribute, write_file
 from colonnade.store.provenance import content_hash, coverage, is_long
@@ -83,7 +83,7 @@ def read(path: Path) -> xr.Dataset:
     Returns
     -------
     dataset : xr.Dataset
-        With `warnings` and other lists of text as they were given; times are numbers, nothing is masked.
+        With `warnings` as findings and lists of text as they were given; times are numbers, nothing is masked.
 
     Raises
     ------
@@ -101,7 +101,7 @@ def read(path: Path) -> xr.Dataset:
     dataset = _with_labels(stored)
     if dataset.attrs.get("content") != content_hash(dataset):
         raise _damaged(path, "its values are not those that were written")
-    dataset.attrs = {name: listed(value) for name, value in dataset.attrs.items()}
+    dataset.attrs = restored(dataset.attrs)
     return dataset
 
 
@@ -116,7 +116,7 @@ def read_attributes(path: Path) -> dict[str, Any]:
     """
     try:
         with netCDF4.Dataset(path) as opened:
-            return {name: listed(opened.getncattr(name)) for name in opened.ncattrs()}
+            return restored({name: opened.getncattr(name) for name in opened.ncattrs()})
     except FileNotFoundError:
         raise StoreError(f"{path}: this result is not there. `colonnade run` makes it.") from None
     except (OSError, RuntimeError, ValueError) as error:

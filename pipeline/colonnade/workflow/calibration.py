@@ -183,5 +183,4 @@ def _known(result: xr.Dataset | None) -> dict[str, float | None]:
 
 def _warning(result: xr.Dataset | None) -> str:
     """Return why a law that was found does not agree, if it does not."""
-    warnings = [] if result is None else result.attrs["warnings"]
-    return warnings if isinstance(warnings, str) else " ".join(warnings)
+    return "" if result is None else " ".join(map(str, result.attrs["warnings"]))

@@ -10,8 +10,9 @@ from typing import Any, Literal
 
 import colonnade
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.summary import RestitutionSummary, SpecimenSummary, Summary, TestSummary
+from colonnade.campaign.summary import RestitutionSummary, SpecimenSummary, Summary, TestSummary, Warned
 from colonnade.errors import StoreError
+from colonnade.findings import at_stage, in_order
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow.catalogue import Catalogue
@@ -141,13 +142,13 @@ def _test(
     if failure is not None and not reasons:
         reasons = [failure]
     done = {stage: each for stage, each in sound.items() if each.attrs["status"] == "done"}
-    warnings = [warning for each in done.values() for warning in each.attrs.get("warnings", [])]
+    warnings = [found for stage, each in sound.items() for found in at_stage(each.attrs.get("warnings", []), stage)]
     has_others = is_outdated and any(path.exists() for path in paths.values())
     status: Literal["done", "failed", "pending"] = "failed" if reasons else "done" if "compare" in done else "pending"
     return TestSummary(
         status=status,
         reason=" ".join(reasons) or campaign.review(test.id).excluded or (_FOREIGN if has_others else None),
-        warnings=tuple(dict.fromkeys(warnings)),
+        warnings=tuple(Warned.of(found, explained=explained) for found, explained in in_order(warnings)),
         kind=test.kind,
         specimen=test.specimen,
         span=test.span,
@@ -163,7 +164,7 @@ def _table(summary: Summary) -> str:
     for name, test in summary.tests.items():
         row: dict[str, Any] = {"test": name}
         record = test.model_dump(exclude={"predicted", "restitution", "prototype"})
-        row |= {column: "; ".join(value) if column == "warnings" else value for column, value in record.items()}
+        row |= record | {"warnings": "; ".join(f"{each.severity}: {each.text}" for each in test.warnings)}
         for model, result in test.predicted.items():
             row |= {f"{model}_{column}": value for column, value in result.model_dump().items()}
         if test.restitution is not None:
