@@ -1,19 +1,41 @@
-"""How findings are written on a terminal: the severity first, causes before what follows from them."""
+"""How findings are written on a terminal: the worst first, causes before what follows from them, by kind."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from colonnade.findings import Finding, in_order
+from colonnade.cli.console import say
+from colonnade.findings import Finding, Severity, in_order
+
+IN_FULL = 3
+"""Findings of one kind that are written in full; of the others only whom they are about."""
+
+NAMED = 8
+"""Tests that are named behind them."""
+
+Findings = Mapping[str, Sequence[tuple[Finding, bool]]]
+"""By subject, in order, each with whether it follows from one before it."""
 
 
 def records_of(findings: Iterable[Finding]) -> list[dict[str, Any]]:
     """Give findings as JSON shows them, in order: severity, kind, text, and whether one before explains it."""
+    return [_record(each, explained) for each, explained in in_order(findings)]
+
+
+def all_records(findings: Findings) -> list[dict[str, Any]]:
+    """Give the findings of many subjects as JSON shows them."""
     return [
-        {"severity": str(each.severity), "kind": each.kind, "text": each.text, "explained": explained}
-        for each, explained in in_order(findings)
+        {"subject": subject, **_record(each, explained)}
+        for subject, ordered in findings.items()
+        for each, explained in ordered
     ]
+
+
+def _record(finding: Finding, explained: bool) -> dict[str, Any]:
+    record = {"severity": str(finding.severity), "kind": finding.kind, "text": finding.text}
+    return record | ({"stage": finding.stage} if finding.stage else {}) | {"explained": explained}
 
 
 def lines_of(findings: Iterable[Finding]) -> list[str]:
@@ -25,3 +47,51 @@ def line_of(record: Mapping[str, Any]) -> str:
     """Write a finding of the summary as a line; what another explains is said to follow from it."""
     follows = " (follows from the above)" if record.get("explained") else ""
     return f"{record['severity']}{follows}: {record['text']}"
+
+
+def show_by_kind(findings: Findings) -> None:
+    """
+    Write findings by kind, the worst first: a few in full, of the others whom they are about.
+
+    What another finding explains is counted behind it and not written in full; of notes one is.
+    """
+    groups: dict[tuple[Severity, str], list[tuple[str, str]]] = {}
+    behind: dict[str, list[str]] = {}
+    for subject, ordered in findings.items():
+        for each, explained in ordered:
+            if explained:
+                behind.setdefault(each.kind, []).append(subject)
+            else:
+                groups.setdefault((each.severity, each.kind), []).append((subject, each.text))
+    for severity, kind in sorted(groups, key=lambda key: key[0].rank):
+        told = groups[severity, kind]
+        shown = told[: 1 if severity is Severity.NOTE else IN_FULL]
+        for subject, text in shown:
+            say(f"{severity} ({kind}): {subject}: {text}")
+        rest = [subject for subject, _ in told[len(shown) :]]
+        if rest:
+            say(f"  and {len(rest)} more of this kind: {_named(rest)}")
+    for kind, subjects in behind.items():
+        say(f"follows from the above: {kind}: {_named(subjects)}")
+    _show_counts(groups)
+
+
+def _show_counts(groups: Mapping[tuple[Severity, str], Sequence[tuple[str, str]]]) -> None:
+    counts = Counter[Severity]()
+    for (severity, _), told in groups.items():
+        counts[severity] += len(told)
+    if counts:
+        plural = {Severity.SERIOUS: "serious findings", Severity.WARNING: "warnings", Severity.NOTE: "notes"}
+        say(
+            ", ".join(
+                f"{counts[each]} {plural[each] if counts[each] > 1 else plural[each][:-1]}"
+                for each in plural
+                if counts[each]
+            )
+        )
+
+
+def _named(subjects: Sequence[str]) -> str:
+    unique = list(dict.fromkeys(subjects))
+    more = f" and {len(unique) - NAMED} more" if len(unique) > NAMED else ""
+    return ", ".join(unique[:NAMED]) + more

@@ -14,7 +14,13 @@ from colonnade.cli.work import work
 @campaign_argument
 @work_options
 def identify(
-    campaign: Path, only: tuple[str, ...], workers: int | None, scheduler: str | None, verify: bool, as_json: bool
+    campaign: Path,
+    only: tuple[str, ...],
+    workers: int | None,
+    scheduler: str | None,
+    verify: bool,
+    strict: bool,
+    as_json: bool,
 ) -> int:
     """
     Identify the restitution: run up to each specimen's pooled e.
@@ -24,5 +30,12 @@ def identify(
     Writes up to processed/tests/<ID>/restitution.nc of each free vibration, and processed/specimens/<ID>.nc.
     """
     return work(
-        campaign, until="restitution", only=only, workers=workers, scheduler=scheduler, verify=verify, as_json=as_json
+        campaign,
+        until="restitution",
+        only=only,
+        workers=workers,
+        scheduler=scheduler,
+        verify=verify,
+        strict=strict,
+        as_json=as_json,
     )

@@ -14,7 +14,13 @@ from colonnade.cli.work import work
 @campaign_argument
 @work_options
 def ingest(
-    campaign: Path, only: tuple[str, ...], workers: int | None, scheduler: str | None, verify: bool, as_json: bool
+    campaign: Path,
+    only: tuple[str, ...],
+    workers: int | None,
+    scheduler: str | None,
+    verify: bool,
+    strict: bool,
+    as_json: bool,
 ) -> int:
     """
     Read the raw files into SI channels with quality flags.
@@ -24,5 +30,12 @@ def ingest(
     Writes processed/tests/<ID>/recorded.nc.
     """
     return work(
-        campaign, until="ingest", only=only, workers=workers, scheduler=scheduler, verify=verify, as_json=as_json
+        campaign,
+        until="ingest",
+        only=only,
+        workers=workers,
+        scheduler=scheduler,
+        verify=verify,
+        strict=strict,
+        as_json=as_json,
     )

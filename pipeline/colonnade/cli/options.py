@@ -27,10 +27,16 @@ scheduler_option = click.option(
 )
 
 
+strict_option = click.option(
+    "--strict", is_flag=True, help="Exit with 1 also if there is a serious finding or a warning; notes do not count."
+)
+
+
 def work_options(command: Command) -> Command:
     """Add what every command that runs stages understands."""
     for option in (
         json_option,
+        strict_option,
         click.option("--verify", is_flag=True, help="Hash raw files again also where size and time are unchanged."),
         scheduler_option,
         workers_option,

@@ -14,7 +14,13 @@ from colonnade.cli.work import work
 @campaign_argument
 @work_options
 def predict(
-    campaign: Path, only: tuple[str, ...], workers: int | None, scheduler: str | None, verify: bool, as_json: bool
+    campaign: Path,
+    only: tuple[str, ...],
+    workers: int | None,
+    scheduler: str | None,
+    verify: bool,
+    strict: bool,
+    as_json: bool,
 ) -> int:
     """
     Run the models on the recorded base motion, after everything they need.
@@ -24,5 +30,12 @@ def predict(
     Writes up to processed/tests/<ID>/predicted-<MODEL>.nc.
     """
     return work(
-        campaign, until="predict", only=only, workers=workers, scheduler=scheduler, verify=verify, as_json=as_json
+        campaign,
+        until="predict",
+        only=only,
+        workers=workers,
+        scheduler=scheduler,
+        verify=verify,
+        strict=strict,
+        as_json=as_json,
     )

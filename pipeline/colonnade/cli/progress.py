@@ -1,54 +1,73 @@
-"""Progress on stderr: a bar on a terminal, nothing where nobody watches."""
+"""Progress on stderr: a bar on a terminal, elsewhere a line now and then."""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from colonnade.cli.console import messages
+from colonnade.cli.console import complain, messages
 
 if TYPE_CHECKING:
     from colonnade.workflow import StageRun
+
+EVERY = 10.0
+"""s, between two lines of progress where the output is no terminal."""
 
 
 @contextmanager
 def counting(what: str, total: int) -> Iterator[Callable[[], None]]:
     """Show how many of `total` are done; the callable that is given counts one more."""
-    with progress_bar() as bar:
-        task = bar.add_task(what, total=total)
-        yield lambda: bar.advance(task)
+    done = 0
+    with _shown(what) as show:
+        show(what, done, total)
+
+        def advance() -> None:
+            nonlocal done
+            done += 1
+            show(what, done, total)
+
+        yield advance
 
 
 @contextmanager
 def looking(what: str) -> Iterator[Callable[[int, int], None]]:
     """Show work that finds out its own length; the callable takes how much is done, and of how much."""
-    with progress_bar() as bar:
-        task = bar.add_task(what, total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)
+    with _shown(what) as show:
+        yield lambda done, total: show(what, done, total)
 
 
 @contextmanager
 def following() -> Iterator[Callable[[StageRun, int, int], None]]:
     """Show a run as it goes on; the callable that is given takes each stage that ended, and how many of all have."""
-    with progress_bar() as bar:
-        task = bar.add_task("Looking for what is out of date", total=None)
-        yield lambda stage, done, total: bar.update(
-            task, description=f"{stage.subject} {stage.stage}", completed=done, total=total
-        )
+    with _shown("Looking for what is out of date") as show:
+        yield lambda stage, done, total: show(f"{stage.subject} {stage.stage}", done, total)
 
 
-def progress_bar() -> Progress:
-    """Build a bar that goes away when it is done."""
+@contextmanager
+def _shown(what: str) -> Iterator[Callable[[str, int, int], None]]:
+    """Show how far work is; the callable takes what is worked on, how much is done, and of how much."""
     console = messages()
-    return Progress(
-        TextColumn("{task.description}", markup=False),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
-    )
+    if not console.is_terminal:
+        yield _Lines()
+        return
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task(what, total=None)
+        yield lambda now, done, total: bar.update(task, description=now, completed=done, total=total)
+
+
+class _Lines:
+    """Progress for a log: a line after `EVERY` seconds without one."""
+
+    def __init__(self) -> None:
+        self._began = self._last = time.monotonic()
+
+    def __call__(self, now: str, done: int, total: int) -> None:
+        moment = time.monotonic()
+        if moment - self._last >= EVERY and done < total:
+            self._last = moment
+            complain(f"{now}: {done} of {total} after {moment - self._began:.0f} s")

@@ -14,7 +14,13 @@ from colonnade.cli.work import work
 @campaign_argument
 @work_options
 def report(
-    campaign: Path, only: tuple[str, ...], workers: int | None, scheduler: str | None, verify: bool, as_json: bool
+    campaign: Path,
+    only: tuple[str, ...],
+    workers: int | None,
+    scheduler: str | None,
+    verify: bool,
+    strict: bool,
+    as_json: bool,
 ) -> int:
     """
     Make the report, after everything it needs.
@@ -24,5 +30,12 @@ def report(
     Writes report/index.html beside campaign.toml, with a page a test and a specimen; also where tests failed.
     """
     return work(
-        campaign, until="report", only=only, workers=workers, scheduler=scheduler, verify=verify, as_json=as_json
+        campaign,
+        until="report",
+        only=only,
+        workers=workers,
+        scheduler=scheduler,
+        verify=verify,
+        strict=strict,
+        as_json=as_json,
     )

@@ -23,6 +23,7 @@ def run(
     workers: int | None,
     scheduler: str | None,
     verify: bool,
+    strict: bool,
     as_json: bool,
 ) -> int:
     """
@@ -41,5 +42,6 @@ def run(
         workers=workers,
         scheduler=scheduler,
         verify=verify,
+        strict=strict,
         as_json=as_json,
     )

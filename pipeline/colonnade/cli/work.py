@@ -2,28 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from colonnade.cli.console import say, show_json, show_table
+from colonnade.cli.findings import all_records, show_by_kind
 from colonnade.cli.progress import following
 
 if TYPE_CHECKING:
+    from colonnade.findings import Finding
     from colonnade.workflow import RunResult, StageRun
 
 STAGES = ("ingest", "condition", "rocking", "restitution", "predict", "ensemble", "compare", "report")
 
 
-def work(campaign: Path, *, as_json: bool = False, **choices: Any) -> int:
-    """Run a campaign, with the choices of `colonnade.workflow.run`, and show what was done; return the exit code."""
+def work(campaign: Path, *, as_json: bool = False, strict: bool = False, **choices: Any) -> int:
+    """
+    Run a campaign, with the choices of `colonnade.workflow.run`, and show what was done; return the exit code.
+
+    With `strict` it is 1 also where a finding is more than a note.
+    """
     result = run_with_progress(campaign, **choices)
     if as_json:
         show_json(_record(result))
     else:
         show_result(result)
-    return int(result.failed)
+    return int(result.failed or (strict and result.has_warnings))
 
 
 def run_with_progress(campaign: Path, **choices: Any) -> RunResult:
@@ -35,21 +41,35 @@ def run_with_progress(campaign: Path, **choices: Any) -> RunResult:
 
 
 def show_result(result: RunResult) -> None:
-    """List what was redone and why, what failed, and where the results are."""
+    """List what was redone and why, what was found, what failed, and where the results are."""
     redone = [stage for stage in result.stages if stage.action == "done"]
     show_table(("redone", "stages", "why", "seconds"), list(_grouped(redone)))
+    show_by_kind(result.findings)
     failed = failed_rows(result)
     show_table(("failed", "stage", "reason"), failed)
     kept = sum(stage.action == "up-to-date" for stage in result.stages)
     say(f"{len(redone)} redone, {kept} up to date, {len(failed)} failed")
     say(f"summary: {result.summary}")
     if result.report is not None:
+        if result.findings:
+            say(f"all findings: {result.report.parent / 'problems.html'}")
         say(f"report: {result.report}")
 
 
 def failed_rows(result: RunResult) -> list[tuple[str, str, str]]:
-    """Test or specimen, stage and reason of all that failed, now or in an earlier run."""
-    return [(stage.subject, stage.stage, stage.reason) for stage in result.stages if stage.action == "failed"]
+    """Test or specimen, stage and reason of all that failed, now or in an earlier run; its probable cause first."""
+    findings = result.findings
+    return [
+        (stage.subject, stage.stage, f"{_cause(findings.get(stage.told_of, []))}{stage.reason}")
+        for stage in result.stages
+        if stage.action == "failed"
+    ]
+
+
+def _cause(findings: Sequence[tuple[Finding, bool]]) -> str:
+    """Say what else was found of a test that failed, as far as it is serious."""
+    kinds = dict.fromkeys(each.kind for each, explained in findings if each.severity == "serious" and not explained)
+    return f"probably because of what is serious above ({', '.join(kinds)}): " if kinds else ""
 
 
 def _grouped(stages: Iterable[StageRun]) -> Iterator[tuple[str, str, str, str]]:
@@ -66,5 +86,8 @@ def _record(result: RunResult) -> dict[str, Any]:
         "failed": result.failed,
         "summary": str(result.summary),
         "report": None if result.report is None else str(result.report),
-        "stages": [vars(stage) for stage in result.stages],
+        "warnings": all_records(result.findings),
+        "stages": [
+            {name: value for name, value in vars(stage).items() if name != "findings"} for stage in result.stages
+        ],
     }

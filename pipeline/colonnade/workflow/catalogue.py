@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from colonnade.findings import from_text, to_text
 from colonnade.store.files import write_text
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
@@ -45,7 +46,7 @@ class Catalogue:
         self._seen_records: dict[str, Any] = {}
 
     def attributes(self, path: Path) -> Mapping[str, Any]:
-        """`KEPT` of a result; empty where it is not there or damaged."""
+        """`KEPT` of a result and the findings in it; empty where it is not there or damaged."""
         name = path.relative_to(self._layout.processed).as_posix()
         try:
             status = os.stat(path)  # noqa: PTH116 — ten thousand times a run
@@ -55,15 +56,18 @@ class Catalogue:
         for known in (self._seen_files.get(name), self._files.get(name)):
             if isinstance(known, list) and len(known) == 2 and known[0] == mark:
                 self._seen_files[name] = known
-                return dict(known[1])
+                return _with_findings(known[1])
         stored = stored_attributes(path)
         said = {part: str(stored[part]) for part in KEPT if part in stored}
+        if stored:
+            said["warnings"] = to_text(stored.get("warnings", []))
         self._seen_files[name] = [mark, said]
-        return said
+        return _with_findings(said)
 
     def signature(self, paths: Iterable[Path], *others: Any) -> str:
         """Hash of what results say, and of whatever else a record is made from."""
-        return hash_of([*(dict(self.attributes(path)) for path in paths), *others])
+        known = [self.attributes(path) for path in paths]
+        return hash_of([*(dict(said) | {"warnings": to_text(said.get("warnings", []))} for said in known), *others])
 
     def record(self, test: str, signature: str) -> str | None:
         """Text of a test's record that was made from just this; None where there is none."""
@@ -81,3 +85,7 @@ class Catalogue:
         """Write what was looked at; the rest is gone from the campaign."""
         known = {"files": self._seen_files, "records": self._seen_records}
         write_text(self._layout.catalogue, json.dumps(known, separators=(",", ":"), sort_keys=True) + "\n")
+
+
+def _with_findings(said: Mapping[str, str]) -> Mapping[str, Any]:
+    return {**said, "warnings": from_text(said["warnings"])} if "warnings" in said else dict(said)

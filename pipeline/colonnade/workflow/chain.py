@@ -11,11 +11,12 @@ from typing import Any, Literal
 
 from colonnade.campaign import Campaign
 from colonnade.errors import ColonnadeError, StoreError
+from colonnade.findings import Finding, at_stage
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import global_attributes
 from colonnade.workflow.freshness import Look, RawFile, ingredients, key_of, stored_attributes, why_stale
-from colonnade.workflow.results import StageRun
+from colonnade.workflow.results import Action, StageRun
 from colonnade.workflow.steps import STAGES, Step, measuring_steps, predicting_steps
 
 Phase = Literal["measuring", "predicting"]
@@ -126,6 +127,7 @@ def advance(
     started = time.perf_counter()
     attributes = _attributes(campaign, subject, step, state)
     reason = ""
+    found: list[Finding] = []
     try:
         upstream: Mapping[str, Any] = step.upstream
         if not step.is_from_raw:
@@ -134,6 +136,7 @@ def advance(
         if step.is_from_raw:
             _expect_unchanged(campaign, raw)
         files.write(result, step.path, attributes=attributes)
+        found = at_stage(result.attrs.get("warnings", []), step.stage)
     except Exception as error:
         if isinstance(error, ColonnadeError):
             reason = str(error)
@@ -146,7 +149,8 @@ def advance(
         else:
             reason = _store_failure(step, reason, attributes)
     seconds = time.perf_counter() - started
-    return StageRun(subject, step.stage, "failed" if reason else "done", step.model, reason, state.because, seconds)
+    action: Action = "failed" if reason else "done"
+    return StageRun(subject, step.stage, action, step.model, reason, state.because, seconds, tuple(found))
 
 
 def _is_of_the_machine(error: Exception) -> bool:
@@ -194,7 +198,8 @@ def _state(step: Step, redo_from: str | None, raw: Mapping[str, RawFile], look: 
 def _standing(subject: str, step: Step, stored: Mapping[str, Any]) -> StageRun:
     if stored.get("status") == "failed":
         return StageRun(subject, step.stage, "failed", step.model, str(stored.get("reason", "")))
-    return StageRun(subject, step.stage, "up-to-date", step.model)
+    findings = tuple(at_stage(stored.get("warnings", ()), step.stage))
+    return StageRun(subject, step.stage, "up-to-date", step.model, findings=findings)
 
 
 def _attributes(campaign: Campaign, subject: str, step: Step, state: _State) -> dict[str, Any]:

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from colonnade.findings import Finding, Severity, in_order
+
 Action = Literal["done", "up-to-date", "failed"]
 
 
@@ -30,6 +32,8 @@ class StageRun:
         Why it ran: "never run", "raw file changed", "settings changed", "upstream changed", "code changed" or "asked
         for"; empty where it did not.
     seconds : float
+    findings : tuple of Finding
+        What its result says of itself, now or in an earlier run.
     """
 
     subject: str
@@ -39,6 +43,12 @@ class StageRun:
     reason: str = ""
     because: str = ""
     seconds: float = 0.0
+    findings: tuple[Finding, ...] = ()
+
+    @property
+    def told_of(self) -> str:
+        """Whom its findings are about: a test's id, or a specimen's after that word."""
+        return f"specimen {self.subject}" if self.stage in ("specimen", "contact") else self.subject
 
 
 @dataclass(frozen=True)
@@ -53,13 +63,34 @@ class RunResult:
         summary.json.
     report : Path or None
         The report's page, None where the run stopped before it.
+    of_campaign : tuple of Finding
+        What the campaign file and its test log were found to hold.
     """
 
     stages: tuple[StageRun, ...]
     summary: Path
     report: Path | None
+    of_campaign: tuple[Finding, ...] = ()
 
     @property
     def failed(self) -> bool:
         """Whether a stage failed, now or in an earlier run whose failure still stands."""
         return any(stage.action == "failed" for stage in self.stages)
+
+    @property
+    def findings(self) -> dict[str, list[tuple[Finding, bool]]]:
+        """
+        What was found, by test, specimen or "campaign file", each put in order by `in_order`.
+
+        Without the subjects of which there is nothing to tell.
+        """
+        found: dict[str, list[Finding]] = {"campaign file": list(self.of_campaign)}
+        for stage in self.stages:
+            found.setdefault(stage.told_of, []).extend(stage.findings)
+        return {subject: in_order(findings) for subject, findings in found.items() if findings}
+
+    @property
+    def has_warnings(self) -> bool:
+        """Whether there is a finding that is more than a note."""
+        every = [*self.of_campaign, *(finding for stage in self.stages for finding in stage.findings)]
+        return any(finding.severity is not Severity.NOTE for finding in every)

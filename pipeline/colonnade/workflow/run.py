@@ -114,7 +114,7 @@ def run(
         write_summary(loaded, layout, catalogue, outdated=outdated, failed=failed)
         report = _report(loaded, layout, catalogue, outdated) if last == "report" else None
         catalogue.save()
-    return RunResult(tuple(runs), layout.summary_json, report)
+    return RunResult(tuple(runs), layout.summary_json, report, loaded.warnings)
 
 
 def _report(campaign: Campaign, layout: Layout, catalogue: Catalogue, outdated: Set[str]) -> Path:
