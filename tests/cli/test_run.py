@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import json
 
-from colonnade.cli import work
+import pytest
+
+from colonnade.cli import progress, work
+from colonnade.cli.findings import show_by_kind
+from colonnade.findings import in_order, note, serious, warning
 from colonnade.workflow import steps
 
 
@@ -75,3 +79,75 @@ def test_an_unknown_id_is_refused_with_the_nearest_one(colonnade, campaign):
     told = colonnade("run", "--workers", "1", "--only", "fre-01")
     assert told.returncode == 2
     assert 'Did you mean "free-01"?' in told.stderr
+
+
+def ten_times(campaign):
+    """The gain of the only transducer is ten times off."""
+    path = campaign / "campaign.toml"
+    text = path.read_text(encoding="utf-8").replace('unit = "mm"\n', 'unit = "mm"\ngain = "10 mm/mm"\n')
+    path.write_text(text, encoding="utf-8")
+
+
+def test_run_prints_the_cause_before_what_follows_from_it(colonnade, campaign):
+    ten_times(campaign)
+    told = colonnade("run", "--workers", "1").stdout
+    cause = told.index("serious (gain): free-01: Channel top shows 9.95 times the rotation")
+    assert "a gain ten times off" in told[cause:].splitlines()[0]
+    assert cause < told.index("follows from the above: no restitution: free-01, free-02")
+    assert "2 serious findings" in told
+    assert told.index("2 serious findings") < told.index("problems.html") < told.index("report: ")
+
+
+@pytest.mark.parametrize("command", ["ingest", "identify"])
+def test_strict_makes_warnings_an_exit_code_and_notes_do_not_count(command, colonnade, campaign):
+    assert colonnade(command, "--workers", "1", "--strict").returncode == 0
+    raw = campaign / "raw" / "free-01.csv"
+    lines = raw.read_text(encoding="utf-8").splitlines()
+    del lines[60:65]
+    raw.write_text("\n".join([*lines, ""]), encoding="utf-8")
+    assert colonnade(command, "--workers", "1").returncode == 0
+    told = colonnade(command, "--workers", "1", "--strict")
+    assert told.returncode == 1
+    assert "warning (lost samples): free-01: channel top: 1 gap in time, about 5 samples lost" in told.stdout
+
+
+def test_json_carries_every_finding_with_its_severity(colonnade, campaign):
+    ten_times(campaign)
+    found = json.loads(colonnade("identify", "--workers", "1", "--json").stdout)["warnings"]
+    assert {(each["subject"], each["severity"], each["kind"]) for each in found} >= {
+        ("free-01", "serious", "gain"),
+        ("free-02", "serious", "gain"),
+    }
+    assert all(each["text"] for each in found)
+    again = json.loads(colonnade("identify", "--workers", "1", "--json").stdout)
+    assert not [stage for stage in again["stages"] if stage["action"] == "done"]
+    assert again["warnings"] == found
+
+
+def test_many_findings_of_a_kind_are_not_as_many_lines(capsys):
+    told = (
+        serious("gain", "Ten times off."),
+        note("spikes", "Spikes."),
+        warning("zero", "Not at rest.", follows=("gain",)),
+    )
+    show_by_kind({f"test-{number}": in_order(told) for number in range(490)})
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) < 10
+    assert lines[0] == "serious (gain): test-0: Ten times off."
+    assert (
+        "  and 487 more of this kind: test-3, test-4, test-5, test-6, test-7, test-8, test-9, test-10 and 479 more"
+        in lines
+    )
+    assert lines[-1] == "490 serious findings, 490 notes"
+
+
+def test_a_log_gets_a_line_of_progress_now_and_then(capsys, monkeypatch):
+    moments = iter([0.0, 1.0, 11.0, 12.0, 22.0])
+    monkeypatch.setattr(progress.time, "monotonic", lambda: next(moments))
+    with progress.looking("Reading raw files") as advance:
+        for done in range(1, 5):
+            advance(done, 5)
+    assert capsys.readouterr().err.splitlines() == [
+        "Reading raw files: 2 of 5 after 11 s",
+        "Reading raw files: 4 of 5 after 22 s",
+    ]
