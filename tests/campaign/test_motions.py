@@ -10,6 +10,7 @@ MOTIONS = """
 [motions]
 "El Centro 1940 NS" = "motions/elcentro.dat"
 Valley = {file = "motions/valley.txt", interval = "10 ms", column = 2}
+Fault = {file = "motions/fault.dat", layout = "running"}
 
 [setups.frame]
 """
@@ -21,7 +22,8 @@ def _with(contract, motions):
 
 def test_motions_are_known_by_name(contract, load_text, tmp_path):
     motions = load_text(_with(contract, MOTIONS)).motions
-    assert list(motions) == ["El Centro 1940 NS", "Valley"]
+    assert list(motions) == ["El Centro 1940 NS", "Valley", "Fault"]
+    assert (motions["Valley"].layout, motions["Fault"].layout) == (None, "running")
     assert motions["El Centro 1940 NS"].file.name == "elcentro.dat"
     assert motions["El Centro 1940 NS"].interval is None
     assert motions["Valley"].interval == pytest.approx(0.01)

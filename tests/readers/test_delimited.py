@@ -11,6 +11,7 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers import delimited
+from colonnade.readers.delimited_header import DelimitedOptions
 from colonnade.readers.recording import Recording, Window
 from colonnade.readers.registry import read
 
@@ -344,7 +345,7 @@ def long(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.mark.parametrize("window", [(20.0, 20.7), (0.0, 1.0), (44.5, 90.0), (-5.0, 900.0)])
 def test_a_window_of_a_long_file_is_what_the_whole_file_holds_there(long: Path, window: tuple[float, float]) -> None:
     whole = read(long)
-    part = delimited.read(long, delimited.DelimitedOptions(), Window(*window))
+    part = delimited.read(long, DelimitedOptions(), Window(*window))
     for every, some in zip(whole.channels, part.channels, strict=True):
         assert every.time is not None
         assert some.time is not None
@@ -354,7 +355,7 @@ def test_a_window_of_a_long_file_is_what_the_whole_file_holds_there(long: Path, 
 
 
 def test_lines_keep_their_numbers_in_a_window(long: Path) -> None:
-    part = delimited.read(long, delimited.DelimitedOptions(), Window(20.0, 20.7))
+    part = delimited.read(long, DelimitedOptions(), Window(20.0, 20.7))
     assert [warning for warning in part.warnings if "line 4102" in warning]
     assert not [warning for warning in part.warnings if "the file ends" in warning]
     assert part.channels[0].values.size < 3000
@@ -363,11 +364,11 @@ def test_lines_keep_their_numbers_in_a_window(long: Path) -> None:
 def test_a_window_of_a_file_without_a_clock_is_counted_in_samples(long: Path) -> None:
     text = long.read_text()
     long.write_text("\n".join(line.partition(",")[2] for line in text.splitlines()))
-    part = delimited.read(long, delimited.DelimitedOptions(), Window(0.0, 2.0, sampling_rate_hz=200.0))
+    part = delimited.read(long, DelimitedOptions(), Window(0.0, 2.0, sampling_rate_hz=200.0))
     assert 400 <= part.channels[0].values.size < 3000
     assert part.channels[1].values[400] == -400
 
 
 def test_a_window_that_the_file_does_not_reach_is_told(long: Path) -> None:
     with pytest.raises(ReadError, match="none of its 9000 samples lies within the test's window"):
-        delimited.read(long, delimited.DelimitedOptions(), Window(50.0, 60.0))
+        delimited.read(long, DelimitedOptions(), Window(50.0, 60.0))

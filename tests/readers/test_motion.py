@@ -81,7 +81,10 @@ def test_one_of_several_columns_has_to_be_named(tmp_path: Path) -> None:
         pytest.param("t,a\n0,1\n1,\n2,1\n3,0\n", "accelerations are missing", id="a missing value"),
         pytest.param("t [s],a [mm]\n0,1\n1,3\n2,1\n3,0\n", "mm", id="a displacement"),
         pytest.param(
-            "4F6.2\n" + "  1.00  2.00  3.00  1.00\n" * 4 + "end\n" + "  1.00  2.00  3.00  1.00\n" * 2,
+            "4F6.2, 4 values per line\n"
+            + "  1.00  2.00  3.00  1.00\n" * 4
+            + "end\n"
+            + "  1.00  2.00  3.00  1.00\n" * 2,
             "line 7",
             id="two blocks",
         ),

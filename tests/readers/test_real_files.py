@@ -40,7 +40,7 @@ READ = {
     "lvm/short.lvm": Known("lvm", 2, "Response (Trigger)", 10, "m/s^2", 3.90625e-5, 1.222088),
     "lvm/with_comments.lvm": Known("lvm", 4, "Temperatura", 9, "°C", None, 5.619287),
     "matlab/labcontrol_ensaio1.mat": Known("matlab", 6, "forc", 3001, None, 0.01, None),
-    "motion/elcentro_chopra_8f10.dat": Known("delimited", 8, 1, 195, None, None, None),
+    "motion/elcentro_chopra_8f10.dat": Known("delimited", 1, 1, 1560, "g", 0.02, 0.31882),
     "motion/elcentro_chopra_xy.dat": Known("delimited", 2, "Y", 1560, None, None, 0.31882),
     "motion/elcentro_damaged_copy.txt": Known("delimited", 2, 2, 1560, None, None, 0.31882),
     "motion/elcentro_s00e_reversed.dat": Known("delimited", 2, 2, 2688, None, None, 0.348737),

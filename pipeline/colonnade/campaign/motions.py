@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, ValidationInfo, WithJsonSchema, model_validator
 
@@ -29,6 +29,8 @@ class ReferenceMotion(Table):
     """Its sampling interval, such as "0.02 s", where the file does not tell it."""
     column: Column | None = None
     """Name or number, from 1, of the column of accelerations, where there are several."""
+    layout: Literal["columns", "running"] | None = None
+    """"columns" or "running" (numbers run on from row to row), where the file does not show which."""
 
     @model_validator(mode="before")
     @classmethod

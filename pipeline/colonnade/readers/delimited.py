@@ -2,88 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Literal, Self
 
 import numpy as np
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
 from colonnade.errors import ReadError
-from colonnade.readers.cells import COMMENT_SIGNS, MISSING, Dialect
+from colonnade.readers.announced import announced
+from colonnade.readers.cells import WHITESPACE
 from colonnade.readers.clock import Clocks, find_clocks, in_seconds
 from colonnade.readers.damage import Damage, Source, find_damage, report_missing, unfinished_number
-from colonnade.readers.first_sample import column_kinds, find_first_sample
-from colonnade.readers.heading import Heading, HeadingLines, describe_columns, find_heading, unread_numbers
+from colonnade.readers.delimited_header import DelimitedOptions, Header, read_header
 from colonnade.readers.recording import TIME_UNITS, Array, RecordedChannel, Recording, Window
 from colonnade.readers.registry import Format, Recognition
+from colonnade.readers.row_layout import Verdict, judge
+from colonnade.readers.running_block import fixed_fields, series_of, undecided
 from colonnade.readers.samples import Samples, Stretch, read_samples
-from colonnade.readers.sniffing import sniff
-from colonnade.readers.text_encoding import (
-    Encoding,
-    detect_encoding,
-    ends_within_line,
-    head_lines,
-    known_encoding,
-    looks_binary,
-)
+from colonnade.readers.text_encoding import ends_within_line
 from colonnade.readers.timestamps import past_midnight
-from colonnade.readers.values import TimeUnit
-
-DELIMITER_WORDS = {"comma": ",", "semicolon": ";", "tab": "\t", "\\t": "\t", "pipe": "|", "space": " ", "spaces": " "}
-
-
-def _delimiter(text: str) -> str:
-    character = DELIMITER_WORDS.get(text.casefold(), text)
-    if len(character) != 1 or character.isalnum() or character in '"+-.\r\n':
-        raise ValueError('one character was expected, such as ";" or ",", or "tab" or "spaces"')
-    return character
-
-
-class DelimitedOptions(BaseModel):
-    """What can be said about a delimited text file; all of it is sniffed where it is not said."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    delimiter: Annotated[str, AfterValidator(_delimiter)] | None = Field(
-        default=None, description='Between the cells of a row: one character, "tab", or "spaces" for any run of spaces.'
-    )
-    decimal: Literal[".", ","] | None = Field(default=None, description="Decimal sign.")
-    thousands: Literal[".", ",", " ", "'"] | None = Field(
-        default=None, description="Sign between groups of three digits."
-    )
-    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
-        default=None, description='Of the text, such as "utf-8", "utf-16", "latin-1".'
-    )
-    skip_rows: int = Field(default=0, ge=0, description="Lines at the top of the file that are not looked at.")
-    names_row: int | None = Field(
-        default=None, ge=0, description="Line with the columns' names, from 1; 0 where there is none."
-    )
-    units_row: int | None = Field(
-        default=None, ge=0, description="Line with the columns' units, from 1; 0 where there is none."
-    )
-    time: str | int | None = Field(default=None, description="Name or number, from 1, of the column that is the clock.")
-    time_unit: TimeUnit | None = Field(default=None, description="Unit of that column.")
-    comment: str | None = Field(default=None, min_length=1, description="What starts a line that is not a sample.")
-    missing: tuple[str, ...] = Field(default=(), description='Texts that stand for a missing value, such as "-999".')
-
-    @model_validator(mode="after")
-    def _signs_differ(self) -> Self:
-        if self.decimal is not None and self.decimal == self.thousands:
-            raise ValueError(f'decimal and thousands are both "{self.decimal}"')
-        if self.time_unit is not None and self.time is None:
-            raise ValueError("time_unit needs `time`: the column it belongs to")
-        return self
-
-
-@dataclass(frozen=True)
-class Header:
-    """All that is known of a file before its samples are read."""
-
-    source: Source
-    heading: Heading
-    notes: tuple[str, ...]
-    warnings: tuple[str, ...]
 
 
 def recognise(path: Path) -> Recognition:
@@ -110,11 +46,36 @@ def read(path: Path, options: DelimitedOptions, window: Window | None = None) ->
     Raises
     ------
     ReadError
-        If it is not text or has no rows of numbers, or a column that the options name is not there.
+        If it is not text or has no rows of numbers, a column that the options name is not there, or it cannot be told
+        whether rows are samples of several channels or pieces of one series.
     """
     header = read_header(path, options)
     stretch = None if window is None else _stretch(header, options, window)
-    return _recording(header, _samples(header, options, stretch), options)
+    samples = _samples(header, options, stretch)
+    verdict = _layout(header, samples, options)
+    if verdict.layout == "columns":
+        return _recording(header, samples, options)
+    return series_of(header.source, announced(header.above), verdict, header.notes)
+
+
+def _layout(header: Header, samples: Samples, options: DelimitedOptions) -> Verdict:
+    """Decide whether columns are channels: as given, by what they hold, else by the evidence."""
+    source = header.source
+    if options.layout is not None:
+        return Verdict(options.layout, ("as given",))
+    if options.time is not None or any(kind in ("time", "text") for kind in source.kinds):
+        return Verdict("columns")
+    is_whole = samples.skipped == 0 and samples.reaches_end and not ends_within_line(source.path)
+    is_free = source.dialect.delimiter == WHITESPACE
+    told, columns, named = announced(header.above), samples.columns, header.named
+    if told.fields and told.width and told.fields != len(columns):
+        # Fields of fixed width may touch, and are not told apart by blanks then.
+        fields = fixed_fields(source, told.fields, told.width)
+        columns, named = (columns, named) if fields is None else (fields, "")
+    verdict = judge(columns, told, named=named, is_free=is_free, is_whole=is_whole)
+    if verdict.layout is None:
+        raise ReadError(undecided(source, verdict))
+    return verdict
 
 
 def _recording(header: Header, samples: Samples, options: DelimitedOptions) -> Recording:
@@ -189,85 +150,6 @@ def _mended(samples: Samples, source: Source, damage: Damage, number_cut: bool) 
     if not any(np.isfinite(column).any() for column in mended):
         raise ReadError(f"{source.path.name}: no cell from line {source.first + 1} on holds a number.")
     return mended
-
-
-def read_header(path: Path, options: DelimitedOptions) -> Header:
-    """
-    Find out how a file is written and what its columns are called, from its head.
-
-    Raises
-    ------
-    ReadError
-        If it is empty, not text, or has no rows of numbers.
-    """
-    encoding = Encoding(options.encoding, "") if options.encoding else detect_encoding(path)
-    start = max(options.skip_rows, options.names_row or 0, options.units_row or 0)
-    try:
-        lines, _ = head_lines(path, encoding.name, wanted=start + 200)
-    except UnicodeError as error:
-        raise ReadError(f"{path.name}: it is not text in {encoding.name} ({error}).") from error
-    if not any(line.strip() for line in lines):
-        raise ReadError(f"{path.name}: the file is empty; rows of numbers were expected.")
-    if reason := looks_binary(lines):
-        raise ReadError(f"{path.name}: {reason}; text with rows of numbers was expected.")
-    given = Dialect(
-        encoding.name,
-        delimiter=options.delimiter or ",",
-        decimal=options.decimal or ".",
-        comments=COMMENT_SIGNS if options.comment is None else (options.comment,),
-        missing=MISSING | {text.casefold() for text in options.missing},
-    )
-    sniffed = sniff(
-        lines[start:], given, delimiter=options.delimiter, decimal=options.decimal, thousands=options.thousands
-    )
-    kinds = column_kinds(lines[start:], sniffed.dialect, sniffed.columns)
-    first = find_first_sample(lines, start, sniffed.dialect, kinds) if sniffed.columns else None
-    if first is None:
-        raise ReadError(
-            f"{path.name}: no rows of numbers were found in the {len(lines)} lines looked at"
-            f"{_as_given(options)}; the first is {lines[0][:60]!r}."
-        )
-    where = _heading_lines(lines, first, sniffed.dialect, kinds, options)
-    width = _named_width(lines, where, sniffed.dialect, kinds)
-    heading = describe_columns(lines, where, first, sniffed.dialect, width)
-    source = Source(path, sniffed.dialect, first, heading.headings, tuple(kinds[:width]), len(kinds) - width)
-    notes: tuple[str, ...] = (f"encoding {encoding.name} ({encoding.evidence})",) if encoding.evidence else ()
-    text_columns = [f'"{head}"' for head, kind in zip(heading.headings, source.kinds, strict=True) if kind == "text"]
-    if text_columns:
-        notes += (f"text, not numbers, in {', '.join(text_columns)}",)
-    unread = unread_numbers(lines, where, start, first, sniffed.dialect)
-    return Header(source, heading, notes + sniffed.notes, (*sniffed.warnings, *unread))
-
-
-def _heading_lines(
-    lines: list[str], first: int, dialect: Dialect, kinds: list[str], options: DelimitedOptions
-) -> HeadingLines:
-    """Lines of names and units: as given, else as found."""
-    found = find_heading(lines, options.skip_rows, first, dialect, kinds)
-    names = found.names if options.names_row is None else options.names_row - 1
-    units = found.units if options.units_row is None else options.units_row - 1
-    if options.names_row is not None and options.units_row is None and units == names:
-        units = None
-    if options.units_row is not None and options.names_row is None and names == units:
-        names = None
-    return HeadingLines(
-        names if names is not None and names >= 0 else None, units if units is not None and units >= 0 else None
-    )
-
-
-def _named_width(lines: list[str], where: HeadingLines, dialect: Dialect, kinds: list[str]) -> int:
-    """Count the columns without the empty ones at the end that have no name either."""
-    heading = describe_columns(lines, where, 0, dialect, len(kinds))
-    width = len(kinds)
-    while width > 1 and kinds[width - 1] == "empty" and heading.headings[width - 1] == f"column {width}":
-        width -= 1
-    return width
-
-
-def _as_given(options: DelimitedOptions) -> str:
-    """Remind of the options that the sniffing had to keep to."""
-    told = [f"{key} = {value!r}" for key, value in options.model_dump(exclude_defaults=True).items()]
-    return f" with {', '.join(told)}" if told else ""
 
 
 def _clocks(recording: Recording, source: Source, options: DelimitedOptions) -> Clocks:

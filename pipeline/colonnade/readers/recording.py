@@ -98,6 +98,8 @@ class Recording:
         What was sniffed, each with its evidence.
     warnings : tuple of str
         What was not as it should be: cells without a number, damaged lines; each with its line in the file.
+    hint : str
+        Said with a column that is not there, where the reader knows why it may be missed.
     """
 
     path: Path
@@ -106,6 +108,7 @@ class Recording:
     start: datetime | None = None
     notes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+    hint: str = ""
 
     def channel(self, column: str | int) -> RecordedChannel:
         """
@@ -140,16 +143,21 @@ class Recording:
                     "Give the number of the one that is meant instead of its name."
                 )
         raise ReadError(
-            f'{self.path.name}: no column is called "{column}"; it has {len(names)} columns.{nearest(column, names)}'
+            f'{self.path.name}: no column is called "{column}"; it has {len(names)} column{"s" * (len(names) > 1)}.'
+            f"{nearest(column, names)}"
+            f"{self._hinted()}"
         )
 
     def _numbered(self, number: int) -> RecordedChannel:
         if not 1 <= number <= len(self.channels):
             raise ReadError(
-                f"{self.path.name}: there is no column {number}; it has columns 1 to {len(self.channels)}. "
-                "Columns are counted from 1."
+                f"{self.path.name}: there is no column {number}; it has {_numbers(len(self.channels))}. "
+                f"Columns are counted from 1.{self._hinted()}"
             )
         return self.channels[number - 1]
+
+    def _hinted(self) -> str:
+        return f" {self.hint}" if self.hint else ""
 
     def on_clock(self, column: str | int, time_column: str | int) -> RecordedChannel:
         """
@@ -182,6 +190,10 @@ class Recording:
 def _plain(name: str) -> str:
     """Name without what people type differently: case and spaces."""
     return "".join(name.casefold().split())
+
+
+def _numbers(columns: int) -> str:
+    return "1 column" if columns == 1 else f"columns 1 to {columns}"
 
 
 def _listed(numbers: Sequence[int]) -> str:

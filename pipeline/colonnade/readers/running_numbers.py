@@ -54,6 +54,11 @@ def _fields(line: str, width: int | None) -> list[float]:
     """Numbers of a line."""
     if width is not None:
         return [_number(line[start : start + width]) for start in range(0, len(line), width)]
+    return split_numbers(line)
+
+
+def split_numbers(line: str) -> list[float]:
+    """Numbers of a line, told apart by blanks or by their signs; NaN for what is none."""
     fields = line.split()
     try:
         return [_finite(float(field)) for field in fields]

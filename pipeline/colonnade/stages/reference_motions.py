@@ -6,6 +6,7 @@ import functools
 import hashlib
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -29,6 +30,8 @@ class Source(BaseModel):
     interval : float or None
         s.
     column : str, int or None
+    layout : str or None
+        Whether columns are channels or numbers run on, where it is given.
     """
 
     model_config = ConfigDict(frozen=True)
@@ -37,12 +40,19 @@ class Source(BaseModel):
     digest: str
     interval: float | None = None
     column: str | int | None = None
+    layout: Literal["columns", "running"] | None = None
 
 
 def sources(campaign: Campaign) -> dict[str, Source]:
     """Reference motions of a campaign, by name."""
     found = {
-        name: Source(path=motion.file, digest=_digest(motion.file), interval=motion.interval, column=motion.column)
+        name: Source(
+            path=motion.file,
+            digest=_digest(motion.file),
+            interval=motion.interval,
+            column=motion.column,
+            layout=motion.layout,
+        )
         for name, motion in campaign.motions.items()
     }
     if el_centro.EL_CENTRO not in found and el_centro.is_installed():
@@ -60,7 +70,9 @@ def load(known: Mapping[str, Source], warnings: list[Finding]) -> dict[str, Seri
             if source.path is None:
                 motion = el_centro.el_centro()
             else:
-                motion = read_motion(source.path, unit="m/s^2", dt=source.interval, column=source.column)
+                motion = read_motion(
+                    source.path, unit="m/s^2", dt=source.interval, column=source.column, layout=source.layout
+                )
         except ReadError as error:
             warnings.append(warning("reference motion", f'The reference motion "{name}" cannot be used: {error}'))
             continue
