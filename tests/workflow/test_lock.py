@@ -69,22 +69,3 @@ def test_half_a_file_that_a_killed_runs_worker_left_after_the_next_run_began_is_
     with only_run(small.layout):
         half.write_bytes(b"half")
     assert not half.exists()
-
-
-def test_results_may_lie_on_another_disk_by_a_link(untouched, undisturbed, tmp_path):
-    elsewhere = tmp_path / "another disk"
-    elsewhere.mkdir()
-    untouched.layout.processed.symlink_to(elsewhere)
-    half = elsewhere / "tests" / ".rocking.nc.4711.partial"
-    half.parent.mkdir()
-    half.write_bytes(b"half")
-    assert not untouched.run().failed
-    assert untouched.contents() == undisturbed.contents()
-    assert not half.exists()
-    assert untouched.redone() == {}
-
-
-def test_a_link_to_a_disk_that_is_not_there_is_told(untouched, tmp_path):
-    untouched.layout.processed.symlink_to(tmp_path / "another disk")
-    with pytest.raises(StoreError, match=r"it is a link to .*another disk, which is not there"):
-        untouched.run()

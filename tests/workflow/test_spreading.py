@@ -127,7 +127,9 @@ def test_a_campaign_run_on_the_cluster_is_that_of_one_process(cluster, untouched
 
 def test_workers_that_do_not_see_the_campaign_are_told(cluster, untouched):
     campaign = replace(load(untouched.folder), path=untouched.folder / "elsewhere.toml")
-    elsewhere = Chain.of(campaign, "pulse-01", phase="measuring", until="ingest", redo_from=None, raw={})
+    elsewhere = Chain.of(
+        campaign, untouched.layout, "pulse-01", phase="measuring", until="ingest", redo_from=None, raw={}
+    )
     with pytest.raises(ColonnadeError, match="does not see this file"):
         list(execute([elsewhere], None, cluster))
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import rich_click as click
 
 from colonnade.cli.console import say, show_json, show_table
-from colonnade.cli.options import campaign_argument, json_option, workers_option
+from colonnade.cli.options import campaign_argument, json_option, results_option, workers_option
 
 
 @click.command(epilog="Example: colonnade calibrate demo --specimen prism --mesh rigid --mesh coarse")
@@ -26,6 +26,7 @@ from colonnade.cli.options import campaign_argument, json_option, workers_option
     help='Instead of the one in the settings, such as "10 us"; several may be given.',
 )
 @workers_option
+@results_option
 @json_option
 def calibrate(
     campaign: Path,
@@ -33,6 +34,7 @@ def calibrate(
     mesh: tuple[str, ...],
     step: tuple[str, ...],
     workers: int | None,
+    results: Path | None,
     as_json: bool,
 ) -> int:
     """
@@ -57,7 +59,7 @@ def calibrate(
     for text, value in zip(step, steps, strict=True):
         if not value > 0.0:
             raise CampaignError(f'--step: "{text}" was found. A time above zero was expected, such as "10 us".')
-    made = calibrated(campaign, specimens=specimen, meshes=mesh, steps=steps, workers=workers)
+    made = calibrated(campaign, specimens=specimen, meshes=mesh, steps=steps, workers=workers, results=results)
     if as_json:
         show_json(
             [

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import rich_click as click
 
 from colonnade.cli.console import say, show_json, show_table
-from colonnade.cli.options import campaign_argument, json_option, scheduler_option, workers_option
+from colonnade.cli.options import campaign_argument, json_option, results_option, scheduler_option, workers_option
 from colonnade.cli.progress import looking
 
 if TYPE_CHECKING:
@@ -56,6 +56,7 @@ if TYPE_CHECKING:
 )
 @workers_option
 @scheduler_option
+@results_option
 @json_option
 def map_command(
     campaign: Path,
@@ -72,6 +73,7 @@ def map_command(
     responses: bool,
     workers: int | None,
     scheduler: str | None,
+    results: Path | None,
     as_json: bool,
 ) -> int:
     """
@@ -92,7 +94,15 @@ def map_command(
 
     wanted = Wanted(model, omega, amplitude, points, cycles, radians(phase), ramp, ramp_shape, motion, responses)
     with looking(f"Mapping by the {' and the '.join(model)} model") as progress:
-        made = make_maps(campaign, wanted, specimens=specimen, workers=workers, scheduler=scheduler, progress=progress)
+        made = make_maps(
+            campaign,
+            wanted,
+            specimens=specimen,
+            workers=workers,
+            scheduler=scheduler,
+            results=results,
+            progress=progress,
+        )
     if as_json:
         show_json([{name: _plain(value) for name, value in vars(each).items()} for each in made])
         return 0

@@ -26,6 +26,13 @@ scheduler_option = click.option(
     help="Work on the Dask cluster of this running scheduler, such as tcp://10.0.0.1:8786, instead of this machine.",
 )
 
+results_option = click.option(
+    "--results",
+    type=click.Path(file_okay=False, path_type=Path),
+    metavar="DIR",
+    help="Folder that holds processed/ and report/, such as one on another disk; by default that of campaign.toml.",
+)
+
 
 strict_option = click.option(
     "--strict", is_flag=True, help="Exit with 1 also if there is a serious finding or a warning; notes do not count."
@@ -38,6 +45,7 @@ def work_options(command: Command) -> Command:
         json_option,
         strict_option,
         click.option("--verify", is_flag=True, help="Hash raw files again also where size and time are unchanged."),
+        results_option,
         scheduler_option,
         workers_option,
         click.option("--only", multiple=True, metavar="ID", help="Only this test; may be given several times."),

@@ -21,13 +21,13 @@ class KnownCampaign:
     summary: Record
 
     @classmethod
-    def of(cls, path: Path) -> KnownCampaign:
-        """Read both; nothing is run."""
+    def of(cls, path: Path, results: Path | None = None) -> KnownCampaign:
+        """Read both, the summary in the folder of results where one is given; nothing is run."""
         from colonnade.campaign import load
         from colonnade.store.layout import Layout
 
         campaign = load(path)
-        written = Layout(campaign.folder).summary_json
+        written = Layout.of(campaign.folder, results).summary_json
         return cls(campaign, json.loads(written.read_text(encoding="utf-8")) if written.is_file() else {})
 
 

@@ -10,7 +10,7 @@ import rich_click as click
 
 from colonnade.cli.console import show_fields, show_json, show_table, shown
 from colonnade.cli.findings import line_of
-from colonnade.cli.options import json_option
+from colonnade.cli.options import json_option, results_option
 from colonnade.cli.records import KnownCampaign, Record, specimen_records, test_records
 
 if TYPE_CHECKING:
@@ -26,30 +26,32 @@ def show() -> None:
 
 @show.command(epilog="Example: colonnade show tests demo span-2.0")
 @campaign_and_id
+@results_option
 @json_option
-def tests(arguments: tuple[str, ...], as_json: bool) -> int:
+def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> int:
     """
     Show the tests, measured and predicted, as of the last run; with an ID all that is known of one.
 
     One argument alone is taken as CAMPAIGN where there is such a file or folder, else as ID.
     """
     campaign, identifier = _campaign_and_id(arguments)
-    records = test_records(KnownCampaign.of(campaign))
+    records = test_records(KnownCampaign.of(campaign, results))
     heads = ("test", "kind", "specimen", "status", "outcome", "|θ|/α", "predicted", "reason or warnings")
     return _show_records("test", records, identifier, heads, _test_cells, as_json=as_json)
 
 
 @show.command(epilog="Example: colonnade show specimens demo")
 @campaign_and_id
+@results_option
 @json_option
-def specimens(arguments: tuple[str, ...], as_json: bool) -> int:
+def specimens(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> int:
     """
     Show the specimens: geometry, and restitution with its interval as of the last run; with an ID one of them.
 
     One argument alone is taken as CAMPAIGN where there is such a file or folder, else as ID.
     """
     campaign, identifier = _campaign_and_id(arguments)
-    records = specimen_records(KnownCampaign.of(campaign))
+    records = specimen_records(KnownCampaign.of(campaign, results))
     heads = ("specimen", "shape", "α rad", "R m", "I₀ kg m²", "p rad/s", "rigid-body e", "e", "source")
     return _show_records("specimen", records, identifier, heads, _specimen_cells, as_json=as_json)
 

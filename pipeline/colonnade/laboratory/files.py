@@ -156,6 +156,8 @@ def put(path: Path, data: bytes) -> None:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        if path.is_symlink():  # what it leads to is not ours
+            path.unlink()
         if not path.is_file() or path.read_bytes() != data:
             path.write_bytes(data)
     except OSError as error:

@@ -17,6 +17,7 @@ from colonnade.laboratory.performance import perform_all, write_truth
 from colonnade.laboratory.record import load_record
 from colonnade.laboratory.rig import prism_setups
 from colonnade.laboratory.trials import LENGTH_SCALE, Placed, earthquakes, free_vibrations, sine
+from colonnade.store.own_files import own_files
 
 PRISM_RESTITUTION = 0.976
 """The paper's coefficient of restitution of the prism."""
@@ -98,6 +99,8 @@ def write(plan: Plan, folder: Path | str, *, seed: int = 0, workers: int | None 
     """Perform a plan: write its raw files, its truth and its campaign file; see `write_campaign`."""
     folder = Path(folder)
     refuse_foreign(folder)
+    for name in ("raw", "truth"):
+        own_files(folder / name)
     records = perform_all(plan, folder, seed, workers)
     truth = write_truth(plan, records, folder, seed)
     put(folder / FILE_NAME, campaign_text(plan).encode())

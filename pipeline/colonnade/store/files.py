@@ -24,6 +24,7 @@ from colonnade.errors import StoreError
 from colonnade.store.attributes import restored, storable
 from colonnade.store.description import describe
 from colonnade.store.long_arrays import add_attribute, write_file
+from colonnade.store.own_files import own_files
 from colonnade.store.provenance import content_hash, coverage, is_long
 
 PARTIAL = ".partial"
@@ -173,8 +174,9 @@ def remove(path: Path) -> bool:
 
 def sweep(folder: Path) -> None:
     """Remove temporary files that a killed run left; only for the one who holds the lock."""
-    for partial in folder.rglob(f".*{PARTIAL}"):
-        remove(partial)
+    for path in own_files(folder):
+        if path.name.startswith(".") and path.name.endswith(PARTIAL):
+            remove(path)
 
 
 def _to_bytes(dataset: xr.Dataset, path: Path) -> memoryview:
@@ -255,6 +257,7 @@ def _in_one_step(path: Path, write_to: Callable[[Path], Told]) -> Told:
     partial = path.with_name(f".{path.name}.{os.getpid()}{PARTIAL}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        partial.unlink(missing_ok=True)  # it may be a link
         try:
             told = write_to(partial)
             partial.replace(path)
@@ -275,8 +278,8 @@ def _unwritable(path: Path, error: OSError) -> StoreError:
         )
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
         return StoreError(
-            f"{path}: it may not be written ({error.strerror}). Results lie in folders beside campaign.toml: make that "
-            "folder writable, or copy the campaign to one that is."
+            f"{path}: it may not be written ({error.strerror}). Make its folder writable, or "
+            "give another folder with --results."
         )
     return StoreError(f"{path}: it cannot be written ({error.strerror or error}). Check the disk and run again.")
 

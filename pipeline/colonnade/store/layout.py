@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from colonnade.errors import StoreError
+
 FILE_NAMES = {
     "ingest": "recorded",
     "condition": "conditioned",
@@ -27,6 +29,8 @@ class Layout:
     ----------
     folder : Path
         The folder of campaign.toml.
+    results : Path or None
+        The folder that holds `processed` and `report`, such as one on another disk; None: the folder of campaign.toml.
 
     Examples
     --------
@@ -35,11 +39,32 @@ class Layout:
     """
 
     folder: Path
+    results: Path | None = None
+
+    @classmethod
+    def of(cls, folder: Path, results: Path | str | None) -> Layout:
+        """
+        Lay out the results of a campaign in the folder that was asked for.
+
+        Raises
+        ------
+        StoreError
+            If its path is invalid.
+        """
+        try:
+            return cls(folder, None if results is None else Path(results).resolve())
+        except (OSError, RuntimeError, ValueError) as error:
+            raise StoreError(f"{results}: invalid path of a folder for results ({error}).") from None
+
+    @property
+    def home(self) -> Path:
+        """Folder that holds `processed` and `report`."""
+        return self.folder if self.results is None else self.results
 
     @property
     def processed(self) -> Path:
         """Folder of all results."""
-        return self.folder / "processed"
+        return self.home / "processed"
 
     @property
     def tests(self) -> Path:
@@ -92,7 +117,7 @@ class Layout:
     @property
     def report(self) -> Path:
         """The report's page."""
-        return self.folder / "report" / "index.html"
+        return self.home / "report" / "index.html"
 
     @property
     def summary_json(self) -> Path:

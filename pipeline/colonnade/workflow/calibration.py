@@ -70,6 +70,7 @@ class Calibrated:
 @dataclass(frozen=True)
 class _Task:
     campaign: Campaign
+    layout: Layout
     specimen: str
     settings: ContactSettings
 
@@ -81,6 +82,7 @@ def calibrate(
     meshes: Sequence[str] = (),
     steps: Sequence[float] = (),
     workers: int | None = None,
+    results: Path | str | None = None,
 ) -> list[Calibrated]:
     """
     Find the contact damping with which each specimen rocks freely with its restitution.
@@ -97,6 +99,8 @@ def calibrate(
         s; default that of the settings.
     workers : int, optional
         Processes; default one a core.
+    results : Path or str, optional
+        Folder that holds `processed` and `report`; default that of the campaign file.
 
     Returns
     -------
@@ -111,20 +115,20 @@ def calibrate(
         If a run is under way, or results cannot be written.
     """
     loaded = load(Path(campaign))
-    layout = Layout(loaded.folder)
+    layout = Layout.of(loaded.folder, results)
     for name in specimens:
         if name not in loaded.specimens:
             raise CampaignError(f'{loaded.path.name} has no specimen "{name}".{nearest(name, loaded.specimens)}')
     chosen = list(specimens or loaded.specimens)
-    for name in chosen:
-        if stored_attributes(layout.specimen(name)).get("status") != "done":
-            raise CampaignError(f"{name}: its restitution is not known yet. Run `colonnade identify` first.")
     own = loaded.processing.predict.contact
     tasks = [
-        _Task(loaded, name, own.model_copy(update={"mesh": mesh, "step": step}))
+        _Task(loaded, layout, name, own.model_copy(update={"mesh": mesh, "step": step}))
         for name, mesh, step in product(chosen, meshes or (own.mesh,), steps or (own.step,))
     ]
     with only_run(layout):
+        for name in chosen:
+            if stored_attributes(layout.specimen(name)).get("status") != "done":
+                raise CampaignError(f"{name}: its restitution is not known yet. Run `colonnade identify` first.")
         found = dict(spread(_calibrated, list(enumerate(tasks)), workers=workers))
     return [found[number] for number in range(len(tasks))]
 
@@ -132,12 +136,13 @@ def calibrate(
 def _calibrated(numbered: tuple[int, _Task]) -> tuple[int, Calibrated]:
     """Calibrate one, through the store where it is what the campaign's settings ask for."""
     number, task = numbered
-    campaign, layout = task.campaign, Layout(task.campaign.folder)
+    campaign, layout = task.campaign, task.layout
     started = time.perf_counter()
     path = None
     if task.settings == campaign.processing.predict.contact:
         path = layout.contact(task.specimen)
-        done = advance(campaign, task.specimen, contact_step(campaign, task.specimen), redo_from=None, raw={})
+        step = contact_step(campaign, layout, task.specimen)
+        done = advance(campaign, layout, task.specimen, step, redo_from=None, raw={})
         result, reason = (None, done.reason) if done.action == "failed" else (files.read(path), "")
     else:
         from colonnade.stages import contact

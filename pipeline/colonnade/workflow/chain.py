@@ -42,6 +42,7 @@ class Chain:
     ----------
     campaign : Campaign
         With no other test in it, so that it is light to send.
+    layout : Layout
     test : str
     phase : str
         From raw files to what was measured, or from there to the comparison.
@@ -54,6 +55,7 @@ class Chain:
     """
 
     campaign: Campaign
+    layout: Layout
     test: str
     phase: Phase
     until: str
@@ -61,28 +63,30 @@ class Chain:
     raw: Mapping[str, RawFile]
 
     @classmethod
-    def of(cls, campaign: Campaign, test: str, **rest: Any) -> Chain:
+    def of(cls, campaign: Campaign, layout: Layout, test: str, **rest: Any) -> Chain:
         """Build the chain of one test."""
         alone = replace(campaign, tests={test: campaign.tests[test]}, reviews={test: campaign.review(test)})
-        return cls(alone, test, **rest)
+        return cls(alone, layout, test, **rest)
 
     def steps(self) -> list[Step]:
         """Return the steps up to `until`."""
         build = measuring_steps if self.phase == "measuring" else predicting_steps
         last = STAGES.index(self.until)
-        return [step for step in build(self.campaign, self.campaign.tests[self.test]) if step.order <= last]
+        return [
+            step for step in build(self.campaign, self.layout, self.campaign.tests[self.test]) if step.order <= last
+        ]
 
 
 def walk(chain: Chain) -> list[StageRun]:
     """Bring a chain up to date, up to the first step that fails; what lies behind a failure is taken away."""
     runs: list[StageRun] = []
     for step in chain.steps():
-        run = advance(chain.campaign, chain.test, step, redo_from=chain.redo_from, raw=chain.raw)
+        run = advance(chain.campaign, chain.layout, chain.test, step, redo_from=chain.redo_from, raw=chain.raw)
         runs.append(run)
         if run.action == "failed":
-            clear_behind(chain.campaign, chain.test, step.order)
+            clear_behind(chain.campaign, chain.layout, chain.test, step.order)
             return runs
-    Layout(chain.campaign.folder).error_log(chain.test).unlink(missing_ok=True)
+    files.remove(chain.layout.error_log(chain.test))
     return runs
 
 
@@ -92,16 +96,16 @@ def lost(chain: Chain) -> StageRun:
     stopped = next(
         (step for step in steps if _state(step, chain.redo_from, chain.raw, stored_attributes).because), steps[-1]
     )
-    clear_behind(chain.campaign, chain.test, stopped.order - 1)
+    clear_behind(chain.campaign, chain.layout, chain.test, stopped.order - 1)
     return StageRun(chain.test, stopped.stage, "failed", stopped.model, _WORKER_LOST)
 
 
-def clear_behind(campaign: Campaign, test: str, order: int) -> None:
+def clear_behind(campaign: Campaign, layout: Layout, test: str, order: int) -> None:
     """Take away a test's results of stages after the one of this order: nothing may follow from a failure."""
     for build in (measuring_steps, predicting_steps):
-        for step in build(campaign, campaign.tests[test]):
+        for step in build(campaign, layout, campaign.tests[test]):
             if step.order > order:
-                step.path.unlink(missing_ok=True)
+                files.remove(step.path)
 
 
 def is_fresh(chain: Chain, look: Look) -> list[StageRun] | None:
@@ -118,7 +122,13 @@ def is_fresh(chain: Chain, look: Look) -> list[StageRun] | None:
 
 
 def advance(
-    campaign: Campaign, subject: str, step: Step, *, redo_from: str | None, raw: Mapping[str, RawFile]
+    campaign: Campaign,
+    layout: Layout,
+    subject: str,
+    step: Step,
+    *,
+    redo_from: str | None,
+    raw: Mapping[str, RawFile],
 ) -> StageRun:
     """Bring one result up to date."""
     state = _state(step, redo_from, raw, stored_attributes)
@@ -137,15 +147,17 @@ def advance(
             _expect_unchanged(campaign, raw)
         files.write(result, step.path, attributes=attributes)
         found = at_stage(result.attrs.get("warnings", []), step.stage)
+        if step.is_of_specimen:
+            files.remove(layout.specimen_error_log(subject))
     except Exception as error:
         if isinstance(error, ColonnadeError):
             reason = str(error)
         elif isinstance(error, MemoryError):
             reason = _SHORT_OF_MEMORY
         else:  # a defect of ours: told as such, the other tests go on
-            reason = _internal_error(campaign, subject, step, error)
+            reason = _internal_error(layout, subject, step, error)
         if _is_of_the_machine(error):
-            step.path.unlink(missing_ok=True)
+            files.remove(step.path)
         else:
             reason = _store_failure(step, reason, attributes)
     seconds = time.perf_counter() - started
@@ -232,12 +244,12 @@ def _store_failure(step: Step, reason: str, attributes: Mapping[str, Any]) -> st
     return reason
 
 
-def _internal_error(campaign: Campaign, subject: str, step: Step, error: Exception) -> str:
-    """Write the traceback to the test's error.log; return what to tell."""
+def _internal_error(layout: Layout, subject: str, step: Step, error: Exception) -> str:
+    """Write the traceback to the error.log of the test or specimen; return what to tell."""
     frames = traceback.extract_tb(error.__traceback__)
     place = f"{frames[-1].filename.rpartition('colonnade')[2].lstrip('/')}:{frames[-1].lineno}" if frames else "?"
-    log = Layout(campaign.folder).error_log(subject)
-    where = f"its traceback is in {log.relative_to(campaign.folder).as_posix()}"
+    log = layout.specimen_error_log(subject) if step.is_of_specimen else layout.error_log(subject)
+    where = f"its traceback is in {log.relative_to(layout.home).as_posix()}"
     try:
         files.write_text(log, "".join(traceback.format_exception(error)))
     except StoreError:

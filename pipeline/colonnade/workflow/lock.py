@@ -8,12 +8,14 @@ import platform
 from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import datetime
+from pathlib import Path
 
 from filelock import FileLock, Timeout
 
 from colonnade.errors import StoreError
-from colonnade.store.files import sweep, write_text
+from colonnade.store.files import remove, sweep, write_text
 from colonnade.store.layout import Layout
+from colonnade.store.own_files import own_files
 
 
 @contextmanager
@@ -24,9 +26,13 @@ def only_run(layout: Layout) -> Iterator[None]:
     Raises
     ------
     StoreError
-        If another run holds it, or the folder of results cannot be written.
+        If another run holds it, or the folders of results cannot be written or lead elsewhere through a link.
     """
+    for folder in _folders(layout):
+        own_files(folder)
     try:
+        if layout.lock.is_symlink():
+            layout.lock.unlink()
         layout.processed.mkdir(parents=True, exist_ok=True)
         lock = FileLock(layout.lock)
         lock.acquire(timeout=0)
@@ -34,8 +40,8 @@ def only_run(layout: Layout) -> Iterator[None]:
         raise StoreError(_held(layout)) from None
     except OSError as error:
         raise StoreError(
-            f"{layout.processed}: results cannot be written here ({_obstacle(layout, error)}). A folder with room that "
-            "you may write to was expected; free some space, or copy the campaign elsewhere."
+            f"{layout.processed}: results cannot be written here ({error.strerror or error}). A folder with room that "
+            "you may write to was expected; free some space, or give another folder with --results."
         ) from error
     after_a_kill = layout.lock_holder.exists()
     try:
@@ -49,22 +55,19 @@ def only_run(layout: Layout) -> Iterator[None]:
         yield
     finally:
         try:
-            layout.lock_holder.unlink(missing_ok=True)
+            remove(layout.lock_holder)
             if after_a_kill:  # its workers may have lived on for a moment
                 _sweep(layout)
         finally:
             lock.release()
 
 
-def _obstacle(layout: Layout, error: OSError) -> str:
-    folder = layout.processed
-    if folder.is_symlink() and not folder.exists():
-        return f"it is a link to {folder.readlink()}, which is not there"
-    return error.strerror or str(error)
+def _folders(layout: Layout) -> tuple[Path, Path]:
+    return layout.processed, layout.report.parent
 
 
 def _sweep(layout: Layout) -> None:
-    for folder in (layout.processed, layout.report.parent):
+    for folder in _folders(layout):
         sweep(folder)
 
 

@@ -78,6 +78,7 @@ def make_maps(
     specimens: Sequence[str] = (),
     workers: int | None = None,
     scheduler: str | None = None,
+    results: Path | str | None = None,
     progress: Counted | None = None,
 ) -> list[MapMade]:
     """
@@ -92,6 +93,8 @@ def make_maps(
         Ids; default all.
     workers, scheduler : optional
         As of `spread`.
+    results : Path or str, optional
+        Folder that holds `processed` and `report`; default that of the campaign file.
     progress : callable, optional
         Told how many blocks of a map are done, and of how many.
 
@@ -110,7 +113,7 @@ def make_maps(
     for name in specimens:
         if name not in loaded.specimens:
             raise CampaignError(f'{loaded.path.name} has no specimen "{name}".{nearest(name, loaded.specimens)}')
-    layout = Layout(loaded.folder)
+    layout = Layout.of(loaded.folder, results)
     with only_run(layout):
         spread = partial(in_blocks, workers=workers, scheduler=scheduler, progress=progress)
         return [

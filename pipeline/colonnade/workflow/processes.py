@@ -81,4 +81,9 @@ def _walk_there(chain: Chain) -> list[StageRun]:
             f"{chain.campaign.path}: a worker on {platform.node()} does not see this file. A folder that all of the "
             "cluster's workers share under the same path was expected; put the campaign there."
         )
+    if not chain.layout.processed.is_dir():
+        raise ColonnadeError(
+            f"{chain.layout.processed}: a worker on {platform.node()} does not see this folder of results. A folder "
+            "that all of the cluster's workers share under the same path was expected; give another one with --results."
+        )
     return walk(chain)

@@ -33,6 +33,7 @@ def run(
     workers: int | None = None,
     scheduler: str | None = None,
     verify: bool = False,
+    results: Path | str | None = None,
     progress: Progress | None = None,
 ) -> RunResult:
     """
@@ -52,6 +53,8 @@ def run(
         Address of a running Dask scheduler, whose workers are used instead. They share the campaign's folder.
     verify : bool, optional
         Read every raw file again, whatever its size and time.
+    results : Path or str, optional
+        Folder that holds `processed` and `report`, such as one on another disk; default that of the campaign file.
     progress : callable, optional
         Called with each stage that ended, how many tests have, and of how many.
 
@@ -71,7 +74,7 @@ def run(
     if first is not None and STAGES.index(first) > STAGES.index(last):
         raise CampaignError(f"from {first} until {last}: the stage to stop at comes before the one to start from.")
     tests = _chosen(loaded, (only,) if isinstance(only, str) else only)
-    layout, places = Layout(loaded.folder), (workers, scheduler)
+    layout, places = Layout.of(loaded.folder, results), (workers, scheduler)
     with only_run(layout):
         index = RawIndex(layout, verify=verify)
         raw = {name: index.look(test.files.values()) for name, test in loaded.tests.items()}
@@ -79,10 +82,13 @@ def run(
         catalogue = Catalogue(layout, verify=verify)
         for name in loaded.tests:
             if loaded.review(name).excluded:
-                clear_behind(loaded, name, order=-1)
+                clear_behind(loaded, layout, name, order=-1)
 
         def chains(names: Iterable[str], phase: Phase, until: str = last) -> list[Chain]:
-            return [Chain.of(loaded, name, phase=phase, until=until, redo_from=first, raw=raw[name]) for name in names]
+            return [
+                Chain.of(loaded, layout, name, phase=phase, until=until, redo_from=first, raw=raw[name])
+                for name in names
+            ]
 
         runs = list(_walked(chains(tests, "measuring"), catalogue, places, progress))
         if STAGES.index(last) >= STAGES.index("predict"):
@@ -93,14 +99,16 @@ def run(
             runs += _pool(loaded, layout, catalogue, first)
         if STAGES.index(last) >= STAGES.index("predict"):
             unpooled = _reasons(runs, of_specimens=True)
-            runs += _calibrate(loaded, [name for name in tests if loaded.tests[name].specimen not in unpooled], first)
+            runs += _calibrate(
+                loaded, layout, [name for name in tests if loaded.tests[name].specimen not in unpooled], first
+            )
         failed = _reasons(runs, of_specimens=False)
         unknown = _reasons(runs, of_specimens=True)
         if STAGES.index(last) >= STAGES.index("predict"):
             ready = []
             for name in tests:
                 if (specimen := loaded.tests[name].specimen) in unknown:
-                    clear_behind(loaded, name, STAGES.index("restitution"))
+                    clear_behind(loaded, layout, name, STAGES.index("restitution"))
                     failed.setdefault(name, f"specimen {specimen}: {unknown[specimen]}")
                 elif name not in failed:
                     ready.append(name)
@@ -188,7 +196,7 @@ def _pool(campaign: Campaign, layout: Layout, catalogue: Catalogue, redo_from: s
         if test.kind == "free-vibration" and not excluded and catalogue.attributes(path).get("status") == "done":
             identified[test.specimen][test.id] = path
     return [
-        advance(campaign, name, specimen_step(campaign, name, paths), redo_from=redo_from, raw={})
+        advance(campaign, layout, name, specimen_step(campaign, layout, name, paths), redo_from=redo_from, raw={})
         for name, paths in identified.items()
     ]
 
@@ -202,11 +210,11 @@ def _reasons(runs: Iterable[StageRun], *, of_specimens: bool) -> dict[str, str]:
     }
 
 
-def _calibrate(campaign: Campaign, tests: Sequence[str], redo_from: str | None) -> list[StageRun]:
+def _calibrate(campaign: Campaign, layout: Layout, tests: Sequence[str], redo_from: str | None) -> list[StageRun]:
     """Bring the laws of contact up to date of the specimens whose tests are predicted by that model."""
     asked = {test.specimen for test in (campaign.tests[name] for name in tests) if CONTACT in models_of(campaign, test)}
     return [
-        advance(campaign, name, contact_step(campaign, name), redo_from=redo_from, raw={})
+        advance(campaign, layout, name, contact_step(campaign, layout, name), redo_from=redo_from, raw={})
         for name in campaign.specimens
         if name in asked
     ]

@@ -70,11 +70,10 @@ class Step:
         return self.stage == "ingest"
 
 
-def measuring_steps(campaign: Campaign, test: Test) -> list[Step]:
+def measuring_steps(campaign: Campaign, layout: Layout, test: Test) -> list[Step]:
     """Steps from the raw files to what was measured."""
     from colonnade.stages import condition, ingest, restitution, rocking
 
-    layout = Layout(campaign.folder)
     recorded, conditioned, angle = (layout.stage(test.id, stage) for stage in ("ingest", "condition", "rocking"))
     steps = [
         Step("ingest", recorded, dict(test.files), ingest.instructions(campaign, test), _ingest),
@@ -106,20 +105,19 @@ def measuring_steps(campaign: Campaign, test: Test) -> list[Step]:
     return steps
 
 
-def specimen_step(campaign: Campaign, specimen_id: str, identified: Mapping[str, Path]) -> Step:
+def specimen_step(campaign: Campaign, layout: Layout, specimen_id: str, identified: Mapping[str, Path]) -> Step:
     """Step that pools the free vibrations of a specimen, given their results by test."""
     from colonnade.stages import specimen
 
-    path = Layout(campaign.folder).specimen(specimen_id)
+    path = layout.specimen(specimen_id)
     read = specimen.instructions(campaign, specimen_id)
     return Step("specimen", path, dict(identified), read, specimen.specimen)
 
 
-def contact_step(campaign: Campaign, specimen_id: str) -> Step:
+def contact_step(campaign: Campaign, layout: Layout, specimen_id: str) -> Step:
     """Step that finds the law of contact with which a specimen has its restitution."""
     from colonnade.stages import contact
 
-    layout = Layout(campaign.folder)
     return Step(
         CONTACT,
         layout.contact(specimen_id),
@@ -134,11 +132,10 @@ def models_of(campaign: Campaign, test: Test) -> tuple[str, ...]:
     return () if test.kind in WITHOUT_PREDICTION else campaign.processing.predict.models
 
 
-def predicting_steps(campaign: Campaign, test: Test) -> list[Step]:
+def predicting_steps(campaign: Campaign, layout: Layout, test: Test) -> list[Step]:
     """Steps from what was measured to how far predictions agree."""
     from colonnade.stages import compare, predict
 
-    layout = Layout(campaign.folder)
     rocking, specimen = layout.stage(test.id, "rocking"), layout.specimen(test.specimen)
     models = models_of(campaign, test)
     predicted = {model: layout.stage(test.id, "predict", model) for model in models}
@@ -156,7 +153,9 @@ def predicting_steps(campaign: Campaign, test: Test) -> list[Step]:
         )
         for model, path in predicted.items()
     ]
-    ensembles = [_ensemble(campaign, test, model) for model in models if campaign.processing.predict.members(model) > 0]
+    ensembles = [
+        _ensemble(campaign, layout, test, model) for model in models if campaign.processing.predict.members(model) > 0
+    ]
     spread = {step.model: step.path for step in ensembles}
     steps += ensembles
     steps.append(
@@ -171,11 +170,10 @@ def predicting_steps(campaign: Campaign, test: Test) -> list[Step]:
     return steps
 
 
-def _ensemble(campaign: Campaign, test: Test, model: str) -> Step:
+def _ensemble(campaign: Campaign, layout: Layout, test: Test, model: str) -> Step:
     """Step that repeats the prediction of a model over what is not exactly known."""
     from colonnade.stages import contact_ensemble, ensemble
 
-    layout = Layout(campaign.folder)
     path, rocking = layout.stage(test.id, "ensemble", model), layout.stage(test.id, "rocking")
     if model == CONTACT:
         return Step(
