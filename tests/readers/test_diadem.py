@@ -11,7 +11,7 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers import diadem_tdm
-from colonnade.readers.registry import read
+from colonnade.readers.registry import read, read_here
 
 TDM = """<?xml version="1.0" encoding="UTF-8"?><usi:tdm xmlns:usi="http://www.ni.com/Schemas/USI/1_0" version="1.0">
 <usi:include><file byteOrder="{order}" url="{url}"><block byteOffset="0" id="inc0" length="4" valueType="eInt16Usi"/>
@@ -88,7 +88,7 @@ def test_entities_and_bombs_are_not_unpacked(tmp_path: Path, monkeypatch: pytest
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("header.xml", bytes(1 << 17))
     with pytest.raises(ReadError, match="it is not unpacked"):
-        read(path)
+        read_here(path, "diadem", {}, None)
 
 
 def test_a_text_header_tells_the_clock_and_missing_values(written: Callable[..., Path]) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.registry import read
+from colonnade.readers.registry import read, read_here
 
 asammdf = pytest.importorskip("asammdf")
 
@@ -55,7 +55,7 @@ def test_a_damaged_file_is_told_with_what_to_do(
     complaints: list[object] = []
     monkeypatch.setattr(sys, "unraisablehook", complaints.append)
     with pytest.raises(ReadError, match=r"record.mf4: asammdf cannot read it .* copy it from the recorder again"):
-        read(path)
+        read_here(path, "mdf", {}, None)
     gc.collect()
     assert complaints == []  # of what asammdf leaves half built
     assert capfd.readouterr().err == ""

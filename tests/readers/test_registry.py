@@ -71,7 +71,7 @@ def stumbling(error: Exception, **told: Any) -> Format:
     def read(path: Path, options: NoOptions) -> Recording:
         raise error
 
-    return Format("odd", "", (), NoOptions, lambda path: Recognition(True, "always"), read, **told)
+    return Format("odd", "", (), NoOptions, lambda path: Recognition(True, "always"), read, in_process=True, **told)
 
 
 @pytest.fixture

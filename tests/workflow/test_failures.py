@@ -157,8 +157,8 @@ def test_a_file_that_changes_while_it_is_read_is_read_again(untouched, monkeypat
 
     ingest = steps._ingest
 
-    def still_writing(paths, read):
-        result = ingest(paths, read)
+    def still_writing(folder, paths, read):
+        result = ingest(folder, paths, read)
         with untouched.raw("pulse-01").open("a", encoding="utf-8") as stream:
             stream.write("99.0,0.0,0.0\n")
         return result

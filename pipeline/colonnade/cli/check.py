@@ -63,7 +63,7 @@ def _examine(campaign: Campaign) -> dict[str, Finding]:
     @lru_cache(maxsize=2)  # tests that share a file stand beside each other in most campaigns
     def recording(path: Path, setup: str, recorder: str) -> Recording:
         file = campaign.setups[setup].recorders[recorder].file
-        return read(path, file.format, file.options)
+        return read(path, file.format, file.options, within=campaign.folder)
 
     findings = {}
     with counting("Reading raw files", len(campaign.tests)) as advance:

@@ -134,4 +134,5 @@ FORMAT = Format(
     options=BhrcOptions,
     recognise=recognise,
     read=read,
+    in_process=True,
 )

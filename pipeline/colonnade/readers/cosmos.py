@@ -184,4 +184,5 @@ FORMAT = Format(
     options=CosmosOptions,
     recognise=recognise,
     read=read,
+    in_process=True,
 )

@@ -180,5 +180,6 @@ FORMAT = Format(
     options=DelimitedOptions,
     recognise=recognise,
     read=read,
+    in_process=True,
     read_window=read,
 )

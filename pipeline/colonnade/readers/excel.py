@@ -226,4 +226,5 @@ FORMAT = Format(
     options=ExcelOptions,
     recognise=recognise,
     read=read,
+    modules=("python_calamine",),
 )

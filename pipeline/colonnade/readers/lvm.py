@@ -212,4 +212,5 @@ FORMAT = Format(
     options=LvmOptions,
     recognise=recognise,
     read=read,
+    in_process=True,
 )

@@ -142,4 +142,5 @@ FORMAT = Format(
     options=MatlabOptions,
     recognise=recognise,
     read=read,
+    modules=("h5py",),
 )

@@ -239,4 +239,5 @@ FORMAT = Format(
     options=MtsOptions,
     recognise=recognise,
     read=read,
+    in_process=True,
 )

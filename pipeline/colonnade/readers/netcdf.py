@@ -228,4 +228,5 @@ FORMAT = Format(
     options=NetcdfOptions,
     recognise=recognise,
     read=read,
+    modules=("h5py", "scipy.io"),
 )

@@ -136,4 +136,5 @@ FORMAT = Format(
     options=PeerOptions,
     recognise=recognise,
     read=read,
+    in_process=True,
 )

@@ -100,6 +100,8 @@ class Recording:
         What was not as it should be: cells without a number, damaged lines; each with its line in the file.
     hint : str
         Said with a column that is not there, where the reader knows why it may be missed.
+    left_out : tuple of (str, str)
+        Names of channels that are in the file and are not read, each with the reason.
     """
 
     path: Path
@@ -109,6 +111,7 @@ class Recording:
     notes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
     hint: str = ""
+    left_out: tuple[tuple[str, str], ...] = ()
 
     def channel(self, column: str | int) -> RecordedChannel:
         """
@@ -141,6 +144,12 @@ class Recording:
                 raise ReadError(
                     f'{self.path.name}: {len(found)} columns are called "{column}": {_listed(found)}. '
                     "Give the number of the one that is meant instead of its name."
+                )
+        for name, reason in self.left_out:
+            if _plain(name) == _plain(column):
+                raise ReadError(
+                    f'{self.path.name}: channel "{name}" is not read: {reason}. Export the file with its values '
+                    "converted, or as text."
                 )
         raise ReadError(
             f'{self.path.name}: no column is called "{column}"; it has {len(names)} column{"s" * (len(names) > 1)}.'

@@ -13,6 +13,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from colonnade.errors import ReadError, nearest
+from colonnade.readers.bounded import process as bounded
 from colonnade.readers.recording import Recording, Window
 
 GROUP = "colonnade.formats"
@@ -57,6 +58,10 @@ class Format:
         nothing more is needed. `recognise` works without it.
     read_window : callable or None
         (Path, options, Window) -> Recording that holds at least the window, in memory for little more than that.
+    modules : tuple of str
+        What `read` imports only then; the bounded process imports it once for all files.
+    in_process : bool
+        Whether `read` runs in this process: text, taken apart by code of our own. All else is read in the bounded one.
     """
 
     name: str
@@ -68,6 +73,8 @@ class Format:
     package: str = ""
     extra: str = ""
     read_window: Callable[[Path, Any, Window], Recording] | None = None
+    modules: tuple[str, ...] = ()
+    in_process: bool = False
 
     @property
     def is_installed(self) -> bool:
@@ -94,9 +101,10 @@ def read(
     options: Mapping[str, Any] | None = None,
     *,
     window: Window | None = None,
+    within: Path | None = None,
 ) -> Recording:
     """
-    Read a raw file.
+    Read a raw file; one that is not plain text in the bounded process.
 
     Parameters
     ----------
@@ -108,6 +116,8 @@ def read(
         Options of that format.
     window : Window, optional
         What is wanted; of a file longer than `LONG_FILE` the rest may be left out.
+    within : Path, optional
+        Folder of which files may be read, that of the campaign; the file's own by default.
 
     Raises
     ------
@@ -123,8 +133,18 @@ def read(
             f'{path.name}: format "{chosen.name}" needs the package {chosen.package}, which is not installed here. '
             f"Install it: {chosen.installation}"
         )
-    recording = _guarded(chosen, path, checked, window)
+    if chosen.in_process:
+        recording = _guarded(chosen, path, checked, window)
+    else:
+        said = checked.model_dump(mode="json", exclude_unset=True)
+        recording = bounded.read(path, chosen.name, said, window=window, within=within)
     return recording if evidence is None else _with_note(recording, evidence)
+
+
+def read_here(path: Path, format: str, options: Mapping[str, Any], window: Window | None) -> Recording:
+    """Read a raw file in this process, whatever its format; `read` says the rest."""
+    chosen, _ = _named(format)
+    return _guarded(chosen, path, check_options(chosen, options, where=path.name), window)
 
 
 def check_options(format: Format, options: Mapping[str, Any], where: str) -> BaseModel:

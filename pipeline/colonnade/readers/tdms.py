@@ -239,5 +239,6 @@ FORMAT = Format(
     options=TdmsOptions,
     recognise=recognise,
     read=read,
+    modules=("nptdms",),
     read_window=read_window,
 )

@@ -178,6 +178,7 @@ FORMAT = Format(
     options=WaveformOptions,
     recognise=recognise,
     read=read,
+    modules=("obspy",),
     package="obspy",
     extra="seismic",
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -76,7 +77,9 @@ def measuring_steps(campaign: Campaign, layout: Layout, test: Test) -> list[Step
 
     recorded, conditioned, angle = (layout.stage(test.id, stage) for stage in ("ingest", "condition", "rocking"))
     steps = [
-        Step("ingest", recorded, dict(test.files), ingest.instructions(campaign, test), _ingest),
+        Step(
+            "ingest", recorded, dict(test.files), ingest.instructions(campaign, test), partial(_ingest, campaign.folder)
+        ),
         Step(
             "condition",
             conditioned,
@@ -210,12 +213,13 @@ def _compare(upstream: Mapping[str, Any], read: Any) -> xr.Dataset:
     return compare(upstream["rocking"], predicted, read, by_model)
 
 
-def _ingest(paths: Mapping[str, Path], read: Any) -> xr.Dataset:
+def _ingest(folder: Path, paths: Mapping[str, Path], read: Any) -> xr.Dataset:
     from colonnade.readers.registry import read as read_recording
     from colonnade.stages.ingest import ingest
 
     recordings = {}
     for recorder, path in paths.items():
         how = read.files[recorder]
-        recordings[recorder] = read_recording(path, how["format"], how["options"], window=read.wanted(recorder))
+        window = read.wanted(recorder)
+        recordings[recorder] = read_recording(path, how["format"], how["options"], window=window, within=folder)
     return ingest(recordings, read)

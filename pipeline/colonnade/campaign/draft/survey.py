@@ -133,7 +133,7 @@ def survey(folder: Path, progress: Callable[[int, int], None] | None = None) -> 
                 key = f"tests = {value(relative)} above [specimens]"
                 refused.append((relative, f"it looks like a log of tests; {key} takes it in place of [[tests]]"))
             else:
-                found.append(_seen(relative, read(path)))
+                found.append(_seen(relative, read(path, within=folder)))
         except UnicodeEncodeError:
             refused.append((ascii(relative)[1:-1], "its name is not UTF-8; give it another"))
         except (ColonnadeError, ValueError, OSError) as error:

@@ -1,0 +1,112 @@
+"""What a process gives up before it opens a stranger's file: memory, time, other files, programs, the network."""
+
+from __future__ import annotations
+
+import os
+import sys
+import sysconfig
+from collections.abc import Iterable
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import colonnade
+from colonnade.readers.bounded import landlock
+from colonnade.readers.bounded.bounds import Bounds
+
+SYSTEM = (
+    *("/usr/lib", "/usr/lib64", "/lib", "/lib64", "/usr/local/lib", "/usr/share/zoneinfo", "/etc/ld.so.cache"),
+    *("/etc/localtime", "/dev/urandom", "/proc/self", "/proc/cpuinfo", "/proc/meminfo", "/sys/devices/system/cpu"),
+)
+"""What libraries read on their way: shared libraries, time zones, the number of cores."""
+
+FORBIDDEN = (
+    *("os.system", "os.exec", "os.fork", "os.forkpty", "os.posix_spawn", "os.spawn", "os.startfile", "os.kill"),
+    *("os.remove", "os.rename", "os.rmdir", "os.mkdir", "os.truncate", "os.link", "os.symlink", "os.chmod", "os.chown"),
+    *("subprocess.Popen", "pty.spawn", "webbrowser.open", "pickle.find_class", "shutil.", "urllib.Request", "ftplib."),
+    *("socket.connect", "socket.bind", "socket.sendto", "socket.sendmsg", "socket.getaddrinfo", "socket.gethostbyname"),
+)
+"""Events of Python's audit, or their beginnings, none of which belongs to reading."""
+
+WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
+
+
+class ForbiddenError(PermissionError):
+    """Something that the reading of a file never has to do."""
+
+
+def enclose(bounds: Bounds, within: Path) -> None:
+    """
+    Bind this process for good to a file's bounds and to the files of one folder.
+
+    Parameters
+    ----------
+    bounds : Bounds
+    within : Path
+        Folder whose files may be read, beside those of Python itself.
+    """
+    limit(bounds)
+    readable = [within, *own_folders()]
+    landlock.restrict(readable)
+    watch(readable)
+
+
+def limit(bounds: Bounds) -> None:
+    """Bound memory and processor time from here on; nothing where the system has no such limits."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return
+    used = resource.getrusage(resource.RUSAGE_SELF)
+    seconds = int(used.ru_utime + used.ru_stime) + bounds.processor
+    wanted = {"RLIMIT_CORE": 0, "RLIMIT_FSIZE": 0, "RLIMIT_CPU": seconds, "RLIMIT_DATA": _data() + bounds.memory}
+    for name, value in wanted.items():
+        kind = getattr(resource, name)
+        with suppress(ValueError, OSError):  # where a lower one holds already
+            resource.setrlimit(kind, (value, resource.getrlimit(kind)[1]))
+
+
+def _data() -> int:
+    """Bytes of data that this process has; 0 where the system does not tell."""
+    with suppress(OSError), Path("/proc/self/status").open(encoding="ascii", errors="replace") as lines:
+        for line in lines:
+            if line.startswith("VmData:"):
+                return 1024 * int(line.split()[1])
+    return 0
+
+
+def watch(readable: Iterable[Path]) -> None:
+    """Refuse to Python code, for good, all that is forbidden, and every file outside some folders."""
+    folders = tuple(os.path.realpath(path) for path in readable)
+
+    def refuse(event: str, arguments: tuple[Any, ...]) -> None:
+        if event == "open":
+            _expect_reading(arguments[0], arguments[2], folders)
+        elif event.startswith(FORBIDDEN):
+            raise ForbiddenError(f"{event} was refused, as reading never needs it")
+
+    sys.addaudithook(refuse)
+
+
+def _expect_reading(opened: Any, flags: Any, folders: tuple[str, ...]) -> None:
+    if not isinstance(opened, (str, bytes, os.PathLike)):
+        return  # a number: it is open already
+    name = os.fsdecode(opened)
+    if name == os.devnull:
+        return
+    if isinstance(flags, int) and flags & WRITING:
+        raise ForbiddenError("writing a file was refused, as reading never needs it")
+    path = os.path.realpath(name)
+    if not any(path == folder or path.startswith(folder.rstrip(os.sep) + os.sep) for folder in folders):
+        raise ForbiddenError("opening a file outside the campaign's folder was refused")
+
+
+@cache
+def own_folders() -> tuple[Path, ...]:
+    """Folders that Python and its packages are in."""
+    folders = {Path(colonnade.__file__).parents[1], *(Path(each) for each in SYSTEM)}
+    folders |= {Path(sysconfig.get_path(name)) for name in ("stdlib", "platstdlib", "purelib", "platlib")}
+    folders |= {Path(each) for each in sys.path if each}
+    folders |= {Path(each) for each in (sys.prefix, sys.base_prefix) if each not in ("/", "/usr")}
+    return tuple(folder for folder in folders if folder != Path(folder.anchor))

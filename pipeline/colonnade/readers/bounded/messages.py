@@ -1,0 +1,231 @@
+"""
+What is said between this process and the one that reads.
+
+A request is a line of JSON. An answer is a line of JSON and the bytes of the arrays that it counts: numbers, names and
+sentences, nothing that has to be trusted. A hijacked reader can lie about its file, and no more.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt
+
+from colonnade.readers.bounded.bounds import Bounds
+from colonnade.readers.recording import Array, RecordedChannel, Recording, Window
+
+LONGEST_LINE = 64_000_000
+"""Bytes of JSON that an answer may have."""
+BEGUN = b"begun\n"
+"""Said when all is imported and the file is opened: from here on time counts."""
+
+_STRICT = ConfigDict(extra="forbid", frozen=True)
+
+
+class BrokenAnswerError(Exception):
+    """An answer that is none: the reader lies."""
+
+
+class EndedError(Exception):
+    """An answer that is not whole: the reader ended."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """
+    A file to be read.
+
+    Attributes
+    ----------
+    path, within : str
+        The file, and the folder of which files may be read.
+    format : str
+    options : dict
+    window : Window or None
+    bounds : Bounds
+    """
+
+    path: str
+    within: str
+    format: str
+    options: dict[str, Any]
+    window: Window | None
+    bounds: Bounds
+
+    def line(self) -> bytes:
+        """Write it as one line."""
+        return json.dumps(asdict(self)).encode() + b"\n"
+
+    @classmethod
+    def of(cls, line: bytes) -> Request:
+        """Read it."""
+        said = json.loads(line)
+        window = None if said["window"] is None else Window(**said["window"])
+        return cls(**{**said, "window": window, "bounds": Bounds(**said["bounds"])})
+
+
+class Column(BaseModel):
+    """A channel, whose values and times are among the arrays, by number."""
+
+    model_config = _STRICT
+
+    name: str
+    unit: str | None
+    heading: str
+    is_clock: bool
+    values: NonNegativeInt
+    time: NonNegativeInt | None
+
+
+class Answer(BaseModel):
+    """
+    What came of a request.
+
+    Attributes
+    ----------
+    refusal : str
+        Why the file cannot be read; empty where it was.
+    error_number : int or None
+        The system's own number of what went wrong, where it did.
+    out_of_memory : bool
+    """
+
+    model_config = _STRICT
+
+    refusal: str = ""
+    error_number: int | None = None
+    out_of_memory: bool = False
+    format: str = ""
+    start: datetime | None = None
+    notes: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+    hint: str = ""
+    left_out: tuple[tuple[str, str], ...] = ()
+    columns: tuple[Column, ...] = ()
+    sizes: tuple[NonNegativeInt, ...] = Field(default=())
+
+
+def send(stream: IO[bytes], answer: Answer, arrays: list[Array]) -> None:
+    """Write an answer and its arrays."""
+    stream.write(answer.model_dump_json().encode("utf-8") + b"\n")
+    for array in arrays:
+        stream.write(array.data)
+    stream.flush()
+
+
+def told(recording: Recording) -> tuple[Answer, list[Array]]:
+    """Take a recording apart; an array that several channels share is sent once."""
+    arrays: list[Array] = []
+    numbers: dict[int, int] = {}
+
+    def number(array: Array) -> int:
+        if id(array) not in numbers:
+            numbers[id(array)] = len(arrays)
+            arrays.append(np.ascontiguousarray(array, dtype=np.float64))
+        return numbers[id(array)]
+
+    columns = tuple(
+        Column(
+            name=_sendable(channel.name),
+            unit=None if channel.unit is None else _sendable(channel.unit),
+            heading=_sendable(channel.heading),
+            is_clock=channel.is_clock,
+            values=number(channel.values),
+            time=None if channel.time is None else number(channel.time),
+        )
+        for channel in recording.channels
+    )
+    answer = Answer(
+        format=recording.format,
+        start=recording.start,
+        notes=tuple(map(_sendable, recording.notes)),
+        warnings=tuple(map(_sendable, recording.warnings)),
+        hint=_sendable(recording.hint),
+        left_out=tuple((_sendable(name), _sendable(reason)) for name, reason in recording.left_out),
+        columns=columns,
+        sizes=tuple(array.size for array in arrays),
+    )
+    return answer, arrays
+
+
+def receive(stream: IO[bytes], largest: int) -> tuple[Answer, list[Array]]:
+    """
+    Read an answer and its arrays.
+
+    Parameters
+    ----------
+    stream : binary stream
+    largest : int
+        Bytes that all arrays may have together.
+
+    Raises
+    ------
+    BrokenAnswerError
+        If what is said is no answer.
+    EndedError
+        If the stream ends before it does.
+    """
+    line = stream.readline(LONGEST_LINE)
+    if not line.endswith(b"\n"):
+        raise BrokenAnswerError("the answer has no end") if len(line) == LONGEST_LINE else EndedError
+    try:
+        answer = Answer.model_validate_json(line)
+    except ValueError as error:
+        raise BrokenAnswerError("the answer is no answer") from error
+    if 8 * sum(answer.sizes) > largest:
+        raise BrokenAnswerError("the answer is larger than its reader's memory")
+    arrays = []
+    for size in answer.sizes:
+        array = np.empty(size)
+        left = memoryview(array.view(np.uint8).data)
+        while left and (count := stream.readinto(left)):  # type: ignore[attr-defined]
+            left = left[count:]
+        if left:
+            raise EndedError
+        arrays.append(array)
+    return answer, arrays
+
+
+def recording_of(path: Path, answer: Answer, arrays: list[Array]) -> Recording:
+    """
+    Put a recording together again.
+
+    Raises
+    ------
+    BrokenAnswerError
+        If a channel names an array that is not there or of another length.
+    """
+    try:
+        channels = tuple(
+            RecordedChannel(
+                column.name,
+                column.unit,
+                arrays[column.values],
+                None if column.time is None else arrays[column.time],
+                column.heading,
+                column.is_clock,
+            )
+            for column in answer.columns
+        )
+    except (IndexError, ValueError) as error:
+        raise BrokenAnswerError("the answer does not fit together") from error
+    return Recording(
+        path,
+        answer.format,
+        channels,
+        answer.start,
+        answer.notes,
+        answer.warnings,
+        hint=answer.hint,
+        left_out=answer.left_out,
+    )
+
+
+def _sendable(text: str) -> str:
+    """Text without halves of characters, which a damaged file may have and UTF-8 has not."""
+    return text.encode("utf-8", errors="replace").decode("utf-8")

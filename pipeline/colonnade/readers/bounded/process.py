@@ -1,0 +1,241 @@
+"""The bounded process as seen from here: started with the first file, asked for each, started again where it ends."""
+
+from __future__ import annotations
+
+import atexit
+import errno
+import os
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+import colonnade
+from colonnade.errors import ReadError
+from colonnade.readers.bounded import messages
+from colonnade.readers.bounded.bounds import MEGABYTE, bounds_of
+from colonnade.readers.bounded.messages import Answer, BrokenAnswerError, EndedError, Request
+from colonnade.readers.recording import Array, Recording, Window
+
+START = 120.0
+"""Seconds within which the process has to have imported what it needs."""
+ENDING = 5.0
+"""Seconds that a process is given to end by itself."""
+PIPE = 1 << 20
+"""Bytes that the system may hold between the two processes, where it lets itself be asked."""
+STOPPED = 128 + 9
+"""Exit code of a process that was killed."""
+OUT_OF_TIME = 128 + 24
+"""Exit code of a process whose processor time was over."""
+
+_COMMAND = "import sys; sys.path[:] = sys.argv[1:]; from colonnade.readers.bounded.server import main; main()"
+_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS", "NUMEXPR_MAX_THREADS")
+
+
+def read(
+    path: Path, format: str, options: Mapping[str, Any], *, window: Window | None = None, within: Path | None = None
+) -> Recording:
+    """
+    Read a raw file in the bounded process.
+
+    Parameters
+    ----------
+    path : Path
+    format : str
+        Name of its format.
+    options : mapping
+        Of that format, as JSON can hold them.
+    window : Window, optional
+    within : Path, optional
+        Folder of which files may be read; that of the file by default.
+
+    Raises
+    ------
+    ReadError
+        If the format refuses the file, or reading it crashes, swells or does not end.
+    """
+    path = path.absolute()
+    bounds = bounds_of(path)
+    folder = path.resolve().parent if within is None else within.resolve()
+    request = Request(str(path), str(folder), format, dict(options), window, bounds)
+    answer, arrays = _ask(request)
+    if answer.out_of_memory:
+        raise ReadError(
+            f"{path.name}: reading it takes more than {bounds.memory // MEGABYTE} MB of memory, far more than a file "
+            "of its size explains: it is damaged, or was made to exhaust the memory. Copy it from the recorder again, "
+            "or export it as text."
+        )
+    if answer.refusal and answer.error_number is not None:
+        raise ReadError(answer.refusal) from _of_the_machine(answer.error_number)
+    if answer.refusal:
+        raise ReadError(answer.refusal)
+    try:
+        return messages.recording_of(path, answer, arrays)
+    except BrokenAnswerError:
+        raise _crash(request, 0) from None
+
+
+class _Reader:
+    """One process that reads."""
+
+    def __init__(self) -> None:
+        paths = [*(each for each in sys.path if each), str(Path(colonnade.__file__).parents[1])]
+        process = subprocess.Popen(
+            [sys.executable, "-P", "-c", _COMMAND, *dict.fromkeys(paths)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env={**os.environ, **dict.fromkeys(_THREADS, "1"), "MPLBACKEND": "Agg"},
+            start_new_session=True,  # Ctrl-C is for the process that asks
+            creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+        )
+        assert process.stdin is not None
+        assert process.stdout is not None
+        self.process, self.requests, self.answers = process, process.stdin, process.stdout
+        with suppress(ImportError, AttributeError, OSError):
+            import fcntl
+
+            fcntl.fcntl(self.answers, fcntl.F_SETPIPE_SZ, PIPE)
+
+    def ask(self, request: Request) -> tuple[Answer, list[Array]]:
+        """Ask for a file; ReadError where no answer comes, and the process is then ended."""
+        late: list[float] = []
+        begun = False
+        try:
+            with self._deadline(START, late):
+                self.requests.write(request.line())
+                self.requests.flush()
+                begun = self.answers.readline(len(messages.BEGUN)) == messages.BEGUN
+            if not begun:
+                raise EndedError
+            with self._deadline(request.bounds.elapsed, late):
+                return messages.receive(self.answers, request.bounds.memory)
+        except (OSError, EndedError):
+            code = self.end()
+            failure = _failure(request, code, late) if begun else _no_start(request)
+            raise failure from failure.__cause__
+        except BrokenAnswerError:
+            self.kill()
+            self.end()
+            raise _crash(request, 0) from None
+        except BaseException:
+            self.kill()  # what is still to come would be taken for the next answer
+            self.end()
+            raise
+
+    @contextmanager
+    def _deadline(self, seconds: float, late: list[float]) -> Iterator[None]:
+        """End the process if it takes longer, and note that in `late`."""
+
+        def pass_by() -> None:
+            late.append(seconds)
+            self.kill()
+
+        timer = threading.Timer(seconds, pass_by)
+        timer.daemon = True
+        timer.start()
+        try:
+            yield
+        finally:
+            timer.cancel()
+
+    def kill(self) -> None:
+        """End it at once, with its copies."""
+        if self.process.poll() is None:
+            with suppress(OSError):
+                if sys.platform == "win32":
+                    self.process.kill()
+                else:
+                    os.killpg(self.process.pid, signal.SIGKILL)
+
+    def end(self) -> int:
+        """Let it end; its exit code, as that of a copy that a signal has ended."""
+        for stream in (self.requests, self.answers):
+            with suppress(OSError):
+                stream.close()
+        try:
+            code = self.process.wait(ENDING)
+        except subprocess.TimeoutExpired:
+            self.kill()
+            code = self.process.wait()
+        return code if code >= 0 else 128 - code
+
+
+_lock = threading.Lock()
+_readers: list[_Reader] = []
+"""The one process that is there, if it is."""
+
+
+def _ask(request: Request) -> tuple[Answer, list[Array]]:
+    with _lock:
+        if _readers and _readers[0].process.poll() is not None:
+            _readers.pop().end()
+        if not _readers:
+            _readers.append(_Reader())
+        return _readers[0].ask(request)
+
+
+@atexit.register
+def end() -> None:
+    """End the process; the next file starts another one."""
+    while _readers:
+        _readers.pop().end()
+
+
+def _forget() -> None:
+    """Leave the process to the parent of this one, which goes on asking it."""
+    global _lock
+    _lock = threading.Lock()
+    _readers.clear()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_forget)
+
+
+def _failure(request: Request, code: int, late: list[float]) -> ReadError:
+    """What to tell where a file had no answer."""
+    name = Path(request.path).name
+    if late or code == OUT_OF_TIME:
+        spent = f"{late[0]:.0f} s" if late else f"{request.bounds.processor} s of processor time"
+        error = ReadError(
+            f"{name}: reading it was stopped after {spent}, far more than a file of its size takes: it is damaged, or "
+            "was made to keep the machine busy. Copy it from the recorder again, or export it as text."
+        )
+        error.__cause__ = _of_the_machine(errno.ETIMEDOUT) if late else None
+        return error
+    if code == STOPPED:
+        error = ReadError(
+            f"{name}: the system stopped the process that read it, most often because memory ran out. Run again with "
+            "less else open, or with fewer workers."
+        )
+        error.__cause__ = _of_the_machine(errno.ENOMEM)
+        return error
+    return _crash(request, code)
+
+
+def _crash(request: Request, code: int) -> ReadError:
+    name, signals = Path(request.path).name, {128 + each: each.name for each in signal.Signals}
+    how = f" ({signals[code]})" if code in signals else ""
+    return ReadError(
+        f'{name}: what reads "{request.format}" crashed on it{how}. The file is damaged, was cut off, or was made to '
+        "do that. Nothing else was touched. Copy it from the recorder again, or export it as text."
+    )
+
+
+def _no_start(request: Request) -> ReadError:
+    error = ReadError(
+        f"{Path(request.path).name}: the process that reads binary files could not be started, so the file was not "
+        "looked at. Run again with less else open."
+    )
+    error.__cause__ = _of_the_machine(errno.EAGAIN)
+    return error
+
+
+def _of_the_machine(number: int) -> OSError:
+    """An error of the machine, after which a file is tried again."""
+    return OSError(number, os.strerror(number))

@@ -1,0 +1,122 @@
+"""The process that reads: takes a request a line from its input, and answers on what was its output."""
+
+from __future__ import annotations
+
+import faulthandler
+import os
+import select
+import signal
+import sys
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import IO, Any
+
+from colonnade.errors import ReadError
+from colonnade.readers.bounded import messages
+from colonnade.readers.bounded.enclosure import enclose, limit, own_folders
+from colonnade.readers.bounded.messages import Answer, Request
+from colonnade.readers.recording import Array
+
+BACKSTOP = 5.0
+"""Seconds by which this process outlives its time, if whoever asks does not end it."""
+KILLED_WITH_PARENT = 1
+"""PR_SET_PDEATHSIG."""
+
+
+def main() -> None:
+    """Serve until the input ends, as it does with the process that asks."""
+    sys.dont_write_bytecode = True
+    requests = os.fdopen(os.dup(0), "rb")
+    answers = os.fdopen(os.dup(1), "wb")
+    # A library that prints or reads must not take part in the conversation.
+    nothing = os.open(os.devnull, os.O_RDWR)
+    for stream in (0, 1):
+        os.dup2(nothing, stream)
+    serve(requests, answers, in_a_fork if sys.platform == "linux" else in_place)
+
+
+def serve(requests: IO[bytes], answers: IO[bytes], handle: Callable[[Request, IO[bytes], IO[bytes]], None]) -> None:
+    """Handle one request after the other; what their formats need is imported here, once, before any file is opened."""
+    from colonnade.readers.registry import formats
+
+    own_folders()
+    while line := requests.readline():
+        request = Request.of(line)
+        format = formats().get(request.format)
+        if format is not None and format.is_installed:
+            for module in format.modules:
+                import_module(module)
+        handle(request, requests, answers)
+
+
+def in_a_fork(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None:
+    """Handle a request in a copy of this process, which gives up all but the campaign's files and ends with it."""
+    own = os.getpid()
+    ended, alive = os.pipe()
+    copy = os.fork()
+    if copy:
+        os.close(alive)
+        _expect_end(copy, ended, requests)
+        return
+    try:
+        _end_with(own)
+        requests.close()
+        enclose(request.bounds, Path(request.within))
+        _handle(request, answers)
+    except BaseException:
+        os._exit(1)
+    os._exit(0)
+
+
+def in_place(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None:
+    """Handle a request in this process, where a system has no safe copies of one."""
+    limit(request.bounds)
+    _handle(request, answers)
+
+
+def _handle(request: Request, answers: IO[bytes]) -> None:
+    # Ends this process even where a library never gives control back, and where nobody is left who could.
+    faulthandler.dump_traceback_later(request.bounds.elapsed + BACKSTOP, exit=True, file=2)
+    answers.write(messages.BEGUN)
+    answers.flush()
+    messages.send(answers, *_answer(request))
+    faulthandler.cancel_dump_traceback_later()
+
+
+def _answer(request: Request) -> tuple[Answer, list[Array]]:
+    from colonnade.readers.registry import read_here
+
+    try:
+        recording = read_here(Path(request.path), request.format, request.options, request.window)
+        return messages.told(recording)
+    except ReadError as error:
+        cause: Any = error.__cause__
+        number = cause.errno if isinstance(cause, OSError) else None
+        return Answer(refusal=str(error), error_number=number), []
+    except MemoryError:
+        return Answer(refusal="out of memory", out_of_memory=True), []
+
+
+def _expect_end(copy: int, ended: int, requests: IO[bytes]) -> None:
+    """Wait for a copy; end it and this process where nobody is left who asks, and this one where it ended otherwise."""
+    poll = select.poll()
+    for descriptor in (ended, requests.fileno()):
+        poll.register(descriptor, 0)  # the other end was closed; the next request may be there already
+    if ended not in {descriptor for descriptor, _ in poll.poll()}:
+        os.kill(copy, signal.SIGKILL)
+        os._exit(1)
+    os.close(ended)
+    code = os.waitstatus_to_exitcode(os.waitpid(copy, 0)[1])
+    if code:
+        # What it has already said would run into the next answer: whoever asks starts another process.
+        os._exit(code if code > 0 else 128 - code)
+
+
+def _end_with(parent: int) -> None:
+    """Have the system end this process when its parent ends."""
+    import ctypes
+
+    ctypes.CDLL(None).prctl(KILLED_WITH_PARENT, ctypes.c_ulong(signal.SIGKILL), *(ctypes.c_ulong(0),) * 3)
+    if os.getppid() != parent:
+        os._exit(1)
