@@ -2,6 +2,7 @@
 
 import re
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from colonnade.signals.filters import lowpass
 from colonnade.store.files import read
 from colonnade.store.layout import Layout
 from colonnade.workflow import run
+from colonnade.workflow.check import check
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 SHAPE = {"shape": "prism", "width": "86 mm", "depth": "86 mm", "height": "456 mm", "mass": "26.10 kg"}
@@ -99,6 +101,13 @@ def _warnings(folder, test):
         for stage in ("ingest", "condition")
         for warning in read(layout.stage(test, stage)).attrs["warnings"]
     ]
+
+
+def _checked(folder, test):
+    """What `check` tells of one test."""
+    campaign = load(folder / "campaign.toml")
+    found = check(replace(campaign, tests={test: campaign.tests[test]}))[test]
+    return [*found.problems, *map(str, found.findings)]
 
 
 def _in_file(name, change):
@@ -249,7 +258,7 @@ def test_a_planted_fault_is_named(fault, sound, tmp_path):
     folder = tmp_path / "campaign"
     shutil.copytree(sound, folder)
     plant(folder)
-    told = _warnings(folder, test)
+    told = _checked(folder, test)
     assert any(re.search(expected, warning, re.IGNORECASE) for warning in told), told
 
 

@@ -4,6 +4,38 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
+import pytest
+
+SHAKEN = """
+[setups.table.channels.table_acceleration]
+column = "ACC"
+quantity = "acceleration"
+unit = "m/s^2"
+on = "table"
+direction = [1, 0, 0]
+
+[[tests]]
+id = "shake-01"
+kind = "pulse"
+specimen = "prism"
+setup = "table"
+file = "raw/shake-01.csv"
+"""
+
+
+@pytest.fixture
+def shaken_campaign(campaign):
+    """The campaign with a test whose table alone is recorded: half a second of a sine of 3 Hz."""
+    time = np.arange(0.0, 8.0, 0.005)
+    values = 1.2 * np.sin(6 * np.pi * time) * ((time > 2.0) & (time < 2.5))
+    values += np.random.default_rng(2).normal(0.0, 1e-3, time.size)
+    rows = [f"{instant:.4f},{value:.5f}" for instant, value in zip(time, values, strict=True)]
+    (campaign / "raw" / "shake-01.csv").write_text("\n".join(["Time [s],ACC [m/s^2]", *rows, ""]), encoding="utf-8")
+    path = campaign / "campaign.toml"
+    path.write_text(path.read_text(encoding="utf-8") + SHAKEN, encoding="utf-8")
+    return campaign
+
 
 def snapshot(folder):
     return {path: path.stat().st_mtime_ns for path in folder.rglob("*")}
@@ -16,6 +48,35 @@ def test_a_good_campaign_passes_and_nothing_is_written(colonnade, campaign):
     assert "free-01: good" in told.stdout
     assert told.stdout.endswith("All good; nothing was written.\n")
     assert snapshot(campaign) == before
+
+
+def test_check_finds_what_run_finds_in_the_channels(colonnade, campaign):
+    path = campaign / "campaign.toml"
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace('unit = "mm"\n', 'unit = "mm"\ngain = "10 mm/mm"\n'), encoding="utf-8")
+    told = colonnade("check")
+    assert told.returncode == 0
+    assert "free-01: doubtful" in told.stdout
+    assert "serious (gain): free-01: Channel top shows 9.95 times the rotation" in told.stdout
+    assert told.stdout.endswith("2 tests would give wrong results.\n")
+    assert colonnade("check", "--strict").returncode == 1
+    found = json.loads(colonnade("check", "--json").stdout)["tests"]["free-02"]["warnings"]
+    assert [(each["severity"], each["kind"]) for each in found] == [("serious", "gain")]
+
+
+def test_a_hole_in_the_base_motion_is_a_problem_before_anything_is_predicted(colonnade, shaken_campaign):
+    raw = shaken_campaign / "raw" / "shake-01.csv"
+    lines = raw.read_text(encoding="utf-8").splitlines()
+    for row in range(1002, 1202):
+        lines[row] = lines[row].rpartition(",")[0] + ","
+    raw.write_text("\n".join([*lines, ""]), encoding="utf-8")
+    told = colonnade("check")
+    assert told.returncode == 1
+    assert "problem: The base acceleration is missing 200 of 1600 samples, the first at 5.005 s" in told.stdout
+    assert "shake-01: would fail" in told.stdout
+    ran = colonnade("predict", "--workers", "1", "--only", "shake-01")
+    assert ran.returncode == 1
+    assert "missing 200 of 1600 samples" in ran.stdout
 
 
 def test_every_missing_file_and_column_is_told_with_the_nearest_name(colonnade, campaign):

@@ -61,11 +61,7 @@ def restitution(rocking: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     StageError
         If no transducer was on the specimen.
     """
-    if "rocking_angle" not in rocking:
-        raise StageError(
-            "A free vibration without a usable displacement transducer on the specimen gives no restitution; "
-            'at least one channel with on = "specimen" and quantity = "displacement" was expected.'
-        )
+    expect_angle(rocking)
     result = _identified(rocking, instructions)
     freed = _identified(rocking, instructions, free=("critical_angle",))
     warnings = _warnings(result)
@@ -103,6 +99,22 @@ def restitution(rocking: xr.Dataset, instructions: Instructions) -> xr.Dataset:
             "warnings": warnings,
         },
     )
+
+
+def expect_angle(rocking: xr.Dataset) -> None:
+    """
+    Refuse a free vibration whose rocking angle was not measured.
+
+    Raises
+    ------
+    StageError
+        If `rocking` has no angle.
+    """
+    if "rocking_angle" not in rocking:
+        raise StageError(
+            "A free vibration without a usable displacement transducer on the specimen gives no restitution; "
+            'at least one channel with on = "specimen" and quantity = "displacement" was expected.'
+        )
 
 
 def _warnings(result: Restitution) -> list[Finding]:

@@ -87,13 +87,22 @@ def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     Raises
     ------
     StageError
-        If nothing of the test is usable, or ground-relative transducers lack the table's displacement.
+        If nothing of the test is usable, or ground-relative transducers lack the table's displacement. Transducers
+        that do not see the rotation are only warned of where the base motion is there, as a prediction needs no more.
     """
     warnings: list[Finding] = []
     time = conditioned["elapsed"].to_numpy()
     base = base_motion(conditioned, instructions.transducers, warnings)
     used = [name for name in instructions.transducers.on_specimen if name in conditioned]
-    motion = _motion(conditioned, instructions, used, base, warnings) if used else None
+    motion, separation = None, "no transducer on the specimen"
+    try:
+        motion = _motion(conditioned, instructions, used, base, warnings) if used else None
+    except UnseenRotationError as error:
+        separation = f"{error} (channels {', '.join(used)})."
+        if "base_acceleration" not in base:
+            raise StageError(separation) from error
+        text = f"No rocking angle is measured: {separation} Predictions go on with the base motion."
+        warnings.append(warning("no rocking angle", text, follows=("channel left out", "dead channel")))
     if motion is None and "base_acceleration" not in base:
         raise StageError(
             "Neither a transducer on the specimen nor a table channel along x is usable in this test; "
@@ -104,7 +113,7 @@ def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     acceleration = base.get("base_acceleration")
     peak_acceleration = np.nan if acceleration is None else float(np.nanmax(np.abs(acceleration)))
     variables["peak_ground_acceleration"] = ((), peak_acceleration)
-    attributes = {"outcome": "", "separation": "no transducer on the specimen", "warnings": warnings}
+    attributes = {"outcome": "", "separation": separation, "warnings": warnings}
     if motion is not None:
         variables |= _motion_variables(time, motion, instructions, attributes)
         variables |= _quality(conditioned, motion, used)
@@ -136,18 +145,15 @@ def _motion(
     circumstances = Circumstances(
         float(time[1] - time[0]), instructions.rest_duration, ends_at_rest=instructions.free_vibration
     )
-    try:
-        return specimen_motion(
-            group(conditioned, known.positions, gravity),
-            group(conditioned, known.gyroscopes, gravity),
-            group(conditioned, known.accelerometers, gravity),
-            table,
-            instructions.block,
-            instructions.outline,
-            circumstances,
-        )
-    except UnseenRotationError as error:
-        raise StageError(f"{error} (channels {', '.join(used)}).") from error
+    return specimen_motion(
+        group(conditioned, known.positions, gravity),
+        group(conditioned, known.gyroscopes, gravity),
+        group(conditioned, known.accelerometers, gravity),
+        table,
+        instructions.block,
+        instructions.outline,
+        circumstances,
+    )
 
 
 def _motion_variables(
