@@ -1,16 +1,20 @@
-"""Specimen: what all free vibrations of a specimen say together, and the e that predictions take."""
+"""Specimen: what all free vibrations of a specimen say together, and the one rule for the e that is used."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict
 
 from colonnade.campaign import Campaign
 from colonnade.dynamics.block import Block, Sided, pair
 from colonnade.identification.restitution.pooling import pool
+
+Array = NDArray[np.float64]
 
 
 class Instructions(BaseModel):
@@ -31,6 +35,17 @@ def instructions(campaign: Campaign, specimen: str) -> Instructions:
     )
 
 
+@dataclass(frozen=True)
+class _Identified:
+    """Ids of the free vibrations with an e, their e and standard errors, the method, and why others have none."""
+
+    tests: tuple[str, ...] = ()
+    values: Array = field(default_factory=lambda: np.empty(0))
+    errors: Array = field(default_factory=lambda: np.empty(0))
+    method: str = ""
+    refused: tuple[str, ...] = ()
+
+
 def specimen(identified: Mapping[str, xr.Dataset], instructions: Instructions) -> xr.Dataset:
     """
     Pool the restitution of a specimen's free vibrations.
@@ -47,29 +62,73 @@ def specimen(identified: Mapping[str, xr.Dataset], instructions: Instructions) -
         `side_restitution` (θ < 0, θ > 0) that predictions take and `restitution`, their mean: the one given in the
         campaign file, else the identified one, else the rigid-body value; `restitution_source` says which.
     """
-    tests = sorted(name for name, result in identified.items() if np.isfinite(float(result["restitution"])))
+    tests = tuple(sorted(name for name, result in identified.items() if np.isfinite(float(result["restitution"]))))
     refused = [f"{name}: {result.attrs['reason']}" for name, result in sorted(identified.items()) if name not in tests]
-    values = np.array([float(identified[name]["restitution"]) for name in tests])
-    errors = np.array([float(identified[name]["restitution_standard_error"]) for name in tests])
+    return _taken(
+        _Identified(
+            tests,
+            np.array([float(identified[name]["restitution"]) for name in tests]),
+            np.array([float(identified[name]["restitution_standard_error"]) for name in tests]),
+            identified[tests[0]].attrs["method"] if tests else "",
+            tuple(refused),
+        ),
+        instructions,
+    )
+
+
+def taken(stored: xr.Dataset | None, instructions: Instructions) -> xr.Dataset:
+    """
+    Give e by the same rule for the campaign as it is now, whatever it was when a stored result was made.
+
+    Parameters
+    ----------
+    stored : xr.Dataset or None
+        An earlier result of `specimen`; what it holds of the free vibrations counts if it is of the same block.
+    instructions : Instructions
+
+    Returns
+    -------
+    pooled : xr.Dataset
+        As of `specimen`.
+    """
+    found = _Identified(refused=("the free vibrations have not been identified",))
+    if stored is not None and "test_method" in stored.attrs and _is_of(stored, instructions.block):
+        found = _Identified(
+            tuple(str(name) for name in stored["test_id"].to_numpy()),
+            stored["test_restitution"].to_numpy(),
+            stored["test_restitution_standard_error"].to_numpy(),
+            str(stored.attrs["test_method"]),
+            tuple(stored.attrs["refused"]),
+        )
+    return _taken(found, instructions)
+
+
+def _is_of(stored: xr.Dataset, block: Block) -> bool:
+    return all(float(stored[name]) == value for name, value in _properties(block).items())
+
+
+def _properties(block: Block) -> dict[str, float]:
+    names = ("critical_angle", "pole_distance", "inertia", "p")
+    return {name: getattr(block, name) for name in names} | {"rigid_restitution": block.restitution}
+
+
+def _taken(found: _Identified, instructions: Instructions) -> xr.Dataset:
+    """The rule: e as given, else as identified, else of the rigid body."""
     block = instructions.block
-    attributes = {"method": "", "reason": "", "warnings": []}
     low = high = between = np.nan
+    method = reason = ""
     if instructions.given is not None:
-        value = pair(instructions.given)
-        attributes |= {"restitution_source": "given", "method": "given in the campaign file"}
-    elif tests:
-        pooled = pool(values, errors, level=instructions.level)
-        value, low, high, between = pair(pooled.value), pooled.low, pooled.high, pooled.between
-        count = f"{len(tests)} free vibration{'s' if len(tests) > 1 else ''}"
-        method = identified[tests[0]].attrs["method"]
-        attributes |= {"restitution_source": "identified", "method": f"{method}; random effects over {count}"}
+        value, source, method = pair(instructions.given), "given", "given in the campaign file"
+    elif found.tests:
+        pooled = pool(found.values, found.errors, level=instructions.level)
+        value, source = pair(pooled.value), "identified"
+        low, high, between = pooled.low, pooled.high, pooled.between
+        count = f"{len(found.tests)} free vibration{'s' if len(found.tests) > 1 else ''}"
+        method = f"{found.method}; random effects over {count}"
     else:
-        value = pair(block.restitution)
-        attributes |= {
-            "restitution_source": "rigid-body",
-            "method": "rigid body without bounce, 1 − (2 m R b/I₀) sin α (Housner 1963)",
-            "reason": "; ".join(refused) or "no free vibration of this specimen was identified",
-        }
+        value, source = pair(block.restitution), "rigid-body"
+        reason = "; ".join(found.refused) or "no free vibration of this specimen was identified"
+        method = "rigid body without bounce, 1 − (2 m R b/I₀) sin α (Housner 1963)"
     return xr.Dataset(
         {
             "side_restitution": ("side", np.array(value)),
@@ -78,14 +137,17 @@ def specimen(identified: Mapping[str, xr.Dataset], instructions: Instructions) -
             "restitution_high": ((), high),
             "between_test_scatter": ((), between),
             "level": ((), instructions.level),
-            "rigid_restitution": ((), block.restitution),
-            "critical_angle": ((), block.critical_angle),
-            "pole_distance": ((), block.pole_distance),
-            "inertia": ((), block.inertia),
-            "p": ((), block.p),
-            "test_restitution": ("test", values),
-            "test_restitution_standard_error": ("test", errors),
+            **{name: ((), each) for name, each in _properties(block).items()},
+            "test_restitution": ("test", found.values),
+            "test_restitution_standard_error": ("test", found.errors),
         },
-        coords={"test_id": ("test", np.array(tests, dtype=object))},
-        attrs=attributes,
+        coords={"test_id": ("test", np.array(found.tests, dtype=object))},
+        attrs={
+            "restitution_source": source,
+            "method": method,
+            "reason": reason,
+            "test_method": found.method,
+            "refused": list(found.refused),
+            "warnings": [],
+        },
     )

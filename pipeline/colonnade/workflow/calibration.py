@@ -17,6 +17,7 @@ from colonnade.store.layout import Layout
 from colonnade.workflow.chain import advance
 from colonnade.workflow.freshness import stored_attributes
 from colonnade.workflow.lock import only_run
+from colonnade.workflow.pooling import pool
 from colonnade.workflow.spreading import spread
 from colonnade.workflow.steps import contact_step
 
@@ -127,8 +128,13 @@ def calibrate(
     ]
     with only_run(layout):
         for name in chosen:
-            if stored_attributes(layout.specimen(name)).get("status") != "done":
+            is_given = loaded.specimens[name].restitution is not None
+            if not is_given and stored_attributes(layout.specimen(name)).get("status") != "done":
                 raise CampaignError(f"{name}: its restitution is not known yet. Run `colonnade identify` first.")
+        unpooled = {each.subject: each.reason for each in pool(loaded, layout, stored_attributes) if each.reason}
+        for name in chosen:
+            if name in unpooled:
+                raise CampaignError(f"{name}: {unpooled[name]}")
         found = dict(spread(_calibrated, list(enumerate(tasks)), workers=workers))
     return [found[number] for number in range(len(tasks))]
 

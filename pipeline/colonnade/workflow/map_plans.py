@@ -13,10 +13,11 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.summary import Summary
 from colonnade.dynamics.block import Sided
 from colonnade.dynamics.history import Outcome
-from colonnade.errors import CampaignError, StoreError, nearest
+from colonnade.errors import CampaignError, nearest
 from colonnade.identification.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.workflow.pooling import restitution_taken
 from colonnade.workflow.steps import CONTACT
 
 if TYPE_CHECKING:
@@ -174,16 +175,8 @@ def _around(values: Sequence[float], usual: tuple[float, float]) -> tuple[float,
 
 
 def restitution_of(campaign: Campaign, layout: Layout, specimen: str) -> tuple[Sided, str]:
-    """Return e as predictions take it, and where it comes from."""
-    given = campaign.specimens[specimen].restitution
-    if given is not None:
-        return given, "given"
-    try:
-        pooled = files.read(layout.specimen(specimen))
-    except StoreError:
-        return campaign.block(specimen).restitution, "rigid-body"
-    if pooled.attrs["status"] != "done":
-        return campaign.block(specimen).restitution, "rigid-body"
+    """Return e as predictions use it, and where it comes from."""
+    pooled = restitution_taken(campaign, layout, specimen)
     negative, positive = (float(e) for e in pooled["side_restitution"])
     return (negative, positive), str(pooled.attrs["restitution_source"])
 

@@ -14,9 +14,10 @@ from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.chain import Chain, Phase, advance, clear_behind, is_fresh
 from colonnade.workflow.freshness import RawIndex, report_key, source_hash
 from colonnade.workflow.lock import only_run
+from colonnade.workflow.pooling import pool
 from colonnade.workflow.processes import execute
 from colonnade.workflow.results import RunResult, StageRun
-from colonnade.workflow.steps import CONTACT, STAGES, contact_step, models_of, specimen_step
+from colonnade.workflow.steps import CONTACT, STAGES, contact_step, models_of
 from colonnade.workflow.summary import write_summary
 
 Progress = Callable[[StageRun, int, int], None]
@@ -96,7 +97,7 @@ def run(
             needed = [name for name in _free_vibrations(loaded, tests) if name not in asked]
             runs += _walked(chains(needed, "measuring"), catalogue, places, progress)
         if STAGES.index(last) >= STAGES.index("restitution"):
-            runs += _pool(loaded, layout, catalogue, first)
+            runs += pool(loaded, layout, catalogue.attributes, redo_from=first)
         if STAGES.index(last) >= STAGES.index("predict"):
             unpooled = _reasons(runs, of_specimens=True)
             runs += _calibrate(
@@ -185,20 +186,6 @@ def _told(runs: list[StageRun], done: int, total: int, progress: Progress | None
         for stage in runs:
             progress(stage, done, total)
     return runs
-
-
-def _pool(campaign: Campaign, layout: Layout, catalogue: Catalogue, redo_from: str | None) -> list[StageRun]:
-    """Bring the specimens up to date with the free vibrations that have been identified."""
-    identified: dict[str, dict[str, Path]] = {name: {} for name in campaign.specimens}
-    for test in campaign.tests.values():
-        path = layout.stage(test.id, "restitution")
-        excluded = campaign.review(test.id).excluded
-        if test.kind == "free-vibration" and not excluded and catalogue.attributes(path).get("status") == "done":
-            identified[test.specimen][test.id] = path
-    return [
-        advance(campaign, layout, name, specimen_step(campaign, layout, name, paths), redo_from=redo_from, raw={})
-        for name, paths in identified.items()
-    ]
 
 
 def _reasons(runs: Iterable[StageRun], *, of_specimens: bool) -> dict[str, str]:

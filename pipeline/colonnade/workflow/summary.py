@@ -18,6 +18,7 @@ from colonnade.store.layout import Layout
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.freshness import source_hash
 from colonnade.workflow.measured import measured, predicted, specimen_prototype
+from colonnade.workflow.pooling import restitution_taken
 
 _FOREIGN = (
     "what is stored was made from other raw files, another campaign file or another version of colonnade; run again"
@@ -81,23 +82,18 @@ def _stored(path: Any) -> Any:
 
 def _specimen(campaign: Campaign, layout: Layout, name: str) -> SpecimenSummary:
     block = campaign.block(name)
-    result = _stored(layout.specimen(name))
-    if result is None or isinstance(result, StoreError) or result.attrs["status"] != "done":
-        restitution = RestitutionSummary(
-            value=block.restitution, source="rigid-body", reason="the free vibrations have not been identified"
-        )
-    else:
-        sides = [float(value) for value in result["side_restitution"]]
-        restitution = RestitutionSummary(
-            value=sides[0] if sides[0] == sides[1] else (sides[0], sides[1]),
-            low=float(result["restitution_low"]),
-            high=float(result["restitution_high"]),
-            level=float(result["level"]),
-            source=result.attrs["restitution_source"],
-            method=result.attrs["method"] or None,
-            reason=result.attrs["reason"] or None,
-            tests=tuple(str(test) for test in result["test_id"].to_numpy()),
-        )
+    result = restitution_taken(campaign, layout, name)
+    sides = [float(value) for value in result["side_restitution"]]
+    restitution = RestitutionSummary(
+        value=sides[0] if sides[0] == sides[1] else (sides[0], sides[1]),
+        low=float(result["restitution_low"]),
+        high=float(result["restitution_high"]),
+        level=float(result["level"]),
+        source=result.attrs["restitution_source"],
+        method=result.attrs["method"] or None,
+        reason=result.attrs["reason"] or None,
+        tests=tuple(str(test) for test in result["test_id"].to_numpy()),
+    )
     return SpecimenSummary(
         critical_angle=block.critical_angle,
         p=block.p,
