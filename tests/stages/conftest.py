@@ -104,6 +104,22 @@ def free_vibration():
 
 
 @pytest.fixture
+def released():
+    """Release after one second from 0.5 α, the hand having tilted it further by `overshoot`, on a table that moves."""
+
+    def release(restitution, base_share=0.0, *, overshoot=0.0):
+        time, first = np.arange(0.0, 20.0, 1 / RATE), int(RATE)
+        base = base_share * PRISM.critical_angle * PRISM.gravity * np.sin(2 * np.pi * 2.0 * time)
+        start = 0.5 * PRISM.critical_angle
+        free = rock(PRISM, Motion(base[first:], 1 / RATE), restitution=restitution, theta0=start, model="nonlinear")
+        held = start + overshoot * PRISM.critical_angle * np.interp(time[:first], [0.3, 0.6], [1.0, 0.0])
+        angle = np.concatenate((held, free.angle))
+        return recorded(time, angle, base), time, angle
+
+    return release
+
+
+@pytest.fixture
 def shaken():
     """A base motion under which the prism rocks and comes to rest: recordings, times, true angles, base motion."""
     time = np.arange(0, 12, 1 / RATE)

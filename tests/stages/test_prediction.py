@@ -13,6 +13,7 @@ from colonnade.stages import predict as predicting
 from colonnade.stages import restitution as identifying
 from colonnade.stages import rocking as rocking_stage
 from colonnade.stages import specimen as pooling
+from colonnade.stages.beginning import begin
 
 
 @pytest.fixture
@@ -235,5 +236,5 @@ def test_an_ensemble_is_driven_by_the_vertical_motion_too(shaken_upwards, measur
     campaign, _, _ = shaken_upwards
     vertical = 0.2 * measured["shake-01"]["base_acceleration"]
     read = predicting.instructions(campaign, campaign.tests["shake-01"], "linear")
-    beginning = predicting.begin(measured["shake-01"].assign({VERTICAL: vertical}), read)
+    beginning = begin(measured["shake-01"].assign({VERTICAL: vertical}), read)
     np.testing.assert_array_equal(beginning.motion.vertical, vertical)

@@ -188,9 +188,11 @@ class TestSummary(_Record):
     observed_outcome: str | None = None
     """As in the campaign file."""
     peak_ratio: Known = None
-    """max |θ| / α; null when overturned."""
+    """max |θ| / α; null when overturned. Of a free vibration over the time that is predicted."""
     peak_time: Known = None
     """Time of the peak, s."""
+    release_ratio: Known = None
+    """Of a free vibration max |θ| / α before the time that is predicted: the angle that it was released from."""
     pga: Known = None
     """Peak acceleration of the table, m/s²."""
     duration: Known = None

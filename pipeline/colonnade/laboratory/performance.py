@@ -149,7 +149,8 @@ def _facts(truth: Truth) -> dict[str, Any]:
     return {
         "outcome": truth.outcome,
         "peak_ratio": truth.peak_ratio,
-        "peak_time": None if overturned else float(truth.time[np.argmax(truth.amplitude)]),
+        "peak_time": truth.peak_time,
+        "release_ratio": truth.release_ratio,
         "overturning_time": truth.overturning_time if overturned else None,
         "impact_count": int(truth.impact_times.size),
     }

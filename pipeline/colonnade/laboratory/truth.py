@@ -57,8 +57,31 @@ class Truth:
 
     @property
     def peak_ratio(self) -> float | None:
-        """Largest |θ|/α; None for a block that overturned."""
-        return None if self.outcome == "overturned" else float(self.amplitude.max())
+        """Largest |θ|/α, of a free vibration after its first impact; None for a block that overturned."""
+        return None if self.outcome == "overturned" else float(self.amplitude[self._rocked].max())
+
+    @property
+    def peak_time(self) -> float | None:
+        """When that is, s."""
+        if self.outcome == "overturned":
+            return None
+        return float(self.time[self._rocked][np.argmax(self.amplitude[self._rocked])])
+
+    @property
+    def release_ratio(self) -> float | None:
+        """|θ|/α from which a free vibration was released; None for other tests."""
+        return float(self.amplitude[0]) if self._is_released else None
+
+    @property
+    def _is_released(self) -> bool:
+        return bool(self.angle[0] != 0.0)
+
+    @property
+    def _rocked(self) -> slice:
+        """Samples of a free vibration from its first impact on, of other tests all."""
+        if not (self._is_released and self.impact_times.size):
+            return slice(None)
+        return slice(int(np.searchsorted(self.time, self.impact_times[0])), None)
 
 
 def simulate(

@@ -55,7 +55,7 @@ class Gathered:
         self.used.gather(test.id, found)
         if test.span is not None and any("rocking_angle" in dataset for dataset in found.datasets.values()):
             panel = charts.span_panel(test, found, campaign.block(test.specimen))
-            self.spans.append(SpanTest(test, row, panel, charts.seen(found)))
+            self.spans.append(SpanTest(test, row, panel, charts.seen(test, found)))
         if "restitution" in found.datasets:
             vibration = specimens_page.free_vibration(test, found, campaign.block(test.specimen))
             self.free_vibrations[test.specimen].append(vibration)

@@ -14,6 +14,7 @@ from colonnade.figures import Curve, Peak, Quantity, SpanPanel, Spread
 from colonnade.identification.boundaries import MapPoint
 from colonnade.report import wording
 from colonnade.report.results import Results
+from colonnade.stages.beginning import RECORDED
 
 MOTIONS = (
     ("slide", "slide\n(mm)", 1e3),
@@ -38,9 +39,9 @@ SHADED = "nonlinear"
 
 
 def record(test: Test, results: Results, block: Block) -> Markup | None:
-    """Draw a test over time: angle, misfit, other motions, in a forced test the base motion; None without anything."""
+    """Draw a test over time: angle, misfit, other motions, and the base motion if it drives; None without anything."""
     measured, predicted = measured_ratio(results, block), predicted_ratios(results, block)
-    base = [] if test.kind == "free-vibration" else _quantities(results, BASE, block)
+    base = _quantities(results, BASE, block) if test.kind != "free-vibration" or results.driven_by == RECORDED else []
     if measured is None and not predicted and not base:
         return None
     spreads = _spreads(results, block)
@@ -51,12 +52,12 @@ def record(test: Test, results: Results, block: Block) -> Markup | None:
         motions=_quantities(results, MOTIONS, block),
         base=base,
         impacts=results.datasets["rocking"]["impact_time"].to_numpy() if _has(results, "impact_time") else None,
-        peak=_peak(results, measured),
+        peak=_peak(test, results, measured),
         # Shades of several models on each other cannot be told apart: those of the others are in `bands` alone.
         spreads=dict(sorted(spreads.items(), key=lambda item: item[0] != SHADED)[:1]),
     )
     title = f"{test.id}: rocking angle, measured and predicted"
-    return Markup(figures.to_svg(figure, identity=f"record-{test.id}", title=title, description=seen(results)))
+    return Markup(figures.to_svg(figure, identity=f"record-{test.id}", title=title, description=seen(test, results)))
 
 
 def bands(test: Test, results: Results, block: Block) -> Markup | None:
@@ -108,9 +109,10 @@ def measured_map(identity: str, points: Sequence[MapPoint]) -> Markup:
     )
 
 
-def measured_ratio(results: Results, block: Block) -> Curve | None:
-    """Return the measured θ/α, None where the angle was not measured."""
-    return _ratio(results, "rocking", block)
+def measured_ratio(results: Results, block: Block, *, as_recorded: bool = False) -> Curve | None:
+    """Return the measured θ/α about the zero of the predictions, or as recorded; None if it was not measured."""
+    offset = 0.0 if as_recorded else results.value("compare", "zero_offset") or 0.0
+    return _ratio(results, "rocking", block, offset)
 
 
 def predicted_ratios(results: Results, block: Block) -> Mapping[str, Curve]:
@@ -123,24 +125,27 @@ def predicted_ratios(results: Results, block: Block) -> Mapping[str, Curve]:
     return {model: curve for model, curve in curves.items() if curve is not None}
 
 
-def seen(results: Results) -> str:
+def seen(test: Test, results: Results) -> str:
     """Say in words what a test's figure shows."""
     parts = []
+    measured = results.measured_peak(test)
     for stage in ("rocking", *(stage for stage in results.datasets if stage.startswith("predict "))):
         if "rocking_angle" not in results.datasets.get(stage, ()):
             continue
         name = "Measured" if stage == "rocking" else f"{stage.removeprefix('predict ').capitalize()} model"
         peak, when = results.value(stage, "peak_ratio"), results.value(stage, "peak_time")
+        if stage == "rocking":
+            peak, when = measured.ratio, measured.time
         largest = f", largest |θ|/α {wording.number(peak)} at {wording.quantity(when, 's')}" if peak == peak else ""
         parts.append(f"{name}: {results.text(stage, 'outcome') or 'no outcome'}{largest}.")
     return " ".join(parts) or "No rocking angle."
 
 
-def _ratio(results: Results, stage: str, block: Block) -> Curve | None:
+def _ratio(results: Results, stage: str, block: Block, offset: float = 0.0) -> Curve | None:
     dataset = results.datasets.get(stage)
     if dataset is None or "rocking_angle" not in dataset:
         return None
-    angle = dataset["rocking_angle"].to_numpy()
+    angle = dataset["rocking_angle"].to_numpy() - offset
     critical = np.where(angle < 0, block.negative.critical_angle, block.positive.critical_angle)
     return Curve(dataset["elapsed"].to_numpy(), angle / critical)
 
@@ -175,9 +180,9 @@ def _misfits(results: Results, measured: Curve | None, predicted: Mapping[str, C
     return misfits
 
 
-def _peak(results: Results, measured: Curve | None) -> Peak | None:
-    when = results.value("rocking", "peak_time")
-    if measured is None or when is None or not np.isfinite(results.value("rocking", "peak_ratio") or np.nan):
+def _peak(test: Test, results: Results, measured: Curve | None) -> Peak | None:
+    ratio, when, _ = results.measured_peak(test)
+    if measured is None or not (np.isfinite(ratio) and np.isfinite(when)):
         return None
     return Peak(when, float(measured.values[int(np.argmin(np.abs(measured.time - when)))]))
 

@@ -31,7 +31,7 @@ def fitted(test: Test, results: Results, block: Block) -> Markup | None:
     residual = Curve(time, found["history_residual"].to_numpy() / critical)
     model = results.text(STAGE, "history_model")
     figure = figures.fitted_history(
-        charts.measured_ratio(results, block), Curve(time, angle / critical), residual, model=model
+        charts.measured_ratio(results, block, as_recorded=True), Curve(time, angle / critical), residual, model=model
     )
     left = residual.values[np.isfinite(residual.values)]
     rms = float(np.sqrt(np.mean(left**2))) if left.size else np.nan

@@ -13,6 +13,7 @@ import numpy as np
 from colonnade.campaign import Campaign, Test
 from colonnade.errors import StoreError
 from colonnade.findings import Finding, at_stage, in_order
+from colonnade.stages.peak import MeasuredPeak, known_peak
 from colonnade.store import files
 from colonnade.store.layout import Layout
 
@@ -118,6 +119,19 @@ class Results:
         if dataset is None or name not in dataset or dataset[name].dims != (along,) or along not in dataset.coords:
             return {}
         return dict(zip(map(str, dataset[along].to_numpy()), dataset[name].to_numpy().tolist(), strict=True))
+
+    def measured_peak(self, test: Test) -> MeasuredPeak:
+        """Return the measured peak that predictions are held against, NaN where it is not known."""
+        rocking = self.datasets.get("rocking")
+        if rocking is None:
+            return MeasuredPeak()
+        return known_peak(rocking, self.datasets.get("compare"), free_vibration=test.kind == "free-vibration")
+
+    @property
+    def driven_by(self) -> str:
+        """Return the base motion that drives the predictions, empty if there is no prediction."""
+        stages = (stage for stage in self.datasets if stage.startswith("predict "))
+        return next((told for stage in stages if (told := self.text(stage, "driven_by"))), "")
 
     def text(self, stage: str, name: str) -> str:
         """Return a text attribute, empty where it is not there."""

@@ -81,7 +81,7 @@ def of_test(campaign: Campaign, test: Test, results: Results) -> TestRow:
         warnings=results.warnings,
         outcome=measured,
         observed=test.observed_outcome or "",
-        peak_ratio=wording.number(results.value("rocking", "peak_ratio")),
+        peak_ratio=wording.number(results.measured_peak(test).ratio),
         peak_ground_acceleration=wording.acceleration(results.value("rocking", "peak_ground_acceleration")),
         models={
             model: _model(results, model, measured or test.observed_outcome or "")

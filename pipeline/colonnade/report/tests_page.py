@@ -106,13 +106,14 @@ def of_test(campaign: Campaign, test: Test, results: Results, row: TestRow) -> T
     """Put all that is stored of a test into words and figures."""
     block = campaign.block(test.specimen)
     rocking = results.datasets.get("rocking")
+    peak = results.measured_peak(test)
     has_angle = rocking is not None and "rocking_angle" in rocking
     return TestPage(
         row=row,
-        peak_time=wording.quantity(results.value("rocking", "peak_time"), "s"),
+        peak_time=wording.quantity(peak.time, "s"),
         impacts=str(rocking.sizes.get("impact", 0)) if rocking is not None and has_angle else wording.NOTHING,
         done=_done(test, row),
-        found=_found(results, row, campaign.specimens[test.specimen].scale),
+        found=_found(test, results, row, campaign.specimens[test.specimen].scale),
         metrics=tuple(_metrics(results, model, row) for model in row.models if row.models[model].outcome),
         restitution=restitution.facts_of(results),
         estimates=restitution.estimates_of(results),
@@ -165,9 +166,13 @@ def _done(test: Test, row: TestRow) -> tuple[Fact, ...]:
     return tuple(facts)
 
 
-def _found(results: Results, row: TestRow, scale: float | None) -> tuple[Fact, ...]:
-    facts = [
-        ("largest |θ|", wording.quantity(_magnitude(results.value("rocking", "peak_angle")), "mrad", 4)),
+def _found(test: Test, results: Results, row: TestRow, scale: float | None) -> tuple[Fact, ...]:
+    is_free = test.kind == "free-vibration"
+    largest = "largest |θ|, with the release" if is_free else "largest |θ|"
+    facts: list[Fact] = [
+        (largest, wording.quantity(_magnitude(results.value("rocking", "peak_angle")), "mrad", 4)),
+        ("released from |θ|/α", wording.number(results.measured_peak(test).release)),
+        ("predictions are driven by", results.driven_by if is_free else ""),
         ("overturned at", wording.quantity(results.value("rocking", "overturning_time"), "s", 4)),
         ("peak base acceleration", row.peak_ground_acceleration),
         ("standard error of θ", wording.quantity(results.middle("rocking", "rocking_angle_standard_error"), "mrad", 2)),

@@ -13,17 +13,19 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import amplitude
 from colonnade.findings import MEASUREMENT, Finding, serious
 from colonnade.signals.metrics import nrmse
+from colonnade.stages.peak import find_peak
 from colonnade.stages.sine import Sine, sine
 from colonnade.stages.spread import spread
 
 
 class Instructions(BaseModel):
-    """What this stage reads of the campaign: the block, the outcome that was seen, and of a sine its frequency (Hz)."""
+    """What this stage reads of the campaign: block, kind, the outcome that was seen, of a sine its frequency (Hz)."""
 
     model_config = ConfigDict(frozen=True)
 
     block: Block
     observed_outcome: str | None
+    free_vibration: bool = False
     is_sine: bool = False
     frequency: float | None = None
 
@@ -33,6 +35,7 @@ def instructions(campaign: Campaign, test: Test) -> Instructions:
     return Instructions(
         block=campaign.specimens[test.specimen].block(campaign.gravity),
         observed_outcome=test.observed_outcome,
+        free_vibration=test.kind == "free-vibration",
         is_sine=test.kind == "sine",
         frequency=test.frequency,
     )
@@ -61,13 +64,16 @@ def compare(
     -------
     compared : xr.Dataset
         On the dimension `model`: `nrmse`, RMS(predicted − measured)/α until either first passes α, `compared_until`
-        (s), `predicted_peak_ratio`, `peak_ratio_error` (to the measured one over the same part of the record) and
-        `predicted_outcome`. NaN where nothing was measured. Of a sine test also what `sine` adds; with
-        ensembles what `spread` adds.
+        (s), `predicted_peak_ratio`, `peak_ratio_error` and `predicted_outcome`. NaN where nothing was measured. The
+        measured angle counts over the time that is predicted, about the true zero (`zero_offset`): its
+        `measured_peak_ratio` and `measured_peak_time` (s); of a free vibration the largest before that is the
+        `release_ratio`. Of a sine test also what `sine` adds; with ensembles what `spread` adds.
     """
     models = sorted(predicted)
-    measured_ratio = float(rocking["peak_ratio"]) if "peak_ratio" in rocking else np.nan
-    same_part = [_peak_ratio(rocking, predicted[model], instructions.block, measured_ratio) for model in models]
+    offset = float(predicted[models[0]]["zero_offset"]) if models else 0.0
+    if "rocking_angle" in rocking:
+        rocking = rocking.assign(rocking_angle=rocking["rocking_angle"] - offset)
+    peak = find_peak(rocking, predicted, instructions.block, free_vibration=instructions.free_vibration)
     rows = [_row(rocking, predicted[model], instructions.block) for model in models]
     ratios = np.array([float(predicted[model]["peak_ratio"]) for model in models])
     warnings: list[Finding] = []
@@ -81,12 +87,15 @@ def compare(
             "nrmse": ("model", np.array([row[0] for row in rows])),
             "compared_until": ("model", np.array([row[1] for row in rows])),
             "predicted_peak_ratio": ("model", ratios),
-            "peak_ratio_error": ("model", ratios - np.array(same_part)),
+            "peak_ratio_error": ("model", ratios - peak.ratio),
             "predicted_outcome": (
                 "model",
                 np.array([predicted[model].attrs["outcome"] for model in models], dtype=object),
             ),
-            "measured_peak_ratio": ((), measured_ratio),
+            "measured_peak_ratio": ((), peak.ratio),
+            "measured_peak_time": ((), peak.time),
+            "release_ratio": ((), peak.release),
+            "zero_offset": ((), offset),
         }
         | steady.variables
         | spread(rocking, ensembles or {}, models, instructions.block),
@@ -111,15 +120,6 @@ def _row(rocking: xr.Dataset, predicted: xr.Dataset, block: Block) -> tuple[floa
     if not both.any():
         return np.nan, np.nan
     return nrmse(measured[:until][both], model[:until][both], block.critical_angle), float(time[until - 1])
-
-
-def _peak_ratio(rocking: xr.Dataset, predicted: xr.Dataset, block: Block, whole: float) -> float:
-    """Measured peak ratio over the part that is predicted: a free vibration is from its first peak after an impact."""
-    if np.isnan(whole):
-        return whole
-    given = np.isfinite(predicted["rocking_angle"].to_numpy())
-    ratio = amplitude(rocking["rocking_angle"].to_numpy(), block)
-    return float(np.nanmax(ratio[given], initial=0.0))
 
 
 def _agree(measured: str, observed: str) -> bool:

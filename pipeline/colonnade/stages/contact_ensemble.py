@@ -12,6 +12,7 @@ from colonnade.dynamics.ensembles import stride_of
 from colonnade.errors import StageError
 from colonnade.stages import contact as contact_stage
 from colonnade.stages import predict
+from colonnade.stages.beginning import begin
 from colonnade.stages.ensemble import described
 
 
@@ -53,7 +54,9 @@ def instructions(campaign: Campaign, test: Test) -> Instructions:
     )
 
 
-def contact_ensemble(rocking: xr.Dataset, contact: xr.Dataset, instructions: Instructions) -> xr.Dataset:
+def contact_ensemble(
+    rocking: xr.Dataset, contact: xr.Dataset, instructions: Instructions, identified: xr.Dataset | None = None
+) -> xr.Dataset:
     """
     Run the contact model many times on the base motion that was recorded, over what is not known of it.
 
@@ -62,6 +65,8 @@ def contact_ensemble(rocking: xr.Dataset, contact: xr.Dataset, instructions: Ins
     rocking, contact : xr.Dataset
         As of `predict`.
     instructions : Instructions
+    identified : xr.Dataset, optional
+        As of `predict`.
 
     Returns
     -------
@@ -73,7 +78,7 @@ def contact_ensemble(rocking: xr.Dataset, contact: xr.Dataset, instructions: Ins
     StageError
         As `predict`.
     """
-    beginning = predict.begin(rocking, instructions.prediction)
+    beginning = begin(rocking, instructions.prediction, identified)
     settings, law = instructions.space.settings, contact_stage.law_of(contact)
     plan = ContactPlan(
         contact_stage.body_of(instructions.space),

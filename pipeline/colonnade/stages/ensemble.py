@@ -15,6 +15,7 @@ from colonnade.campaign.channel import ALONG
 from colonnade.dynamics.ensembles import Ensemble, Plan, gather, run_members
 from colonnade.dynamics.uncertainty import INPUTS, Uncertainty
 from colonnade.stages import predict
+from colonnade.stages.beginning import RECORDED, begin
 from colonnade.stages.transducers import transducers
 
 Array = NDArray[np.float64]
@@ -68,7 +69,11 @@ def instructions(campaign: Campaign, test: Test, model: str) -> Instructions:
 
 
 def ensemble(
-    conditioned: xr.Dataset, rocking: xr.Dataset, specimen: xr.Dataset, instructions: Instructions
+    conditioned: xr.Dataset,
+    rocking: xr.Dataset,
+    specimen: xr.Dataset,
+    instructions: Instructions,
+    identified: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """
     Run a model many times on the base motion that was recorded, over what is not exactly known.
@@ -80,6 +85,8 @@ def ensemble(
     rocking, specimen : xr.Dataset
         As of `predict`.
     instructions : Instructions
+    identified : xr.Dataset, optional
+        As of `predict`.
 
     Returns
     -------
@@ -93,12 +100,12 @@ def ensemble(
     StageError
         As `predict`.
     """
-    beginning = predict.begin(rocking, instructions.prediction)
+    beginning = begin(rocking, instructions.prediction, identified)
     plan = Plan(
         instructions.prediction.block,
         beginning.motion,
         predict.sides(specimen),
-        _uncertainty(conditioned, rocking, specimen, instructions),
+        _uncertainty(conditioned, rocking, specimen, instructions, is_driven=beginning.driven_by == RECORDED),
         count=instructions.members,
         model=instructions.prediction.model,
         theta0=beginning.theta0,
@@ -151,17 +158,22 @@ def described(found: Ensemble, time: Array, deviations: Mapping[str, float]) -> 
 
 
 def _uncertainty(
-    conditioned: xr.Dataset, rocking: xr.Dataset, specimen: xr.Dataset, instructions: Instructions
+    conditioned: xr.Dataset,
+    rocking: xr.Dataset,
+    specimen: xr.Dataset,
+    instructions: Instructions,
+    *,
+    is_driven: bool,
 ) -> Uncertainty:
     half = (float(specimen["restitution_high"]) - float(specimen["restitution_low"])) / 2
     identified = half / NormalDist().inv_cdf(0.5 + float(specimen["level"]) / 2)
     free = instructions.prediction.free_vibration
-    noise, cutoff = (0.0, None) if free else _base_noise(conditioned, instructions.table)
+    noise, cutoff = _base_noise(conditioned, instructions.table) if is_driven else (0.0, None)
     return Uncertainty(
         restitution=identified if np.isfinite(identified) else instructions.restitution,
         critical_angle=instructions.critical_angle,
         p=instructions.p,
-        gain=0.0 if free else instructions.gain,
+        gain=instructions.gain if is_driven else 0.0,
         clock=instructions.clock,
         noise=noise,
         cutoff=cutoff,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,13 +13,11 @@ from colonnade.campaign import Campaign, Test
 from colonnade.campaign.channel import ALONG
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import History
-from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.errors import StageError
 from colonnade.findings import Finding, serious
-from colonnade.identification.restitution.arcs import find_arcs
 from colonnade.stages import contact as contact_stage
-from colonnade.stages.driving import base_acceleration, left_out, transverse_acceleration, vertical_acceleration
+from colonnade.stages.beginning import Beginning, begin
 from colonnade.stages.transducers import transducers
 
 if TYPE_CHECKING:
@@ -48,22 +45,6 @@ class Instructions(BaseModel):
     space: contact_stage.Instructions | None = None
 
 
-@dataclass(frozen=True)
-class Beginning:
-    """
-    Where a prediction begins: the sample, the angle there (rad), and the base motion from there on.
-
-    `base` is the base acceleration of the whole record along x, m/s²; `motion` has the table's tilt in it, and its
-    motion along z where that is known throughout.
-    """
-
-    first: int
-    theta0: float
-    base: Array
-    motion: Motion
-    warnings: list[Finding]
-
-
 def instructions(campaign: Campaign, test: Test, model: str) -> Instructions:
     """Gather what `predict` reads for one test and model."""
     return Instructions(
@@ -80,7 +61,11 @@ def instructions(campaign: Campaign, test: Test, model: str) -> Instructions:
 
 
 def predict(
-    rocking: xr.Dataset, specimen: xr.Dataset, instructions: Instructions, contact: xr.Dataset | None = None
+    rocking: xr.Dataset,
+    specimen: xr.Dataset,
+    instructions: Instructions,
+    contact: xr.Dataset | None = None,
+    identified: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """
     Run a model on the base motion that was recorded.
@@ -95,6 +80,8 @@ def predict(
     instructions : Instructions
     contact : xr.Dataset, optional
         Result of `contact`, of the contact model: its law.
+    identified : xr.Dataset, optional
+        Result of `restitution`, of a free vibration: the zero of its angle.
 
     Returns
     -------
@@ -102,14 +89,15 @@ def predict(
         `rocking_angle` on the clock of the record; of the contact model also slide, uplift and rotation out of the
         plane, its law with masses and weights of the nodes, and how well its energy balance closes. A free vibration
         is predicted from the first peak after its first impact, where the measured angle is known and the velocity is
-        zero; before it the angle is NaN.
+        zero; before it the angle is NaN. The angle is about the true zero, at which the measured one shows
+        `zero_offset`; the attribute `driven_by` says which base motion was used.
 
     Raises
     ------
     StageError
         If there is no base motion, or a free vibration shows no arc to start from.
     """
-    beginning = begin(rocking, instructions)
+    beginning = begin(rocking, instructions, identified)
     time = rocking["elapsed"].to_numpy()
     if contact is not None and instructions.space is not None:
         moved = _in_space(beginning, contact, instructions.space)
@@ -134,54 +122,10 @@ def _of_engine(moved: ContactHistory) -> list[Finding]:
     return [serious("energy balance", text) for text in moved.warnings]
 
 
-def begin(rocking: xr.Dataset, instructions: Instructions) -> Beginning:
-    """
-    Find where a prediction begins and what it is driven by; arguments as of `predict`.
-
-    Raises
-    ------
-    StageError
-        As `predict`.
-    """
-    time = rocking["elapsed"].to_numpy()
-    if instructions.free_vibration:
-        (first, theta0), base, vertical, transverse = _start(rocking, instructions), np.zeros_like(time), None, None
-        warnings: list[Finding] = []
-    else:
-        first, theta0, base = 0, 0.0, base_acceleration(rocking)
-        vertical, warnings = vertical_acceleration(
-            rocking, gravity=instructions.block.gravity, expected=instructions.has_vertical
-        )
-        transverse = transverse_acceleration(rocking) if instructions.space is not None else None
-        if transverse is None:
-            warnings += left_out(rocking, base)
-    # On a tilted table a part of gravity acts along x, as a base acceleration the other way would.
-    felt = base[first:] - instructions.block.gravity * np.sin(instructions.tilt)
-    return Beginning(first, theta0, base, Motion(felt, float(time[1] - time[0]), vertical, transverse), warnings)
-
-
 def sides(specimen: xr.Dataset) -> tuple[float, float]:
     """Return e that predictions take, of impacts that end an arc at θ < 0 and at θ > 0."""
     negative, positive = (float(e) for e in specimen["side_restitution"].to_numpy())
     return negative, positive
-
-
-def _start(rocking: xr.Dataset, instructions: Instructions) -> tuple[int, float]:
-    """Sample and angle (rad) of the first peak between two impacts."""
-    if "rocking_angle" not in rocking:
-        raise StageError("A free vibration without a measured angle has no release to predict from.")
-    time = rocking["elapsed"].to_numpy()
-    arcs = find_arcs(
-        time, rocking["rocking_angle"].to_numpy(), instructions.block.p, lowest=float(rocking["noise_threshold"])
-    )
-    whole = np.flatnonzero(np.isfinite(arcs.peak_angle))
-    if whole.size == 0:
-        raise StageError(
-            "This free vibration shows no arc between two impacts above the noise; a prediction needs a peak to start "
-            "from. Was the specimen released within the record?"
-        )
-    first = int(np.searchsorted(time, arcs.peak_time[whole[0]]))
-    return min(first, time.size - 2), float(arcs.peak_angle[whole[0]])
 
 
 def _in_space(beginning: Beginning, contact: xr.Dataset, instructions: contact_stage.Instructions) -> ContactHistory:
@@ -230,6 +174,7 @@ def _described(
             "base_acceleration": ("elapsed", beginning.base),
             "impact_time": ("impact", history.impact_times + time[first]),
             "restitution": ((), float(specimen["restitution"])),
+            "zero_offset": ((), beginning.zero_offset),
             "peak_angle": ((), float(history.angle[peak])),
             "peak_ratio": ((), np.nan if history.peak_ratio is None else history.peak_ratio),
             "peak_time": ((), history.peak_time + float(time[first])),
@@ -241,6 +186,7 @@ def _described(
             "outcome": history.outcome,
             "model": instructions.model,
             "restitution_source": specimen.attrs["restitution_source"],
+            "driven_by": beginning.driven_by,
             "warnings": beginning.warnings,
         },
     )

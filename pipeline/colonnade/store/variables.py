@@ -151,6 +151,8 @@ VARIABLES: dict[str, Variable] = {
     "model": Variable("model", None, COORDINATE, dtype="str"),
     "nrmse": Variable("root mean square of predicted minus measured angle over the critical angle", "1", QUALITY),
     "measured_peak_ratio": Variable("measured peak angle over the critical angle", "1", MEASURED),
+    "release_ratio": Variable("measured peak angle over the critical angle before what is predicted", "1", MEASURED),
+    "measured_peak_time": Variable("time of the measured peak", "s", MEASURED),
     "predicted_peak_ratio": Variable("predicted peak angle over the critical angle", "1", MODELLED),
     "peak_ratio_error": Variable("predicted minus measured peak ratio", "1", QUALITY),
     "compared_until": Variable("time up to which measured and predicted are compared", "s", QUALITY),

@@ -18,6 +18,7 @@ from colonnade.campaign.summary import (
     TestPrototype,
 )
 from colonnade.dynamics.similitude import at_prototype
+from colonnade.stages.peak import known_peak
 
 Results = Mapping[str, Any]
 
@@ -51,7 +52,8 @@ def measured(campaign: Campaign, test: Test, done: Results) -> dict[str, Any]:
         "duration": float(time[-1] - time[0]),
     }
     if "rocking_angle" in rocking:
-        fields |= {"peak_ratio": float(rocking["peak_ratio"]), "peak_time": float(rocking["peak_time"])}
+        peak = known_peak(rocking, done.get("compare"), free_vibration=test.kind == "free-vibration")
+        fields |= {"peak_ratio": peak.ratio, "peak_time": peak.time, "release_ratio": peak.release}
         fields["impacts"] = int(rocking.sizes.get("impact", 0))
     if "slide" in rocking:
         overturning = float(rocking["overturning_time"])

@@ -147,10 +147,11 @@ def predicting_steps(campaign: Campaign, layout: Layout, test: Test) -> list[Ste
             "predict",
             path,
             {"rocking": rocking, "specimen": specimen}
+            | _identified(layout, test)
             | ({CONTACT: layout.contact(test.specimen)} if model == CONTACT else {}),
             predict.instructions(campaign, test, model),
             lambda upstream, read: predict.predict(
-                upstream["rocking"], upstream["specimen"], read, upstream.get(CONTACT)
+                upstream["rocking"], upstream["specimen"], read, upstream.get(CONTACT), upstream.get("restitution")
             ),
             model,
         )
@@ -182,9 +183,11 @@ def _ensemble(campaign: Campaign, layout: Layout, test: Test, model: str) -> Ste
         return Step(
             "ensemble",
             path,
-            {"rocking": rocking, CONTACT: layout.contact(test.specimen)},
+            {"rocking": rocking, CONTACT: layout.contact(test.specimen)} | _identified(layout, test),
             contact_ensemble.instructions(campaign, test),
-            lambda upstream, read: contact_ensemble.contact_ensemble(upstream["rocking"], upstream[CONTACT], read),
+            lambda upstream, read: contact_ensemble.contact_ensemble(
+                upstream["rocking"], upstream[CONTACT], read, upstream.get("restitution")
+            ),
             model,
         )
     return Step(
@@ -194,13 +197,19 @@ def _ensemble(campaign: Campaign, layout: Layout, test: Test, model: str) -> Ste
             "conditioned": layout.stage(test.id, "condition"),
             "rocking": rocking,
             "specimen": layout.specimen(test.specimen),
-        },
+        }
+        | _identified(layout, test),
         ensemble.instructions(campaign, test, model),
         lambda upstream, read: ensemble.ensemble(
-            upstream["conditioned"], upstream["rocking"], upstream["specimen"], read
+            upstream["conditioned"], upstream["rocking"], upstream["specimen"], read, upstream.get("restitution")
         ),
         model,
     )
+
+
+def _identified(layout: Layout, test: Test) -> dict[str, Path]:
+    """What the free vibration itself gave: the zero of its angle."""
+    return {"restitution": layout.stage(test.id, "restitution")} if test.kind == "free-vibration" else {}
 
 
 def _compare(upstream: Mapping[str, Any], read: Any) -> xr.Dataset:

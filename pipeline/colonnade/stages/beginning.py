@@ -1,0 +1,127 @@
+"""Where a prediction begins: the sample, the angle about its true zero, and the base motion from there on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.errors import StageError
+from colonnade.findings import Finding
+from colonnade.identification.base_motion import LEAST_MOTION, table_moves
+from colonnade.identification.restitution.arcs import find_arcs
+from colonnade.stages.driving import base_acceleration, left_out, transverse_acceleration, vertical_acceleration
+
+if TYPE_CHECKING:
+    from colonnade.stages.predict import Instructions
+
+Array = NDArray[np.float64]
+
+RECORDED = "the recorded motion of the base"
+NOT_RECORDED = "a base at rest: its motion was not recorded"
+AT_REST = f"a base at rest: what was recorded changes the specimen's velocity by less than {LEAST_MOTION:g} p α"
+
+
+@dataclass(frozen=True)
+class Beginning:
+    """
+    Where a prediction begins.
+
+    Attributes
+    ----------
+    first : int
+        Sample of the record.
+    theta0 : float
+        Angle there, about the true zero, rad.
+    base : ndarray, shape (n,)
+        Base acceleration of the whole record along x, m/s².
+    motion : Motion
+        From `first` on, with the table's tilt in it, and along z where that is known throughout.
+    driven_by : str
+        `RECORDED`, `NOT_RECORDED` or `AT_REST`.
+    zero_offset : float
+        rad, what the measured angle shows at the true zero.
+    warnings : list of Finding
+    """
+
+    first: int
+    theta0: float
+    base: Array
+    motion: Motion
+    driven_by: str = RECORDED
+    zero_offset: float = 0.0
+    warnings: list[Finding] = field(default_factory=list)
+
+
+def begin(rocking: xr.Dataset, instructions: Instructions, identified: xr.Dataset | None = None) -> Beginning:
+    """
+    Find where a prediction begins and what it is driven by.
+
+    Parameters
+    ----------
+    rocking : xr.Dataset
+        Result of `rocking`.
+    instructions : predict.Instructions
+    identified : xr.Dataset, optional
+        Result of `restitution`, of a free vibration: its zero offset.
+
+    Raises
+    ------
+    StageError
+        If there is no base motion, or a free vibration shows no arc to start from.
+
+    Notes
+    -----
+    A free vibration is driven by what was recorded on the table if that moves it (`table_moves`), the same rule as of
+    its restitution; otherwise by nothing, since the noise of an accelerometer moves no table.
+    """
+    time, block = rocking["elapsed"].to_numpy(), instructions.block
+    first, theta0, offset, driven_by = 0, 0.0, 0.0, RECORDED
+    if instructions.free_vibration:
+        first, theta0, offset = _start(rocking, block, identified)
+        driven_by = _drives_free_vibration(rocking, block)
+    if driven_by == RECORDED:
+        base = base_acceleration(rocking)
+        vertical, warnings = vertical_acceleration(rocking, gravity=block.gravity, expected=instructions.has_vertical)
+        transverse = transverse_acceleration(rocking) if instructions.space is not None else None
+        if transverse is None:
+            warnings += left_out(rocking, base)
+    else:
+        base, vertical, transverse, warnings = np.zeros_like(time), None, None, []
+    # On a tilted table a part of gravity acts along x, as a base acceleration the other way would.
+    felt = base[first:] - block.gravity * np.sin(instructions.tilt)
+    vertical, transverse = (None if each is None else each[first:] for each in (vertical, transverse))
+    motion = Motion(felt, float(time[1] - time[0]), vertical, transverse)
+    return Beginning(first, theta0, base, motion, driven_by, offset, warnings)
+
+
+def _drives_free_vibration(rocking: xr.Dataset, block: Block) -> str:
+    if "base_acceleration" not in rocking:
+        return NOT_RECORDED
+    time = rocking["elapsed"].to_numpy()
+    moves = table_moves(rocking["base_acceleration"].to_numpy(), float(time[1] - time[0]), block)
+    return RECORDED if moves else AT_REST
+
+
+def _start(rocking: xr.Dataset, block: Block, identified: xr.Dataset | None) -> tuple[int, float, float]:
+    """Sample and angle (rad) of the first peak between two impacts, and the zero offset (rad) taken off it."""
+    if "rocking_angle" not in rocking:
+        raise StageError("A free vibration without a measured angle has no release to predict from.")
+    offset = 0.0
+    if identified is not None and np.isfinite(identified["restitution"]):
+        offset = float(identified["zero_offset"])
+    time, angle = rocking["elapsed"].to_numpy(), rocking["rocking_angle"].to_numpy() - offset
+    arcs = find_arcs(time, angle, block.p, lowest=float(rocking["noise_threshold"]))
+    whole = np.flatnonzero(np.isfinite(arcs.peak_angle))
+    if whole.size == 0:
+        raise StageError(
+            "This free vibration shows no arc between two impacts above the noise; a prediction needs a peak to start "
+            "from. Was the specimen released within the record?"
+        )
+    first = int(np.searchsorted(time, arcs.peak_time[whole[0]]))
+    return min(first, time.size - 2), float(arcs.peak_angle[whole[0]]), offset
