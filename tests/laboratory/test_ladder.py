@@ -22,7 +22,6 @@ RUNGS = [
     for name, (_, steps) in SPECIMENS.items()
     for frequency in steps
 ]
-MARGIN = 0.01
 
 
 def outcomes(name: str, frequency: float, looks: int, samples_per_cycle: int) -> list[set[str]]:
@@ -38,7 +37,7 @@ def outcomes(name: str, frequency: float, looks: int, samples_per_cycle: int) ->
             rock(
                 specimen.block, Motion(amplitude * unit, dt), restitution=specimen.restitution, model="nonlinear"
             ).outcome
-            for amplitude in step * np.linspace(1 - MARGIN, 1 + MARGIN, looks)
+            for amplitude in step * np.linspace(1 - ladder.MARGIN, 1 + ladder.MARGIN, looks)
         }
         for step in steps[frequency]
     ]

@@ -196,6 +196,9 @@ def _compared(measured: xr.Dataset, predicted: dict[str, xr.Dataset], nrmse: flo
         "peak_ratio_error": ("model", [0.01, -0.02]),
         "predicted_outcome": ("model", np.array(outcomes, dtype=object)),
         "measured_peak_ratio": ((), float(measured["peak_ratio"]) if "peak_ratio" in measured else np.nan),
+        "measured_peak_time": ((), float(measured["peak_time"]) if "peak_time" in measured else np.nan),
+        "release_ratio": ((), np.nan),
+        "zero_offset": ((), 0.0),
     }
     if order:
         values |= {

@@ -135,7 +135,7 @@ def test_failures_come_first_with_stage_and_whole_reason(texts, overview):
 def test_the_summary_counts_tests_and_gives_each_restitution(overview):
     words = words_of(overview)
     assert "10 tests: 8 done, 1 failed, 1 not yet run to the end." in words
-    assert "The linear model predicts the outcome of 7 of the 8 tests" in words
+    assert "The linear model predicts the outcome of 7 of 8 tests. Its misfit (nrmse) is" in words
     assert "prism 0.9761 ± 0.0008 (95 % interval) identified from free vibrations 0.9485" in words
     assert "statue 0.9 given in the campaign file" in words
 

@@ -75,6 +75,8 @@ def _comparison(truth: dict[str, Any], summary_path: Path) -> dict[str, Any]:
                 "outcome": found[name]["outcome"],
                 "true_peak_ratio": true["peak_ratio"],
                 "peak_ratio": found[name]["peak_ratio"],
+                "true_release_ratio": true["release_ratio"],
+                "release_ratio": found[name]["release_ratio"],
                 "predicted": found[name]["predicted"],
             }
             for name, true in truth["tests"].items()
@@ -83,6 +85,8 @@ def _comparison(truth: dict[str, Any], summary_path: Path) -> dict[str, Any]:
 
 
 def _tell(comparison: dict[str, Any]) -> None:
+    from colonnade.laboratory.ladder import KEPT_AWAY
+    from colonnade.report.agreement import of_summary
     from colonnade.units import format_uncertain
 
     for specimen, restitution in comparison["restitution"].items():
@@ -105,4 +109,7 @@ def _tell(comparison: dict[str, Any]) -> None:
         ratios = (shown(test["peak_ratio"]), shown(test["true_peak_ratio"]))
         rows.append((name, shown(test["outcome"]), test["true_outcome"], right, *ratios, predicted))
     show_table(("test", "outcome", "true", "", "|θ|/α", "true", "predicted"), rows)
-    say(f"{sum(row[3] == 'right' for row in rows)} of {len(rows)} outcomes are right")
+    say(f"{sum(row[3] == 'right' for row in rows)} of {len(rows)} measured outcomes are right")
+    for told in of_summary(comparison["tests"]):
+        say(told)
+    say(KEPT_AWAY)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.settings import settings
+from colonnade.identification.base_motion import LEAST_MOTION
 from colonnade.identification.restitution.choice import RULE
 from colonnade.report import (
     channels,
@@ -139,6 +140,7 @@ def render(
         "references": REFERENCES,
         "software": methods.software(),
         "rule": RULE,
+        "least_motion": LEAST_MOTION,
     }
     for template, address in pages.WHOLE.items():
         yield address, renderer.page(template, address, **shown)

@@ -15,6 +15,7 @@ from colonnade.dynamics.history import Outcome
 from colonnade.figures import SpanPanel
 from colonnade.identification.boundaries import Boundaries, Bracket, MapPoint, bracket_boundaries
 from colonnade.report import charts, wording
+from colonnade.report.agreement import sentences
 from colonnade.report.pages import KINDS
 from colonnade.report.rows import TestRow
 
@@ -197,7 +198,7 @@ def span_groups(drawn: Sequence[SpanTest]) -> tuple[SpanGroup, ...]:
     return tuple(groups)
 
 
-def agreement(tests: Sequence[TestRow], models: Sequence[str]) -> dict[str, tuple[int, int]]:
-    """Count, for each model, the tests whose outcome it predicts rightly, and those where both are known."""
-    agreed = {model: [test.models[model].agrees for test in tests] for model in models}
-    return {model: (verdicts.count(True), len(verdicts) - verdicts.count(None)) for model, verdicts in agreed.items()}
+def agreement(tests: Sequence[TestRow], models: Sequence[str]) -> tuple[str, ...]:
+    """Say of each model how far it agrees with the tests."""
+    told = (sentences(model, [test.models[model].score for test in tests]) for model in models)
+    return tuple(filter(None, told))

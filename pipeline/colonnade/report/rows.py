@@ -7,17 +7,20 @@ from math import nan
 
 from colonnade.campaign import Campaign, Test
 from colonnade.report import wording
+from colonnade.report.agreement import Score
 from colonnade.report.results import Message, Results
+from colonnade.stages.spread import is_within
 
 
 @dataclass(frozen=True)
 class ModelRow:
-    """A model beside the measurement: outcome, whether it agrees (None: not known), peak ratio, nrmse."""
+    """A model and the measurement: outcome, peak ratio and nrmse as text, and how far it agrees."""
 
     outcome: str
     agrees: bool | None
     peak_ratio: str
     nrmse: str
+    score: Score
 
 
 @dataclass(frozen=True)
@@ -84,7 +87,7 @@ def of_test(campaign: Campaign, test: Test, results: Results) -> TestRow:
         peak_ratio=wording.number(results.measured_peak(test).ratio),
         peak_ground_acceleration=wording.acceleration(results.value("rocking", "peak_ground_acceleration")),
         models={
-            model: _model(results, model, measured or test.observed_outcome or "")
+            model: _model(test.id, results, model, measured or test.observed_outcome or "")
             for model in campaign.processing.predict.models
         },
         frequency=frequency,
@@ -97,15 +100,17 @@ def of_test(campaign: Campaign, test: Test, results: Results) -> TestRow:
     )
 
 
-def _model(results: Results, model: str, measured: str) -> ModelRow:
+def _model(test: str, results: Results, model: str, measured: str) -> ModelRow:
     stage = f"predict {model}"
     outcome = results.text(stage, "outcome")
-    return ModelRow(
-        outcome,
-        wording.agree(measured, outcome),
-        wording.number(results.value(stage, "peak_ratio")),
-        wording.number(results.of("compare", "nrmse", "model").get(model), 2),
-    )
+
+    def compared(name: str) -> float:
+        return float(results.of("compare", name, "model").get(model, nan))
+
+    agrees, nrmse = wording.agree(measured, outcome), compared("nrmse")
+    score = Score(test, agrees, nrmse, is_within(compared("within_spread"), compared("peak_rank")))
+    ratio = wording.number(results.value(stage, "peak_ratio"))
+    return ModelRow(outcome, agrees, ratio, wording.number(nrmse, 2), score)
 
 
 def _excitation(test: Test, results: Results) -> tuple[float, float, float]:

@@ -17,6 +17,7 @@ from colonnade.report.channels import ChannelRow
 from colonnade.report.restitution import EstimateText
 from colonnade.report.results import Results
 from colonnade.report.rows import TestRow
+from colonnade.stages.spread import is_within
 
 Fact = tuple[str, str]
 
@@ -28,12 +29,6 @@ MOTIONS = (
     ("yaw", "yaw", "mrad"),
 )
 """Motions of the specimen beside its rocking angle: variable, words, unit."""
-
-LEAST_WITHIN = 0.9
-"""Share of the measured angle that a band of 90 % holds where the model is right; told in methods.html.jinja."""
-
-UNLIKELY = 0.05
-"""Share of an ensemble at either end in which the measured peak is not expected."""
 
 
 @dataclass(frozen=True)
@@ -211,9 +206,9 @@ def _metrics(results: Results, model: str, row: TestRow) -> Metrics:
 
 def _verdict(model: str, within: float, rank: float, overturning: float) -> str:
     """Say whether the misfit lies within the model's own spread."""
-    if np.isnan(within) or np.isnan(rank):
+    is_likely = is_within(within, rank)
+    if is_likely is None:
         return ""
-    is_likely = within >= LEAST_WITHIN and UNLIKELY <= rank <= 1 - UNLIKELY
     said = [
         f"{within:.0%} of the measured angle lies in the band of 90 %",
         f"{rank:.0%} of the runs stay below its peak",

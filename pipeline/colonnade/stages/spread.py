@@ -15,6 +15,31 @@ from colonnade.dynamics.history import amplitude
 
 Array = NDArray[np.float64]
 
+LEAST_WITHIN = 0.9
+"""Share of the measured angle that a band of 90 % holds if the model is right."""
+
+UNLIKELY = 0.05
+"""Share of an ensemble at either end in which the measured peak is not expected."""
+
+
+def is_within(within: float, rank: float) -> bool | None:
+    """
+    Judge whether a misfit lies within the model's own spread.
+
+    Parameters
+    ----------
+    within, rank : float
+        `within_spread` and `peak_rank` as of `spread`.
+
+    Returns
+    -------
+    verdict : bool or None
+        None if either is not known.
+    """
+    if np.isnan(within) or np.isnan(rank):
+        return None
+    return bool(within >= LEAST_WITHIN and UNLIKELY <= rank <= 1 - UNLIKELY)
+
 
 def spread(rocking: xr.Dataset, ensembles: Mapping[str, xr.Dataset], models: list[str], block: Block) -> dict[str, Any]:
     """

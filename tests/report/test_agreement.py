@@ -1,0 +1,51 @@
+"""Right outcomes are never counted without the misfits and the verdict on the model's own spread."""
+
+from __future__ import annotations
+
+from math import nan
+
+import pytest
+
+from colonnade.laboratory.ladder import KEPT_AWAY
+from colonnade.report.agreement import Score, of_summary, sentences
+
+
+def prediction(outcome="rocking", nrmse=0.1, within=None, rank=None):
+    return {"outcome": outcome, "nrmse": nrmse, "within_spread": within, "peak_rank": rank}
+
+
+TESTS = {
+    "right": {"outcome": "rocking", "predicted": {"linear": prediction(within=0.95, rank=0.5)}},
+    "wrong": {"outcome": "overturned", "predicted": {"linear": prediction(nrmse=0.3, within=0.4, rank=1.0)}},
+    "seen": {
+        "outcome": None,
+        "observed_outcome": "not-overturned",
+        "predicted": {"linear": prediction("no-rocking", nrmse=None)},
+    },
+    "unknown": {"outcome": None, "predicted": {"linear": prediction("no-rocking", nrmse=None)}},
+}
+
+
+def test_outcomes_misfits_and_spread_are_told_together():
+    assert of_summary(TESTS) == [
+        "The linear model predicts the outcome of 2 of 3 tests. Its misfit (nrmse) is 0.2 at the median and 0.3 at "
+        "most, in wrong. 1 of 2 misfits is within its own spread."
+    ]
+
+
+def test_a_spread_that_was_not_computed_is_told():
+    (told,) = of_summary({"right": {"outcome": "rocking", "predicted": {"linear": prediction()}}})
+    assert told.endswith("0.1 at most, in right. Its own spread was not computed.")
+
+
+@pytest.mark.parametrize("scores", [[], [Score("a", None, nan, None)], [Score("a", None, 0.1, True)]])
+def test_without_a_known_outcome_nothing_is_told(scores):
+    assert sentences("linear", scores) == ""
+
+
+def test_the_reference_reports_tell_them_too(rebuild):
+    test = {"outcome": {}, "peak_ratio": {}, "nrmse": {}, "order": None}
+    numbers = {"seed": 0, "restitution": {}, "tests": {"right": test}, "agreement": of_summary(TESTS)}
+    page = rebuild.demo_table(numbers, "A demo", {})
+    assert all(told in page for told in of_summary(TESTS))
+    assert KEPT_AWAY in page
