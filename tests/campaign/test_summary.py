@@ -27,7 +27,8 @@ LATER = {
     "specimen": ["prototype"],
     "prediction": ["order", "within_spread", "peak_rank", "overturning_probability"],
     "test": [
-        "duration", "peak_slide", "frequency", "order_reason", "impacts_per_cycle", "restitution", "prototype",
+        "duration", "peak_slide", "release_ratio", "frequency", "order_reason", "impacts_per_cycle", "restitution",
+        "prototype",
     ],
 }  # fmt: skip
 """What was added to contract 1 since: null where a writer does not know it."""
