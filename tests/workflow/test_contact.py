@@ -63,6 +63,7 @@ def test_every_result_of_the_contact_model_tells_its_law_and_its_nodes(in_space)
     body = rigid_body(BLOCK)
     for told in (law, predicted):
         np.testing.assert_allclose(told["node_mass"], body.node_mass)
+        assert not told["ring_radius"].any()
         assert float(told["node_weight"].sum()) == pytest.approx(BLOCK.mass * BLOCK.gravity, rel=1e-12)
         assert float(told["effective_damping"]) == law_of(law).effective_damping(body)
     assert 0.0 <= float(predicted["energy_residual"]) < 0.01

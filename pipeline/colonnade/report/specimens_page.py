@@ -155,7 +155,8 @@ def _contact(pooled: Results) -> tuple[tuple[str, str], ...]:
         return pooled.value("contact", name)
 
     nodes = pooled.datasets["contact"]
-    masses, weights = (nodes[name].to_numpy() for name in ("node_mass", "node_weight"))
+    masses, weights, radii = (nodes[name].to_numpy() for name in ("node_mass", "node_weight", "ring_radius"))
+    rings = f"{masses.size} rings of radius {_range(1e3 * radii, 'mm')}, " if radii.any() else f"{masses.size}, "
     return (
         ("body", pooled.text("contact", "body")),
         ("critical damping fraction ξ at a node", wording.number(value("damping_fraction"), 4)),
@@ -165,7 +166,7 @@ def _contact(pooled: Results) -> tuple[tuple[str, str], ...]:
             f"{wording.number(1e-9 * (value('contact_stiffness') or 0.0))} N/mm³: N a mm² of base and mm of depth",
         ),
         ("friction µ", wording.number(value("friction"))),
-        ("base nodes", f"{masses.size}, {_range(masses, 'kg')} and {_range(weights, 'N')} each"),
+        ("base nodes", f"{rings}{_range(masses, 'kg')} and {_range(weights, 'N')} each"),
         (
             "e identified from its free vibration",
             f"{wording.number(value('contact_restitution'), 4)}; {wording.number(value('restitution'), 4)} was wanted",

@@ -122,7 +122,7 @@ def law_variables(body: ContactBody, law: ContactLaw, gravity: float) -> dict[st
     -------
     variables : dict
         `contact_stiffness` (N/m³), `damping_fraction`, `friction`, `effective_damping`; by `node` its `node_mass` (kg)
-        and the `node_weight` (N) that it bears of the standing body.
+        and the `node_weight` (N) that it bears of the standing body, and its `ring_radius` (m): 0 of a point.
     """
     return {
         "contact_stiffness": ((), law.stiffness),
@@ -131,6 +131,7 @@ def law_variables(body: ContactBody, law: ContactLaw, gravity: float) -> dict[st
         "effective_damping": ((), law.effective_damping(body)),
         "node_mass": ("node", body.node_mass),
         "node_weight": ("node", law.node_weights(body, gravity)),
+        "ring_radius": ("node", body.ring_radii),
     }
 
 

@@ -191,6 +191,7 @@ VARIABLES: dict[str, Variable] = {
     "friction": Variable("Coulomb's coefficient of friction between specimen and table"),
     "node_mass": Variable("mass of each base node", "kg"),
     "node_weight": Variable("weight that each base node bears of the standing specimen", "N"),
+    "ring_radius": Variable("radius of the circle that a base node is, 0 of a point", "m"),
     "contact_restitution": Variable(
         "coefficient of restitution identified from the rocking angle of the contact model's free vibration",
         "1",

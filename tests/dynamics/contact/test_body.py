@@ -25,7 +25,8 @@ def test_arrays_are_kept_as_the_engine_takes_them():
         ({"nodes": np.full((25, 3), np.nan)}, "nodes holds a value that is not finite"),
         ({"mass": 0.0}, "mass is 0.0; positive"),
         ({"node_area": np.zeros(25)}, "node_area is"),
-        ({"rim_radius": -1.0}, "rim_radius is -1.0 m"),
+        ({"ring_radii": np.full(25, -1.0)}, r"ring_radii is \[-1"),
+        ({"ring_radii": np.full(25, 0.1)}, r"not its point at \+x"),
         (
             {
                 "modes": np.zeros((25, 3, 1)),

@@ -32,8 +32,20 @@ def test_nodes_share_the_area_and_the_mass_of_the_base_about_its_centre(block):
     area = math.pi * 0.1**2 if block in (CYLINDER, CONE) else 0.06 if block is PRISM else body.node_area.sum()
     assert body.node_area.sum() == pytest.approx(area)
     assert body.node_mass.sum() == pytest.approx(block.mass)
-    np.testing.assert_allclose(body.node_area @ body.nodes[:, :2], 0.0, atol=1e-12)
+    points = body.nodes[body.ring_radii == 0.0]
+    np.testing.assert_allclose(body.node_area[body.ring_radii == 0.0] @ points[:, :2], 0.0, atol=1e-12)
     assert body.is_rigid
+
+
+@pytest.mark.parametrize("block", [CYLINDER, CONE], ids=["cylinder", "cone"])
+def test_a_round_base_stands_on_whole_rings_with_the_area_and_mass_of_a_ring_of_nodes(block):
+    body, nodes = rigid_body(block), rigid_body(block, rings=(4, 24))
+    assert body.ring_radii.tolist() == pytest.approx([0.025, 0.05, 0.075, 0.1])
+    np.testing.assert_allclose(body.node_area, nodes.node_area.reshape(4, 24).sum(axis=1), rtol=1e-12)
+    np.testing.assert_allclose(body.node_mass, nodes.node_mass.reshape(4, 24).sum(axis=1), rtol=1e-12)
+    assert body.half_width == nodes.half_width
+    assert "4 whole rings" in body.description
+    assert not nodes.has_rings
 
 
 def test_inertias_of_prism_cylinder_and_cone():
@@ -67,12 +79,11 @@ def test_a_measured_block_says_what_was_taken_for_its_depth():
 @pytest.mark.parametrize(
     ("block", "options", "message"),
     [
-        (PRISM, {"rim": True}, "not round"),
         (PRISM, {"grid": (1, 5)}, r"grid is \(1, 5\)"),
         (CYLINDER, {"rings": (2, 2)}, r"rings is \(2, 2\)"),
         (Block.measured(mass=80.0, pole_distance=0.61, critical_angle=0.21, inertia=20.0), {}, "I₀ − m R² is"),
     ],
-    ids=["rim of a prism", "one row", "two nodes round", "inertia too small"],
+    ids=["one row", "two nodes round", "inertia too small"],
 )
 def test_a_base_that_cannot_be_is_refused(block, options, message):
     with pytest.raises(ValueError, match=message):

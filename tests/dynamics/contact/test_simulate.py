@@ -16,7 +16,6 @@ from colonnade.dynamics.rock import rock
 
 GRAVITY = 9.81
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-CYLINDER = Block.cylinder(diameter=0.097, height=0.455, mass=26.30)
 SLENDER = Block.prism(width=0.1, depth=0.1, height=1.0, mass=20.0)
 ALPHA = PRISM.critical_angle
 REST = Motion(np.zeros(3), 0.01)
@@ -105,13 +104,6 @@ def test_a_block_past_its_critical_angle_at_the_end_is_followed_until_it_falls()
     history = rock(PRISM, model="contact", theta0=1.02 * ALPHA, duration=0.05)
     assert history.outcome == "overturned"
     assert abs(history.angle[-1]) < 1.2 * ALPHA
-
-
-def test_a_cylinder_disturbed_sideways_leaves_the_plane():
-    plane = rock(CYLINDER, model="contact", theta0=0.6 * CYLINDER.critical_angle, duration=0.6)
-    space = rock(CYLINDER, model="contact", theta0=0.6 * CYLINDER.critical_angle, out_of_plane=2e-3, duration=0.6)
-    assert np.abs(plane.out_of_plane).max() < 1e-6
-    assert np.abs(space.out_of_plane).max() > 1e-2
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,8 @@ class ContactBody:
     inertia : ndarray, shape (3,)
         Principal moments about the centre of mass, for the x, y and z axis of the body, kg m².
     nodes : ndarray, shape (n, 3)
-        Base nodes relative to the centre of mass in the body's axes, m; z is upwards, the base at z = −h.
+        Base nodes relative to the centre of mass in the body's axes, m; z is upwards, the base at z = −h. Of a ring its
+        point at +x.
     node_mass, node_area : ndarray, shape (n,)
         kg and m²: the mass and the area of the base that each node stands for.
     modes : ndarray, shape (n, 3, m)
@@ -33,9 +34,9 @@ class ContactBody:
         Participation of a uniform acceleration in the body's axes, kg^½: 0, since the modes carry no momentum.
     description : str
         For people: shape, mesh, degrees of freedom, how reduced.
-    rim_radius : float
-        m. Where positive, the last node stands for the lowest point of a continuous circular rim of this radius at the
-        base's height: it moves along the rim as the body tilts. Rigid bodies only.
+    ring_radii : ndarray, shape (n,)
+        m. Where positive, the node is a ring: a whole circle of this radius about the body's axis at the node's height,
+        with its mass and area spread evenly around. 0, the default, is a point. Rings are of rigid bodies only.
 
     Notes
     -----
@@ -53,15 +54,20 @@ class ContactBody:
     modal_damping: Array
     modal_gravity: Array
     description: str
-    rim_radius: float = 0.0
+    ring_radii: Array = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
         count, kept = len(self.nodes), len(self.frequencies)
+        if count == 0:
+            raise ValueError("The body has no base nodes; at least one was expected")
+        if len(self.ring_radii) == 0:
+            object.__setattr__(self, "ring_radii", np.zeros(count))
         shapes = {
             "inertia": (3,),
             "nodes": (count, 3),
             "node_mass": (count,),
             "node_area": (count,),
+            "ring_radii": (count,),
             "modes": (count, 3, kept),
             "frequencies": (kept,),
             "modal_damping": (kept,),
@@ -74,8 +80,6 @@ class ContactBody:
             if not np.isfinite(values).all():
                 raise ValueError(f"{name} holds a value that is not finite")
             object.__setattr__(self, name, values)
-        if count == 0:
-            raise ValueError("The body has no base nodes; at least one was expected")
         for name in ("mass", "inertia", "node_mass", "node_area", "frequencies"):
             if not np.all(getattr(self, name) > 0.0):
                 raise ValueError(f"{name} is {getattr(self, name)}; positive values were expected")
@@ -83,10 +87,13 @@ class ContactBody:
             raise ValueError(f"modal_damping is {self.modal_damping}; values from 0 on were expected")
         if np.any(self.modal_gravity != 0.0):
             raise ValueError("modal_gravity is not 0; modes that carry no momentum were expected")
-        if self.rim_radius < 0.0 or (self.rim_radius > 0.0 and kept > 0):
+        if np.any(self.ring_radii < 0.0) or (kept > 0 and self.has_rings):
             raise ValueError(
-                f"rim_radius is {self.rim_radius} m with {kept} modes; a radius from 0 on was expected, 0 with modes"
+                f"ring_radii is {self.ring_radii} m with {kept} modes; radii from 0 on were expected, 0 with modes"
             )
+        offset = np.hypot(*(self.nodes[:, :2] - np.column_stack((self.ring_radii, np.zeros(count)))).T)
+        if np.any((self.ring_radii > 0.0) & (offset > 1e-9 * self.ring_radii)):
+            raise ValueError("A ring's node is not its point at +x; (radius, 0, −h) was expected")
 
     @property
     def height(self) -> float:
@@ -96,7 +103,12 @@ class ContactBody:
     @property
     def half_width(self) -> float:
         """Distance of the outermost base node from the centre of mass along x, m: of the pole of plane rocking."""
-        return max(float(np.abs(self.nodes[:, 0]).max()), self.rim_radius)
+        return float(np.abs(self.nodes[:, 0]).max())
+
+    @property
+    def has_rings(self) -> bool:
+        """Whether the base touches along whole circles."""
+        return bool(np.any(self.ring_radii > 0.0))
 
     @property
     def is_rigid(self) -> bool:

@@ -11,12 +11,18 @@ body's axes one after the other, each turn exact and in mirrored order (Dullwebe
 that the angular momentum is kept to rounding. A node's normal force is the mean over the step of what its depth, linear
 in time, gives: contact that begins or ends within a step counts for the part of the step that it lasts.
 Flight is of second order in the step, an impact of about first: of the paper's prism one impact later, a step of 10 µs
-costs 2e-5 to 1e-4 of α. All kernels of this chain stand in this file (see `kernel`).
+costs 2e-5 to 1e-4 of α.
+
+A node is a point of the base or a whole ring, a circle about the body's axis. A ring of radius r, tilted by an angle of
+sine σ, has the depth d − r σ (1 − cos φ) at φ from its lowest point, which is d deep: it touches along an arc of
+1 − cos φ < d / (r σ), or all around. That arc is integrated by Gauss and Legendre at points that move with it, so that
+nothing depends on how the body is turned about its axis; the points' elastic slip stays with the material of the body.
+All kernels of this chain stand in this file (see `kernel`).
 """
 
 from __future__ import annotations
 
-from math import atan2, cos, sin, sqrt
+from math import asin, atan2, cos, floor, pi, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -97,15 +103,13 @@ def _fastest(body: Body, state: State, reach: float, bend: float) -> float:
 
 @kernel
 def _place(body: Body, state: State, near: Near, margin: float) -> int:
-    """List the nodes lower than `margin`, with their levers (in table and in body axes) and depths."""
+    """List the point nodes lower than `margin`, with their levers (in table and in body axes) and depths."""
     nodes, modes, strain, matrix = body.nodes, body.modes, state.strain, state.matrix
-    count, last, height, rim = 0, nodes.shape[0] - 1, state.rigid[2], body.rim
+    count, height = 0, state.rigid[2]
     for node in range(nodes.shape[0]):
+        if body.radii[node] > 0.0:
+            continue
         x, y, z = nodes[node, 0], nodes[node, 1], nodes[node, 2]
-        if rim > 0.0 and node == last:
-            down = sqrt(matrix[2, 0] ** 2 + matrix[2, 1] ** 2)
-            if down > 0.0:
-                x, y = -rim * matrix[2, 0] / down, -rim * matrix[2, 1] / down
         for mode in range(strain.shape[1]):
             x += modes[node, 0, mode] * strain[0, mode]
             y += modes[node, 1, mode] * strain[0, mode]
@@ -118,9 +122,98 @@ def _place(body: Body, state: State, near: Near, margin: float) -> int:
         near.lever[count, 2] = above
         near.lever[count, 3], near.lever[count, 4], near.lever[count, 5] = x, y, z
         near.depth[count] = -(height + above)
-        near.node[count] = node
+        near.node[count], near.slot[count], near.share[count] = node, body.slots[node], 1.0
         count += 1
     return count
+
+
+@kernel
+def _lowest(body: Body, state: State, node: int) -> tuple[float, float]:
+    """Give the depth of a ring's lowest point, and what its highest is above it, over 2."""
+    rise = body.radii[node] * sqrt(state.matrix[2, 0] ** 2 + state.matrix[2, 1] ** 2)
+    return rise - state.rigid[2] - state.matrix[2, 2] * body.nodes[node, 2], rise
+
+
+@kernel
+def _half_arc(depth: float, rise: float) -> float:
+    """Give the angle from a ring's lowest point to where its depth is 0."""
+    if depth <= 0.0:
+        return 0.0
+    return pi if depth >= 2.0 * rise else 2.0 * asin(sqrt(0.5 * depth / rise))
+
+
+@kernel
+def _place_rings(body: Body, state: State, near: Near, count: int, step: float) -> int:
+    """Add the points of the rings' arcs that may touch within the step to the `count` points that are listed."""
+    matrix, spin, inertia = state.matrix, state.rigid[10:13], body.inertia
+    places, weights, points = body.arc[0], body.arc[1], body.arc.shape[1]
+    if body.slots[-1] == body.nodes.shape[0]:
+        return count
+    about_x, about_y, about_z = spin[0] / inertia[0], spin[1] / inertia[1], spin[2] / inertia[2]
+    for node in range(body.nodes.shape[0]):
+        radius, z = body.radii[node], body.nodes[node, 2]
+        if radius == 0.0:
+            continue
+        depth, rise = _lowest(body, state, node)
+        sinking = abs(state.rigid[5] + z * (matrix[2, 0] * about_y - matrix[2, 1] * about_x))
+        along = matrix[2, 1] * about_z - matrix[2, 2] * about_y
+        across = matrix[2, 2] * about_x - matrix[2, 0] * about_z
+        sinking += radius * sqrt(along**2 + across**2)
+        half = _half_arc(depth + 0.5 * step * sinking, rise)
+        angle = atan2(-matrix[2, 1], -matrix[2, 0]) if rise > 0.0 else state.arcs[node, 0]
+        _carry(body, state, near, node, angle, half)
+        if half == 0.0:
+            continue
+        for point in range(points):
+            turned = angle + half * places[point]
+            x, y = radius * cos(turned), radius * sin(turned)
+            above = matrix[2, 0] * x + matrix[2, 1] * y + matrix[2, 2] * z
+            near.lever[count, 0] = matrix[0, 0] * x + matrix[0, 1] * y + matrix[0, 2] * z
+            near.lever[count, 1] = matrix[1, 0] * x + matrix[1, 1] * y + matrix[1, 2] * z
+            near.lever[count, 2] = above
+            near.lever[count, 3], near.lever[count, 4], near.lever[count, 5] = x, y, z
+            near.depth[count] = -(state.rigid[2] + above)
+            near.node[count], near.slot[count] = node, body.slots[node] + point
+            near.share[count] = half * weights[point] / (2.0 * pi)
+            count += 1
+    return count
+
+
+@kernel
+def _carry(body: Body, state: State, near: Near, node: int, angle: float, half: float) -> None:
+    """Move a ring's arc; its slip stays with the body's material, which enters with none and loses it as it leaves."""
+    slip, touched, carried, first = state.slip, state.touched, near.carried, body.slots[node]
+    places, weights, points = body.arc[0], body.arc[1], body.arc.shape[1]
+    former, span = state.arcs[node, 0], state.arcs[node, 1]
+    if angle == former and half == span:
+        return
+    state.arcs[node, 0], state.arcs[node, 1] = angle, half
+    held, any_touched = 0.0, 0
+    for point in range(points):
+        place, around = first + point, span >= pi
+        held += span * weights[point] * (slip[place, 0] ** 2 + slip[place, 1] ** 2)
+        any_touched = max(any_touched, touched[place])
+        carried[point, 0], carried[point, 1] = 0.0, 0.0
+        turned = angle + half * places[point] - former
+        turned -= 2.0 * pi * floor((turned + pi) / (2.0 * pi))
+        if half == 0.0 or span == 0.0 or (abs(turned) >= span and not around):
+            continue
+        # Linear between the points of before; all around beyond the last one comes the first, else nothing.
+        sought, right = turned / span, 0
+        while right < points and places[right] <= sought:
+            right += 1
+        low = places[right - 1] if right > 0 else (places[points - 1] - 2.0 if around else -1.0)
+        high = places[right] if right < points else (places[0] + 2.0 if around else 1.0)
+        share = (sought - low) / (high - low)
+        for axis in range(2):
+            before = slip[first + (right - 1) % points, axis] if right > 0 or around else 0.0
+            after = slip[first + right % points, axis] if right < points or around else 0.0
+            carried[point, axis] = before + share * (after - before)
+    for point in range(points):
+        held -= half * weights[point] * (carried[point, 0] ** 2 + carried[point, 1] ** 2)
+        slip[first + point, 0], slip[first + point, 1] = carried[point, 0], carried[point, 1]
+        touched[first + point] = any_touched if half > 0.0 else 0
+    state.ledger[2] += 0.5 * body.contact[node, 2] * held / (2.0 * pi)
 
 
 @kernel
@@ -146,7 +239,8 @@ def _flow(body: Body, state: State, near: Near, count: int) -> None:
 @kernel
 def _force(body: Body, state: State, near: Near, index: int, step: float) -> None:
     """Fill the force of one near node by the law of contact, and what becomes of its slip."""
-    node, depth, contact, slip, load = near.node[index], near.depth[index], body.contact, state.slip, near.load
+    node, share, depth, load = near.node[index], near.share[index], near.depth[index], near.load
+    contact, slip = body.contact, state.slip[near.slot[index]]
     sinking = -load[index, 11] * step
     high, part, mean = depth + 0.5 * abs(sinking), 1.0, depth
     if high <= 0.0:
@@ -154,10 +248,10 @@ def _force(body: Body, state: State, near: Near, index: int, step: float) -> Non
     elif high < abs(sinking):
         part = high / abs(sinking)
         mean = 0.5 * part * high
-    elastic = contact[node, 0] * mean
-    normal = max(0.0, elastic - part * contact[node, 1] * load[index, 11])
+    elastic = share * contact[node, 0] * mean
+    normal = max(0.0, elastic - part * share * contact[node, 1] * load[index, 11])
     limit = body.friction * normal if normal > 0.0 else 0.0
-    stiffness, x, y = contact[node, 2], slip[node, 0], slip[node, 1]
+    stiffness, x, y = share * contact[node, 2], slip[0], slip[1]
     held = stiffness**2 * (x**2 + y**2)
     if held > limit**2:
         keep = limit / sqrt(held)
@@ -170,8 +264,8 @@ def _force(body: Body, state: State, near: Near, index: int, step: float) -> Non
         x, y = keep * x, keep * y
     along, across = -stiffness * x, -stiffness * y
     if sticks == 1.0:
-        along -= contact[node, 3] * load[index, 9]
-        across -= contact[node, 3] * load[index, 10]
+        along -= share * contact[node, 3] * load[index, 9]
+        across -= share * contact[node, 3] * load[index, 10]
         pulled = along**2 + across**2
         if pulled > limit**2:
             keep = limit / sqrt(pulled)
@@ -201,7 +295,7 @@ def _kick(body: Body, state: State, near: Near, count: int, step: float) -> None
         _flow(body, state, near, count)
         if turn == 0:
             for index in range(count):
-                first = 0.0 if state.touched[near.node[index]] == 0 else step
+                first = 0.0 if state.touched[near.slot[index]] == 0 else step
                 load[index, 12], load[index, 13] = first * load[index, 9], first * load[index, 10]
         if turn == PASSES:
             break
@@ -239,14 +333,15 @@ def _settle(body: Body, state: State, near: Near, count: int, step: float) -> No
     """Book what the contact took, and keep the slip."""
     contact, slip, touched, ledger, load = body.contact, state.slip, state.touched, state.ledger, near.load
     for index in range(count):
-        node = near.node[index]
-        half = 0.5 * contact[node, 2]
+        node = near.slot[index]
+        stiffness = near.share[index] * contact[near.node[index], 2]
+        half = 0.5 * stiffness
         ledger[1] += step * (load[index, 3] - load[index, 2]) * load[index, 11]
         held = half * (load[index, 7] ** 2 + load[index, 8] ** 2)
         ledger[2] += half * (slip[node, 0] ** 2 + slip[node, 1] ** 2) - held
         if load[index, 6] == 1.0:
             for axis in range(2):
-                damping = load[index, axis] + contact[node, 2] * load[index, 4 + axis]
+                damping = load[index, axis] + stiffness * load[index, 4 + axis]
                 ledger[1] -= step * damping * load[index, 9 + axis]
         else:
             ledger[2] -= step * (load[index, 0] * load[index, 9] + load[index, 1] * load[index, 10])
@@ -273,7 +368,7 @@ def _sample(body: Body, state: State, near: Near, row: Array) -> None:
     rigid, strain, contact, slip, depth = state.rigid, state.strain, body.contact, state.slip, near.depth
     count = _place(body, state, near, np.inf)
     row[:10] = rigid[:10]
-    row[13] = -depth[:count].max()
+    row[13] = np.inf
     row[17] = 0.5 * body.mass * (rigid[3] ** 2 + rigid[4] ** 2 + rigid[5] ** 2)
     for axis in range(3):
         row[10 + axis] = rigid[10 + axis] / body.inertia[axis]
@@ -282,10 +377,33 @@ def _sample(body: Body, state: State, near: Near, row: Array) -> None:
     for mode in range(strain.shape[1]):
         row[17] += 0.5 * strain[1, mode] ** 2
         row[19] += 0.5 * (body.frequencies[mode] * strain[0, mode]) ** 2
-    for node in range(count):
-        row[20] += 0.5 * contact[node, 0] * max(depth[node], 0.0) ** 2
-        if state.touched[node] == 1:
-            row[20] += 0.5 * contact[node, 2] * (slip[node, 0] ** 2 + slip[node, 1] ** 2)
+    for index in range(count):
+        node, slot = near.node[index], near.slot[index]
+        row[13] = min(row[13], -depth[index])
+        row[20] += 0.5 * contact[node, 0] * max(depth[index], 0.0) ** 2
+        if state.touched[slot] == 1:
+            row[20] += 0.5 * contact[node, 2] * (slip[slot, 0] ** 2 + slip[slot, 1] ** 2)
+    for node in range(body.nodes.shape[0]):
+        if body.radii[node] > 0.0:
+            lowest, energy = _stored(body, state, node)
+            row[13] = min(row[13], -lowest)
+            row[20] += energy
+
+
+@kernel
+def _stored(body: Body, state: State, node: int) -> tuple[float, float]:
+    """Give the depth of a ring's lowest point, and the energy in its springs: ½ k d² over the arc, and that of slip."""
+    depth, rise = _lowest(body, state, node)
+    half, middle = _half_arc(depth, rise), depth - rise
+    squares = (middle**2 + 0.5 * rise**2) * half + 2.0 * middle * rise * sin(half) + 0.25 * rise**2 * sin(2.0 * half)
+    energy = body.contact[node, 0] * squares / (2.0 * pi)
+    for point in range(body.arc.shape[1]):
+        slot = body.slots[node] + point
+        if state.touched[slot] == 1:
+            share = state.arcs[node, 1] * body.arc[1, point] / (2.0 * pi)
+            slipped = state.slip[slot, 0] ** 2 + state.slip[slot, 1] ** 2
+            energy += 0.5 * share * body.contact[node, 2] * slipped
+    return depth, energy
 
 
 @kernel
@@ -359,6 +477,7 @@ def run(
                 pull[axis] = -_table(motion, sample, (part + 0.25) / parts, axis)
             _drift(body, state, pull, 0.5 * step)
             count = _place(body, state, near, step * _fastest(body, state, reach, bend))
+            count = _place_rings(body, state, near, count, step)
             before = _pole(body, state, state.watch[0])
             state.watch[2] = max(state.watch[2], abs(before[0]))
             _kick(body, state, near, count, step)

@@ -20,14 +20,14 @@ STATIC_PENETRATION = 1e-6
 @dataclass(frozen=True)
 class ContactLaw:
     """
-    Force of the table on one base node.
+    Force of the table on one base node: a point, or a whole ring with each of its points.
 
     Attributes
     ----------
     stiffness : float
         Normal penalty stiffness k, per area of the base (N/m³) or per node (N/m).
     per : {"area", "node"}
-        What the stiffness is for.
+        What the stiffness is for; of a ring, all around.
     damping_fraction : float
         ξ, the critical damping fraction: 2 ξ sqrt(m k) v acts while the node is in contact, m the node's mass.
     friction : float

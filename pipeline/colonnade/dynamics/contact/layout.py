@@ -1,4 +1,4 @@
-"""Rigid bodies on nodes: where a prism, a cylinder or a cone can touch the table."""
+"""Rigid bodies on nodes: where a prism can touch the table, and on which rings a cylinder or a cone does."""
 
 from __future__ import annotations
 
@@ -15,13 +15,11 @@ Array = NDArray[np.float64]
 GRID = (5, 5)
 """Nodes of a rectangular base along x and y."""
 
-RINGS = (4, 24)
-"""Rings of a round base, and nodes on each."""
+RINGS = (4, None)
+"""Rings of a round base, and nodes on each; None for whole circles."""
 
 
-def rigid_body(
-    block: Block, *, grid: tuple[int, int] = GRID, rings: tuple[int, int] = RINGS, rim: bool = False
-) -> ContactBody:
+def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: tuple[int, int | None] = RINGS) -> ContactBody:
     """
     Place nodes on the base of a rigid block.
 
@@ -34,10 +32,9 @@ def rigid_body(
     grid : tuple of int, optional
         Nodes of a rectangular base along x and y, at least 2 along x. Equal spacing with nodes on the edges; corners
         stand for a quarter of the area of an inner node.
-    rings : tuple of int, optional
-        Rings of a round base, outermost on the rim, and nodes on each.
-    rim : bool, optional
-        A round base touches at the lowest point of its continuous rim only, instead of at nodes.
+    rings : tuple of int and (int or None), optional
+        Rings of a round base, outermost on the rim, equally spaced; and nodes on each. None, the default, takes them as
+        whole circles. A number makes them polygons, on which a body rolls with a resistance of its own: for comparison.
 
     Returns
     -------
@@ -47,7 +44,7 @@ def rigid_body(
     Raises
     ------
     ValueError
-        If there are too few nodes, or a rim is asked of a base that is not round.
+        If there are too few nodes.
     """
     solid = block.solid
     sides = (block.negative, block.positive)
@@ -61,8 +58,6 @@ def rigid_body(
             "has to exceed that of the mass at the pole distance"
         )
     round_base = solid is not None and solid.base == "circle"
-    if rim and not round_base:
-        raise ValueError("A rim was asked for, but the base is not round; a cylinder or a cone was expected")
     if solid is None:
         half_depth = half_width
         inertia = np.array([about_y, about_y, block.mass * (half_width**2 + half_depth**2) / 3.0])
@@ -70,9 +65,10 @@ def rigid_body(
         half_depth = half_width if round_base else solid.half_depth
         inertia = np.array([about_y if round_base else solid.inertia_x, about_y, solid.inertia_z])
     if round_base:
-        nodes, area = _rim(half_width) if rim else _round(half_width, *rings)
+        nodes, area = _round(half_width, *rings)
     else:
         nodes, area = _rectangle(widths, half_depth, *grid)
+    whole = round_base and rings[1] is None
     return ContactBody(
         mass=block.mass,
         inertia=inertia,
@@ -83,14 +79,14 @@ def rigid_body(
         frequencies=np.zeros(0),
         modal_damping=np.zeros(0),
         modal_gravity=np.zeros((0, 3)),
-        description=_describe(block, len(nodes), rim),
-        rim_radius=half_width if rim else 0.0,
+        description=_describe(block, len(nodes), whole),
+        ring_radii=nodes[:, 0] if whole else np.zeros(len(nodes)),
     )
 
 
-def _describe(block: Block, count: int, rim: bool) -> str:
-    if rim:
-        return "rigid, round base that touches at the lowest point of its rim"
+def _describe(block: Block, count: int, whole: bool) -> str:
+    if whole:
+        return f"rigid, round base, {count} whole {'ring' if count == 1 else 'rings'}"
     if block.solid is None:
         return f"rigid, rectangular base taken to be as deep as wide, {count} nodes"
     return f"rigid, {'round' if block.solid.base == 'circle' else 'rectangular'} base, {count} nodes"
@@ -114,17 +110,14 @@ def _shares(count: int) -> Array:
     return np.asarray(shares / shares.sum())
 
 
-def _round(radius: float, rings: int, around: int) -> tuple[Array, Array]:
-    if rings < 1 or around < 3:
-        raise ValueError(f"rings is ({rings}, {around}); at least 1 ring of 3 nodes was expected")
-    angle = 2.0 * pi * np.arange(around) / around
+def _round(radius: float, rings: int, around: int | None) -> tuple[Array, Array]:
+    if rings < 1 or (around is not None and around < 3):
+        raise ValueError(f"rings is ({rings}, {around}); at least 1 ring of 3 nodes, or of None, was expected")
+    count = around or 1
+    angle = 2.0 * pi * np.arange(count) / count
     radii = radius * np.arange(1, rings + 1) / rings
     # A ring takes the area up to midway to its neighbours, the innermost all within, the outermost up to the rim.
     edges = np.concatenate(([0.0], 0.5 * (radii[:-1] + radii[1:]), [radius]))
-    area = pi * np.diff(edges**2) / around
+    area = pi * np.diff(edges**2) / count
     nodes = np.column_stack((np.outer(radii, np.cos(angle)).ravel(), np.outer(radii, np.sin(angle)).ravel()))
-    return nodes, np.repeat(area, around)
-
-
-def _rim(radius: float) -> tuple[Array, Array]:
-    return np.array([[radius, 0.0]]), np.array([pi * radius**2])
+    return nodes, np.repeat(area, count)

@@ -14,7 +14,7 @@ from colonnade.dynamics.contact.history import ContactHistory, EnergyBalance, im
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.stability import longest_step
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
-from colonnade.dynamics.contact.state import COLUMNS, Body, Near, State
+from colonnade.dynamics.contact.state import COLUMNS, POINTS, Body, Near, State
 from colonnade.dynamics.motion import Motion
 
 Array = NDArray[np.float64]
@@ -160,7 +160,9 @@ def _run(
         body.modes,
         body.frequencies,
         _propagators(body, 0.5 * step),
-        float(body.rim_radius),
+        body.ring_radii,
+        np.concatenate(([0], np.cumsum(np.where(body.ring_radii > 0.0, POINTS, 1)))),
+        np.array(np.polynomial.legendre.leggauss(POINTS)),
         body.half_width,
         body.height,
         contact,

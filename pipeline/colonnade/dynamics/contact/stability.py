@@ -11,6 +11,9 @@ from colonnade.dynamics.contact.law import ContactLaw
 
 Array = NDArray[np.float64]
 
+AROUND = 4
+"""Equal points that have the second moments of a ring."""
+
 
 def highest_frequency(body: ContactBody, law: ContactLaw) -> float:
     """
@@ -26,8 +29,9 @@ def highest_frequency(body: ContactBody, law: ContactLaw) -> float:
     frequency : float
         Fewer nodes in contact, or sliding ones, cannot have a higher one.
     """
-    shapes = _mass_normalised(body)
-    normal = law.node_stiffness(body)
+    nodes, shares, owner = _spread(body)
+    shapes = _mass_normalised(body, nodes, owner)
+    normal = shares * law.node_stiffness(body)[owner]
     stiffness = normal[:, None] * np.array([law.tangential_ratio, law.tangential_ratio, 1.0])
     weighted = np.sqrt(stiffness)[:, :, None] * shapes
     flat = weighted.reshape(-1, shapes.shape[2])
@@ -77,14 +81,24 @@ def _grows_not(step: float, damping: float) -> bool:
     return bool(np.abs(np.linalg.eigvals(half @ kick @ half)).max() <= 1.0 + 1e-9)
 
 
-def _mass_normalised(body: ContactBody) -> Array:
-    """Displacements of the nodes in the rigid and elastic modes of unit modal mass, shape (n, 3, 6 + m)."""
-    count = len(body.nodes)
-    shapes = np.zeros((count, 3, 6 + body.frequencies.size))
+def _spread(body: ContactBody) -> tuple[Array, Array, NDArray[np.intp]]:
+    """Put points of the same moments in the place of each ring: points (k, 3), share of their node, which that is."""
+    whole = body.ring_radii > 0.0
+    count = np.where(whole, AROUND, 1)
+    owner = np.repeat(np.arange(len(count)), count)
+    turned = np.concatenate([2.0 * np.pi * np.arange(each) / each for each in count])
+    nodes, radii = body.nodes[owner], body.ring_radii[owner]
+    ring = np.column_stack((radii * np.cos(turned), radii * np.sin(turned), nodes[:, 2]))
+    return np.where(whole[owner][:, None], ring, nodes), 1.0 / count[owner], owner
+
+
+def _mass_normalised(body: ContactBody, nodes: Array, owner: NDArray[np.intp]) -> Array:
+    """Displacements of the points in the rigid and elastic modes of unit modal mass, shape (k, 3, 6 + m)."""
+    shapes = np.zeros((len(nodes), 3, 6 + body.frequencies.size))
     for axis in range(3):
         shapes[:, axis, axis] = 1.0 / np.sqrt(body.mass)
         about = np.zeros(3)
         about[axis] = 1.0 / np.sqrt(body.inertia[axis])
-        shapes[:, :, 3 + axis] = np.cross(about, body.nodes)
-    shapes[:, :, 6:] = body.modes
+        shapes[:, :, 3 + axis] = np.cross(about, nodes)
+    shapes[:, :, 6:] = body.modes[owner]
     return shapes

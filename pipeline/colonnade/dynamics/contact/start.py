@@ -7,6 +7,7 @@ from math import hypot, tan
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.law import ContactLaw
@@ -76,11 +77,11 @@ def standing(
         ]
     )
     matrix = rotation_matrices(orientation[None])[0]
-    nodes = body.nodes.copy()
-    if body.rim_radius > 0.0 and hypot(matrix[2, 0], matrix[2, 1]) > 0.0:
-        nodes[-1, :2] = -body.rim_radius * matrix[2, :2] / hypot(matrix[2, 0], matrix[2, 1])
-    above = nodes @ matrix[2]
-    height = _bearing_height(above, law.node_stiffness(body), body.mass * gravity)
+    stiffness, weight = law.node_stiffness(body), body.mass * gravity
+    if body.has_rings:
+        height = _ring_height(body, matrix[2], stiffness, weight)
+    else:
+        height = _bearing_height(body.nodes @ matrix[2], stiffness, weight)
     side = np.sign(theta0) if theta0 else np.sign(omega0)
     arm = -matrix @ np.array([side * body.half_width, 0.0, -body.height])
     angular = np.array([0.0, omega0, 0.0])
@@ -106,6 +107,23 @@ def _bearing_height(above: Array, stiffness: Array, weight: float) -> float:
         if following is None or height + above[following] >= 0.0:
             return float(height)
     raise AssertionError("a body has at least one node")
+
+
+def _ring_height(body: ContactBody, upward: Array, stiffness: Array, weight: float) -> float:
+    """Find the height of the centre of mass at which rings, and points (rings without rise), bear the weight."""
+    rise = body.ring_radii * hypot(upward[0], upward[1])
+    middle = np.where(body.ring_radii > 0.0, body.nodes[:, 2] * upward[2], body.nodes @ upward)
+
+    def excess(height: float) -> float:
+        # The mean depth all around, (d − r σ) φ/π + r σ sin(φ)/π, of an arc of ± φ that is d deep at its lowest point.
+        depth = rise - middle - height
+        share = np.divide(depth, 2.0 * rise, out=(depth > 0.0).astype(float), where=rise > 0.0)
+        half = 2.0 * np.arcsin(np.sqrt(np.clip(share, 0.0, 1.0)))
+        return float(stiffness @ ((depth - rise) * half + rise * np.sin(half)) / np.pi) - weight
+
+    highest = float((rise - middle).max())
+    deepest = weight / float(stiffness.sum()) + 2.0 * float(rise.max())
+    return float(brentq(excess, highest - deepest - float(np.ptp(rise - middle)), highest, xtol=1e-15, rtol=1e-14))
 
 
 def rotation_matrices(orientation: Array) -> Array:

@@ -21,12 +21,18 @@ pole; largest |angle| since the impact before. A speed is the angular momentum a
 which the contact's own vibration does not change."""
 
 
+POINTS = 8
+"""At which a ring's arc of contact is integrated (Gauss and Legendre)."""
+
+
 class Body(NamedTuple):
     """
     What does not change, as `ContactBody` and `ContactLaw` have it.
 
-    propagators, shape (4, m): η → a η + b η̇ and η̇ → c η + d η̇ over half a step, exactly; contact, shape (n, 4): normal
-    stiffness and damping, tangential stiffness and damping of each node.
+    propagators, shape (4, m): η → a η + b η̇ and η̇ → c η + d η̇ over half a step, exactly; radii, shape (n,): 0 of a
+    point; slots, shape (n + 1,): where the points of each node begin, one of a point and `POINTS` of a ring; arc, shape
+    (2, POINTS): places of a ring's points along half an arc either way, and their weights, which add up to 2; contact,
+    shape (n, 4): normal stiffness and damping, tangential stiffness and damping of each node, of a ring all around.
     """
 
     mass: float
@@ -36,7 +42,9 @@ class Body(NamedTuple):
     modes: Array
     frequencies: Array
     propagators: Array
-    rim: float
+    radii: Array
+    slots: Whole
+    arc: Array
     half_width: float
     height: float
     contact: Array
@@ -47,11 +55,12 @@ class State(NamedTuple):
     """
     What changes.
 
-    rigid, shape (13,): position, velocity, quaternion, angular momentum in the body's axes; strain, shape (2, m): η and
-    η̇; matrix, shape (3, 3): rotation, body to table; slip, shape (n, 2): elastic slip; touched, shape (n,): 1 where the
-    node touched in the last step; ledger: work of the table, dissipated by contact, friction, bulk; total: force and
-    moment of the contact in this step; watch: pole rocked on (±1; 0 at first, 2 in an impact), impacts so far, largest
-    |angle| since the last one, time without contact.
+    rigid, shape (13,): position, velocity, quaternion, angular momentum in the body's axes; strain, shape (2, m): η
+    and η̇; matrix, shape (3, 3): rotation, body to table; slip, shape (s, 2): elastic slip of each point; touched,
+    shape (s,): 1 where the point touched in the last step; arcs, shape (n, 2): direction of a ring's lowest point in
+    the body and half the arc (rad) that its points span, 0 where it is off the table; ledger: work of the table,
+    dissipated by contact, friction, bulk; total: force and moment of the contact in this step; watch: pole rocked on
+    (±1; 0 at first, 2 in an impact), impacts so far, largest |angle| since the last one, time without contact.
     """
 
     rigid: Array
@@ -59,6 +68,7 @@ class State(NamedTuple):
     matrix: Array
     slip: Array
     touched: Whole
+    arcs: Array
     ledger: Array
     total: Array
     watch: Array
@@ -66,13 +76,14 @@ class State(NamedTuple):
     @classmethod
     def begin(cls, body: Body, rigid: Array) -> State:
         """Give the state of a body that touches nothing yet and is not strained."""
-        count, kept = len(body.nodes), body.frequencies.size
+        count = int(body.slots[-1])
         return cls(
             np.array(rigid, dtype=np.float64),
-            np.zeros((2, kept)),
+            np.zeros((2, body.frequencies.size)),
             np.zeros((3, 3)),
             np.zeros((count, 2)),
             np.zeros(count, np.int64),
+            np.zeros((len(body.nodes), 2)),
             np.zeros(4),
             np.zeros(6),
             np.zeros(4),
@@ -81,15 +92,18 @@ class State(NamedTuple):
 
 class Near(NamedTuple):
     """
-    The nodes that may touch in a step, a row each, and room for the kick.
+    The points that may touch in a step, a row each, and room for the kick.
 
-    node: which; lever, shape (n, 6): in table axes, in body axes; depth; load, shape (n, 14): force 0:3, its elastic
-    normal part 3, slip left 4:6, whether it sticks 6, slip that the normal force still holds 7:9, velocity 9:12, the
-    slip's increase over the step 12:14; speeds: mean v and ω in table axes; change: of velocity and angular momentum;
-    gain: of η̇; rates: mean η̇.
+    node: of which; slot: which; share: of its node's stiffness and damping; lever, shape (s, 6): in table axes, in
+    body axes; depth; load, shape (s, 14): force 0:3, its elastic normal part 3, slip left 4:6, whether it sticks 6,
+    slip that the normal force still holds 7:9, velocity 9:12, the slip's increase over the step 12:14; speeds: mean v
+    and ω in table axes; change: of velocity and angular momentum; gain: of η̇; rates: mean η̇; carried: slip of a
+    ring's points at their new places.
     """
 
     node: Whole
+    slot: Whole
+    share: Array
     lever: Array
     depth: Array
     load: Array
@@ -97,13 +111,16 @@ class Near(NamedTuple):
     change: Array
     gain: Array
     rates: Array
+    carried: Array
 
     @classmethod
     def room(cls, body: Body) -> Near:
-        """Give room for all nodes of a body."""
-        count, kept = len(body.nodes), body.frequencies.size
+        """Give room for all points of a body."""
+        count, kept = int(body.slots[-1]), body.frequencies.size
         return cls(
             np.zeros(count, np.int64),
+            np.zeros(count, np.int64),
+            np.zeros(count),
             np.zeros((count, 6)),
             np.zeros(count),
             np.zeros((count, 14)),
@@ -111,4 +128,5 @@ class Near(NamedTuple):
             np.zeros(6),
             np.zeros(kept),
             np.zeros(kept),
+            np.zeros((POINTS, 2)),
         )
