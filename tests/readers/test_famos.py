@@ -70,3 +70,42 @@ def test_a_file_that_ends_within_its_values_says_so(written: Callable[..., Path]
     recording = read(path)
     assert recording.channel("table").values.size == 30
     assert '"table": the file ends after 30 of its 40 values' in recording.warnings
+
+
+def digital_word(path: Path, names: dict[int, str], *, kind: int = 11, bits: int = 16, scaled: bool = False) -> Path:
+    words = np.array([0b0000, 0b0001, 0b0110, 0b0111, 0x8001], dtype="<u2").tobytes()
+    if kind == 7:
+        words = np.zeros(5, dtype="<f4").tobytes()
+    size = len(words) // 5
+    blocks = ["|CF,2,1,1;"]
+    contents = [("CK", "1,1"), ("CG", "1,1,1"), ("CD", "0.01,1,1,s,0,0,0,0.0,1"), ("CC", "1,1")]
+    contents += [("CP", f"1,{size},{kind},{bits},0,0,1,0"), ("Cb", f"1,0,1,1,0,{len(words)},0,{len(words)},1,0.0,0.0,")]
+    contents += [("CR", "1,5.0,3.0,1,1,V")] if scaled else []
+    contents += [("CN", f"0,0,{bit},{len(name)},{name},0,") for bit, name in names.items()]
+    blocks += [f"|{key},1,{len(content)},{content};" for key, content in contents]
+    path.write_bytes("".join([*blocks, f"|CS,1,{len(words) + 2},1,"]).encode() + words + b";")
+    return path
+
+
+@pytest.mark.parametrize("bits", [16, 4], ids=["a whole word", "a word of which four bits are used"])
+@pytest.mark.parametrize("scaled", [False, True])
+def test_digital_channels_of_one_word_are_channels_of_their_own(tmp_path: Path, bits: int, scaled: bool) -> None:
+    names = {1: "release", 2: "door", 3: "pump", 16: "sync"}
+    recording = read(digital_word(tmp_path / "record.raw", names, bits=bits, scaled=scaled))
+    found = {channel.name: channel.values.tolist() for channel in recording.channels}
+    assert found == {
+        "release": [0, 1, 0, 1, 1],
+        "door": [0, 0, 1, 1, 0],
+        "pump": [0, 0, 1, 1, 0],
+        "sync": [0, 0, 0, 0, 1],
+    }
+    assert all(channel.unit is None for channel in recording.channels)
+    np.testing.assert_allclose(recording.channel("sync").time, 0.01 * np.arange(5))
+
+
+def test_a_bit_that_no_word_has_and_bits_of_a_fraction_are_left_out(tmp_path: Path) -> None:
+    recording = read(digital_word(tmp_path / "record.raw", {1: "release", 99: "door"}))
+    assert [channel.name for channel in recording.channels] == ["release"]
+    assert any('"door": it is bit 99 of a word' in told for told in recording.warnings)
+    with pytest.raises(ReadError, match="digital channels in numbers that are not whole"):
+        read(digital_word(tmp_path / "fraction.raw", {1: "release"}, kind=7, bits=32))

@@ -22,6 +22,8 @@ NUMBERS = {1: "u1", 2: "i1", 3: "u2", 4: "i2", 5: "u4", 6: "i4", 7: "f4", 8: "f8
 BYTE_ORDERS = {"1": "<", "2": ">"}
 """Of the block CF: Intel, Motorola."""
 LARGEST_BLOCK_HEAD = 40
+WIDEST = 32
+"""Bits of a word that may be digital channels; their numbers are exact in what they are read as."""
 
 Bytes = NDArray[np.uint8]
 
@@ -46,11 +48,14 @@ class _Component:
     offset: float = 0.0
     number: str | None = None
     is_packed: bool = False
+    is_partly_used: bool = False
     bytes_index: int = 0
     bytes_from: int = 0
     bytes_filled: int | None = None
     x0: float = 0.0
     added: float = 0.0
+    digital: list[tuple[int, str]] = field(default_factory=list)
+    """Channels that are single bits of the numbers: bit, from 1 for the lowest, and name."""
 
 
 @dataclass
@@ -135,7 +140,17 @@ def read(path: Path, options: FamosOptions) -> Recording:
             time = even_times(values.size, component.step * scale, component.x0 * scale)
             starts.append(moment_after(component.noted, component.added + component.x0 * scale))
         name = component.name or f"channel {len(channels) + 1}"
-        channels.append(RecordedChannel(name, component.unit or None, values, time))
+        if not component.digital:
+            channels.append(RecordedChannel(name, component.unit or None, values, time))
+            continue
+        words = values.astype(np.int64)
+        for bit, each in component.digital:
+            if bit > WIDEST:
+                file.warnings.append(f'"{each}": it is bit {bit} of a word, which has at most {WIDEST}; left out')
+                continue
+            channels.append(
+                RecordedChannel(each or f"{name} bit {bit}", None, (words >> (bit - 1) & 1).astype(np.float64), time)
+            )
     if not channels:
         told = "; ".join(file.warnings[:3]) or "no block CS with values was found"
         raise ReadError(f"{path.name}: no channel holds numbers ({told}). The file was cut off or is damaged.")
@@ -187,7 +202,7 @@ def _take(file: _File, key: str, block: bytes) -> None:
         file.data_set = file.current = _Component(is_plain=told.whole() == 1)
     elif key == "CC":
         file.awaits_channel = False
-        file.current = replace(file.data_set)
+        file.current = replace(file.data_set, digital=[])
         file.components.append(file.current)
     else:
         _describe(file.current, key, told)
@@ -207,7 +222,8 @@ def _describe(component: _Component, key: str, told: _Parameters) -> None:
         told.skip(2)
         number = NUMBERS.get(kind)
         component.number = number if number is not None and int(number[1]) == size else None
-        component.is_packed = told.whole() != 0 or mask != 0 or bits != 8 * size
+        component.is_packed = told.whole() != 0 or mask != 0
+        component.is_partly_used = bits != 8 * size
     elif key == "Cb":
         told.skip(3)
         component.bytes_index, component.bytes_from = told.whole(), told.whole()
@@ -223,20 +239,29 @@ def _describe(component: _Component, key: str, told: _Parameters) -> None:
         component.unit = told.counted()
         if transforms:
             component.factor, component.offset = factor, offset
-    elif key == "CN" and not component.name:
-        told.skip(3)
-        component.name = told.counted()
+    elif key == "CN":
+        told.skip(2)
+        bit, name = told.whole(), told.counted()
+        if bit > 0:
+            component.digital.append((bit, name))
+        else:
+            component.name = component.name or name
 
 
 def _values(component: _Component, file: _File, content: Bytes) -> Array | None:
     """Values of a channel; None where its bytes cannot be told."""
-    label = f'"{component.name}"'
+    label = f'"{component.name or ", ".join(name for _, name in component.digital[:3])}"'
+    if component.digital and (component.number or "f")[0] == "f":
+        file.warnings.append(f"{label}: digital channels in numbers that are not whole are not known here; left out")
+        return None
     if component.bytes_filled is None:
         file.warnings.append(f"{label}: the block that tells where its values are is not there: the file was cut off")
         return None
     if component.bytes_filled == 0:
         return None
-    if component.number is None or component.is_packed:
+    # Of a word of digital channels some bits may be unused.
+    is_whole = bool(component.digital) or not component.is_partly_used
+    if component.number is None or component.is_packed or not is_whole:
         file.warnings.append(f"{label}: its numbers are interleaved or of a kind that is not known here; left out")
         return None
     if component.bytes_index not in file.bytes_at:
@@ -251,7 +276,8 @@ def _values(component: _Component, file: _File, content: Bytes) -> Array | None:
         file.warnings.append(f"{label}: the file ends after {there} of its {announced} values")
     with np.errstate(invalid="ignore", over="ignore"):
         values = content[begin : begin + there * form.itemsize].view(form).astype(np.float64)
-        values = values * component.factor + component.offset
+        if not component.digital:
+            values = values * component.factor + component.offset
     values[~np.isfinite(values)] = np.nan
     return values if values.size else None
 
