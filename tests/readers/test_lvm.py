@@ -133,3 +133,16 @@ def test_special_blocks_are_no_samples(tmp_path: Path) -> None:
 def test_a_file_without_samples_is_refused_with_the_reason(tmp_path: Path, text: str, said: str) -> None:
     with pytest.raises(ReadError, match=said):
         read(written(tmp_path, text))
+
+
+@pytest.mark.parametrize("place", ["before", "within"])
+def test_notes_in_a_segments_header_are_no_damage(tmp_path: Path, place: str) -> None:
+    one, two = ([f"\t{row + first}\t0" for row in range(3)] for first in (0, 10))
+    pieces = [segment(one, "10:15:01.5"), segment(two, "10:15:03.5")]
+    note = "Notes\tthe prism was turned\tafter 3 s\n"
+    moved = "Channels\t2\n" + note if place == "within" else note + "Channels\t2\n"
+    text = header("No") + "".join(piece.replace("Channels\t2\n", moved) for piece in pieces)
+    recording = read(written(tmp_path, text))
+    assert recording.warnings == ()
+    assert recording.channel("top").values.tolist() == [0, 1, 2, 10, 11, 12]
+    np.testing.assert_allclose(recording.channel("top").time, [0, 0.005, 0.01, 2, 2.005, 2.01], atol=1e-9)

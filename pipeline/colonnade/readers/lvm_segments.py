@@ -14,6 +14,8 @@ from colonnade.readers.table import Table, read_table, without_cut_end
 from colonnade.readers.text_encoding import ends_within_line
 
 END_OF_HEADER = "***End_of_Header***"
+HEADER_STARTS = ("Channels", "Notes")
+"""With what a segment's header starts; notes are written in front of all else."""
 SEPARATORS = {"tab": "\t", "comma": ",", "semicolon": ";", "space": " "}
 
 
@@ -105,7 +107,7 @@ def _segment(path: Path, lines: NumberedLines, preamble: Preamble, previous: Seg
     dialect = preamble.dialect
     entries: dict[str, list[str]] = {}
     first = lines.number + 1
-    if not (lines.peek() or "").startswith("Channels"):
+    if not (lines.peek() or "").startswith(HEADER_STARTS):
         if previous is None:
             return f'line {first}: "Channels" was expected, the start of a segment\'s header; the file is damaged.'
         names, line = previous.names, first  # rows that go on below a blank line
@@ -140,7 +142,7 @@ def _names(line: str, entries: dict[str, list[str]], dialect: Dialect) -> tuple[
 def _rows(lines: NumberedLines) -> Iterator[tuple[int, str]]:
     """Take the rows up to a blank line or the next header."""
     while True:
-        yield from lines.until(lambda line: line.startswith(("Channels", "***")) or not line.strip())
+        yield from lines.until(lambda line: line.startswith((*HEADER_STARTS, "***")) or not line.strip())
         if not (lines.peek() or "").startswith("***"):
             return
         for _, line in lines.rest():  # a special block
