@@ -57,3 +57,26 @@ def test_a_file_without_functions_of_time_is_refused(tmp_path: Path) -> None:
     path.write_text("    -1\n    58\n" + "too short\n" * 3, encoding="ascii")
     with pytest.raises(ReadError, match=r"holds no function of time .*data set 58 at byte 7 is damaged"):
         read(path)
+
+
+@pytest.mark.parametrize("line_end", ["\n", "\r\n"])
+def test_a_universal_file_without_functions_is_refused_as_such(tmp_path: Path, line_end: str) -> None:
+    nodes = [f"{node:10d}{0:10d}{0:10d}{0:10d}{0.1 * node:13.5E}{0:13.5E}{0:13.5E}" for node in range(1, 40)]
+    lines = ["    -1", "   151", "model", "    -1", "    -1", "    15", *nodes, "    -1", ""]
+    path = tmp_path / "model.unv"
+    path.write_bytes(line_end.join(lines).encode())
+    with pytest.raises(ReadError, match=r"universal file without functions: .* sets 151, 15, but no data set 58"):
+        read(path)
+
+
+def test_a_column_of_numbers_that_starts_as_a_data_set_would_stays_a_column(tmp_path: Path) -> None:
+    path = tmp_path / "column.txt"
+    path.write_text("-1\n15\n" + "".join(f"{row % 7}\n" for row in range(40)))
+    assert read(path).format == "delimited"
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "cp1252"])
+def test_units_may_be_written_in_utf_8(written: Callable[..., Path], encoding: str) -> None:
+    path = written("uff", ("top", "m/s2", np.arange(40.0)))
+    path.write_bytes(path.read_text().replace("m/s2", "m/s²").encode(encoding))
+    assert read(path).channel("top").unit == "m/s²"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
@@ -28,6 +29,12 @@ REAL_KINDS = {2: "f4", 4: "f8"}
 IEEE = "2"
 BYTE_ORDERS = {"1": "<", "2": ">"}
 LONGEST_LINE = 4096
+OPENING = re.compile(rb" {4}-1 *\r?\n *\d{2,4} *\r?\n")
+"""As Fortran writes the mark and the number of a data set; numbers of a table look otherwise."""
+KNOWN_SETS = frozenset(
+    (15, 18, 55, 56, 57, 58, 82, 151, 164, 227, 252, 781, 1858, 2400, 2411, 2412, 2414, 2420, 2423, 2429, 2467, 3033)
+)
+"""Data sets of geometry, units, results and functions that programs of modal analysis write."""
 DIRECTIONS = {
     **{1: "+X", -1: "-X", 2: "+Y", -2: "-Y", 3: "+Z", -3: "-Z"},
     **{4: "+RX", -4: "-RX", 5: "+RY", -5: "-RY", 6: "+RZ", -6: "-RZ"},
@@ -57,7 +64,7 @@ class Head:
 
 
 def recognise(path: Path) -> Recognition:
-    """Say whether the first lines open a data set, and one of them a data set 58."""
+    """Say whether the first lines open a data set: one of any number, if they are written as universal files are."""
     with path.open("rb") as stream:
         head = stream.read(1 << 16)
     lines = [line.strip() for line in head.split(b"\n")]
@@ -67,7 +74,9 @@ def recognise(path: Path) -> Recognition:
     found = opened and any(one == b"-1" and two.split(b" ")[0] in (b"58", b"58b") for one, two in pairwise(lines))
     if found:
         return Recognition(True, "it opens with -1 and holds a data set 58")
-    return Recognition(False, "it does not open with -1 and hold a data set 58")
+    if opened and OPENING.match(head) and int(lines[1]) in KNOWN_SETS:
+        return Recognition(True, f"it opens with -1 and a data set {int(lines[1])}")
+    return Recognition(False, "it does not open with -1 and the number of a data set")
 
 
 def read(path: Path, options: UffOptions) -> Recording:
@@ -82,12 +91,15 @@ def read(path: Path, options: UffOptions) -> Recording:
     warnings: list[str] = []
     notes: list[str] = []
     channels: list[RecordedChannel] = []
+    functions, others = 0, dict[str, None]()
     with path.open("rb") as stream:
         for place, header in _data_sets(stream):
             fields = header.split()
             if fields[0] not in ("58", "58b"):
                 notes.append(f"data set {fields[0]} at byte {place}: left out")
+                others[fields[0]] = None
                 continue
+            functions += 1
             try:
                 channel = _function(stream, fields, warnings, notes, place)
             except (ValueError, IndexError, OverflowError) as error:
@@ -95,6 +107,12 @@ def read(path: Path, options: UffOptions) -> Recording:
                 continue
             if channel is not None:
                 channels.append(channel)
+    if not functions:
+        held = ", ".join(others) or "of no kind"
+        raise ReadError(
+            f"{path.name}: a universal file without functions: it holds data sets {held}, but no data set 58, which is "
+            'the one with recorded histories. Export the time histories ("functions at nodal DOF", data set 58).'
+        )
     if not channels:
         told = "; ".join([*warnings, *notes][:3])
         raise ReadError(f"{path.name}: it holds no function of time{f' ({told})' if told else ''}.")
@@ -122,7 +140,7 @@ def _function(
     stream: BinaryIO, fields: list[str], warnings: list[str], notes: list[str], place: int
 ) -> RecordedChannel | None:
     """Read a data set 58; ValueError or IndexError where it is not whole."""
-    head = _head([stream.readline(LONGEST_LINE).decode("latin-1").rstrip("\r\n") for _ in range(HEADER_LINES)])
+    head = _head([_decoded(stream.readline(LONGEST_LINE)).rstrip("\r\n") for _ in range(HEADER_LINES)])
     if head.kind not in REAL_KINDS or not (head.is_time or head.function == TIME_RESPONSE):
         notes.append(f'"{head.name}": not a real function of time (kind {head.function}); left out')
         return None
@@ -167,6 +185,14 @@ def _head(lines: list[str]) -> Head:
         is_time=int(abscissa[:10]) == TIME,
         time_unit=_label(abscissa[46:66]) or "s",
     )
+
+
+def _decoded(line: bytes) -> str:
+    """Text of a header's line: UTF-8 where it is that, else as Windows writes it."""
+    try:
+        return line.decode("utf-8")
+    except UnicodeDecodeError:
+        return line.decode("cp1252", errors="replace")
 
 
 def _label(text: str) -> str:
