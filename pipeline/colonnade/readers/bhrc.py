@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
+import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from colonnade.errors import ReadError
@@ -52,8 +53,8 @@ class Component:
 
     @property
     def step(self) -> float:
-        """Time step, s: the duration is that from the first to the last point."""
-        return self.duration / (self.points - 1)
+        """Time step, s: that of the nominal rate; of the duration, from first to last point, where no rate is given."""
+        return 1 / self.rate if 0 < self.rate < np.inf else self.duration / (self.points - 1)
 
 
 def recognise(path: Path) -> Recognition:
@@ -85,13 +86,25 @@ def read(path: Path, options: BhrcOptions) -> Recording:
         for component in components
     )
     notes = [
-        f'"{component.name}": {component.points} points over {component.duration:g} s are {1 / component.step:.3f} Hz '
-        f"(line {component.line}); the header's own rate is {component.rate:g} Hz"
+        f'"{component.name}": {component.points} points at {1 / component.step:.6g} Hz, '
+        + ("the header's rate" if component.rate > 0 else "from the header's duration")
+        + f" (line {component.line})"
         for component in components
     ]
-    warnings = [warning for component in components for warning in component.warnings]
+    warnings = [warning for component in components for warning in (*component.warnings, *_contradiction(component))]
     warnings += [f"the header that begins on line {line} is not whole: the file was cut off" for line in begun]
     return Recording(path, "bhrc", channels, notes=tuple(notes), warnings=tuple(warnings))
+
+
+def _contradiction(component: Component) -> list[str]:
+    """Tell of a rate and a duration that do not belong together; they may differ by a step or two."""
+    lasts = component.points * component.step
+    if abs(lasts - component.duration) <= max(2 * component.step, 0.01 * component.duration):
+        return []
+    return [
+        f'"{component.name}": {component.points} points at the header\'s {component.rate:g} Hz last {lasts:g} s, '
+        f"and the header says {component.duration:g} s: one of them is wrong; the rate is taken"
+    ]
 
 
 def _components(path: Path, lines: NumberedLines, begun: list[int]) -> Iterator[Component]:
