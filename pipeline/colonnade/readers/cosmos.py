@@ -19,6 +19,8 @@ from colonnade.readers.recording import Array, RecordedChannel, Recording
 from colonnade.readers.registry import Format, Recognition
 from colonnade.readers.running_numbers import read_running
 
+RAW_COUNTS = re.compile(r"\s*Raw\b", re.IGNORECASE)
+"""How the first line of a record of volume 0 starts: counts of the recorder."""
 END_OF_DATA = re.compile(r"/&|end.of.data", re.IGNORECASE)
 FIRST_LINE = re.compile(r"\(Format v[\d.]+\s+with\s+(?P<lines>\d{1,12})\s+text lines\)", re.IGNORECASE)
 BLOCK = re.compile(
@@ -109,6 +111,11 @@ def _parts(path: Path, lines: NumberedLines, strays: list[str]) -> Iterator[Part
             if line.strip() and not END_OF_DATA.match(line.strip()):
                 strays.append(f'line {lines.number} ("{line.strip()[:30]}")')
             continue
+        if RAW_COUNTS.match(line):
+            raise ReadError(
+                f"{path.name}: this is a COSMOS record of volume 0 (V0): raw counts of the recorder, not "
+                "accelerations. Download or export the same record as volume 1 (V1) or volume 2 (V2)."
+            )
         texts = [text for _, text in islice(lines.rest(), int(found["lines"]))]
         reals: Array = np.empty(0)
         data = None
