@@ -49,6 +49,10 @@ def bomb(file: h5py.File) -> None:
     file.create_dataset("x", shape=(1 << 40, 1), dtype="f8", chunks=(1 << 16, 1), compression="gzip")
 
 
+def text_of_three_dimensions(file: h5py.File) -> None:
+    file.create_dataset("x", data=np.full((2, 3, 4), 97, dtype=np.uint16)).attrs["MATLAB_class"] = np.bytes_("char")
+
+
 def sparse(file: h5py.File) -> None:
     file.create_group("x").attrs["MATLAB_sparse"] = np.uint64(3)
 
@@ -57,6 +61,7 @@ def sparse(file: h5py.File) -> None:
     ("fill", "reason"),
     [
         (object_of_a_class, "it is an object of MATLAB's class timetable, which only MATLAB can open"),
+        (text_of_three_dimensions, "it is a text of 3 dimensions; texts of one or several lines are read"),
         (function, "it is a function, and nothing in a recording is executed"),
         (external_link, "it is a link to another place or file"),
         (external_numbers, "its numbers lie in another file"),

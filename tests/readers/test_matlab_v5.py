@@ -132,3 +132,12 @@ def test_text_of_several_encodings_is_read(tmp_path: Path) -> None:
     assert isinstance(struct_, dict)
     assert struct_["name"] == "Weg öben"
     assert struct_["two"] == "ab\ncd"
+
+
+def test_a_text_of_three_dimensions_is_left_out_in_plain_words(tmp_path: Path) -> None:
+    path = tmp_path / "a.mat"
+    letters = np.array(list("abcdefghijkl")).reshape(3, 4, 1)
+    scipy.io.savemat(path, {"remarks": np.concatenate([letters, letters], axis=2), "v": np.arange(3.0)})
+    recording = read(path)
+    assert [channel.name for channel in recording.channels] == ["v"]
+    assert any("remarks is left out: it is a text of 4 dimensions; texts of one" in note for note in recording.notes)

@@ -156,6 +156,8 @@ class _Reader:
         numbers = np.atleast_2d(dataset[()].T)
         if matlab_class != "char":
             return numbers
+        if numbers.ndim > 2:
+            raise _UnreadableError(f"it is a text of {numbers.ndim} dimensions; texts of one or several lines are read")
         rows = ["".join(chr(code) for code in row if 0 < code < 0x110000).rstrip() for row in numbers.tolist()]
         return "\n".join(rows)
 

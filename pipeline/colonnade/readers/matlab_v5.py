@@ -287,9 +287,13 @@ def _text(kind: int, content: memoryview, order: str, shape: list[int]) -> str:
     """Read text; rows of a text of several are separated by line ends."""
     if kind not in TEXTS:
         raise _DamagedError(f"text of type {kind}")
+    if len(shape) > 2 and math.prod(shape[2:]) != 1:
+        raise _UnreadableError(f"it is a text of {len(shape)} dimensions; texts of one or several lines are read")
     encoding = TEXTS[kind] + ({"<": "-le", ">": "-be"}[order] if TEXTS[kind] in ("utf-16", "utf-32") else "")
     text = bytes(content).decode(encoding, errors="replace")
     rows = shape[0]
+    if rows > max(len(text), 1):
+        raise _DamagedError(f"{len(text)} characters for a text of {rows} lines")
     return text if rows <= 1 else "\n".join(text[row::rows].rstrip() for row in range(rows))
 
 
