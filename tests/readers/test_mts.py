@@ -105,3 +105,19 @@ def test_a_row_that_is_too_short_counts_as_missing(tmp_path: Path) -> None:
     recording = read(written(tmp_path, "MTS793|MPT|ENU|1|2|.|/|:|1|0|0|A", *lines))
     np.testing.assert_array_equal(recording.channel("Axial Displacement").values, [10.5, np.nan, 12.5])
     assert recording.warnings == ("1 row with too many or too few cells (on line 6): missing",)
+
+
+def test_the_longest_block_is_the_default_and_the_reader_says_so(tmp_path: Path) -> None:
+    title = "Data Acquisition\tTime:\t{}\tSec\t4/26/2013 1:54:{} PM"
+    lines = [title.format("10.0", 32), "Running Time\tAxial Force", "s\tkN", "2.0\t7.5", "3.0\t8.5", ""]
+    lines += block("\t", ".", 4.0, title.format("20.0", 42))
+    lines[-5] = "s\tmm\tkN"
+    recording = read(written(tmp_path, "MTS793|MPT|ENU|1|2|.|/|:|1|0|0|A", "", *lines))
+    assert recording.channel("Axial Force").values.tolist() == [0, -1, -2]
+    assert recording.channel(2).name == "Axial Displacement"
+    assert recording.channel("block 1: Axial Force").values.tolist() == [7.5, 8.5]
+    assert recording.start == datetime(2013, 4, 26, 13, 54, 26)  # 4.0 s after the running time's zero
+    assert recording.warnings == (
+        "2 blocks with different columns: block 2, the longest with 3 rows, is taken; columns of the others are called "
+        '"block 1: …"',
+    )

@@ -81,8 +81,8 @@ def read(path: Path, options: MtsOptions) -> Recording:
     """
     Read an MTS 793 text.
 
-    Blocks of the same names and units go on from one another; others give channels of their own, with the number of
-    their block before the name.
+    Blocks of the same names and units go on from one another. Of others the longest gives the channels as they are
+    called, and the recording's start; the rest follow with the number of their block before the name.
 
     Raises
     ------
@@ -108,15 +108,22 @@ def read(path: Path, options: MtsOptions) -> Recording:
     series = _series(blocks)
     channels: list[RecordedChannel] = []
     start = None
-    for number, same in enumerate(series, 1):
-        found = _channels(same, f"block {number}: " if number > 1 else "")
+    lengths = [sum(block.table.lines.size for block in same) for same in series]
+    longest = lengths.index(max(lengths))
+    for number in sorted(range(len(series)), key=lambda number: number != longest):
+        found = _channels(series[number], "" if number == longest else f"block {number + 1}: ")
         clock = next((channel.time for channel in found if channel.time is not None), None)
-        if number == 1 and clock is not None:
-            start = moment_after(same[0].origin, float(clock[0]))
+        if number == longest and clock is not None:
+            start = moment_after(series[number][0].origin, float(clock[0]))
         channels += found
+    if len(series) > 1:
+        warnings.append(
+            f"{len(series)} blocks with different columns: block {longest + 1}, the longest with {max(lengths)} rows, "
+            f'is taken; columns of the others are called "block {2 if longest == 0 else 1}: …"'
+        )
     notes = [f"encoding {declared.dialect.encoding}", "delimiter and decimal sign as the first line declares them"]
     notes += [
-        f"block {number}: {sum(block.table.lines.size for block in same)} rows below line {same[0].line + 1}"
+        f"block {number}: {lengths[number - 1]} rows below line {same[0].line + 1}"
         + (f", in {len(same)} pieces of the same columns" if len(same) > 1 else "")
         for number, same in enumerate(series, 1)
     ]
