@@ -41,3 +41,9 @@ def test_units_are_known_by_their_spelling(text: str) -> None:
 @pytest.mark.parametrize("text", ["", "top", "LVDT 1", "ACC", "Kraft", "12", "Table", "mmm/"])
 def test_names_are_no_units(text: str) -> None:
     assert not looks_like_unit(text)
+
+
+def test_the_unit_in_front_of_a_graphs_name_is_found() -> None:
+    assert take_apart("Time [s] - Plot 0") == ("Time - Plot 0", "s")
+    assert take_apart("Amplitude (mm) - Plot 0") == ("Amplitude - Plot 0", "mm")
+    assert take_apart("Table [North] - Plot 0") == ("Table [North] - Plot 0", None)

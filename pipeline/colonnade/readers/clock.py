@@ -20,6 +20,10 @@ TIME_NAME = re.compile(
 LOOKED_AT = 1000
 """Values at the start of a column that show whether it may be a clock at all."""
 
+FEWEST_STEPS = 4
+LONGEST_STEP = 0.5
+"""Of a column without a name that is taken for times in seconds."""
+
 RISING_SHARE = 0.9
 """Share of steps that are positive in what is still a clock; the rest is for quality control to flag."""
 
@@ -76,6 +80,9 @@ def find_clocks(channels: tuple[RecordedChannel, ...], kinds: tuple[str, ...]) -
             (channel.values, "timestamps") if kind == "time" else in_seconds(channel, channel.unit)
         )
         notes.append(f'clock: column {index + 1}, "{channel.heading}" ({factor_note}; rising)')
+    if not clocks and kinds[0] == "number" and (step := _nameless_clock(channels[0])):
+        clocks[0] = channels[0].values
+        notes.append(f"clock: column 1, which has no name and rises in equal steps of {step:.6g}, taken as seconds")
     if not clocks:
         hint = _rising_in_equal_steps(channels)
         notes.append("no clock: no rising column has a name or unit of time" + hint)
@@ -118,6 +125,23 @@ def rising_share(values: Array) -> float:
 
 def _may_be_time(unit: str | None) -> bool:
     return unit is None or unit.casefold() in TIME_UNITS
+
+
+def _nameless_clock(first: RecordedChannel) -> float:
+    """
+    Step of a first column without name and unit that can only be times in seconds; 0 where it is none.
+
+    Whole steps may be numbers of samples, and steps of half a second or more times in another unit.
+    """
+    if first.name != "column 1" or first.unit is not None or not np.isfinite(first.values).all():
+        return 0.0
+    steps = np.diff(first.values)
+    if steps.size < FEWEST_STEPS or not (steps > 0).all():
+        return 0.0
+    step = float(steps.mean())
+    even = first.values[0] + step * np.arange(first.values.size)
+    # Rounded times are off by less than a step.
+    return step if step < LONGEST_STEP and float(np.abs(first.values - even).max()) < step else 0.0
 
 
 def _rising_in_equal_steps(channels: tuple[RecordedChannel, ...]) -> str:

@@ -17,6 +17,8 @@ UNIT = re.compile(
     rf"(?:{_BASE})(?:(?:\^|\*\*)?-?[0-9²³])?(?:\s?[/·*. ]\s?(?:{_BASE})(?:(?:\^|\*\*)?-?[0-9²³])?)*\.?", re.IGNORECASE
 )
 BRACKETED = re.compile(r"(?P<name>.*?)\s*(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))\s*")
+BEFORE_PLOT = re.compile(r"(?P<name>.*?\w)\s*[\[(](?P<unit>[^\[\]()]*)[\])]\s*(?P<plot>-\s.*)")
+"""`Time [s] - Plot 0`, as LabVIEW exports its graphs."""
 SOLIDUS = re.compile(r"(?P<name>.*\w{2}.*?)(?:\s*/\s*|\s+in\s+)(?P<unit>\S+)")
 RULE = re.compile(r"[\s\-=_*+|;,.]*")
 
@@ -72,6 +74,8 @@ def take_apart(heading: str) -> tuple[str, str | None]:
     --------
     >>> take_apart("LVDT 1 [mm]"), take_apart("Time (s)"), take_apart("Kraft / kN"), take_apart("Accel (top)")
     (('LVDT 1', 'mm'), ('Time', 's'), ('Kraft', 'kN'), ('Accel (top)', None))
+    >>> take_apart("Time [s] - Plot 0")
+    ('Time - Plot 0', 's')
     """
     match = BRACKETED.fullmatch(heading)
     if match and match["name"]:
@@ -80,6 +84,9 @@ def take_apart(heading: str) -> tuple[str, str | None]:
             return match["name"], square.strip() or None
         if round_ is not None and looks_like_unit(round_):
             return match["name"], round_.strip()
+    match = BEFORE_PLOT.fullmatch(heading)
+    if match and looks_like_unit(match["unit"]):
+        return f"{match['name']} {match['plot']}", match["unit"].strip()
     match = SOLIDUS.fullmatch(heading)
     if match and looks_like_unit(match["unit"]):
         return match["name"], match["unit"]
