@@ -18,12 +18,15 @@ from colonnade.readers.registry import Format, Recognition
 from colonnade.readers.row_layout import Verdict, judge
 from colonnade.readers.running_block import fixed_fields, series_of, undecided
 from colonnade.readers.samples import Samples, Stretch, read_samples
+from colonnade.readers.strong_motion import foreign_format
 from colonnade.readers.text_encoding import ends_within_line
 from colonnade.readers.timestamps import past_midnight
 
 
 def recognise(path: Path) -> Recognition:
-    """Say whether a file is text with rows of numbers."""
+    """Say whether a file is text with rows of numbers, and not a strong-motion record in a network's own format."""
+    if reason := foreign_format(path):
+        return Recognition(False, reason, is_known=True)
     try:
         header = read_header(path, DelimitedOptions())
     except ReadError as error:
@@ -47,8 +50,11 @@ def read(path: Path, options: DelimitedOptions, window: Window | None = None) ->
     ------
     ReadError
         If it is not text or has no rows of numbers, a column that the options name is not there, or it cannot be told
-        whether rows are samples of several channels or pieces of one series.
+        whether rows are samples of several channels or pieces of one series. If it is a strong-motion record in a
+        format that is not read, unless the options say how many lines to skip.
     """
+    if not options.skip_rows and (reason := foreign_format(path)):
+        raise ReadError(f"{path.name}: {reason}")
     header = read_header(path, options)
     stretch = None if window is None else _stretch(header, options, window)
     samples = _samples(header, options, stretch)

@@ -28,10 +28,20 @@ MOST_GENERAL = EntryPoint(name="delimited", value="colonnade.readers.delimited:F
 
 @dataclass(frozen=True)
 class Recognition:
-    """Whether a file looks like a format's, with the reason, which is shown where no format takes it."""
+    """
+    Whether a file looks like a format's, with the reason, which is shown where no format takes it.
+
+    Attributes
+    ----------
+    yes : bool
+    reason : str
+    is_known : bool
+        Whether the file is known to be of a format that is not read here, as `reason` says: no other format is asked.
+    """
 
     yes: bool
     reason: str
+    is_known: bool = False
 
 
 @dataclass(frozen=True)
@@ -208,6 +218,8 @@ def _recognised(path: Path) -> tuple[Format, str]:
         recognition = _recognition(format, path)
         if recognition.yes:
             return format, f'format "{format.name}" ({recognition.reason})'
+        if recognition.is_known:
+            raise ReadError(f"{path.name}: {recognition.reason}")
         refusals.append(f"  {format.name}: {recognition.reason}")
     raise ReadError(
         f"{path.name}: no format recognises this file.\n" + "\n".join(refusals) + "\n"
