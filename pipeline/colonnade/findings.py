@@ -46,6 +46,8 @@ class Finding:
         Kinds of findings that explain this one where the same test has them.
     stage : str
         That found it; empty where that is not known yet.
+    about : str
+        Of a finding in the campaign file, the table that it is in: ``specimens.prism``, ``setups.frame``.
     """
 
     text: str
@@ -53,6 +55,7 @@ class Finding:
     severity: Severity = Severity.WARNING
     follows: tuple[str, ...] = ()
     stage: str = ""
+    about: str = ""
 
     @classmethod
     def of(cls, told: Finding | str, kind: str = "other") -> Finding:
@@ -79,13 +82,22 @@ def note(kind: str, text: str, *, follows: tuple[str, ...] = ()) -> Finding:
     return Finding(text, kind, Severity.NOTE, follows)
 
 
-MEASUREMENT = ("gain", "unit", "swapped channels", "sign", "dead channel", "geometry", "channel left out", "clock")
+MEASUREMENT = (
+    *("specimen", "geometry", "gain", "unit", "sign"),
+    *("swapped channels", "dead channel", "channel left out", "clock"),
+)
 """Kinds of what is wrong with the measurement itself: where one is found, odd results follow from it."""
 
 
-def in_order(findings: Iterable[Finding]) -> list[tuple[Finding, bool]]:
+def in_order(findings: Iterable[Finding], known: Iterable[Finding] = ()) -> list[tuple[Finding, bool]]:
     """
     Put the findings of one test in order: the worst first, each once, and behind its cause what follows from it.
+
+    Parameters
+    ----------
+    findings : iterable of Finding
+    known : iterable of Finding, optional
+        Of the campaign file, that concern this test: they explain findings too, and are not listed.
 
     Returns
     -------
@@ -102,7 +114,8 @@ def in_order(findings: Iterable[Finding]) -> list[tuple[Finding, bool]]:
     for finding in findings:
         first.setdefault(finding.text, finding)
     each = sorted(first.values(), key=lambda finding: finding.severity.rank)
-    causes = [finding for finding in each if not _explained(finding, each)]
+    others = [*each, *known]
+    causes = [finding for finding in each if not _explained(finding, others)]
     return [(finding, False) for finding in causes] + [(finding, True) for finding in each if finding not in causes]
 
 
@@ -156,4 +169,5 @@ def _read(record: Any) -> Finding:
         known.get(str(record.get("severity")), Severity.WARNING),
         tuple(str(kind) for kind in record.get("follows", ())),
         str(record.get("stage", "")),
+        str(record.get("about", "")),
     )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 
@@ -79,3 +81,64 @@ def test_a_line_of_sight_that_starts_off_a_round_side_is_told(at, told, contract
     text = contract.replace("[processing]", f"extra = {{{channel}}}\n\n[processing]")
     text = text.replace('specimen = "prism"', 'specimen = "cylinder"')
     assert sum("from the axis of cylinder" in warning.text for warning in load_text(text).warnings) == told
+
+
+def _told(text, load_text, kind):
+    return [found for found in load_text(text).warnings if found.kind == kind]
+
+
+@pytest.mark.parametrize(
+    ("changed", "severity", "said"),
+    [
+        (('height = "456 mm"', 'height = "456 m"'), "serious", "make 7.7 kg/m³; .* one of the lengths in mm"),
+        (('height = "456 mm"', 'height = "456 cm"'), None, ""),
+        (('mass = "26.10 kg"', 'mass = "0.1 kg"'), "warning", "make 30 kg/m³"),
+        (('mass = "26.10 kg"', 'mass = "100000 kg"'), "serious", "make 3e.07 kg/m³; .* look at the units"),
+    ],
+    ids=["m for mm", "a lighter material", "a foam", "too heavy"],
+)
+def test_a_specimen_of_no_material_is_told_with_its_density(changed, severity, said, contract, load_text):
+    found = [
+        each for each in _told(contract.replace(*changed), load_text, "specimen") if each.about == "specimens.prism"
+    ]
+    assert [each.severity for each in found] == ([severity] if severity else [])
+    assert all(re.search(said, each.text) for each in found)
+
+
+@pytest.mark.parametrize(
+    ("at", "severity"),
+    [
+        ('["43 mm", "0 mm", "440 mm"]', None),
+        ('["100 mm", "0 mm", "500 mm"]', None),
+        ('["43 mm", "0 mm", "600 mm"]', "warning"),
+        ('["43 mm", "0 mm", "440 m"]', "serious"),
+        ('["43 m", "0 mm", "440 mm"]', "serious"),
+        ('["43 mm", "0 mm", "-440 mm"]', "warning"),
+    ],
+    ids=["on it", "on a bracket", "above it", "m for mm", "beside it", "below it"],
+)
+def test_a_point_off_the_specimen_is_told(at, severity, contract, load_text):
+    channel = ", ".join(f"{key} = {value}" for key, value in (CHANNEL | {"at": at}).items())
+    text = contract.replace("[processing]", f"extra = {{{channel}}}\n\n[processing]")
+    found = [each for each in _told(text, load_text, "geometry") if "extra.at" in each.text]
+    assert [each.severity for each in found] == ([severity] if severity else [])
+
+
+@pytest.mark.parametrize(
+    ("gain", "said"),
+    [
+        ("10 mm/V", ""),
+        ("1 m/V", "let it read up to 1e.04 mm, 16 times the 625 mm that this point of prism travels until it lies"),
+        (
+            "10 um/V",
+            "let it read up to 0.1 mm, 0.1% of the 82.4 mm that this point of prism travels until",
+        ),
+    ],
+)
+def test_a_range_that_is_not_of_the_size_of_the_travel_is_told(gain, said, contract, load_text):
+    keys = CHANNEL | {"unit": '"V"', "gain": f'"{gain}"', "range": '"10 V"', "at": '["43 mm", "0 mm", "440 mm"]'}
+    channel = ", ".join(f"{key} = {value}" for key, value in keys.items())
+    text = contract.replace("[processing]", f"extra = {{{channel}}}\n\n[processing]")
+    found = [each for each in _told(text, load_text, "gain") if "extra" in each.text]
+    assert len(found) == bool(said)
+    assert all(re.search(said, each.text) for each in found)

@@ -109,6 +109,11 @@ class Campaign:
         channels = self.setups[test.setup].channels
         return {name: channel for name, channel in channels.items() if channel.recorder in test.files}
 
+    def concerning(self, test: str) -> tuple[Finding, ...]:
+        """Warnings about a test's specimen or set-up."""
+        tables = (f"specimens.{self.tests[test].specimen}", f"setups.{self.tests[test].setup}")
+        return tuple(found for found in self.warnings if found.about in tables)
+
     def tests_of(self, specimen: str) -> dict[str, Test]:
         """Tests of one specimen, by id."""
         return {name: test for name, test in self.tests.items() if test.specimen == specimen}

@@ -7,6 +7,7 @@ from math import hypot
 
 from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.channel import ALONG, Channel
+from colonnade.campaign.plausible import implausible
 from colonnade.campaign.setup import Setup
 from colonnade.campaign.specimen import AnySpecimen, Cone, Cylinder
 from colonnade.findings import Finding, note, warning
@@ -35,7 +36,11 @@ def notices(campaign: CampaignFile) -> tuple[Finding, ...]:
     unused: dict[str, list[str]] = {}
     for what, where in _unused(campaign):
         unused.setdefault(what, []).append(where)
-    return (*(_not_yet(what, places) for what, places in unused.items()), *dict.fromkeys(_odd(campaign)))
+    return (
+        *(_not_yet(what, places) for what, places in unused.items()),
+        *dict.fromkeys(implausible(campaign)),
+        *dict.fromkeys(_odd(campaign)),
+    )
 
 
 def _not_yet(what: str, places: list[str]) -> Finding:

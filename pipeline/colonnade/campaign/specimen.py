@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from math import cos, tan
 from typing import Annotated, Literal, Self
 
@@ -19,6 +20,10 @@ from colonnade.campaign.fields import (
 )
 from colonnade.campaign.table import Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
+from colonnade.dynamics.density import UnlikelyBlockWarning
+
+# Of a campaign's specimens the notices tell it.
+warnings.filterwarnings("ignore", category=UnlikelyBlockWarning, module=r"colonnade\.campaign\.specimen")
 
 LARGEST_DEVIATION = 0.01
 """A measured value further than this from the one of the dimensions is told, as a fraction of the latter."""

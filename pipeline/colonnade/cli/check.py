@@ -40,7 +40,8 @@ def check(campaign: Path, strict: bool, as_json: bool) -> int:
         checked = check_campaign(loaded, advance)
     if as_json:
         tests = {
-            name: {"problems": each.problems, "warnings": records_of(each.findings)} for name, each in checked.items()
+            name: {"problems": each.problems, "warnings": records_of(each.findings, loaded.concerning(name))}
+            for name, each in checked.items()
         }
         show_json({"campaign": str(loaded.path), "warnings": records_of(loaded.warnings), "tests": tests})
     else:
@@ -59,7 +60,8 @@ def _tell(campaign: Campaign, checked: dict[str, Checked]) -> None:
         for problem in each.problems:
             say(f"  problem: {_indented(problem)}")
     told = {"campaign file": campaign.warnings} | {name: each.findings for name, each in checked.items()}
-    show_by_kind({subject: in_order(findings) for subject, findings in told.items()})
+    concerning = {name: campaign.concerning(name) for name in checked}
+    show_by_kind({subject: in_order(findings, concerning.get(subject, ())) for subject, findings in told.items()})
     statuses = Counter(each.status for each in checked.values())
     if statuses["would fail"] or statuses["doubtful"]:
         words = {"would fail": "would fail", "doubtful": "would give wrong results"}

@@ -19,9 +19,9 @@ Findings = Mapping[str, Sequence[tuple[Finding, bool]]]
 """By subject, in order, each with whether it follows from one before it."""
 
 
-def records_of(findings: Iterable[Finding]) -> list[dict[str, Any]]:
+def records_of(findings: Iterable[Finding], known: Iterable[Finding] = ()) -> list[dict[str, Any]]:
     """Give findings as JSON shows them, in order: severity, kind, text, and whether one before explains it."""
-    return [_record(each, explained) for each, explained in in_order(findings)]
+    return [_record(each, explained) for each, explained in in_order(findings, known)]
 
 
 def all_records(findings: Findings) -> list[dict[str, Any]]:

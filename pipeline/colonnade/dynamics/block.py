@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, field, replace
 from math import atan2, cos, hypot, pi, sin, sqrt
 from typing import Literal
 
+from colonnade.dynamics.density import UnlikelyBlockWarning, cone_volume, mistaken_lengths, prism_volume
+
 STANDARD_GRAVITY = 9.81
 """Default gravity of a campaign, m/s²; a laboratory's own value may be given."""
+
+SLENDEREST = 0.005
+"""rad; a critical angle below this is of no block that stands."""
+
+HOLLOW = 0.9
+"""Of m R²; no body has a smaller moment of inertia about its pole, whatever its shape and the errors of measurement."""
 
 Sided = float | tuple[float, float]
 """One value for both sides, or a pair (for θ < 0, for θ > 0)."""
@@ -114,8 +123,14 @@ class Block:
         ------
         ValueError
             If a dimension, the mass or gravity is not positive.
+
+        Warns
+        -----
+        UnlikelyBlockWarning
+            If the lengths look as if they were in millimetres or centimetres.
         """
         _positive(width=width, depth=depth, height=height, mass=mass)
+        _expect_metres(mass / prism_volume(width, depth, height), width / height, width=width, height=height)
         half_width, centre_height = width / 2, height / 2
         inertia = mass * (width**2 + height**2) / 12 + mass * (half_width**2 + centre_height**2)
         solid = Solid("rectangle", depth / 2, mass * (depth**2 + height**2) / 12, mass * (width**2 + depth**2) / 12)
@@ -131,7 +146,11 @@ class Block:
         ValueError
             If a dimension, the mass or gravity is not positive.
         """
-        return cls.cone(base_diameter=diameter, top_diameter=diameter, height=height, mass=mass, gravity=gravity)
+        _positive(diameter=diameter, height=height, mass=mass)
+        _expect_metres(
+            mass / cone_volume(diameter, diameter, height), diameter / height, diameter=diameter, height=height
+        )
+        return cls._turned(diameter, diameter, height, mass, gravity)
 
     @classmethod
     def cone(
@@ -151,6 +170,12 @@ class Block:
         centre of mass ∫z r² / ∫r², transverse inertia about the base ∫(r⁴/4 + z² r²) / ∫r².
         """
         _positive(base_diameter=base_diameter, top_diameter=top_diameter, height=height, mass=mass)
+        density = mass / cone_volume(base_diameter, top_diameter, height)
+        _expect_metres(density, base_diameter / height, base_diameter=base_diameter, height=height)
+        return cls._turned(base_diameter, top_diameter, height, mass, gravity)
+
+    @classmethod
+    def _turned(cls, base_diameter: float, top_diameter: float, height: float, mass: float, gravity: float) -> Block:
         base, top = base_diameter / 2, top_diameter / 2
         area = (base**2 + base * top + top**2) / 3
         first = height * (base**2 + 2 * base * top + 3 * top**2) / 12
@@ -186,9 +211,17 @@ class Block:
         Raises
         ------
         ValueError
-            If a value is not positive or an angle is not below π/2.
+            If a value is not positive, an angle is not below π/2, or the inertia is smaller than that of the mass
+            alone at the pole distance, which no body has.
         """
         angles, distances, inertias = pair(critical_angle), pair(pole_distance), pair(inertia)
+        for distance, about_pole in zip(distances, inertias, strict=True):
+            if about_pole < HOLLOW * mass * distance**2:
+                raise ValueError(
+                    f"inertia is {about_pole:g} kg m² with a pole_distance of {distance:g} m and a mass of {mass:g} "
+                    f"kg; at least m R² = {mass * distance**2:.4g} kg m² was expected. Is the pole distance in m, "
+                    "and the inertia that about the pole?"
+                )
         negative, positive = (Side(*values) for values in zip(angles, distances, inertias, strict=True))
         return cls(mass, gravity, negative, positive)
 
@@ -280,3 +313,16 @@ def _positive(**values: float) -> None:
     for name, value in values.items():
         if not value > 0.0:
             raise ValueError(f"{name} is {value}; a positive number was expected")
+
+
+def _expect_metres(density: float, slenderness: float, **lengths: float) -> None:
+    """Warn the caller of `Block` where lengths (m) and density (kg/m³) look as if a length was in another unit."""
+    unit, count = mistaken_lengths(density)
+    if count == 3 or (count and slenderness < SLENDEREST):
+        given = ", ".join(f"{name}={value:g}" for name, value in lengths.items())
+        warnings.warn(
+            f"Block: {given} with this mass make {density:.2g} kg/m³. Lengths are in m and the mass in kg: were "
+            f"they in {unit}?",
+            UnlikelyBlockWarning,
+            stacklevel=3,
+        )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -150,7 +150,7 @@ NOTHING = Results({}, (), ())
 
 def of_test(campaign: Campaign, layout: Layout, test: Test) -> Results:
     """Read what is stored of a test; a damaged file counts as a failure of its stage."""
-    return _gather(_files_of(campaign, layout, test))
+    return _gather(_files_of(campaign, layout, test), campaign.concerning(test.id))
 
 
 def of_specimen(campaign: Campaign, layout: Layout, specimen: str) -> Results:
@@ -172,7 +172,7 @@ def _files_of(campaign: Campaign, layout: Layout, test: Test) -> Iterator[tuple[
             yield stage, layout.stage(test.id, stage)
 
 
-def _gather(paths: Iterator[tuple[str, Path]]) -> Results:
+def _gather(paths: Iterator[tuple[str, Path]], concerning: Sequence[Finding] = ()) -> Results:
     datasets: dict[str, xr.Dataset] = {}
     failures: list[Message] = []
     warnings: list[Finding] = []
@@ -215,7 +215,7 @@ def _gather(paths: Iterator[tuple[str, Path]]) -> Results:
         tuple(failures),
         tuple(
             Message(each.stage, each.text, str(each.severity), each.kind, explained)
-            for each, explained in in_order(warnings)
+            for each, explained in in_order(warnings, concerning)
         ),
         tuple(raw.items()),
         tuple(versions),

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
@@ -65,12 +66,15 @@ class RunResult:
         The report's page, None where the run stopped before it.
     of_campaign : tuple of Finding
         What the campaign file and its test log were found to hold.
+    concerning : mapping of str to tuple of Finding
+        What of it is about the specimen or the set-up of each test.
     """
 
     stages: tuple[StageRun, ...]
     summary: Path
     report: Path | None
     of_campaign: tuple[Finding, ...] = ()
+    concerning: Mapping[str, tuple[Finding, ...]] = field(default_factory=dict)
 
     @property
     def failed(self) -> bool:
@@ -87,7 +91,11 @@ class RunResult:
         found: dict[str, list[Finding]] = {"campaign file": list(self.of_campaign)}
         for stage in self.stages:
             found.setdefault(stage.told_of, []).extend(stage.findings)
-        return {subject: in_order(findings) for subject, findings in found.items() if findings}
+        return {
+            subject: in_order(findings, self.concerning.get(subject, ()))
+            for subject, findings in found.items()
+            if findings
+        }
 
     @property
     def has_warnings(self) -> bool:

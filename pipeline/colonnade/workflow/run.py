@@ -123,7 +123,8 @@ def run(
         write_summary(loaded, layout, catalogue, outdated=outdated, failed=failed)
         report = _report(loaded, layout, catalogue, outdated) if last == "report" else None
         catalogue.save()
-    return RunResult(tuple(runs), layout.summary_json, report, loaded.warnings)
+    concerning = {name: loaded.concerning(name) for name in loaded.tests}
+    return RunResult(tuple(runs), layout.summary_json, report, loaded.warnings, concerning)
 
 
 def _report(campaign: Campaign, layout: Layout, catalogue: Catalogue, outdated: Set[str]) -> Path:

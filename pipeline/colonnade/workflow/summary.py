@@ -110,6 +110,7 @@ def _remembered(
     """Record of a test: the last one where it was made from just these results, else a new one."""
     paths = _paths(campaign, layout, test)
     entry = [repr(test), repr(campaign.specimens[test.specimen]), campaign.gravity, campaign.review(test.id).excluded]
+    entry.append(repr(campaign.concerning(test.id)))
     signature = catalogue.signature(paths.values(), *entry, is_outdated, failure, source_hash())
     known = catalogue.record(test.id, signature)
     if known is not None:
@@ -139,12 +140,13 @@ def _test(
         reasons = [failure]
     done = {stage: each for stage, each in sound.items() if each.attrs["status"] == "done"}
     warnings = [found for stage, each in sound.items() for found in at_stage(each.attrs.get("warnings", []), stage)]
+    ordered = in_order(warnings, campaign.concerning(test.id))
     has_others = is_outdated and any(path.exists() for path in paths.values())
     status: Literal["done", "failed", "pending"] = "failed" if reasons else "done" if "compare" in done else "pending"
     return TestSummary(
         status=status,
         reason=" ".join(reasons) or campaign.review(test.id).excluded or (_FOREIGN if has_others else None),
-        warnings=tuple(Warned.of(found, explained=explained) for found, explained in in_order(warnings)),
+        warnings=tuple(Warned.of(found, explained=explained) for found, explained in ordered),
         kind=test.kind,
         specimen=test.specimen,
         span=test.span,
