@@ -262,7 +262,7 @@ def test_a_worker_that_may_have_no_children_of_multiprocessing_reads_too(do: Dee
 def test_a_system_without_safe_copies_reads_in_the_process_itself(installed: Path, tmp_path: Path) -> None:
     path = tmp_path / "free-01.hostile"
     path.write_bytes(b"1")
-    request = messages.Request(str(path), str(tmp_path), "hostile", {}, None, bounds.bounds_of(path))
+    request = messages.Request("recording", str(path), str(tmp_path), "hostile", {}, None, bounds.bounds_of(path))
     serve = (
         "import sys; sys.path.insert(0, sys.argv[1]); from colonnade.readers.bounded import server; "
         "server.serve(sys.stdin.buffer, sys.stdout.buffer, server.in_place)"

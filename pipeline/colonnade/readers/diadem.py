@@ -14,7 +14,7 @@ from colonnade.readers.diadem_tdm import described_in_tdm
 from colonnade.readers.numbered_lines import first_lines
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import Format, Recognition
-from colonnade.readers.stored_numbers import StoredNumbers, beside, read_stored
+from colonnade.readers.stored_numbers import StoredNumbers, beside, name_beside, read_stored
 
 PACKED = b"PK\x03\x04"
 TDM_MARK = b"tdm"
@@ -51,9 +51,7 @@ def read(path: Path, options: DiademOptions) -> Recording:
     ReadError
         If the header is damaged, a file with the values is not beside it, or no channel holds numbers.
     """
-    with path.open("rb") as stream:
-        is_text = not stream.read(5).startswith((PACKED, b"<?xml", b"\xef\xbb\xbf<?"))
-    described, warnings = described_in_dat(path) if is_text else described_in_tdm(path)
+    is_text, described, warnings = _described(path)
     channels = []
     longest = _longest(path, described)
     for stored in described:
@@ -83,6 +81,19 @@ def read(path: Path, options: DiademOptions) -> Recording:
     return Recording(path, "diadem", timed, notes=notes + clocks.notes, warnings=(*warnings, *clocks.warnings))
 
 
+def companions(path: Path, options: DiademOptions) -> tuple[str, ...]:
+    """Names of the files with the values, all beside the header."""
+    _, described, _ = _described(path)
+    return tuple(dict.fromkeys(name_beside(path, stored.file) for stored in described if stored.file))
+
+
+def _described(path: Path) -> tuple[bool, list[StoredNumbers], list[str]]:
+    """Whether the header is a .DAT, what it says of its channels, and what there is to warn of."""
+    with path.open("rb") as stream:
+        is_text = not stream.read(5).startswith((PACKED, b"<?xml", b"\xef\xbb\xbf<?"))
+    return is_text, *(described_in_dat(path) if is_text else described_in_tdm(path))
+
+
 def _longest(path: Path, described: list[StoredNumbers]) -> int:
     """Count the values of the longest channel whose bytes are there."""
     room = [beside(path, stored.file).stat().st_size // stored.stride for stored in described if stored.file]
@@ -97,4 +108,5 @@ FORMAT = Format(
     options=DiademOptions,
     recognise=recognise,
     read=read,
+    companions=companions,
 )

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
@@ -70,6 +71,8 @@ class Format:
         (Path, options, Window) -> Recording that holds at least the window, in memory for little more than that.
     modules : tuple of str
         What `read` imports only then; the bounded process imports it once for all files.
+    companions : callable or None
+        (Path, options) -> names of the other files, all beside it, that a file of this format is in; raises ReadError.
     in_process : bool
         Whether `read` runs in this process: text, taken apart by code of our own. All else is read in the bounded one.
     """
@@ -84,6 +87,7 @@ class Format:
     extra: str = ""
     read_window: Callable[[Path, Any, Window], Recording] | None = None
     modules: tuple[str, ...] = ()
+    companions: Callable[[Path, Any], tuple[str, ...]] | None = None
     in_process: bool = False
 
     @property
@@ -146,9 +150,46 @@ def read(
     if chosen.in_process:
         recording = _guarded(chosen, path, checked, window)
     else:
-        said = checked.model_dump(mode="json", exclude_unset=True)
-        recording = bounded.read(path, chosen.name, said, window=window, within=within)
+        recording = bounded.read(_asked(chosen, path, checked, within), window)
     return recording if evidence is None else _with_note(recording, evidence)
+
+
+def companions(
+    path: Path, format: str | None = None, options: Mapping[str, Any] | None = None, *, within: Path | None = None
+) -> tuple[Path, ...]:
+    """
+    Find the other files that a raw file is in, such as the values of a header.
+
+    Parameters
+    ----------
+    path, format, options, within : as for `read`
+
+    Returns
+    -------
+    others : tuple of Path
+        All beside it; one that is missing, or a link to elsewhere, too.
+
+    Raises
+    ------
+    ReadError
+        If what the file says of them cannot be read.
+    """
+    several = [each for each in formats().values() if each.companions is not None]
+    if format is not None:
+        chosen = next((each for each in several if each.name == format), None)
+    else:
+        chosen = next((each for each in several if _recognition(each, path).yes), None)
+    if chosen is None or not chosen.is_installed:
+        return ()
+    return bounded.companions(_asked(chosen, path, check_options(chosen, options or {}, where=path.name), within))
+
+
+def companions_here(path: Path, format: str, options: Mapping[str, Any]) -> tuple[str, ...]:
+    """Names of the other files that a raw file is in, found in this process."""
+    chosen, _ = _named(format)
+    checked = check_options(chosen, options, where=path.name)
+    with _refusing(chosen, path):
+        return () if chosen.companions is None else chosen.companions(path, checked)
 
 
 def read_here(path: Path, format: str, options: Mapping[str, Any], window: Window | None) -> Recording:
@@ -183,12 +224,24 @@ def check_options(format: Format, options: Mapping[str, Any], where: str) -> Bas
         raise ReadError("\n".join(problems)) from error
 
 
+def _asked(format: Format, path: Path, options: BaseModel, within: Path | None) -> bounded.Asked:
+    told = options.model_dump(mode="json", exclude_unset=True)
+    folder = path.resolve().parent if within is None else within.resolve()
+    return bounded.Asked(path.absolute(), format.name, told, folder, has_companions=format.companions is not None)
+
+
 def _guarded(format: Format, path: Path, options: BaseModel, window: Window | None) -> Recording:
-    """Read a file; whatever a parser stumbles over in it becomes a message of what to do."""
-    try:
+    with _refusing(format, path):
         if window is not None and format.read_window is not None and path.stat().st_size > LONG_FILE:
             return format.read_window(path, options, window)
         return format.read(path, options)
+
+
+@contextmanager
+def _refusing(format: Format, path: Path) -> Iterator[None]:
+    """Turn whatever a parser stumbles over in a file into a message of what to do."""
+    try:
+        yield
     except (ReadError, MemoryError):
         raise
     except Exception as error:

@@ -104,6 +104,18 @@ def read_stored(header: Path, stored: StoredNumbers, *, longest: int) -> tuple[A
     return values, warnings
 
 
+def name_beside(header: Path, name: str) -> str:
+    """Name of the file of the header's folder that is meant, whatever its case; a path out of it is not followed."""
+    bare = PureWindowsPath(name).name
+    with suppress(OSError, ValueError):  # a damaged name may be too long for one, or none
+        if bare and header.with_name(bare).is_file():
+            return bare
+    for entry in header.parent.iterdir():
+        if entry.name.casefold() == bare.casefold() and entry.is_file():
+            return entry.name
+    return bare
+
+
 def beside(header: Path, name: str) -> Path:
     """
     Find a file of the header's folder, whatever its case.
@@ -113,14 +125,10 @@ def beside(header: Path, name: str) -> Path:
     ReadError
         If it is not there; a path out of the folder is not followed.
     """
-    bare = PureWindowsPath(name).name
-    exact = header.with_name(bare) if bare else header
-    with suppress(OSError):  # a damaged name may be too long for one
-        if bare and exact.is_file():
-            return exact
-    for entry in header.parent.iterdir():
-        if entry.name.casefold() == bare.casefold() and entry.is_file():
-            return entry
+    bare = name_beside(header, name)
+    with suppress(OSError, ValueError):
+        if bare and header.with_name(bare).is_file():
+            return header.with_name(bare)
     named = bare if len(bare) <= LONGEST_NAME else f"{bare[:LONGEST_NAME]}…"
     raise ReadError(
         f'{header.name}: its values stand in the file "{named}", which is not in its folder. Copy that file beside it.'

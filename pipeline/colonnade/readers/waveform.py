@@ -16,6 +16,7 @@ from colonnade.errors import ReadError, nearest
 from colonnade.readers.clock import even_times
 from colonnade.readers.recording import Array, RecordedChannel, Recording
 from colonnade.readers.registry import Format, Recognition
+from colonnade.readers.waveform_companions import companions_of
 from colonnade.readers.waveform_kinds import kind_of_waveform
 
 UNITS = {"KNET": "m/s^2", "KINEMETRICS_EVT": "m/s^2"}
@@ -59,6 +60,7 @@ def read(path: Path, options: WaveformOptions) -> Recording:
     """
     path.stat()  # ObsPy has no message of its own for a file that is not there
     kind = _kind(path, options)
+    companions_of(path, kind)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         stream = _stream(path, kind)
@@ -88,6 +90,11 @@ def read(path: Path, options: WaveformOptions) -> Recording:
     if start is None:
         notes.append("the file tells no date: times count from its earliest sample")
     return Recording(path, "waveform", tuple(channels), start, tuple(notes), tuple(told))
+
+
+def companions(path: Path, options: WaveformOptions) -> tuple[str, ...]:
+    """Names of the files with the samples, where the kind has them in files of their own."""
+    return companions_of(path, _kind(path, options))
 
 
 def _kind(path: Path, options: WaveformOptions) -> str:
@@ -178,6 +185,7 @@ FORMAT = Format(
     options=WaveformOptions,
     recognise=recognise,
     read=read,
+    companions=companions,
     modules=("obspy",),
     package="obspy",
     extra="seismic",

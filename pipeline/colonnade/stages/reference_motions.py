@@ -14,6 +14,7 @@ from colonnade.campaign import Campaign
 from colonnade.errors import ReadError
 from colonnade.findings import Finding, warning
 from colonnade.readers import el_centro
+from colonnade.readers.registry import companions
 from colonnade.signals.named_motion import Series
 
 
@@ -81,11 +82,26 @@ def load(known: Mapping[str, Source], warnings: list[Finding]) -> dict[str, Seri
 
 
 def _digest(path: Path) -> str:
+    """SHA-256 of a file; where it is in several, of theirs."""
+    digests = [_digest_now(each) for each in (path, *_companions(path, _digest_now(path)))]
+    return digests[0] if len(digests) == 1 else hashlib.sha256(" ".join(digests).encode()).hexdigest()
+
+
+def _digest_now(path: Path) -> str:
     try:
         status = path.stat()
     except OSError:
         return ""
     return _digest_of(path, status.st_size, status.st_mtime_ns)
+
+
+@functools.lru_cache(maxsize=64)
+def _companions(path: Path, digest: str) -> tuple[Path, ...]:
+    """Other files that a file of this digest is in; none where that cannot be told, as its reading then says."""
+    try:
+        return companions(path) if digest else ()
+    except ReadError:
+        return ()
 
 
 @functools.lru_cache(maxsize=64)

@@ -12,7 +12,9 @@ from typing import Any
 
 import colonnade
 from colonnade.campaign import Campaign
-from colonnade.errors import StoreError
+from colonnade.campaign.setup import FileOptions
+from colonnade.errors import ReadError, StoreError
+from colonnade.readers.registry import companions
 from colonnade.store.files import write_text
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
@@ -97,7 +99,10 @@ class RawFile:
         """Whether size and time are those of when it was hashed; a recorder may still be writing."""
         if self.sha256 is None:
             return True
-        status = path.stat()
+        try:
+            status = path.stat()
+        except OSError:
+            return False
         return (status.st_size, status.st_mtime_ns) == (self.size, self.time)
 
 
@@ -114,6 +119,7 @@ class RawIndex:
 
     def __init__(self, layout: Layout, *, verify: bool) -> None:
         self._layout, self._verify = layout, verify
+        self._folder = layout.folder.resolve()
         self._seen: dict[str, RawFile] = {}
         try:
             known = json.loads(layout.raw_index.read_text(encoding="utf-8"))
@@ -121,12 +127,32 @@ class RawIndex:
             known = None
         self._known: dict[str, Any] = known if isinstance(known, dict) else {}
 
-    def look(self, paths: Iterable[Path]) -> dict[str, RawFile]:
-        """Look at each file; by its path from the campaign's folder."""
-        return {name: self._file(name, path) for name, path in ((self._name(path), path) for path in paths)}
+    def look(self, files: Iterable[tuple[Path, FileOptions]]) -> dict[str, RawFile]:
+        """Look at each raw file, and at the other files that it is in; by their paths from the campaign's folder."""
+        found: dict[str, RawFile] = {}
+        for path, how in files:
+            name = self._name(path)
+            found[name] = self._file(name, path)
+            for other in self._companions(name, path, how):
+                found.setdefault(self._name(other), self._file(self._name(other), other))
+        return found
+
+    def _companions(self, name: str, path: Path, how: FileOptions) -> list[Path]:
+        """Other files that a raw file is in; asked again where it, or how it is read, is not as it was."""
+        known = self._known.get(name)
+        if not isinstance(known, dict) or "sha256" not in known:
+            return []
+        asked = hash_of([known["sha256"], how.format, how.options])
+        if known.get("asked") != asked or self._verify:
+            try:
+                others = companions(path, how.format, how.options, within=self._folder)
+            except ReadError:
+                return []  # told where the file is read
+            known |= {"asked": asked, "companions": [other.name for other in others]}
+        return [path.with_name(other) for other in known["companions"]]
 
     def _name(self, path: Path) -> str:
-        return path.relative_to(self._layout.folder.resolve()).as_posix()
+        return path.relative_to(self._folder).as_posix()
 
     def _file(self, name: str, path: Path) -> RawFile:
         if name not in self._seen:
@@ -135,6 +161,8 @@ class RawIndex:
 
     def _hashed(self, name: str, path: Path) -> RawFile:
         try:
+            if not path.resolve().is_relative_to(self._folder):  # reading refuses it
+                return RawFile(None)
             status = path.stat()
             known = self._known.get(name)
             seen = (known.get("size"), known.get("time")) if isinstance(known, dict) and "sha256" in known else None

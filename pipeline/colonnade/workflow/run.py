@@ -78,7 +78,12 @@ def run(
     layout, places = Layout.of(loaded.folder, results), (workers, scheduler)
     with only_run(layout):
         index = RawIndex(layout, verify=verify)
-        raw = {name: index.look(test.files.values()) for name, test in loaded.tests.items()}
+        raw = {
+            name: index.look(
+                (path, loaded.setups[test.setup].recorders[recorder].file) for recorder, path in test.files.items()
+            )
+            for name, test in loaded.tests.items()
+        }
         index.save()
         catalogue = Catalogue(layout, verify=verify)
         for name in loaded.tests:

@@ -11,7 +11,7 @@ import json
 from dataclasses import asdict, dataclass
 from datetime import datetime
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, Literal
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt
@@ -42,6 +42,8 @@ class Request:
 
     Attributes
     ----------
+    wanted : str
+        What it holds, or the names of the other files that it is in.
     path, within : str
         The file, and the folder of which files may be read.
     format : str
@@ -50,6 +52,7 @@ class Request:
     bounds : Bounds
     """
 
+    wanted: Literal["recording", "companions"]
     path: str
     within: str
     format: str
@@ -100,6 +103,7 @@ class Answer(BaseModel):
     refusal: str = ""
     error_number: int | None = None
     out_of_memory: bool = False
+    companions: tuple[str, ...] = ()
     format: str = ""
     start: datetime | None = None
     notes: tuple[str, ...] = ()

@@ -9,10 +9,11 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from pathlib import Path
-from typing import Any
+from dataclasses import dataclass
+from pathlib import Path, PureWindowsPath
+from typing import Any, Literal
 
 import colonnade
 from colonnade.errors import ReadError
@@ -36,47 +37,92 @@ _COMMAND = "import sys; sys.path[:] = sys.argv[1:]; from colonnade.readers.bound
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS", "NUMEXPR_MAX_THREADS")
 
 
-def read(
-    path: Path, format: str, options: Mapping[str, Any], *, window: Window | None = None, within: Path | None = None
-) -> Recording:
+@dataclass(frozen=True)
+class Asked:
     """
-    Read a raw file in the bounded process.
+    A raw file and how it is to be read.
 
-    Parameters
+    Attributes
     ----------
     path : Path
+        Absolute.
     format : str
         Name of its format.
-    options : mapping
+    options : dict
         Of that format, as JSON can hold them.
-    window : Window, optional
-    within : Path, optional
-        Folder of which files may be read; that of the file by default.
+    folder : Path
+        Of which files may be read; resolved.
+    has_companions : bool
+        Whether a file of that format may be in several.
+    """
+
+    path: Path
+    format: str
+    options: dict[str, Any]
+    folder: Path
+    has_companions: bool
+
+    def request(self, wanted: Literal["recording", "companions"], window: Window | None, *others: Path) -> Request:
+        """What is sent; the sizes of the other files count too."""
+        bounds = bounds_of(self.path, *others)
+        return Request(wanted, str(self.path), str(self.folder), self.format, self.options, window, bounds)
+
+
+def read(asked: Asked, window: Window | None) -> Recording:
+    """
+    Read a raw file in the bounded process.
 
     Raises
     ------
     ReadError
-        If the format refuses the file, or reading it crashes, swells or does not end.
+        If the format refuses the file, reading it crashes, swells or does not end, or a part of it is a link to
+        elsewhere.
     """
-    path = path.absolute()
-    bounds = bounds_of(path)
-    folder = path.resolve().parent if within is None else within.resolve()
-    request = Request(str(path), str(folder), format, dict(options), window, bounds)
+    others = companions(asked) if asked.has_companions else ()
+    for other in others:
+        if not (to := other.resolve()).is_relative_to(asked.folder):
+            raise ReadError(
+                f"{asked.path.name}: its values are in {other.name}, which is a link to {to}, outside {asked.folder}. "
+                "It is not followed. Copy the file itself there."
+            )
+    request = asked.request("recording", window, *others)
+    answer, arrays = _answer(request)
+    try:
+        return messages.recording_of(asked.path, answer, arrays)
+    except BrokenAnswerError:
+        raise _crash(request, 0) from None
+
+
+def companions(asked: Asked) -> tuple[Path, ...]:
+    """
+    Find the other files that a raw file is in; all are beside it, whatever it says.
+
+    Raises
+    ------
+    ReadError
+        If what it says of them cannot be read.
+    """
+    request = asked.request("companions", None)
+    names = _answer(request)[0].companions
+    if any(name in ("", "..") or name != PureWindowsPath(name).name or "\0" in name for name in names):
+        raise _crash(request, 0)
+    return tuple(asked.path.with_name(name) for name in dict.fromkeys(names))
+
+
+def _answer(request: Request) -> tuple[Answer, list[Array]]:
+    """Ask; ReadError where the file is refused."""
+    name, bounds = Path(request.path).name, request.bounds
     answer, arrays = _ask(request)
     if answer.out_of_memory:
         raise ReadError(
-            f"{path.name}: reading it takes more than {bounds.memory // MEGABYTE} MB of memory, far more than a file "
+            f"{name}: reading it takes more than {bounds.memory // MEGABYTE} MB of memory, far more than a file "
             "of its size explains: it is damaged, or was made to exhaust the memory. Copy it from the recorder again, "
             "or export it as text."
         )
-    if answer.refusal and answer.error_number is not None:
-        raise ReadError(answer.refusal) from _of_the_machine(answer.error_number)
     if answer.refusal:
-        raise ReadError(answer.refusal)
-    try:
-        return messages.recording_of(path, answer, arrays)
-    except BrokenAnswerError:
-        raise _crash(request, 0) from None
+        cause = None if answer.error_number is None else _of_the_machine(answer.error_number)
+        raise ReadError(answer.refusal) from cause
+    return answer, arrays
 
 
 class _Reader:

@@ -85,11 +85,13 @@ def _handle(request: Request, answers: IO[bytes]) -> None:
 
 
 def _answer(request: Request) -> tuple[Answer, list[Array]]:
-    from colonnade.readers.registry import read_here
+    from colonnade.readers.registry import companions_here, read_here
 
+    path = Path(request.path)
     try:
-        recording = read_here(Path(request.path), request.format, request.options, request.window)
-        return messages.told(recording)
+        if request.wanted == "companions":
+            return Answer(companions=companions_here(path, request.format, request.options)), []
+        return messages.told(read_here(path, request.format, request.options, request.window))
     except ReadError as error:
         cause: Any = error.__cause__
         number = cause.errno if isinstance(cause, OSError) else None
