@@ -1,0 +1,100 @@
+"""Hostile files, one a library: nothing runs, nothing outside the campaign is read."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+from colonnade.cli import invoke
+from colonnade.errors import ReadError
+from colonnade.readers.registry import read
+
+for needed in ("asammdf", "obspy", "xlwt"):
+    pytest.importorskip(needed)
+
+
+def _load(name: str) -> ModuleType:
+    """A script of this folder, which is no package."""
+    specification = importlib.util.spec_from_file_location(name, Path(__file__).parent / f"{name}.py")
+    assert specification is not None
+    assert specification.loader is not None
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module
+
+
+hostile = _load("hostile_files")
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> object:
+    """A campaign's folder, and secrets beside it."""
+    folder = tmp_path_factory.mktemp("hostile")
+    hostile.secrets(folder / "secrets")
+    (folder / "campaign").mkdir()
+    return hostile.Place(folder / "campaign", folder / "secrets", folder / "made")
+
+
+@pytest.mark.parametrize("name", list(hostile.FILES))
+def test_a_hostile_file_is_only_read(place: object, name: str) -> None:
+    write: Callable[..., object] = hostile.FILES[name]
+    path, format, options = write(place)
+    try:
+        recording = read(path, format, options, within=place.folder)
+    except ReadError as refusal:
+        assert path.name in str(refusal)  # noqa: PT017 - either outcome is right
+    else:
+        for channel in recording.channels:
+            assert not np.isin(channel.values, [*hostile.SECRET, *np.floor(hostile.SECRET)]).any()
+        assert not any("31337" in text for text in (*recording.notes, *recording.warnings))
+    assert not place.victim.exists()
+
+
+CAMPAIGN = """\
+schema = 1
+campaign = "strange"
+title = "A stranger's files"
+
+[specimens]
+prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}
+
+[setups.frame.channels]
+top = {column = "plain", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
+direction = [1, 0, 0], relative_to = "table"}
+
+"""
+
+
+def test_what_would_swell_is_stopped_before_the_machine_feels_it(
+    place: object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, *_ = hostile.FILES["mdf_swelling"](place)
+    monkeypatch.setattr("colonnade.readers.bounded.bounds.MEMORY", 100_000_000)
+    with pytest.raises(ReadError, match=r"swelling.mf4: reading it takes more than .* MB of memory"):
+        read(path, within=place.folder)
+
+
+def test_no_command_runs_what_a_file_by_the_name_of_a_table_holds(
+    place: object, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "raw").mkdir()
+    inner = place._replace(folder=tmp_path / "raw", victim=tmp_path / "made")
+    text = CAMPAIGN
+    for name in ("mdf_program", "mdf_3_program", "mdf_endless"):
+        path = hostile.FILES[name](inner).path
+        text += f'[[tests]]\nid = "{path.stem}"\nkind = "other"\nfile = "raw/{path.name}"\n'
+        text += 'specimen = "prism"\nsetup = "frame"\n\n'
+    assert invoke(["init", str(tmp_path)]) in (0, 1)
+    (tmp_path / "campaign.toml").unlink(missing_ok=True)
+    (tmp_path / "campaign.toml").write_text(text, encoding="utf-8")
+    for command in (["check"], ["ingest", "--workers", "1"]):
+        capsys.readouterr()
+        invoke([*command, str(tmp_path)])
+        assert "Internal error" not in capsys.readouterr().out
+    assert (tmp_path / "processed" / "tests" / "free-01" / "recorded.nc").exists()
+    assert not inner.victim.exists()
