@@ -13,14 +13,14 @@ def test_the_quiet_end_of_a_decay_is_rest():
     assert window.stop == TIME[-1]
 
 
-def test_a_moving_start_is_not_rest_and_says_which_channel_moves():
+def test_a_moving_start_is_not_rest():
     window = find_rest(TIME, {"top": (DECAY, 1e-5), "bottom": (NOISE, 1e-5)}, end=False, duration=0.5)
     assert not window.quiet
-    assert "not at rest at the start of the record: top moves" in window.reason
+    assert window.start == TIME[0]
 
 
 def test_a_channel_without_values_is_not_at_rest():
-    assert "has no values" in find_rest(TIME, {"top": (np.full(TIME.size, np.nan), 1.0)}, end=True, duration=0.5).reason
+    assert not find_rest(TIME, {"top": (np.full(TIME.size, np.nan), 1.0)}, end=True, duration=0.5).quiet
 
 
 def test_what_a_transducer_drifts_between_two_rests_is_told():

@@ -1,3 +1,5 @@
+import re
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -146,7 +148,34 @@ def test_shaking_before_the_table_is_at_rest_is_warned_of(small_campaign, shaken
     recordings, time, _, _ = shaken
     recordings["main"].channel("ACC").values[:] += np.where(time > 0.1, 0.05 * np.sin(20 * time), 0.0)
     result = _conditioned(small_campaign, small_campaign.tests["shake-01"], recordings)
-    assert "at the start of the record: table_acceleration moves" in result.attrs["warnings"][0].text
+    (told,) = [found for found in result.attrs["warnings"] if found.kind == "zero"]
+    assert told.severity == "warning"
+    size = float(re.search(r"The zero of the base acceleration is uncertain by ([\d.]+) m/s²", told.text)[1])
+    # The mean of a sine over half a second less that over a part of it, of 0.49 m/s²: at most its amplitude.
+    assert 0.05 < size < 0.49
+    assert "of the acceleration that uplifts the specimen: table_acceleration moves from 0 to 0.5 s" in told.text
+
+
+def test_a_zero_that_moves_too_little_to_matter_is_not_told(small_campaign, shaken):
+    recordings, time, _, _ = shaken
+    recordings["main"].channel("ACC").values[:] += 0.002 * np.sin(20 * time)  # 16 times its noise
+    result = _conditioned(small_campaign, small_campaign.tests["shake-01"], recordings)
+    assert [found for found in result.attrs["warnings"] if found.kind == "zero"] == []
+
+
+def test_only_a_stretch_that_is_at_rest_is_advised(small_campaign, shaken):
+    recordings, time, _, _ = shaken
+    recordings["main"].channel("ACC").values[:] += np.where(time < 0.6, 0.05 * np.sin(20 * time), 0.0)
+    result = _conditioned(small_campaign, small_campaign.tests["shake-01"], recordings)
+    (told,) = [found.text for found in result.attrs["warnings"] if found.kind == "zero"]
+    start, stop = map(float, re.search(r'zero = \["([\d.]+) s", "([\d.]+) s"\] avoids it', told).groups())
+    assert start >= 0.6
+    assert stop - start == pytest.approx(0.5, abs=0.01)
+    advised = _conditioned(small_campaign, small_campaign.tests["shake-01"], recordings, zero=(start, stop))
+    assert [found for found in advised.attrs["warnings"] if found.kind == "zero"] == []
+    recordings["main"].channel("ACC").values[:] += 0.05 * np.sin(20 * time)
+    result = _conditioned(small_campaign, small_campaign.tests["shake-01"], recordings)
+    assert "No stretch of the record is stiller" in " ".join(map(str, result.attrs["warnings"]))
 
 
 def test_missing_cells_stay_missing(small_campaign, free_vibration):
@@ -210,7 +239,11 @@ def test_zero_can_be_given_or_switched_off(small_campaign, free_vibration):
 def test_a_record_that_ends_while_rocking_is_warned_of(small_campaign, free_vibration):
     test = small_campaign.tests["free-01"].model_copy(update={"window": (0.0, 3.0)})
     result = _conditioned(small_campaign, test, free_vibration[0])
-    assert "not at rest at the end of the record" in result.attrs["warnings"][0].text
+    told = result.attrs["warnings"][0]
+    assert (told.kind, told.severity) == ("zero", "serious")
+    assert "The zero of the rocking angle is uncertain by 0.0" in told.text
+    assert "of the critical angle" in told.text
+    assert "Record until the specimen stands still" in told.text
 
 
 def test_spikes_are_bridged_before_the_filter_and_stay_suspect(small_campaign, free_vibration):

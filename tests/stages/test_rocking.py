@@ -99,3 +99,26 @@ def test_a_lost_transducer_leaves_the_angle_to_the_other_and_is_said(small_campa
     assert any("bottom could not be used" in warning.text for warning in result.attrs["warnings"])
     assert "slide is not separated" in result.attrs["separation"]
     assert float(result["peak_ratio"]) == pytest.approx(0.5, abs=2e-3)
+
+
+def test_a_single_shock_in_the_base_motion_is_told_with_its_time_and_size(small_campaign, shaken):
+    recordings, time, _, _ = shaken
+    blow = (time >= 6.0) & (time < 6.01)
+    recordings["main"].channel("ACC").values[blow] += 6.0 * np.sin(np.pi * (time[blow] - 6.0) / 0.01)
+    result = _rocking(small_campaign, "shake-01", recordings)
+    (told,) = [found for found in result.attrs["warnings"] if found.kind == "single shock"]
+    assert "at 6.00" in told.text
+    assert "[[flag]]" in told.text
+
+
+def test_several_table_accelerometers_are_named_and_held_against_each_other(small_campaign, shaken):
+    ready = conditioned(small_campaign, small_campaign.tests["shake-01"], shaken[0])
+    other = ready["table_acceleration"]
+    read = rocking_stage.instructions(small_campaign, small_campaign.tests["shake-01"])
+    both = _with_channels(read, accelerations=dict.fromkeys(("table_acceleration", "second"), (1.0, 0.0, 0.0)))
+    for factor, severity, said in ((1.0, "note", "they agree to 0.0%"), (0.5, "warning", "differ: ")):
+        two = ready.assign(second=other.copy(data=factor * other.to_numpy()).assign_attrs(channel="second"))
+        (told,) = [each for each in rocking(two, both).attrs["warnings"] if each.kind == "several table channels"]
+        assert told.severity == severity
+        assert "The base acceleration along x is the mean of table_acceleration and second" in told.text
+        assert said in told.text

@@ -64,8 +64,13 @@ class Rotation:
     @property
     def levers(self) -> Array:
         """Reading over angle about rest, shape (m,)."""
-        ends = [np.interp((-SMALL, SMALL), self.angles, response) for response in self.responses]
-        return np.array([(end[1] - end[0]) / (2 * SMALL) for end in ends])
+        return np.array([self.lever(self.angles, response) for response in self.responses])
+
+    @staticmethod
+    def lever(angles: Array, response: Array) -> float:
+        """Give the slope about rest of what a transducer reads (m or rad) over the angle (rad)."""
+        low, high = np.interp((-SMALL, SMALL), angles, response)
+        return float(high - low) / (2 * SMALL)
 
     def only(self, chosen: Sequence[int]) -> Rotation:
         """Some of them."""

@@ -15,12 +15,11 @@ QUIET = 4.0
 
 @dataclass(frozen=True)
 class RestWindow:
-    """A stretch (s), and whether all channels are quiet on it; where not, why."""
+    """A stretch (s), and whether all channels are quiet on it."""
 
     start: float
     stop: float
     quiet: bool
-    reason: str = ""
 
 
 def find_rest(time: Array, channels: dict[str, tuple[Array, float]], *, end: bool, duration: float) -> RestWindow:
@@ -44,20 +43,17 @@ def find_rest(time: Array, channels: dict[str, tuple[Array, float]], *, end: boo
     """
     start, stop = (max(time[-1] - duration, time[0]), time[-1]) if end else (time[0], min(time[0] + duration, time[-1]))
     inside = (time >= start) & (time <= stop)
-    restless = []
-    for name, (values, noise) in channels.items():
-        stretch = values[inside][np.isfinite(values[inside])]
-        if stretch.size < 4:
-            restless.append(f"{name} has no values there")
-            continue
-        half = stretch.size // 2
-        drift = abs(float(stretch[half:].mean() - stretch[:half].mean()))
-        spread = max(float(stretch.std()), drift)
-        if spread > QUIET * noise:
-            restless.append(f"{name} moves by {spread:.2g} against a noise of {noise:.2g} (SI)")
-    place = "end" if end else "start"
-    reason = f"specimen or table is not at rest at the {place} of the record: {'; '.join(restless)}" if restless else ""
-    return RestWindow(float(start), float(stop), not restless, reason)
+    quiet = all(_is_quiet(values[inside], noise) for values, noise in channels.values())
+    return RestWindow(float(start), float(stop), quiet)
+
+
+def _is_quiet(values: Array, noise: float) -> bool:
+    stretch = values[np.isfinite(values)]
+    if stretch.size < 4:
+        return False
+    half = stretch.size // 2
+    drift = abs(float(stretch[half:].mean() - stretch[:half].mean()))
+    return max(float(stretch.std()), drift) <= QUIET * noise
 
 
 def drift(time: Array, values: Array, *, duration: float, noise: float) -> float:

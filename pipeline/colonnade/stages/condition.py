@@ -16,7 +16,7 @@ from colonnade.signals.alignment import Offset
 from colonnade.signals.filters import default_lowpass
 from colonnade.signals.record import on_clock, smoothed
 from colonnade.stages.clocks import TOGETHER, ClockInstructions, common_clock, links, own_records, recorder_offsets
-from colonnade.stages.plausibility import PlausibilityInstructions, doubts
+from colonnade.stages.plausibility import PlausibilityInstructions, doubts, zero_effects
 from colonnade.stages.plausibility import instructions as plausibility_instructions
 from colonnade.stages.zeroing import rest_window, zeroed
 from colonnade.store.description import variable_name
@@ -140,6 +140,7 @@ def condition(recorded: xr.Dataset, instructions: Instructions) -> xr.Dataset:
         }
         attributes[name].pop("quality_report", None)
 
+    effects = zero_effects(instructions.plausibility)
     window = rest_window(
         clock,
         values,
@@ -148,6 +149,9 @@ def condition(recorded: xr.Dataset, instructions: Instructions) -> xr.Dataset:
         zero=instructions.zero,
         free_vibration=instructions.kind == "free-vibration",
         duration=instructions.rest_duration,
+        effects={
+            name: effects[variable_name(name)] for name in instructions.channels if variable_name(name) in effects
+        },
         warnings=warnings,
     )
     variables: dict[str, Any] = {}

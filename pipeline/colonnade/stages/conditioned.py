@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from colonnade.campaign.channel import ALONG
-from colonnade.findings import Finding, note, warning
+from colonnade.findings import MEASUREMENT, Finding, note, warning
 from colonnade.identification.inertial import Accelerometer
 from colonnade.identification.readings import Readings
 from colonnade.signals.filters import second_derivative
@@ -21,6 +21,9 @@ Kind = TypeVar("Kind")
 
 AXES = {"": 0, "transverse_": 1, "vertical_": 2}
 """Axes of the base motion by the beginning of its variables' names."""
+
+LARGEST_DIFFERENCE = 0.1
+"""Of the base motion (RMS), by which several table channels may differ from their mean without a warning."""
 
 LEAST_NOISE = 1e-9
 """m, rad, …: what a reading without noise is taken to have, so that it has a weight."""
@@ -42,7 +45,10 @@ def base_motion(conditioned: xr.Dataset, channels: Transducers, warnings: list[F
             along = {name: direction[axis] for name, direction in table.items() if abs(direction[axis]) >= ALONG}
             values = [conditioned[name].to_numpy() / part for name, part in along.items() if name in conditioned]
             if values:
-                base[f"{prefix}base_{quantity}"] = np.mean(values, axis=0)
+                base[f"{prefix}base_{quantity}"] = mean = np.mean(values, axis=0)
+            if len(values) > 1:
+                names = [str(conditioned[name].attrs.get("channel", name)) for name in along if name in conditioned]
+                warnings.append(_several(f"{quantity} along {'xyz'[axis]}", names, np.array(values), mean))
     if "base_acceleration" not in base and "base_displacement" in base:
         interval = float(np.diff(conditioned["elapsed"].to_numpy()[:2])[0])
         cutoff = min(
@@ -59,6 +65,22 @@ def base_motion(conditioned: xr.Dataset, channels: Transducers, warnings: list[F
             )
         )
     return base
+
+
+def _several(what: str, names: list[str], values: Array, mean: Array) -> Finding:
+    """Say that the base motion is the mean of several channels, and warn where they do not agree."""
+    text = f"The base {what} is the mean of {' and '.join(names)}"
+    off = np.sqrt(np.nanmean((values - mean) ** 2, axis=1))
+    share = float(off.max()) / max(float(np.sqrt(np.nanmean(mean**2))), 1e-300)
+    if share <= LARGEST_DIFFERENCE:
+        return note("several table channels", f"{text}; they agree to {share:.1%}.")
+    odd = names[int(off.argmax())]
+    return warning(
+        "several table channels",
+        f"{text}, but they differ: {odd} by {share:.0%} of it (RMS). If one of them is not fixed to the table, or is "
+        'wrong, give it another `on`, or quantity = "other".',
+        follows=MEASUREMENT,
+    )
 
 
 def axes(base: Mapping[str, Array], quantity: str, time: Array) -> Array:

@@ -22,6 +22,7 @@ from colonnade.identification.sensors import Transducer, predict
 from colonnade.signals.named_motion import Series, check_motion
 from colonnade.stages.reference_motions import Source, load, sources
 from colonnade.stages.transducers import outline, transducers
+from colonnade.stages.zero_error import Effect, on_angle, on_base
 from colonnade.stages.zeroing import COUPLED
 from colonnade.store.description import variable_name
 
@@ -35,6 +36,9 @@ ALONG = 0.9
 
 LEAST_LEVER = 0.02
 """Of the longest lever of a set-up; a transducer of a shorter one hardly sees the rotation."""
+
+HALF_LEVER = 0.5
+"""Of the longest lever of a set-up; transducers of shorter ones hardly tell its zero, as the others weigh more."""
 
 SENSES_GRAVITY = 0.7
 """Of gravity, that has to lie along an accelerometer before its value at rest is judged."""
@@ -125,6 +129,25 @@ def doubts(conditioned: xr.Dataset, read: PlausibilityInstructions) -> list[Find
     if read.motion and acceleration is not None:
         found += _named_motion(acceleration / blamed, interval, read)
     return [replace(each, text=f"{each.text[0].upper()}{each.text[1:]}.") for each in found]
+
+
+def zero_effects(read: PlausibilityInstructions) -> dict[str, Effect]:
+    """What an error of a channel's zero does to the rocking angle or the base acceleration, by variable."""
+    angles = {name: Rotation.lever(ANGLES, response) for name, response in _by_transducer(read).items()}
+    levers = {name: lever for name, lever in angles.items() if np.isfinite(lever)}
+    longest = max(map(abs, levers.values()), default=0.0)
+    return {
+        name: on_angle(lever, read.block) for name, lever in levers.items() if abs(lever) >= HALF_LEVER * longest > 0
+    } | {name: on_base(along, read.block) for name, along in read.accelerations.items()}
+
+
+def _by_transducer(read: PlausibilityInstructions) -> dict[str, Array]:
+    """What each transducer on the specimen reads at `ANGLES`."""
+    seen = list(read.positions.values())
+    if not seen:
+        return {}
+    responses = np.concatenate([_responses(seen, side, read) for side in (-1.0, 1.0)], axis=1)
+    return dict(zip(read.positions, responses, strict=True))
 
 
 def _along_x(conditioned: xr.Dataset, channels: Mapping[str, float]) -> list[table_motion.TableChannel]:

@@ -20,6 +20,7 @@ from colonnade.identification.motion import SpecimenMotion, specimen_motion
 from colonnade.identification.readings import Circumstances, Table
 from colonnade.identification.separation import UnseenRotationError
 from colonnade.signals.quality import Flag
+from colonnade.signals.shock import single_shock
 from colonnade.stages.conditioned import LEAST_NOISE, axes, base_motion, group
 from colonnade.stages.transducers import Transducers, outline, transducers
 
@@ -111,6 +112,8 @@ def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
 
     variables: dict[str, Any] = {name: ("elapsed", values) for name, values in base.items()}
     acceleration = base.get("base_acceleration")
+    if acceleration is not None and not instructions.free_vibration:
+        warnings += _shock(acceleration, time)
     peak_acceleration = np.nan if acceleration is None else float(np.nanmax(np.abs(acceleration)))
     variables["peak_ground_acceleration"] = ((), peak_acceleration)
     attributes = {"outcome": "", "separation": separation, "warnings": warnings}
@@ -118,6 +121,23 @@ def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
         variables |= _motion_variables(time, motion, instructions, attributes)
         variables |= _quality(conditioned, motion, used)
     return xr.Dataset(variables, coords={"elapsed": ("elapsed", time)}, attrs=attributes)
+
+
+def _shock(acceleration: Array, time: Array) -> list[Finding]:
+    """Tell of a single shock in the base motion, which would be its peak and drive a prediction."""
+    shock = single_shock(acceleration, float(time[1] - time[0]))
+    if shock is None:
+        return []
+    return [
+        warning(
+            "single shock",
+            f"The base acceleration has a single shock of {shock.peak:.3g} m/s² at {time[0] + shock.time:.4g} s, "
+            f"{1e3 * shock.duration:.2g} ms long; elsewhere it stays below {shock.elsewhere:.3g} m/s². It is the peak "
+            "ground acceleration, and drives the prediction. If it is a blow and no motion of the table, [[flag]] that "
+            "window of the channel as failed in review.toml.",
+            follows=("gain", "unit"),
+        )
+    ]
 
 
 def _motion(

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.errors import StageError
-from colonnade.findings import MEASUREMENT, Finding, serious, warning
+from colonnade.findings import Finding, serious, warning
 from colonnade.signals.rest import RestWindow, find_rest
+from colonnade.stages.zero_error import Effect, find_zero_error
 
 Array = NDArray[np.float64]
 
@@ -27,6 +28,7 @@ def rest_window(
     zero: str | tuple[float, float],
     free_vibration: bool,
     duration: float,
+    effects: Mapping[str, Effect],
     warnings: list[Finding],
 ) -> RestWindow | None:
     """
@@ -43,8 +45,10 @@ def rest_window(
     free_vibration : bool
     duration : float
         Of the window, s.
+    effects : mapping of str to Effect
+        By channel, of those whose zero enters a result.
     warnings : list of Finding
-        What moves in it is added.
+        How far the zero may be off is added, where that matters.
 
     Returns
     -------
@@ -66,14 +70,8 @@ def rest_window(
     noises = {name: (values[name], float(attributes[name]["noise"])) for name in judged}
     window = find_rest(clock, noises, end=end, duration=duration)
     if not window.quiet:
-        warnings.append(
-            warning(
-                "zero",
-                f"Zero was taken from {window.start:.3g} to {window.stop:.3g} s, but {window.reason}. Give the test a "
-                '`zero` such as ["0 s", "0.5 s"] where specimen and table stood still.',
-                follows=MEASUREMENT,
-            )
-        )
+        known = {name: effect for name, effect in effects.items() if name in values}
+        warnings += find_zero_error(clock, values, known, window, free_vibration=free_vibration)
     return window
 
 

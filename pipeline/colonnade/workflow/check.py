@@ -113,6 +113,7 @@ def _measure(campaign: Campaign, test: Test, recordings: dict[str, Recording], f
         As the stages do.
     """
     from colonnade.stages import condition, ingest, predict, restitution, rocking
+    from colonnade.stages.beginning import begin
 
     recorded = ingest.ingest(recordings, ingest.instructions(campaign, test))
     findings += at_stage(recorded.attrs["warnings"], "ingest")
@@ -123,5 +124,5 @@ def _measure(campaign: Campaign, test: Test, recordings: dict[str, Recording], f
     if test.kind == "free-vibration":
         restitution.expect_angle(measured)
     for model in models_of(campaign, test)[:1]:  # the base motion and the start are the same for all
-        beginning = predict.begin(measured, predict.instructions(campaign, test, model))
+        beginning = begin(measured, predict.instructions(campaign, test, model))
         findings += at_stage(beginning.warnings, "predict")
