@@ -34,13 +34,15 @@ def check(campaign: Path, strict: bool, as_json: bool) -> int:
     from colonnade.campaign import load
     from colonnade.findings import Severity
     from colonnade.workflow.check import check as check_campaign
+    from colonnade.workflow.copies import digests_of_equal_sizes, with_copies
 
     loaded = load(campaign)
+    loaded = with_copies(loaded, digests_of_equal_sizes(loaded))
     with counting("Reading raw files", len(loaded.tests)) as advance:
         checked = check_campaign(loaded, advance)
     if as_json:
         tests = {
-            name: {"problems": each.problems, "warnings": records_of(each.findings, loaded.concerning(name))}
+            name: {"problems": each.problems, "warnings": records_of(each.findings, each.concerning)}
             for name, each in checked.items()
         }
         show_json({"campaign": str(loaded.path), "warnings": records_of(loaded.warnings), "tests": tests})
@@ -59,15 +61,15 @@ def _tell(campaign: Campaign, checked: dict[str, Checked]) -> None:
         say(f"{name}: {each.status}")
         for problem in each.problems:
             say(f"  problem: {_indented(problem)}")
-    told = {"campaign file": campaign.warnings} | {name: each.findings for name, each in checked.items()}
-    concerning = {name: campaign.concerning(name) for name in checked}
-    show_by_kind({subject: in_order(findings, concerning.get(subject, ())) for subject, findings in told.items()})
+    told = {"campaign file": in_order(campaign.warnings)}
+    told |= {name: in_order(each.findings, each.concerning) for name, each in checked.items()}
+    show_by_kind(told)
     statuses = Counter(each.status for each in checked.values())
     if statuses["would fail"] or statuses["doubtful"]:
         words = {"would fail": "would fail", "doubtful": "would give wrong results"}
         say(" ".join(f"{_count(statuses[each], 'test')} {what}." for each, what in words.items() if statuses[each]))
-    elif any(found.severity == "warning" for findings in told.values() for found in findings):
-        say("No test would fail; look at the warnings. Nothing was written.")
+    elif any(found.severity != "note" for findings in told.values() for found, _ in findings):
+        say("No test would fail; look at what was found. Nothing was written.")
     else:
         say("All good; nothing was written.")
 

@@ -10,6 +10,9 @@ LOOSE = 1.5
 CLOSE = 1.12
 """A scale within this factor of a known one is a sign of it."""
 
+UNKNOWN = "look at its gain and unit"
+"""Cause of a scale that is a sign of nothing."""
+
 _LENGTH = ((25.4, "inches taken for mm or the reverse"), (2.54, "inches taken for cm or the reverse"))
 _CAUSES = {
     "acceleration": ((9.80665, "g taken for m/s² or the reverse, or a gain ten times off"),),
@@ -40,4 +43,4 @@ def cause(scale: float, quantity: str) -> str:
     for factor, words in (*_CAUSES.get(quantity, ()), *_EVERY):
         if abs(abs(log(abs(scale))) - log(factor)) < log(CLOSE):
             return words
-    return "look at its gain and unit"
+    return UNKNOWN

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from colonnade.dynamics.block import Block
 from colonnade.findings import Finding, serious
-from colonnade.identification.factors import as_expected, cause
+from colonnade.identification.factors import UNKNOWN, as_expected, cause
 from colonnade.identification.scale import Scale, filled_in, scale_of
 
 Array = NDArray[np.float64]
@@ -30,6 +30,9 @@ STEPS = 5
 
 BETTER = 4.0
 """Times less that has to be left unexplained with two transducers exchanged."""
+
+PLAIN_UNITS = {1.0: "m", 1e-2: "cm", 1e-3: "mm", 1e-6: "µm", 0.0254: "inches"}
+"""Units by the gain that a channel has which is given none."""
 
 FOLLOWS = 0.9
 """Correlation with which one transducer turns with another."""
@@ -196,6 +199,7 @@ def _gains(rotation: Rotation, scales: Sequence[Scale], known: list[int], right:
                 f"channels {' and '.join(rotation.names)} all show {common:.3g} times the rotation that the equation "
                 f"of motion gives for this specimen: {cause(common, 'displacement')}, in all of them; or the "
                 "specimen's dimensions, or the sampling rate",
+                follows=("unit", "specimen"),
             )
         ]
     beside = f", and that {', '.join(rotation.names[index] for index in right)} shows" if right else ""
@@ -203,10 +207,19 @@ def _gains(rotation: Rotation, scales: Sequence[Scale], known: list[int], right:
         serious(
             "gain",
             f"channel {rotation.names[index]} shows {scales[index].value:.3g} times the rotation that the equation of "
-            f"motion gives{beside}: {cause(scales[index].value, 'displacement')}",
+            f"motion gives{beside}: {_why(scales[index].value, float(rotation.gains[index]))}",
+            follows=("unit",),
         )
         for index in wrong
     ]
+
+
+def _why(scale: float, gain: float) -> str:
+    """Probable cause of a scale; an odd one of a channel that is given no gain is that of a transducer in volts."""
+    known = cause(scale, "displacement")
+    if known == UNKNOWN and gain in PLAIN_UNITS:
+        return f"its values are probably not {PLAIN_UNITS[gain]} but volts, and its `gain` is missing"
+    return known
 
 
 def _dead(rotation: Rotation, scales: Sequence[Scale], right: list[int]) -> list[Finding]:

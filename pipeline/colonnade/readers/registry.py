@@ -267,6 +267,11 @@ def _named(name: str) -> tuple[Format, None]:
 
 def _recognised(path: Path) -> tuple[Format, str]:
     refusals = []
+    if _is_empty(path):
+        raise ReadError(
+            f"{path.name}: the file is empty (0 bytes): nothing was recorded, or a copy was interrupted. Put the "
+            "recording in its place."
+        )
     for format in formats().values():
         recognition = _recognition(format, path)
         if recognition.yes:
@@ -275,9 +280,17 @@ def _recognised(path: Path) -> tuple[Format, str]:
             raise ReadError(f"{path.name}: {recognition.reason}")
         refusals.append(f"  {format.name}: {recognition.reason}")
     raise ReadError(
-        f"{path.name}: no format recognises this file.\n" + "\n".join(refusals) + "\n"
+        # What it is not as text comes last among the formats, and says most.
+        f"{path.name}: no format recognises this file.\n" + "\n".join(reversed(refusals)) + "\n"
         '  If it is one of these nevertheless, say so: file = {format = "…"}.'
     )
+
+
+def _is_empty(path: Path) -> bool:
+    try:
+        return path.is_file() and path.stat().st_size == 0
+    except OSError:
+        return False  # told by the first format that opens it
 
 
 def _recognition(format: Format, path: Path) -> Recognition:

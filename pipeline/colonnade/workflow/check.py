@@ -25,17 +25,21 @@ class Checked:
         Why it would fail.
     findings : list of Finding
         What a run would warn of, as far as it shows without identification and prediction.
+    concerning : tuple of Finding
+        What is to be said of its specimen and set-up in the campaign file.
     """
 
     problems: list[str] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
+    concerning: tuple[Finding, ...] = ()
 
     @property
     def status(self) -> str:
         """In a word: would fail, doubtful (results would be wrong) or good."""
         if self.problems:
             return "would fail"
-        return "doubtful" if any(found.severity is Severity.SERIOUS for found in self.findings) else "good"
+        is_doubtful = any(found.severity is Severity.SERIOUS for found in (*self.findings, *self.concerning))
+        return "doubtful" if is_doubtful else "good"
 
 
 Reading = Callable[[Path, str, str], Recording]
@@ -74,7 +78,7 @@ def check(campaign: Campaign, advance: Callable[[], None] = lambda: None) -> dic
 
 
 def _checked(campaign: Campaign, test: Test, reading: Reading) -> Checked:
-    checked = Checked()
+    checked = Checked(concerning=campaign.concerning(test.id))
     recordings: dict[str, Recording] = {}
     for recorder, path in test.files.items():
         try:

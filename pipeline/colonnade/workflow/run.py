@@ -12,6 +12,7 @@ from colonnade.store.files import write_text
 from colonnade.store.layout import Layout
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.chain import Chain, Phase, advance, clear_behind, is_fresh
+from colonnade.workflow.copies import with_copies
 from colonnade.workflow.freshness import RawIndex, report_key, source_hash
 from colonnade.workflow.lock import only_run
 from colonnade.workflow.pooling import pool
@@ -85,6 +86,14 @@ def run(
             for name, test in loaded.tests.items()
         }
         index.save()
+        loaded = with_copies(
+            loaded,
+            {
+                name: {path: file.sha256 if file.size else None for path, file in files.items()}
+                for name, files in raw.items()
+                if not loaded.review(name).excluded
+            },
+        )
         catalogue = Catalogue(layout, verify=verify)
         for name in loaded.tests:
             if loaded.review(name).excluded:

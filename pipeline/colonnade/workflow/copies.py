@@ -1,0 +1,74 @@
+"""Raw files that are copies of others: a folder that was copied and not filled gives one recording twice."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from colonnade.campaign import Campaign
+from colonnade.findings import Finding, serious
+
+NAMED = 3
+"""Copies that are named."""
+
+Digests = Mapping[str, Mapping[str, str | None]]
+"""By test, of each of its raw files (path from the campaign's folder) the SHA-256; None where it is not known."""
+
+
+def with_copies(campaign: Campaign, digests: Digests) -> Campaign:
+    """Give the campaign with a warning of raw files of different tests that hold the same bytes, if there are any."""
+    return replace(campaign, warnings=(*campaign.warnings, *_copies(digests)))
+
+
+def _copies(digests: Digests) -> Iterator[Finding]:
+    first: dict[str, tuple[str, str]] = {}
+    copied: dict[str, str] = {}
+    tests: dict[str, None] = {}
+    for test, files in digests.items():
+        for path, digest in files.items():
+            if digest is None:
+                continue
+            original, other = first.setdefault(digest, (path, test))
+            if other != test and original != path and path not in copied:
+                copied[path] = f"{path} is a copy of {original} of {other}"
+                tests |= {test: None}
+    if copied:
+        told = "; ".join(list(copied.values())[:NAMED])
+        more = f"; and {len(copied) - NAMED} more" if len(copied) > NAMED else ""
+        are = f"{len(copied)} raw files hold" if len(copied) > 1 else "A raw file holds"
+        yield serious(
+            "copied file",
+            f"{are} the same bytes as that of another test: {told}{more}. Was a folder copied and not yet filled with "
+            f"its own recordings? Put them in their place, or take out {_listed(list(tests))}.",
+        )
+
+
+def _listed(tests: list[str]) -> str:
+    return ", ".join(tests[:NAMED]) + (f" and {len(tests) - NAMED} more tests" if len(tests) > NAMED else "")
+
+
+def digests_of_equal_sizes(campaign: Campaign) -> Digests:
+    """Hash the raw files of a campaign of which another has the same size; others are no copies."""
+    names: dict[Path, int] = {}
+    for test in campaign.tests.values():
+        for path in test.files.values():
+            if path not in names and path.is_file() and path.resolve().is_relative_to(campaign.folder):
+                names[path] = path.stat().st_size
+    sizes = list(names.values())
+    alike = {path for path, size in names.items() if size and sizes.count(size) > 1}
+    hashed = {path: _digest(path) for path in alike}
+    return {
+        name: {path.relative_to(campaign.folder).as_posix(): hashed.get(path) for path in test.files.values()}
+        for name, test in campaign.tests.items()
+        if not campaign.review(name).excluded
+    }
+
+
+def _digest(path: Path) -> str | None:
+    try:
+        with path.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError:
+        return None  # told where it is read
