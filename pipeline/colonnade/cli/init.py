@@ -57,6 +57,11 @@ def _tell(drafted: CampaignDraft) -> None:
     say(f"{_count(drafted.tests, 'test')}, {_count(drafted.setups, 'set-up')}")
     for name, reason in drafted.refused:
         say(f"  not in it: {name}: {reason}")
+    if drafted.asks_first:
+        say(
+            f"The first question: which of these {drafted.setups} kinds of files are recordings of tests? "
+            "Delete the groups that are not."
+        )
     show_table(
         ("line", "to fill in", "", "what is asked"),
         [(str(each.line), each.key, each.value, each.asked) for each in drafted.open[:MOST_SHOWN]],

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from colonnade.campaign.draft.layout import arrange
+from colonnade.campaign.draft.channels import draft_channels
+from colonnade.campaign.draft.groups import MOST_SETUPS
+from colonnade.campaign.draft.layout import DraftSetup, arrange
 from colonnade.campaign.draft.lines import Line
 from colonnade.campaign.draft.naming import as_id
 from colonnade.campaign.draft.survey import survey
@@ -51,6 +53,8 @@ class CampaignDraft:
         What has to be filled in, and guesses that ask for a look.
     refused : tuple of (str, str)
         Files that are not in it, with the reason.
+    asks_first : bool
+        Whether it asks of each kind of files whether they are recordings of tests, before anything else about them.
     """
 
     path: Path
@@ -60,6 +64,7 @@ class CampaignDraft:
     open: tuple[Question, ...]
     doubts: tuple[Question, ...]
     refused: tuple[tuple[str, str], ...]
+    asks_first: bool = False
 
 
 def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> CampaignDraft:
@@ -92,9 +97,15 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
         raise CampaignError(
             "\n".join([f"{folder}: no file in it is a recording that I can read.", *_told(found.refused)])
         )
-    setups, copies = arrange(found.files)
+    arranged, copies = arrange(found.files)
+    setups, empty = _with_channels(arranged)
+    refused = (*found.refused, *empty)
+    if not setups:
+        raise CampaignError(
+            "\n".join([f"{folder}: no file in it has a column that measures anything.", *_told(refused)])
+        )
     home = folder.parent if folder.name.casefold() in RAW_FOLDERS else folder
-    written = write(as_id(home.name, "campaign"), setups, copies, found.refused)
+    written = write(as_id(home.name, "campaign"), setups, copies, refused)
     asked = list(_questions(written))
     return CampaignDraft(
         path,
@@ -103,8 +114,24 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
         len(setups),
         tuple(each for each in asked if each.is_open),
         tuple(each for each in asked if not each.is_open),
-        found.refused,
+        refused,
+        asks_first=len(setups) > MOST_SETUPS,
     )
+
+
+def _with_channels(setups: Sequence[DraftSetup]) -> tuple[list[DraftSetup], list[tuple[str, str]]]:
+    """Keep the set-ups with a channel; give the files of the others with the reason."""
+    kept: list[DraftSetup] = []
+    empty = []
+    for setup in setups:
+        drafted = draft_channels({recorder: setup.columns(recorder) for recorder in setup.recorders})
+        if drafted.channels:
+            kept.append(setup)
+            continue
+        reasons = "; ".join(f'"{heading}": {reason}' for _, heading, reason in drafted.left_out[:MOST_TOLD])
+        files = [file.relative for test in setup.tests for file in test.files.values()]
+        empty += [(file, f"none of its columns measures anything ({reasons})") for file in files]
+    return kept, empty
 
 
 def _questions(written: Draft) -> Iterator[Question]:

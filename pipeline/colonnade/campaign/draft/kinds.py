@@ -20,8 +20,9 @@ STILL = 0.05
 SAME_FREQUENCY = 0.05
 """A frequency in a name that is further off the recorded one than this fraction is doubted."""
 
-_FREQUENCY = re.compile(r"(\d+(?:[.,p]\d+)?)[ _-]?hz")
-_SPAN = re.compile(r"span[ _=-]?(\d+(?:[.,p]\d+)?)")
+# A word of its own: "usp000hzq8" tells no frequency.
+_FREQUENCY = re.compile(r"(?<![\d.,])(\d{1,6}(?:[.,p]\d{1,6})?)[ _-]?hz(?![a-z0-9])")
+_SPAN = re.compile(r"(?<![a-z])span[ _=-]?(\d{1,6}(?:[.,p]\d{1,6})?)(?![\d.,])")
 
 
 def kind_lines(test: DraftTest, channels: Sequence[DraftChannel], largest: dict[str, float]) -> list[Line | str]:
@@ -94,8 +95,10 @@ def _frequency_lines(named: float | None, recorded: float | None) -> list[Line |
 
 
 def _number(pattern: re.Pattern[str], name: str) -> float | None:
+    """Read a number above zero from a name; None where it tells none."""
     found = pattern.search(plain(name))
-    return float(re.sub("[,p]", ".", found[1])) if found else None
+    number = float(re.sub("[,p]", ".", found[1])) if found else 0.0
+    return number if number > 0 else None
 
 
 def _of(test: DraftTest, channel: DraftChannel) -> Column:

@@ -29,6 +29,9 @@ NO_RECORDINGS = (
 )
 """Endings of files that are kept beside recordings but are none."""
 
+WRITING = ("delimiter ", "decimal sign ", "one column", "numbers run on")
+"""Notes of readers that tell how numbers are written."""
+
 LOG_HEADS = {"id", "kind", "specimen"}
 """Column heads by which a table is a log of tests."""
 
@@ -74,6 +77,8 @@ class RawFile:
         Hz and s, where it has a clock.
     warnings : tuple of str
         Of the reader.
+    writing : str
+        How its numbers are written, as far as the reader says so.
     """
 
     relative: str
@@ -82,11 +87,20 @@ class RawFile:
     rate: float | None
     duration: float | None
     warnings: tuple[str, ...]
+    writing: str = ""
 
     @property
-    def layout(self) -> tuple[str, ...]:
-        """What files of one recorder have in common: format and headings."""
-        return self.format, *(column.heading for column in self.columns)
+    def layout(self) -> tuple[object, ...]:
+        """
+        What files of one recorder have in common: format and headings.
+
+        Without headings it is how they are written, their rate and their ending; the number of columns says nothing.
+        """
+        headings = tuple(column.heading for column in self.columns)
+        if any(column.heading != f"column {column.number}" for column in self.columns):
+            return self.format, *headings
+        rate = None if self.rate is None else f"{self.rate:.3g}"
+        return self.format, *headings, self.writing, rate, Path(self.relative).suffix.casefold()
 
     @property
     def stem(self) -> str:
@@ -193,7 +207,9 @@ def _seen(relative: str, recording: Recording) -> RawFile:
         if steps.size and (step := float(np.median(steps))) > 0:
             rate, duration = 1 / step, float(np.nansum(steps))
     columns = tuple(_column(number, channel) for number, channel in enumerate(recording.channels, start=1))
-    return RawFile(relative, recording.format, columns, rate, duration, recording.warnings)
+    # Of `delimiter ";" (3 cells on …)` what files have in common.
+    writing = "; ".join(note.partition(" (")[0] for note in recording.notes if note.startswith(WRITING))
+    return RawFile(relative, recording.format, columns, rate, duration, recording.warnings, writing)
 
 
 def _column(number: int, channel: RecordedChannel) -> Column:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from colonnade.campaign.campaign import SCHEMA
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.draft.channels import DraftChannel, DraftChannels, draft_channels
+from colonnade.campaign.draft.groups import MOST_SETUPS, explained, group
 from colonnade.campaign.draft.kinds import kind_lines, largest_spreads, linked
 from colonnade.campaign.draft.layout import DraftSetup, DraftTest, names_of
 from colonnade.campaign.draft.lines import Line, comment, key, value
@@ -61,6 +62,9 @@ def write(
     named = list(_named(setups))
     tests = [test for setup in setups for test in setup.tests]
     specimens = _specimens(tests)
+    of_setup = _tests(named, dict(zip(map(id, tests), specimens, strict=True)))
+    described = [line for specimen, shape in dict.fromkeys(specimens) for line in _specimen(specimen, shape)]
+    asks_first = len(setups) > MOST_SETUPS
     lines: list[Line | str] = [
         comment("Drafted by `colonnade init` from the raw files. Behind each # stands why a value is what it is."),
         comment('A "?" in a value has to be filled in before anything runs; "# ?" is a guess that asks for a look.'),
@@ -70,11 +74,20 @@ def write(
         Line("title", value(f"Campaign {name}"), "of the report; say it better"),
         comment('facility = "…"         the laboratory and its table'),
     ]
-    for specimen, shape in dict.fromkeys(specimens):
-        lines += _specimen(specimen, shape)
-    for each in named:
-        lines += _setup(each)
-    lines += _tests(named, dict(zip(map(id, tests), specimens, strict=True)))
+    if asks_first:
+        lines += explained(len(named), sum(len(test.files) for test in tests))
+        for number, each in enumerate(named, start=1):
+            formats = {test.main.format for test in each.setup.tests}
+            lines += group(
+                f"{number} of {len(named)}", _some(each.setup), formats.pop(), [*_described(each), *of_setup[each.name]]
+            )
+        lines += ["", comment("==== For all groups"), *described]
+    else:
+        lines += described
+        for each in named:
+            lines += _setup(each)
+        for each in named:
+            lines += of_setup[each.name]
     if copies or refused:
         lines += ["", comment("Files that are not in here:")]
         lines += [comment(f"{file}: the same columns as {taken}, so taken for a copy of it") for file, taken in copies]
@@ -128,9 +141,15 @@ def _specimen(name: str, shape: str) -> list[Line | str]:
 
 
 def _setup(named: _NamedSetup) -> list[Line | str]:
-    setup, drafted = named.setup, named.drafted
+    setup = named.setup
     count = "1 test" if len(setup.tests) == 1 else f"{len(setup.tests)} tests, all recorded alike"
-    lines: list[Line | str] = ["", comment(f"The set-up of {count}: {_some(setup)}"), f"[setups.{key(named.name)}]"]
+    return ["", comment(f"The set-up of {count}: {_some(setup)}"), *_described(named)]
+
+
+def _described(named: _NamedSetup) -> list[Line | str]:
+    """Lines of a set-up: its recorders, its channels, and what is left out."""
+    setup, drafted = named.setup, named.drafted
+    lines: list[Line | str] = [f"[setups.{key(named.name)}]"]
     lines += _recorder_lines(setup, MAIN)
     lines.append(comment('catch = "0.3 rad"      the rotation at which a safety frame catches the specimen'))
     for recorder in setup.recorders[1:]:
@@ -180,18 +199,19 @@ def _left_out(drafted: DraftChannels) -> list[Line | str]:
     return lines
 
 
-def _tests(named: Sequence[_NamedSetup], specimens: dict[int, tuple[str, str]]) -> list[Line | str]:
+def _tests(named: Sequence[_NamedSetup], specimens: dict[int, tuple[str, str]]) -> dict[str, list[Line | str]]:
+    """Lines of the tests of each set-up."""
     tests = [(each, test) for each in named for test in each.setup.tests]
     ids = unique(names_of(test for _, test in tests), "test")
     largest = {each.name: largest_spreads(each.setup.tests, each.drafted.channels) for each in named}
     asked: set[str] = set()
-    lines: list[Line | str] = []
+    lines: dict[str, list[Line | str]] = {each.name: [] for each in named}
     for name, (each, test) in zip(ids, tests, strict=True):
         channels = each.drafted.channels
         paths = {recorder: file.relative for recorder, file in test.files.items()}
         file = test.main
         rate = f"{file.rate:.6g} Hz, {file.duration:.4g} s" if file.rate and file.duration else ""
-        lines += [
+        lines[each.name] += [
             "",
             "[[tests]]",
             Line("id", value(name)),

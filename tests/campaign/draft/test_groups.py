@@ -1,0 +1,155 @@
+"""A folder in which most files are no recordings: which ones are is asked first, and little else."""
+
+from __future__ import annotations
+
+import tomllib
+
+import numpy as np
+import pytest
+
+from colonnade.campaign import load
+from colonnade.campaign.draft import draft
+from colonnade.campaign.draft.groups import MOST_SETUPS
+from colonnade.errors import CampaignError
+
+TIME = np.arange(0.0, 1.0, 0.01)
+SINE = np.sin(2 * np.pi * 8 * TIME)
+TABLES = {
+    "calibration": ("load", "indicated", "deviation"),
+    "climate": ("temperature", "humidity", "pressure", "wind"),
+    "survey": ("easting", "northing", "height"),
+    "phone": ("ax", "ay", "az", "gx", "gy", "gz"),
+    "spectra": ("period", "Sa 2 %", "Sa 5 %"),
+    "damper": ("stroke [mm]", "force [kN]"),
+    "modal": ("mode", "f1", "f2", "f3", "f4"),
+    "gps": ("lat", "lon", "alt", "fix"),
+    "crane": ("rope [m]", "angle [deg]"),
+    "oil": ("p1", "p2", "p3", "p4", "level"),
+}
+
+
+def nameless(path, columns, rate):
+    rows = (np.round(SINE * (number + 1), 5) for number in range(columns))
+    lines = zip(np.arange(TIME.size) / rate, *rows, strict=True)
+    path.write_text("".join(" ".join(f"{value:.5f}" for value in line) + "\n" for line in lines))
+
+
+@pytest.fixture
+def messy(folder):
+    """66 files, of which six are recordings of tests."""
+    for number in range(1, 7):
+        folder.write(f"tests/free-{number:02d}.csv", {"LVDT 1 [mm]": SINE * np.exp(-5 * TIME), "ACC [g]": 0.01 * SINE})
+    for number, (name, heads) in enumerate(TABLES.items()):
+        for copy in range(4):
+            columns = {head: SINE * (place + 1) + copy for place, head in enumerate(heads)}
+            folder.write(f"{name}/{name}_{copy}.csv", columns, clock=None if number % 2 else "Time [s]")
+    for copy in range(10):
+        points = "".join(f"{value:15.7E}" + "\n" * (place % 5 == 4) for place, value in enumerate(SINE))
+        head = "PEER NGA\nSomewhere\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS=  100, DT= .01000 SEC\n"
+        (folder.path / f"RSN{copy}.AT2").write_text(head + points)
+    for copy in range(10):
+        nameless(folder.path / f"run{copy}.dat", 2, 100 if copy < 5 else 200)
+    assert sum(path.is_file() for path in folder.path.rglob("*")) == 66
+    return folder
+
+
+def test_a_messy_folder_asks_first_which_files_are_recordings(messy, monkeypatch):
+    document, drafted = messy.draft()
+    assert drafted.asks_first
+    assert drafted.setups == len(document["setups"]) == 14
+    groups = [question for question in drafted.open if question.key.startswith("setups.")]
+    assert drafted.open[: len(groups)] == tuple(groups)
+    assert len(groups) == 14  # one a group, and the four sizes of the specimen
+    assert len(drafted.open) == 18
+    assert all(question.asked.startswith("recordings of tests (") for question in groups)
+    assert any("tests/free-01.csv" in question.asked for question in groups)
+    assert "which are recordings of tests?" in "\n".join(drafted.text.splitlines()[:10])
+    monkeypatch.setattr("colonnade.campaign.draft.writing.MOST_SETUPS", 100)
+    assert len(draft(messy.path).open) > 100  # what was asked at once before
+
+
+def test_check_refuses_nothing_of_it_but_what_it_asks(messy):
+    _, drafted = messy.draft()
+    drafted.path.write_text(drafted.text, encoding="utf-8")
+    with pytest.raises(CampaignError) as told:
+        load(drafted.path)
+    lines = {int(line.partition("line ")[2].partition(":")[0]) for line in str(told.value).splitlines()}
+    assert lines == {question.line for question in drafted.open}
+
+
+def test_the_groups_that_are_no_recordings_can_be_deleted(messy):
+    """What a person does with an editor: keep one group, give its format, fill in the specimen."""
+    _, drafted = messy.draft()
+    head, *blocks = drafted.text.split("\n# ==== ")
+    kept = [block for block in blocks if "tests/free-01.csv" in block.splitlines()[0] or block.startswith("For all")]
+    text = "\n# ==== ".join([head, *kept]).replace('format = "?"', 'format = "delimited"')
+    for key, answer in {"width": "86 mm", "depth": "86 mm", "height": "456 mm", "mass": "26.1 kg"}.items():
+        text = text.replace(f'{key} = "? {answer.split()[1]}"', f'{key} = "{answer}"')
+    drafted.path.write_text(text, encoding="utf-8")
+    campaign = load(drafted.path)
+    assert list(campaign.tests) == [f"free-{number:02d}" for number in range(1, 7)]
+    (setup,) = campaign.setups.values()
+    assert {channel.quantity for channel in setup.channels.values()} == {"other"}
+    assert '# unit = "mm"    # as in the file' in text  # to be taken in
+    assert 'quantity = "other"    # or "displacement"' in text
+
+
+def test_files_without_names_are_grouped_by_what_they_are(folder):
+    for number, rate in enumerate((100, 100, 200)):
+        nameless(folder.path / f"run{number}.dat", 2, rate)
+    nameless(folder.path / "other.txt", 2, 100)
+    document, _ = folder.draft()
+    of_setup = {}
+    for test in document["tests"]:
+        of_setup.setdefault(test["setup"], []).append(test["file"])
+    assert sorted(of_setup.values()) == [["other.txt"], ["run0.dat", "run1.dat"], ["run2.dat"]]
+
+
+def test_a_campaign_of_a_few_setups_is_drafted_in_full(folder):
+    for number in range(MOST_SETUPS):
+        folder.write(f"free-{number}.csv", {f"LVDT {number} [mm]": SINE})
+    _, drafted = folder.draft()
+    assert not drafted.asks_first
+    assert drafted.setups == MOST_SETUPS
+
+
+def test_a_file_in_which_nothing_moves_is_left_out(folder):
+    folder.write("free-01.csv", {"LVDT 1 [mm]": SINE})
+    folder.write("dead.csv", {"top [mm]": np.zeros(TIME.size), "sync": SINE})
+    document, drafted = folder.draft()
+    assert [test["id"] for test in document["tests"]] == ["free-01"]
+    ((name, reason),) = drafted.refused
+    assert name == "dead.csv"
+    assert "none of its columns measures anything" in reason
+    assert '"top [mm]": it never changes' in reason
+    (folder.path / "free-01.csv").unlink()
+    with pytest.raises(CampaignError, match="no file in it has a column that measures anything"):
+        draft(folder.path)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("usp000hzq8", {}),
+        ("run-0hz", {}),
+        ("sine-3hz", {"frequency": "3 Hz"}),
+        ("sine_2p5 Hz", {"frequency": "2.5 Hz"}),
+        ("span0", {}),
+        ("span-2,5", {"span": 2.5}),
+        ("lifespan3", {}),
+    ],
+)
+def test_only_a_number_that_can_be_one_is_taken_from_a_name(folder, name, said):
+    folder.write(f"{name}.csv", {"LVDT 1 [mm]": np.random.default_rng(2).standard_normal(TIME.size)})
+    (test,) = folder.draft()[0]["tests"]
+    assert {key: test[key] for key in ("frequency", "span") if key in test} == said
+
+
+def test_line_numbers_hold_behind_signs_that_look_like_line_ends(folder):
+    folder.write("a\x85b\u2028c.csv", {"LVDT 1 [mm]": SINE})
+    drafted = folder.draft()[1]
+    drafted.path.write_text(drafted.text, encoding="utf-8")
+    with pytest.raises(CampaignError) as told:
+        load(drafted.path)
+    assert [f"line {question.line}: " in str(told.value) for question in drafted.open] == [True] * len(drafted.open)
+    assert tomllib.loads(drafted.text)["tests"][0]["file"] == "a\x85b\u2028c.csv"
