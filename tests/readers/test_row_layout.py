@@ -152,3 +152,22 @@ def test_a_series_is_never_taken_for_columns_nor_columns_for_a_series(width: int
     for table, layout in ((series, "running"), (channels, "columns"), (channels + np.round(drift, 5), "columns")):
         verdict = judge(list(table.T), Announced(), named="", is_free=True, is_whole=True)
         assert verdict.layout == layout, verdict
+
+
+def test_a_column_that_ends_earlier_is_no_series_that_runs_on(tmp_path: Path) -> None:
+    table = components()
+    text = "".join(
+        " ".join(f"{number:.4f}" for number in row[: 3 if line < 390 else 2]) + "\n" for line, row in enumerate(table)
+    )
+    (tmp_path / "record.txt").write_text(text)
+    assert len(read(tmp_path / "record.txt").channels) == 3
+
+
+def test_a_single_series_takes_unit_and_interval_from_the_lines_above(tmp_path: Path) -> None:
+    series = shaking(300)
+    path = written(tmp_path, series[:, None], head="Acceleration, units: cm/s^2\ntime step 0.005 s\n")
+    (channel,) = read(path).channels
+    assert channel.unit == "cm/s^2"
+    np.testing.assert_allclose(channel.time, 0.005 * np.arange(300))
+    motion = read_motion(path)
+    assert (motion.dt, motion.peak) == (pytest.approx(0.005), pytest.approx(np.abs(series).max() / 100))

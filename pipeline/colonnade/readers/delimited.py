@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from colonnade.errors import ReadError
-from colonnade.readers.announced import announced
+from colonnade.readers.announced import Announced, announced
 from colonnade.readers.cells import WHITESPACE
-from colonnade.readers.clock import Clocks, find_clocks, in_seconds
+from colonnade.readers.clock import Clocks, even_times, find_clocks, in_seconds
 from colonnade.readers.damage import Damage, Source, find_damage, report_missing, unfinished_number
 from colonnade.readers.delimited_header import DelimitedOptions, Header, read_header
 from colonnade.readers.recording import TIME_UNITS, Array, RecordedChannel, Recording, Window
@@ -100,6 +100,8 @@ def _recording(header: Header, samples: Samples, options: DelimitedOptions) -> R
     )
     recording = Recording(path, "delimited", channels, samples.start)
     clocks = _clocks(recording, source, options)
+    if len(channels) == 1 and not clocks.columns:
+        channels, clocks = _as_announced(channels[0], announced(header.above))
     return replace(
         recording,
         channels=tuple(
@@ -122,6 +124,13 @@ def _recording(header: Header, samples: Samples, options: DelimitedOptions) -> R
             *absent,
         ),
     )
+
+
+def _as_announced(series: RecordedChannel, told: Announced) -> tuple[tuple[RecordedChannel, ...], Clocks]:
+    """Take unit and interval of a single series from the lines above it, where it has none of its own."""
+    time = None if told.step is None else even_times(series.values.size, told.step)
+    note = "no clock" if told.step is None else f"clock: {told.step:g} s, as the header says"
+    return (replace(series, unit=series.unit or told.unit),), Clocks(frozenset(), (time,), (note,), ())
 
 
 def _samples(header: Header, options: DelimitedOptions, stretch: Stretch | None) -> Samples:

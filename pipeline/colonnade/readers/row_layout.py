@@ -90,21 +90,24 @@ def judge(columns: list[Array], announced: Announced, *, named: Named, is_free: 
     is_whole : bool
         Whether this is all of the file, and its last line ends.
     """
-    table = _without_blank_end(np.column_stack(columns))
-    rows, width = table.shape
-    if width < 2 or rows < 2 or (named == "names" and not is_free):
+    width = len(columns)
+    if width < 2 or (named == "names" and not is_free):
         return Verdict("columns")  # nobody writes names, with delimiters, above a single series
-    rising = rows >= FEWEST_TIMES and rising_share(table[:, 0]) >= RISING_SHARE
-    last = int(np.isfinite(table[-1]).sum())
-    body = table[:-1] if last < width else table
-    if rising and rising_share(body.ravel()) < RISING_SHARE:
-        if not named and _are_pairs(body):
+    rows = max(_length(column) for column in columns)
+    if rows < 2:
+        return Verdict("columns")
+    table = np.column_stack([column[: min(rows, MOST_ROWS)] for column in columns])
+    full = table[np.isfinite(table).all(axis=1)]
+    rising = rows >= FEWEST_TIMES and rising_share(columns[0]) >= RISING_SHARE
+    if rising and rising_share(full.ravel()) < RISING_SHARE:
+        if not named and _are_pairs(full):
             return Verdict("pairs", ("every second number is a time, in equal steps from row to row",))
         return Verdict("columns", ("the first column rises, as times do",))
     evidence = _Evidence()
-    _by_shape(evidence, table, announced, is_whole)
+    ending = np.array([column[rows - 2 : rows] for column in columns]).T
+    _by_shape(evidence, rows, ending, announced, is_whole=is_whole, is_free=is_free)
     _by_words(evidence, announced, width, named)
-    _by_steps(evidence, table[:MOST_ROWS])
+    _by_steps(evidence, full)
     return _weighed(evidence, may_run_on=is_free and not named and rows >= FEWEST_ROWS)
 
 
@@ -119,15 +122,24 @@ def _weighed(evidence: _Evidence, *, may_run_on: bool) -> Verdict:
     return Verdict("columns", tuple(evidence.weak_columns))
 
 
-def _by_shape(evidence: _Evidence, table: NDArray[np.float64], announced: Announced, is_whole: bool) -> None:
-    """Compare the numbers with the count that the header gives, and the last row with the others."""
-    rows, width = table.shape
-    last = np.isfinite(table[-1])
-    short = 0 < last.sum() < width and bool(last[: last.sum()].all())
-    total = rows * width - (width - int(last.sum()) if short else 0)
+def _by_shape(
+    evidence: _Evidence,
+    rows: int,
+    ending: NDArray[np.float64],
+    announced: Announced,
+    *,
+    is_whole: bool,
+    is_free: bool,
+) -> None:
+    """Compare the numbers with the count that the header gives, and the last row with the one above."""
+    width = ending.shape[1]
+    above, last = np.isfinite(ending)
+    numbers = int(last.sum())
+    short = 0 < numbers < width and bool(last[:numbers].all()) and bool(above.all())
+    total = rows * width - (width - numbers if short else 0)
     if short:
-        told = f"the last row has {last.sum()} numbers, the others have {width}"
-        (evidence.running if is_whole else evidence.weak_running).append(told)
+        told = f"the last row has {numbers} numbers, the others have {width}"
+        (evidence.running if is_whole and is_free else evidence.weak_running).append(told)
     for count in announced.counts:
         if is_whole and abs(count - rows) <= 1:
             evidence.columns.append(f"the header announces {count} points, and there are {rows} rows")
@@ -149,7 +161,6 @@ def _by_words(evidence: _Evidence, announced: Announced, width: int, named: Name
 
 def _by_steps(evidence: _Evidence, table: NDArray[np.float64]) -> None:
     """Compare steps within rows, from row to row, and down the columns: which ones are from sample to sample?"""
-    table = table[np.isfinite(table).all(axis=1)]
     if len(table) < FEWEST_ROWS:
         return
     with np.errstate(over="ignore", invalid="ignore"):
@@ -197,6 +208,6 @@ def _are_pairs(table: NDArray[np.float64]) -> bool:
     return bool(steps.size > 1 and (steps > 0).all() and np.abs(steps - steps.mean()).max() < 0.1 * steps.mean())
 
 
-def _without_blank_end(table: NDArray[np.float64]) -> NDArray[np.float64]:
-    known = np.flatnonzero(np.isfinite(table).any(axis=1))
-    return table[: known[-1] + 1] if known.size else table[:0]
+def _length(column: Array) -> int:
+    """Samples up to the last number."""
+    return column.size - int(np.argmax(np.isfinite(column[::-1]))) if np.isfinite(column).any() else 0
