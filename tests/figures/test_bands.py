@@ -15,8 +15,8 @@ CENTRE = 0.4 * np.sin(4 * TIME)
 BANDS = CENTRE + np.array([[-0.1], [-0.05], [0.0], [0.05], [0.1]]) * TIME / 10
 
 
-def spread(probability=0.0):
-    return Spread(TIME, LEVELS, BANDS, probability)
+def spread(probability=0.0, horizon=10.0):
+    return Spread(TIME, LEVELS, BANDS, probability, horizon)
 
 
 def shades(axes):
@@ -51,6 +51,15 @@ def test_the_probability_of_overturning_is_written_where_there_is_one():
     assert not any("overturn" in text for text in texts(0.0))
 
 
+def test_each_model_has_its_horizon_marked_unless_it_is_the_records_end():
+    figure = bands_over_time(
+        None, {"linear": spread(horizon=4.0), "nonlinear": spread(horizon=7.0), "contact": spread()}
+    )
+    marks = [[line.get_xdata()[0] for line in axes.lines if len(line.get_xdata()) == 2] for axes in figure.axes]
+    assert marks == [[4.0], [7.0], []]
+    assert ["horizon" in [text.get_text() for text in axes.texts] for axes in figure.axes] == [True, True, False]
+
+
 def test_thinning_keeps_the_extremes_of_the_band():
     time, below, above = between(TIME, BANDS[0], BANDS[-1], intervals=50)
     assert time.size <= 51
@@ -68,4 +77,4 @@ def test_no_model_or_unpaired_levels_are_refused():
     with pytest.raises(ValueError, match="at least one model"):
         bands_over_time(None, {})
     with pytest.raises(ValueError, match="not paired"):
-        bands_over_time(None, {"linear": Spread(TIME, np.array([0.05, 0.5]), BANDS[:2], 0.0)})
+        bands_over_time(None, {"linear": Spread(TIME, np.array([0.05, 0.5]), BANDS[:2], 0.0, 10.0)})

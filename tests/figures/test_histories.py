@@ -39,7 +39,7 @@ def test_in_small_panels_only_the_models_lines_are_thinner():
 def test_the_widest_band_of_an_ensemble_is_shaded_below_the_lines():
     levels = np.array([0.05, 0.25, 0.5, 0.75, 0.95])
     centre = swing(0.3).values
-    spread = Spread(TIME, levels, centre + np.linspace(-0.1, 0.1, 5)[:, None], 0.0)
+    spread = Spread(TIME, levels, centre + np.linspace(-0.1, 0.1, 5)[:, None], 0.0, 3.0)
     axes = drawn(swing(0.3), {"nonlinear": swing(0.3)}, spreads={"nonlinear": spread})
     (band,) = axes.collections
     assert band.get_label() == "90% of runs"
@@ -47,6 +47,8 @@ def test_the_widest_band_of_an_ensemble_is_shaded_below_the_lines():
     assert band.get_zorder() < min(line.get_zorder() for line in axes.lines)
     heights = band.get_paths()[0].vertices[:, 1]
     assert (heights.min(), heights.max()) == pytest.approx((-0.4, 0.4), abs=1e-3)
+    (mark,) = (text for text in axes.texts if text.get_text() == "horizon")
+    assert mark.xy[0] == 3.0
 
 
 def test_a_model_without_a_style_is_refused():

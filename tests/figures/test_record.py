@@ -98,7 +98,7 @@ def test_drawing_changes_no_setting_of_matplotlib():
 
 
 def test_the_legend_of_all_models_and_a_band_stays_within_the_figure():
-    band = Spread(TIME, np.array([0.05, 0.95]), np.array([swing(0.2).values, swing(0.5).values]), 0.0)
+    band = Spread(TIME, np.array([0.05, 0.95]), np.array([swing(0.2).values, swing(0.5).values]), 0.0, 3.0)
     models = {name: swing(0.3) for name in MODELS}
     figure = whole_record(swing(0.4), models, spreads={"nonlinear": band})
     (legend,) = figure.legends

@@ -10,13 +10,13 @@ from colonnade.laboratory.ladder import KEPT_AWAY
 from colonnade.report.agreement import Score, of_summary, sentences
 
 
-def prediction(outcome="rocking", nrmse=0.1, within=None, rank=None):
-    return {"outcome": outcome, "nrmse": nrmse, "within_spread": within, "peak_rank": rank}
+def prediction(outcome="rocking", nrmse=0.1, rank=None):
+    return {"outcome": outcome, "nrmse": nrmse, "within_spread": rank}
 
 
 TESTS = {
-    "right": {"outcome": "rocking", "predicted": {"linear": prediction(within=0.95, rank=0.5)}},
-    "wrong": {"outcome": "overturned", "predicted": {"linear": prediction(nrmse=0.3, within=0.4, rank=1.0)}},
+    "right": {"outcome": "rocking", "predicted": {"linear": prediction(rank=0.95)}},
+    "wrong": {"outcome": "overturned", "predicted": {"linear": prediction(nrmse=0.3, rank=0.96)}},
     "seen": {
         "outcome": None,
         "observed_outcome": "not-overturned",

@@ -77,6 +77,20 @@ def test_a_prediction_from_the_true_zero_keeps_time_better(small_campaign, relea
     assert float(misfits[1]["measured_peak_ratio"]) == pytest.approx(true_peak, abs=5e-4)
 
 
+@pytest.mark.parametrize("every", [5, 8], ids=["100 Hz", "62.5 Hz"])
+def test_a_prediction_from_a_peak_between_two_samples_is_not_late(small_campaign, released, specimen, every):
+    """Started at rest at the next sample, it would be late by up to a sampling interval, here 10 and 16 ms."""
+    recordings, time, angle = released(E)
+    _, rocking = measured(small_campaign, recordings)
+    lateness = []
+    for shift in range(0, every, 2):
+        prediction = predicted(small_campaign, rocking.isel(elapsed=slice(shift, None, every)), specimen)
+        begins = float(prediction["elapsed"][int(np.argmax(np.isfinite(prediction["rocking_angle"].to_numpy())))])
+        true = find_impacts(time[time > begins], angle[time > begins], lowest=0.02 * ALPHA)
+        lateness.append(float(prediction["impact_time"][0]) - true[0])
+    assert np.abs(lateness).max() < 0.15 * every * float(time[1])
+
+
 def test_a_zero_offset_of_a_restitution_that_was_refused_is_not_used(small_campaign, released, specimen):
     _, rocking = measured(small_campaign, released(E)[0])
     read = identifying.instructions(small_campaign, small_campaign.tests["free-01"])

@@ -23,7 +23,7 @@ SPECIMEN = xr.Dataset({"restitution": ((), 0.976)}, attrs={"restitution_source":
 
 @pytest.fixture
 def shaken_in_space(small_campaign, shaken):
-    """Rocking of a shaken test, the law of contact of its specimen, and what the ensemble reads."""
+    """Channels and rocking of a shaken test, the law of contact of its specimen, and what the ensemble reads."""
     test = small_campaign.tests["shake-01"]
     settings = ContactSettings.model_validate({"step": "50 us", "damping_fraction": 0.3, "penetration": 1e-5})
     space = calibrating.instructions(small_campaign, "prism", settings)
@@ -31,33 +31,34 @@ def shaken_in_space(small_campaign, shaken):
     ready = conditioning.condition(recorded, conditioning.instructions(small_campaign, test))
     rocking = rocking_stage.rocking(ready, rocking_stage.instructions(small_campaign, test))
     read = running.instructions(small_campaign, test).model_copy(update={"space": space, "runs": RUNS})
-    return rocking, calibrating.contact(SPECIMEN, space), read
+    return ready, rocking, calibrating.contact(SPECIMEN, space), read
 
 
 def test_the_bands_lie_about_the_prediction_on_its_clock(shaken_in_space):
-    rocking, law, read = shaken_in_space
-    bands = running.contact_ensemble(rocking, law, read)
+    conditioned, rocking, law, read = shaken_in_space
+    bands = running.contact_ensemble(conditioned, rocking, law, read)
     prediction = read.prediction.model_copy(update={"space": read.space})
     predicted = predicting.predict(rocking, SPECIMEN, prediction, law)
     np.testing.assert_array_equal(bands["elapsed"], predicted["elapsed"])
     np.testing.assert_array_equal(bands["rocking_angle"], predicted["rocking_angle"])
-    low, high = (bands["rocking_angle_band"].sel(quantile=level) for level in (0.05, 0.95))
+    low, high = (bands["rocking_angle_band"].sel(quantile=level) for level in (0.025, 0.975))
     assert (low <= high).all()
     assert float((high - low).max()) > 1e-4
     assert bands.sizes["member"] == bands.attrs["members"] == RUNS
     assert float(bands["overturning_probability"]) == 0.0
+    assert float(bands["elapsed"][0]) < float(bands["horizon"]) <= float(bands["elapsed"][-1])
 
 
 def test_inputs_have_the_deviations_of_their_ranges(shaken_in_space):
-    rocking, law, read = shaken_in_space
+    conditioned, rocking, law, read = shaken_in_space
     wide = read.model_copy(update={"friction_range": 0.3, "damping_range": 0.0, "out_of_plane_range": 0.002, "runs": 2})
-    bands = running.contact_ensemble(rocking, law, wide)
+    bands = running.contact_ensemble(conditioned, rocking, law, wide)
     assert bands["input"].to_numpy().tolist() == ["friction", "out_of_plane"]
     np.testing.assert_allclose(bands["input_deviation"], np.array([0.3, 0.002]) / np.sqrt(3.0))
 
 
 def test_damping_that_the_step_does_not_follow_is_told(shaken_in_space):
-    rocking, law, read = shaken_in_space
+    conditioned, rocking, law, read = shaken_in_space
     stiff = law.assign(contact_stiffness=1e6 * law["contact_stiffness"])
     with pytest.raises(StageError, match="contact: step is"):
-        running.contact_ensemble(rocking, stiff, read)
+        running.contact_ensemble(conditioned, rocking, stiff, read)

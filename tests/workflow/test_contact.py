@@ -78,9 +78,10 @@ def test_an_ensemble_of_the_contact_model_is_compared_and_reported_while_it_is_a
     assert set(bands["input"].to_numpy()) == {"friction", "damping_fraction", "out_of_plane"}
     told = in_space.summary()["tests"]["pulse-01"]["predicted"]["contact"]
     assert told["overturning_probability"] == float(bands["overturning_probability"])
+    assert told["horizon"] == float(bands["horizon"])
     report = in_space.layout.report.parent
     page = (report / "tests" / "pulse-01.html").read_text(encoding="utf-8")
-    assert "Contact model: the misfit lies" in page
+    assert "Contact model: predicted up to" in page
     methods = (report / "methods.html").read_text(encoding="utf-8")
     assert "repeated 3 times with other friction (± 20%), damping fraction (± 20%)" in methods
     assert "by the nonlinear and contact models" in methods
@@ -94,7 +95,7 @@ def test_an_ensemble_of_the_contact_model_is_compared_and_reported_while_it_is_a
 
     in_space.edit("contact = {members = 3}", "contact = {members = 0}")
     in_space.run(until="report")
-    assert "Contact model: the misfit lies" not in (report / "tests" / "pulse-01.html").read_text(encoding="utf-8")
+    assert "Contact model: predicted up to" not in (report / "tests" / "pulse-01.html").read_text(encoding="utf-8")
     assert "with other friction" not in (report / "methods.html").read_text(encoding="utf-8")
 
 

@@ -127,6 +127,12 @@ class EnsembleSettings(Table):
     """Standard deviation of the recorder's clock rate."""
     filter: Annotated[float, *_deviation(0.5)] = _setting(0.1, "of the cut-off")
     """Standard deviation of the low-pass of the table's acceleration: how much its choice matters."""
+    angle_gain: Annotated[float, *_deviation(0.5)] = _setting(0.005, "of the angle")
+    """Standard deviation of the calibration of the measured rocking angle."""
+    angle_zero: Annotated[float, *_deviation(0.5)] = _setting(5e-4, "of α")
+    """Standard deviation of the zero of the measured rocking angle; that of its drift between the rests, if larger."""
+    horizon: Annotated[float, *_bounded(0.0, 10.0)] = _setting(0.2, "of α")
+    """A history is predicted up to the first time at which the 95 % band of its runs is wider than this."""
     contact: ContactEnsembleSettings = ContactEnsembleSettings()
     """The ensembles of the contact model, where it is among the models."""
 

@@ -93,8 +93,12 @@ class PredictionSummary(_Record):
     """RMS of predicted − measured, over α, until either first passes α."""
     order: Order = None
     """Predicted order of a sine test's response; see the test's own."""
+    horizon: Known = None
+    """Time up to which the model predicts the angle, s: the first at which the 95 % band of its runs is wider than the
+    setting `processing.predict.ensemble.horizon`, else the record's end; null if it has no runs."""
     within_spread: Known = None
-    """Share of the measured angle, while it rocks, that lies in the band of nine in ten of the model's runs."""
+    """Rank of the measured angle: share of the model's runs that are closer to their median, by their largest scaled
+    distance up to the horizon. Within the model's own spread: at most 0.95."""
     peak_rank: Known = None
     """Share of the model's runs whose peak is below the measured one."""
     overturning_probability: Known = None

@@ -149,7 +149,7 @@ def _show_records(
 def _test_cells(record: Record) -> tuple[str, ...]:
     outcome = record["outcome"] or (f"{record['observed_outcome']} (seen)" if record["observed_outcome"] else "")
     predicted = [
-        f"{model}: {' '.join(part for part in (result['outcome'], shown(result['peak_ratio'])) if part)}"
+        f"{model}: {' '.join(filter(None, (result['outcome'], shown(result['peak_ratio']), _until(result))))}"
         for model, result in record["predicted"].items()
         if result.get("outcome")
     ]
@@ -162,6 +162,12 @@ def _test_cells(record: Record) -> tuple[str, ...]:
         ", ".join(predicted),
         record["reason"] or "; ".join(map(line_of, record["warnings"])),
     )
+
+
+def _until(predicted: Record) -> str:
+    """Say up to when a model predicts, empty if it is not known."""
+    horizon = predicted.get("horizon")
+    return "" if horizon is None else f"up to {horizon:.4g} s"
 
 
 def _specimen_cells(record: Record) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from colonnade.dynamics.bands import Counts, band, count, empty_counts
 from colonnade.dynamics.block import Block, Sided
-from colonnade.dynamics.history import History
+from colonnade.dynamics.history import History, capped
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE, rock
 from colonnade.dynamics.uncertainty import (
@@ -24,9 +24,13 @@ from colonnade.dynamics.uncertainty import (
 )
 
 Array = NDArray[np.float64]
+Histories = NDArray[np.float32]
 
-LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
-"""Quantiles of the bands: the middle, half of all members, nine in ten."""
+LEVELS = (0.025, 0.25, 0.5, 0.75, 0.975)
+"""Quantiles of the bands: the middle, half of all members, 95 % of them."""
+
+KEPT = 200
+"""Members whose whole histories are kept."""
 
 LONGEST_CLOCK = 25_000
 """Samples of a band; a longer record's band takes every second, third … of its samples."""
@@ -52,8 +56,8 @@ class Plan:
     seed : int
         Member k draws from a stream of its own, of (seed, k).
     model : str
-    theta0 : float
-        rad.
+    theta0, omega0 : float
+        rad, rad/s.
     rest_angle : float
         As of `rock`.
     """
@@ -67,6 +71,7 @@ class Plan:
     model: str = "linear"
     theta0: float = 0.0
     rest_angle: float = DEFAULT_REST_ANGLE
+    omega0: float = 0.0
 
     def __post_init__(self) -> None:
         if self.count < 1:
@@ -85,6 +90,7 @@ class Plan:
             restitution=self.restitution,
             model=self.model,
             theta0=self.theta0,
+            omega0=self.omega0,
             rest_angle=self.rest_angle,
         )
 
@@ -106,6 +112,8 @@ class Part:
         s on the record's clock; NaN where it stands.
     counts : ndarray, shape (samples, BINS)
         Of the deviations from the central history.
+    histories : ndarray of float32, shape (kept members, samples)
+        As of `Ensemble`, of those of its members that are among the first `KEPT`.
     """
 
     start: int
@@ -113,6 +121,7 @@ class Part:
     peak_ratio: Array
     overturning_time: Array
     counts: Counts
+    histories: Histories
 
 
 @dataclass(frozen=True)
@@ -131,6 +140,8 @@ class Ensemble:
         rad, quantiles of θ at each time.
     inputs, peak_ratio, overturning_time : ndarray
         Of each member, as of `Part`.
+    histories : ndarray of float32, shape (k, n)
+        rad, θ of the first members, at most `KEPT`, up to ±α: one that overturned stays there.
     names : tuple of str
         Of the inputs.
     """
@@ -142,7 +153,13 @@ class Ensemble:
     inputs: Array
     peak_ratio: Array
     overturning_time: Array
+    histories: Histories
     names: tuple[str, ...] = INPUTS
+
+    def horizon(self, width: float) -> float:
+        """Return the first time (s) at which the widest band is wider than `width` (rad), else the last one."""
+        wide = self.bands[-1] - self.bands[0] > width
+        return float(self.time[int(np.argmax(wide)) if wide.any() else -1])
 
     @property
     def overturning_probability(self) -> float:
@@ -242,16 +259,20 @@ def run_members(plan: Plan, start: int, stop: int) -> Part:
     inputs, peaks, overturned = np.empty((number, len(INPUTS))), np.empty(number), np.empty(number)
     counts = empty_counts(central.size)
     deviations = np.empty((_BATCH, central.size), dtype=np.float32)
+    histories = np.empty((max(min(stop, KEPT) - start, 0), central.size), dtype=np.float32)
     for place in range(number):
         inputs[place], history = _member(plan, draws, start + place)
         peak = history.peak_ratio
         peaks[place] = np.nan if peak is None else peak
         overturned[place] = history.overturning_time / inputs[place, INPUTS.index("clock")]
+        if place < len(histories):
+            standing = capped(history.time, history.angle, history.overturning_time, plan.block)
+            histories[place] = standing[:: plan.stride]
         batched = place % _BATCH
         deviations[batched] = (history.angle[:: plan.stride] - central) / plan.block.critical_angle
         if batched == _BATCH - 1 or place == number - 1:
             count(counts, deviations[: batched + 1])
-    return Part(start, inputs, peaks, overturned, counts)
+    return Part(start, inputs, peaks, overturned, counts, histories)
 
 
 def gather(plan: Plan, parts: Iterable[Part], levels: Sequence[float] = LEVELS) -> Ensemble:
@@ -265,10 +286,10 @@ def gather(plan: Plan, parts: Iterable[Part], levels: Sequence[float] = LEVELS) 
     """
     central = plan.central().angle[:: plan.stride]
     counts = empty_counts(central.size)
-    members: dict[int, tuple[Array, Array, Array]] = {}
+    members: dict[int, tuple[Array, Array, Array, Histories]] = {}
     for part in parts:
         counts += part.counts
-        members[part.start] = (part.inputs, part.peak_ratio, part.overturning_time)
+        members[part.start] = (part.inputs, part.peak_ratio, part.overturning_time, part.histories)
     expected = 0
     for start in sorted(members):
         if start != expected:
@@ -276,15 +297,17 @@ def gather(plan: Plan, parts: Iterable[Part], levels: Sequence[float] = LEVELS) 
         expected += members[start][1].size
     if expected != plan.count:
         raise ValueError(f"the parts hold {expected} members; {plan.count} were expected")
-    inputs, peak_ratio, overturning_time = zip(*(members[start] for start in sorted(members)), strict=True)
+    joined = (np.concatenate(each) for each in zip(*(members[start] for start in sorted(members)), strict=True))
+    inputs, peak_ratio, overturning_time, histories = joined
     return Ensemble(
         time=plan.motion.time[:: plan.stride],
         central=central,
         levels=np.asarray(levels, dtype=np.float64),
         bands=central + plan.block.critical_angle * band(counts, levels),
-        inputs=np.concatenate(inputs),
-        peak_ratio=np.concatenate(peak_ratio),
-        overturning_time=np.concatenate(overturning_time),
+        inputs=inputs,
+        peak_ratio=peak_ratio,
+        overturning_time=overturning_time,
+        histories=histories,
     )
 
 
@@ -303,6 +326,7 @@ def _member(plan: Plan, draws: MotionDraws, member: int) -> tuple[Array, History
         restitution=member_restitution(plan.restitution, drawn["restitution"]),
         model=plan.model,
         theta0=plan.theta0 + drawn["theta0"],
+        omega0=plan.omega0,
         rest_angle=plan.rest_angle,
     )
     return inputs, history

@@ -97,6 +97,28 @@ def amplitude(angle: Array, block: Block) -> Array:
     return np.asarray(np.abs(angle) / critical, dtype=np.float64)
 
 
+def capped(time: Array, angle: Array, overturning_time: float, block: Block) -> Array:
+    """
+    Return the angle (rad) up to ± the critical angle, where a block that overturned stays.
+
+    Parameters
+    ----------
+    time, angle : ndarray, shape (n,)
+        s, rad; NaN where missing, but not after overturning.
+    overturning_time : float
+        s; NaN for a block that stands.
+    block : Block
+    """
+    inside = np.clip(angle, -block.negative.critical_angle, block.positive.critical_angle)
+    fallen = time >= overturning_time
+    if fallen.any():
+        known = angle[: int(np.argmax(fallen)) + 1]
+        known = known[np.isfinite(known)]
+        to_negative = known.size > 0 and known[-1] < 0
+        inside[fallen] = -block.negative.critical_angle if to_negative else block.positive.critical_angle
+    return np.asarray(inside, dtype=np.float64)
+
+
 def count_impacts(time: Array, amplitude: Array, impact_times: Array, threshold: float) -> int:
     """
     Count the impacts that are followed, before the next one, by an amplitude above a threshold.

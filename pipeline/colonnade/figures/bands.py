@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from colonnade.figures.curve import Curve
-from colonnade.figures.histories import ANGLE_LABEL, Spread, draw_angle, limit_of, shade, time_limits
+from colonnade.figures.histories import ANGLE_LABEL, Spread, draw_angle, limit_of, mark_horizon, shade, time_limits
 from colonnade.figures.panels import legend_above, stacked_panels
 from colonnade.figures.style import model_style, styled
 
@@ -51,6 +51,7 @@ def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Fi
             for index in range(int((spread.levels < 0.5).sum())):
                 label = f"{spread.share(index):.0%} of the runs" if panel is axes[0] else None
                 shade(panel, spread, index, limit, colour, label=label)
+            mark_horizon(panel, spread, colour)
             draw_angle(panel, measured, {}, limit)
             panel.set_ylabel(f"{ANGLE_LABEL}, {model}")
             if spread.overturning_probability > 0:

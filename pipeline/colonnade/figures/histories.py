@@ -39,12 +39,15 @@ class Spread(NamedTuple):
     bands : ndarray, shape (q, n)
         θ/α at these quantiles; NaN where there is none.
     overturning_probability : float
+    horizon : float
+        s, up to which the angle is predicted.
     """
 
     time: Array
     levels: Array
     bands: Array
     overturning_probability: float
+    horizon: float
 
     def share(self, index: int) -> float:
         """Return the share of the runs within band `index`, the widest being number 0."""
@@ -75,7 +78,7 @@ def draw_angle(
     limit : float
         Half range of the θ/α axis (see `limit_of`).
     spreads : mapping of str to Spread, optional
-        The widest band of each model's ensemble, shaded below the lines.
+        The widest band of each model's ensemble, shaded below the lines, and its horizon.
     intervals : int, optional
         Of each curve's envelope.
     thinness : float, optional
@@ -86,6 +89,7 @@ def draw_angle(
     for model, spread in (spreads or {}).items():
         label = f"{spread.share(0):.0%} of runs"
         shade(axes, spread, 0, limit, model_style(model)["color"], label=label, intervals=intervals)
+        mark_horizon(axes, spread, model_style(model)["color"])
     lines: list[tuple[Curve | None, str, LineStyle]] = [(measured, "measured", MEASURED)]
     lines += [(curve, f"{model} model", model_style(model, thinness)) for model, curve in predicted.items()]
     for curve, label, style in lines:
@@ -118,6 +122,24 @@ def shade(
         label=label,
         zorder=0.5,
     )
+
+
+def mark_horizon(axes: Axes, spread: Spread, colour: str) -> None:
+    """Mark the horizon of a model with an upright line and its name, unless it is the end of the record."""
+    if spread.horizon < spread.time[-1]:
+        axes.axvline(spread.horizon, color=colour, linewidth=0.9, linestyle=(0, (1, 1.5)))
+        is_late = spread.horizon > 0.5 * (spread.time[0] + spread.time[-1])
+        axes.annotate(
+            "horizon",
+            (spread.horizon, 0.98),
+            xycoords=axes.get_xaxis_transform(),
+            xytext=(-3 if is_late else 3, 0),
+            textcoords="offset points",
+            ha="right" if is_late else "left",
+            va="top",
+            fontsize=7,
+            color=colour,
+        )
 
 
 def between(time: Array, below: Array, above: Array, *, intervals: int = INTERVALS) -> tuple[Array, Array, Array]:

@@ -37,6 +37,8 @@ class Course:
         Rotation below which nothing is told from noise, rad.
     standard_error : float
         Of the angle, with the drift between the rests, rad.
+    drift : float
+        Between the rests, rad; 0 if it is not known.
     impact_times : ndarray
         s, up to overturning.
     peak_time, peak_angle, peak_ratio : float
@@ -46,6 +48,7 @@ class Course:
     verdict: Verdict
     threshold: float
     standard_error: float
+    drift: float
     impact_times: Array
     peak_time: float
     peak_angle: float
@@ -86,6 +89,7 @@ def course(
         verdict,
         threshold,
         float(np.hypot(error, drifted / np.sqrt(3))),
+        drifted,
         find_impacts(time[standing], angle[standing], lowest=threshold),
         float(time[peak]),
         float(angle[peak]),

@@ -7,8 +7,8 @@ from math import isfinite, nan
 from statistics import median
 from typing import Any, NamedTuple
 
+from colonnade.identification.verdict import is_within
 from colonnade.report import wording
-from colonnade.stages.spread import is_within
 
 
 class Score(NamedTuple):
@@ -69,9 +69,7 @@ def of_summary(tests: Mapping[str, Mapping[str, Any]]) -> list[str]:
     for name, test in tests.items():
         measured = test["outcome"] or test.get("observed_outcome") or ""
         for model, found in test["predicted"].items():
-            nrmse, *spread = (
-                nan if found[key] is None else found[key] for key in ("nrmse", "within_spread", "peak_rank")
-            )
-            score = Score(name, wording.agree(measured, found["outcome"] or ""), nrmse, is_within(*spread))
+            nrmse, rank = (nan if found[key] is None else found[key] for key in ("nrmse", "within_spread"))
+            score = Score(name, wording.agree(measured, found["outcome"] or ""), nrmse, is_within(rank))
             scores.setdefault(model, []).append(score)
     return [told for model, found in scores.items() if (told := sentences(model, found))]

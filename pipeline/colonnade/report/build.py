@@ -11,6 +11,7 @@ from colonnade.campaign import Campaign, Test
 from colonnade.campaign.settings import settings
 from colonnade.identification.base_motion import LEAST_MOTION
 from colonnade.identification.restitution.choice import RULE
+from colonnade.identification.verdict import WITHIN
 from colonnade.report import (
     channels,
     charts,
@@ -140,6 +141,7 @@ def render(
         "references": REFERENCES,
         "software": methods.software(),
         "rule": RULE,
+        "within": f"{WITHIN:.0%}",
         "least_motion": LEAST_MOTION,
     }
     for template, address in pages.WHOLE.items():

@@ -162,6 +162,7 @@ def _spreads(results: Results, block: Block) -> dict[str, Spread]:
             found["quantile"].to_numpy(),
             angles / critical,
             float(found["overturning_probability"]),
+            float(found["horizon"]),
         )
     return spreads
 

@@ -18,6 +18,8 @@ LIBRARIES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "pandas", "matplotl
 
 _LONGEST = 6
 
+_ANY_ENSEMBLE = "any ensemble"
+
 _STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
     "spike threshold": ("ingest", "spike_threshold", "{:g} robust standard deviations"),
     "flat duration": ("ingest", "flat_duration", "{:g} s"),
@@ -44,6 +46,9 @@ _STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
     "deviation of gain": ("ensemble", "gain", "{:.1%}"),
     "deviation of clock": ("ensemble", "clock", "{:g}"),
     "deviation of filter": ("ensemble", "filter", "{:.0%}"),
+    "horizon": (_ANY_ENSEMBLE, "horizon", "{:g} α"),
+    "deviation of zero": (_ANY_ENSEMBLE, "angle_zero", "{:g} α"),
+    "deviation of angle gain": (_ANY_ENSEMBLE, "angle_gain", "{:.1%}"),
     "runs in space": ("ensemble contact", "runs", "{:d}"),
     "range of friction": ("ensemble contact", "friction_range", "± {:.0%}"),
     "range of damping": ("ensemble contact", "damping_range", "± {:.0%}"),
@@ -65,7 +70,8 @@ class Used:
             for stored_stage, settings in results.settings.items():
                 # The contact model's ensemble varies other things than those of the plane models.
                 own = stored_stage if stored_stage == "ensemble contact" else stored_stage.split()[0]
-                value = _within(settings, key) if own == stage else None
+                is_one = own == stage or (stage == _ANY_ENSEMBLE and stored_stage.startswith("ensemble"))
+                value = _within(settings, key) if is_one else None
                 if value is not None:
                     self._note(name, _written(value, form), test)
         for given in results.channels.values():

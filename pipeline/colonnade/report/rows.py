@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from math import nan
 
 from colonnade.campaign import Campaign, Test
+from colonnade.identification.verdict import is_within
 from colonnade.report import wording
 from colonnade.report.agreement import Score
 from colonnade.report.results import Message, Results
-from colonnade.stages.spread import is_within
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ def _model(test: str, results: Results, model: str, measured: str) -> ModelRow:
         return float(results.of("compare", name, "model").get(model, nan))
 
     agrees, nrmse = wording.agree(measured, outcome), compared("nrmse")
-    score = Score(test, agrees, nrmse, is_within(compared("within_spread"), compared("peak_rank")))
+    score = Score(test, agrees, nrmse, is_within(compared("within_spread")))
     ratio = wording.number(results.value(stage, "peak_ratio"))
     return ModelRow(outcome, agrees, ratio, wording.number(nrmse, 2), score)
 

@@ -12,12 +12,12 @@ from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.similitude import at_prototype
 from colonnade.figures import EstimateGroup
+from colonnade.identification.verdict import FEWEST, is_within
 from colonnade.report import channels, charts, restitution, restitution_charts, wording
 from colonnade.report.channels import ChannelRow
 from colonnade.report.restitution import EstimateText
 from colonnade.report.results import Results
 from colonnade.report.rows import TestRow
-from colonnade.stages.spread import is_within
 
 Fact = tuple[str, str]
 
@@ -43,6 +43,7 @@ class Metrics:
     peak_error: str
     nrmse: str
     until: str
+    horizon: str
     impacts: str
     restitution: str
     order: str
@@ -197,25 +198,30 @@ def _metrics(results: Results, model: str, row: TestRow) -> Metrics:
         peak_error=_signed(compared("peak_ratio_error")),
         nrmse=row.models[model].nrmse,
         until=wording.quantity(compared("compared_until"), "s", 4),
+        horizon=wording.quantity(compared("horizon"), "s", 4) if np.isfinite(compared("horizon")) else "not known",
         impacts=wording.number(results.value(stage, "impact_count"), 9),
         restitution=f"{wording.number(e, 4)} ({source})" if source else wording.number(e, 4),
         order=order or wording.NOTHING,
-        verdict=_verdict(model, *map(compared, ("within_spread", "peak_rank", "overturning_probability"))),
+        verdict=verdict_sentence(
+            model, *map(compared, ("horizon", "within_spread", "peak_rank", "overturning_probability"))
+        ),
     )
 
 
-def _verdict(model: str, within: float, rank: float, overturning: float) -> str:
-    """Say whether the misfit lies within the model's own spread."""
-    is_likely = is_within(within, rank)
-    if is_likely is None:
+def verdict_sentence(model: str, horizon: float, rank: float, peak_rank: float, overturning: float) -> str:
+    """Say whether the measured angle is within the model's own spread, up to its horizon."""
+    if np.isnan(horizon):
         return ""
+    name, until, verdict = f"{model.capitalize()} model", wording.quantity(horizon, "s", 4), is_within(rank)
+    if verdict is None:
+        return f"{name}: predicted up to {until}; not ranked, as that takes {FEWEST} runs and a measured angle."
     said = [
-        f"{within:.0%} of the measured angle lies in the band of 90 %",
-        f"{rank:.0%} of the runs stay below its peak",
+        f"{rank:.0%} of the runs are closer to their median",
+        f"{peak_rank:.0%} of them stay below its peak",
         *([f"{overturning:.0%} of them overturn"] if overturning > 0 else []),
     ]
-    where = "within" if is_likely else "beyond"
-    return f"{model.capitalize()} model: the misfit lies {where} its own spread ({'; '.join(said)})."
+    where = "within" if verdict else "outside"
+    return f"{name}: the measured angle is {where} its own spread up to {until} ({'; '.join(said)})."
 
 
 def _peaks(results: Results) -> tuple[PeakRow, ...]:

@@ -36,8 +36,8 @@ class Beginning:
     ----------
     first : int
         Sample of the record.
-    theta0 : float
-        Angle there, about the true zero, rad.
+    theta0, omega0 : float
+        Angle there, about the true zero, and angular velocity, rad and rad/s.
     base : ndarray, shape (n,)
         Base acceleration of the whole record along x, m/s².
     motion : Motion
@@ -51,6 +51,7 @@ class Beginning:
 
     first: int
     theta0: float
+    omega0: float
     base: Array
     motion: Motion
     driven_by: str = RECORDED
@@ -81,9 +82,9 @@ def begin(rocking: xr.Dataset, instructions: Instructions, identified: xr.Datase
     its restitution; otherwise by nothing, since the noise of an accelerometer moves no table.
     """
     time, block = rocking["elapsed"].to_numpy(), instructions.block
-    first, theta0, offset, driven_by = 0, 0.0, 0.0, RECORDED
+    first, peak, since, offset, driven_by = 0, 0.0, 0.0, 0.0, RECORDED
     if instructions.free_vibration:
-        first, theta0, offset = _start(rocking, block, identified)
+        first, peak, since, offset = _start(rocking, block, identified)
         driven_by = _drives_free_vibration(rocking, block)
     if driven_by == RECORDED:
         base = base_acceleration(rocking)
@@ -97,7 +98,8 @@ def begin(rocking: xr.Dataset, instructions: Instructions, identified: xr.Datase
     felt = base[first:] - block.gravity * np.sin(instructions.tilt)
     vertical, transverse = (None if each is None else each[first:] for each in (vertical, transverse))
     motion = Motion(felt, float(time[1] - time[0]), vertical, transverse)
-    return Beginning(first, theta0, base, motion, driven_by, offset, warnings)
+    theta0, omega0 = _fallen(peak, since, float(felt[0]), block)
+    return Beginning(first, theta0, omega0, base, motion, driven_by, offset, warnings)
 
 
 def _drives_free_vibration(rocking: xr.Dataset, block: Block) -> str:
@@ -108,8 +110,18 @@ def _drives_free_vibration(rocking: xr.Dataset, block: Block) -> str:
     return RECORDED if moves else AT_REST
 
 
-def _start(rocking: xr.Dataset, block: Block, identified: xr.Dataset | None) -> tuple[int, float, float]:
-    """Sample and angle (rad) of the first peak between two impacts, and the zero offset (rad) taken off it."""
+def _fallen(peak: float, since: float, base: float, block: Block) -> tuple[float, float]:
+    """Angle (rad) and angular velocity (rad/s) a part of a sampling interval (s) after a peak (rad)."""
+    if since == 0.0:
+        return peak, 0.0
+    side = block.negative if peak < 0 else block.positive
+    lean = np.copysign(side.critical_angle, peak) - peak
+    acceleration = -(block.side_p(side) ** 2) * (np.sin(lean) + base / block.gravity * np.cos(lean))
+    return float(peak + acceleration * since**2 / 2), float(acceleration * since)
+
+
+def _start(rocking: xr.Dataset, block: Block, identified: xr.Dataset | None) -> tuple[int, float, float, float]:
+    """Find the first peak between two impacts: next sample, angle (rad), time to the sample (s), zero offset (rad)."""
     if "rocking_angle" not in rocking:
         raise StageError("A free vibration without a measured angle has no release to predict from.")
     offset = 0.0
@@ -123,5 +135,6 @@ def _start(rocking: xr.Dataset, block: Block, identified: xr.Dataset | None) -> 
             "This free vibration shows no arc between two impacts above the noise; a prediction needs a peak to start "
             "from. Was the specimen released within the record?"
         )
-    first = int(np.searchsorted(time, arcs.peak_time[whole[0]]))
-    return min(first, time.size - 2), float(arcs.peak_angle[whole[0]]), offset
+    when, peak = float(arcs.peak_time[whole[0]]), float(arcs.peak_angle[whole[0]])
+    first = min(int(np.searchsorted(time, when)), time.size - 2)
+    return first, peak, float(time[first] - when), offset

@@ -11,7 +11,7 @@ from colonnade.dynamics.contact.ensembles import INPUTS, ContactPlan, Range, gat
 from colonnade.dynamics.ensembles import stride_of
 from colonnade.errors import StageError
 from colonnade.stages import contact as contact_stage
-from colonnade.stages import predict
+from colonnade.stages import predict, verdict
 from colonnade.stages.beginning import begin
 from colonnade.stages.ensemble import described
 
@@ -29,6 +29,7 @@ class Instructions(BaseModel):
         Half of the range, over the value that it lies about.
     out_of_plane_range : float
         Half of the range, rad.
+    verdict : verdict.Instructions
     """
 
     model_config = ConfigDict(frozen=True)
@@ -39,6 +40,7 @@ class Instructions(BaseModel):
     friction_range: float
     damping_range: float
     out_of_plane_range: float
+    verdict: verdict.Instructions
 
 
 def instructions(campaign: Campaign, test: Test) -> Instructions:
@@ -51,17 +53,24 @@ def instructions(campaign: Campaign, test: Test) -> Instructions:
         friction_range=settings.friction,
         damping_range=settings.damping_fraction,
         out_of_plane_range=abs(settings.out_of_plane),
+        verdict=verdict.instructions(campaign, test),
     )
 
 
 def contact_ensemble(
-    rocking: xr.Dataset, contact: xr.Dataset, instructions: Instructions, identified: xr.Dataset | None = None
+    conditioned: xr.Dataset,
+    rocking: xr.Dataset,
+    contact: xr.Dataset,
+    instructions: Instructions,
+    identified: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """
     Run the contact model many times on the base motion that was recorded, over what is not known of it.
 
     Parameters
     ----------
+    conditioned : xr.Dataset
+        Result of `condition`: cut-offs of the channels on the specimen.
     rocking, contact : xr.Dataset
         As of `predict`.
     instructions : Instructions
@@ -88,6 +97,7 @@ def contact_ensemble(
         out_of_plane=_about(settings.out_of_plane, instructions.out_of_plane_range),
         motion=beginning.motion,
         theta0=beginning.theta0,
+        omega0=beginning.omega0,
         gravity=instructions.space.block.gravity,
         step=settings.step,
         count=instructions.runs,
@@ -100,7 +110,10 @@ def contact_ensemble(
     deviations = {name: np.ptp(getattr(plan, name)) / np.sqrt(12.0) / (middles[name] or 1.0) for name in INPUTS}
     time = rocking["elapsed"].to_numpy()[beginning.first :: stride_of(beginning.motion)]
     bands = described(found, time, deviations)
-    return bands.assign_attrs(model="contact", members=plan.count, warnings=[])
+    start = beginning.theta0 if instructions.prediction.free_vibration else None
+    errors = verdict.measurement(conditioned, rocking, start, instructions.verdict)
+    held = verdict.held(rocking, beginning, found, np.zeros(plan.count), errors, instructions.verdict)
+    return bands.assign(held).assign_attrs(model="contact", members=plan.count, warnings=[])
 
 
 def _about(middle: float, half: float) -> Range:

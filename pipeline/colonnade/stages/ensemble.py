@@ -14,7 +14,8 @@ from colonnade.campaign import Campaign, Test
 from colonnade.campaign.channel import ALONG
 from colonnade.dynamics.ensembles import Ensemble, Plan, gather, run_members
 from colonnade.dynamics.uncertainty import INPUTS, Uncertainty
-from colonnade.stages import predict
+from colonnade.identification.as_measured import Measurement
+from colonnade.stages import predict, verdict
 from colonnade.stages.beginning import RECORDED, begin
 from colonnade.stages.transducers import transducers
 
@@ -34,6 +35,7 @@ class Instructions(BaseModel):
     filter_order : int
     table : tuple of str
         Accelerometers of the table along x, by the names of their variables.
+    verdict : verdict.Instructions
     """
 
     model_config = ConfigDict(frozen=True)
@@ -48,6 +50,7 @@ class Instructions(BaseModel):
     filter: float
     filter_order: int
     table: tuple[str, ...]
+    verdict: verdict.Instructions
 
 
 def instructions(campaign: Campaign, test: Test, model: str) -> Instructions:
@@ -65,6 +68,7 @@ def instructions(campaign: Campaign, test: Test, model: str) -> Instructions:
         filter=settings.filter,
         filter_order=campaign.processing.filter_order,
         table=tuple(name for name, direction in along.items() if abs(direction[0]) >= ALONG),
+        verdict=verdict.instructions(campaign, test),
     )
 
 
@@ -81,7 +85,7 @@ def ensemble(
     Parameters
     ----------
     conditioned : xr.Dataset
-        Result of `condition`: noise and cut-off of the table's accelerometers.
+        Result of `condition`: noise of the table's accelerometers, cut-offs of all channels.
     rocking, specimen : xr.Dataset
         As of `predict`.
     instructions : Instructions
@@ -93,7 +97,7 @@ def ensemble(
     bands : xr.Dataset
         `rocking_angle_band` by `quantile` on the record's clock, from where the prediction starts; the
         `overturning_probability` with its interval; `member_peak_ratio` (NaN where it overturns) and
-        `member_overturning_time`; by `input` its standard deviation and `peak_sensitivity`.
+        `member_overturning_time`; by `input` its standard deviation and `peak_sensitivity`; what `verdict.held` adds.
 
     Raises
     ------
@@ -101,20 +105,25 @@ def ensemble(
         As `predict`.
     """
     beginning = begin(rocking, instructions.prediction, identified)
+    start = beginning.theta0 if instructions.prediction.free_vibration else None
+    errors = verdict.measurement(conditioned, rocking, start, instructions.verdict)
     plan = Plan(
         instructions.prediction.block,
         beginning.motion,
         predict.sides(specimen),
-        _uncertainty(conditioned, rocking, specimen, instructions, is_driven=beginning.driven_by == RECORDED),
+        _uncertainty(conditioned, specimen, errors, instructions, is_driven=beginning.driven_by == RECORDED),
         count=instructions.members,
         model=instructions.prediction.model,
         theta0=beginning.theta0,
+        omega0=beginning.omega0,
         rest_angle=instructions.prediction.rest_angle,
     )
     found = gather(plan, [run_members(plan, 0, plan.count)])
     deviations = dict(zip(INPUTS, plan.uncertainty.deviations.tolist(), strict=True))
     bands = described(found, rocking["elapsed"].to_numpy()[beginning.first :: plan.stride], deviations)
-    return bands.assign_attrs(
+    starts = found.inputs[:, INPUTS.index("theta0")]
+    held = verdict.held(rocking, beginning, found, starts, errors, instructions.verdict)
+    return bands.assign(held).assign_attrs(
         model=plan.model,
         members=plan.count,
         noise=plan.uncertainty.noise,
@@ -159,15 +168,14 @@ def described(found: Ensemble, time: Array, deviations: Mapping[str, float]) -> 
 
 def _uncertainty(
     conditioned: xr.Dataset,
-    rocking: xr.Dataset,
     specimen: xr.Dataset,
+    errors: Measurement,
     instructions: Instructions,
     *,
     is_driven: bool,
 ) -> Uncertainty:
     half = (float(specimen["restitution_high"]) - float(specimen["restitution_low"])) / 2
     identified = half / NormalDist().inv_cdf(0.5 + float(specimen["level"]) / 2)
-    free = instructions.prediction.free_vibration
     noise, cutoff = _base_noise(conditioned, instructions.table) if is_driven else (0.0, None)
     return Uncertainty(
         restitution=identified if np.isfinite(identified) else instructions.restitution,
@@ -179,7 +187,7 @@ def _uncertainty(
         cutoff=cutoff,
         filter=0.0 if cutoff is None else instructions.filter,
         filter_order=instructions.filter_order,
-        theta0=float(rocking["rocking_angle_standard_error"]) if free else 0.0,
+        theta0=errors.start_deviation,
     )
 
 

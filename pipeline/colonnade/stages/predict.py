@@ -113,6 +113,7 @@ def predict(
         restitution=sides(specimen),
         model=instructions.model,
         theta0=beginning.theta0,
+        omega0=beginning.omega0,
         rest_angle=instructions.rest_angle,
     )
     return _described(history, time, beginning, specimen, instructions)
@@ -140,6 +141,7 @@ def _in_space(beginning: Beginning, contact: xr.Dataset, instructions: contact_s
             gravity=instructions.block.gravity,
             step=settings.step,
             theta0=beginning.theta0,
+            omega0=beginning.omega0,
             out_of_plane=settings.out_of_plane,
         )
     except ValueError as error:

@@ -195,6 +195,7 @@ def _motion_variables(
         variables["angle_deviation"] = ("elapsed", motion.standard_error["rocking_angle"])
     return variables | {
         "rocking_angle_standard_error": ((), found.standard_error),
+        "rocking_angle_drift": ((), found.drift),
         "impact_time": ("impact", found.impact_times),
         "peak_angle": ((), found.peak_angle),
         "peak_ratio": ((), found.peak_ratio),

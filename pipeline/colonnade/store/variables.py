@@ -61,6 +61,9 @@ _ABOUT_X = "Rotation about +x: positive when the top moves to -y."
 _ABOUT_Z = "Rotation about +z, right-handed."
 _OUTLINE = "Of the side with the smaller critical angle."
 _WIDE = "Of the intervals that are at least as wide as the attribute `width`; missing where there is none."
+_RANK = "By their largest distances up to the horizon. Up to 0.95 the measured angle is within the model's own spread."
+_HORIZON = "First time at which the 95 % band of its runs is wider than the setting `horizon`, else the record's end."
+_DISTANCE = "Up to the horizon; 1 is the edge of the 95 % band of all others."
 _FEW_ARCS = "If too few arcs stand above the lowest amplitude to identify it, the mean velocity ratio of the impacts."
 _ORDERS = "k: it repeats every k cycles of the base; 0 at rest, -1 irregular, -2 overturned."
 
@@ -72,6 +75,7 @@ VARIABLES: dict[str, Variable] = {
     "rocking_angle": Variable("rocking angle", "rad", MEASURED, comment=_SIGN),
     "rocking_angle_quality": Variable("quality of the rocking angle", None, QUALITY, "quality_flag", "int8"),
     "rocking_angle_standard_error": Variable("standard error of the rocking angle", "rad", QUALITY),
+    "rocking_angle_drift": Variable("drift of the rocking angle between the rests before and after", "rad", QUALITY),
     "slide": Variable("displacement of the active pole along x, relative to the table", "m", MEASURED),
     "slide_standard_error": Variable("standard error of the slide", "m", QUALITY),
     "uplift": Variable("height of the lowest point of the base above the table", "m", MEASURED),
@@ -158,7 +162,19 @@ VARIABLES: dict[str, Variable] = {
     "compared_until": Variable("time up to which measured and predicted are compared", "s", QUALITY),
     "predicted_outcome": Variable("predicted outcome", None, MODELLED, dtype="str"),
     "predicted_response_order": Variable("order of the predicted response", None, MODELLED, dtype="str"),
-    "within_spread": Variable("share of the measured angle that lies in the widest band of the model", "1", QUALITY),
+    "within_spread": Variable(
+        "share of the model's runs that are closer to their median than the measured angle", "1", QUALITY, comment=_RANK
+    ),
+    "horizon": Variable("time up to which the model predicts the rocking angle", "s", MODELLED, comment=_HORIZON),
+    "measured_distance": Variable(
+        "largest distance of the measured angle from the median of the runs", "1", QUALITY, comment=_DISTANCE
+    ),
+    "member_distance": Variable(
+        "largest distance of each run, as it would be measured, from the median of all others",
+        "1",
+        QUALITY,
+        comment=_DISTANCE,
+    ),
     "peak_rank": Variable("share of the model's runs whose peak is below the measured one", "1", QUALITY),
     # ensembles
     "quantile": Variable("share of the runs that lie below", "1", COORDINATE),

@@ -22,7 +22,7 @@ from colonnade.stages.peak import known_peak
 
 Results = Mapping[str, Any]
 
-_SPREAD = ("within_spread", "peak_rank", "overturning_probability")
+_SPREAD = ("horizon", "within_spread", "peak_rank", "overturning_probability")
 """What a comparison with a model's ensemble says."""
 
 

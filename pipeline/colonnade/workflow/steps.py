@@ -183,10 +183,15 @@ def _ensemble(campaign: Campaign, layout: Layout, test: Test, model: str) -> Ste
         return Step(
             "ensemble",
             path,
-            {"rocking": rocking, CONTACT: layout.contact(test.specimen)} | _identified(layout, test),
+            {
+                "conditioned": layout.stage(test.id, "condition"),
+                "rocking": rocking,
+                CONTACT: layout.contact(test.specimen),
+            }
+            | _identified(layout, test),
             contact_ensemble.instructions(campaign, test),
             lambda upstream, read: contact_ensemble.contact_ensemble(
-                upstream["rocking"], upstream[CONTACT], read, upstream.get("restitution")
+                upstream["conditioned"], upstream["rocking"], upstream[CONTACT], read, upstream.get("restitution")
             ),
             model,
         )

@@ -14,7 +14,8 @@ from colonnade.dynamics.contact.calibration import free_restitution
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.simulate import motion_at_rest, plane_block, simulate
-from colonnade.dynamics.ensembles import LEVELS, Ensemble, stride_of
+from colonnade.dynamics.ensembles import KEPT, LEVELS, Ensemble, stride_of
+from colonnade.dynamics.history import capped
 from colonnade.dynamics.motion import Motion
 
 Array = NDArray[np.float64]
@@ -39,8 +40,8 @@ class ContactPlan:
         Of the table; without it free rocking for `duration`.
     duration : float, optional
         s.
-    theta0 : float
-        rad.
+    theta0, omega0 : float
+        rad, rad/s.
     gravity : float
         m/s².
     step : float, optional
@@ -59,6 +60,7 @@ class ContactPlan:
     motion: Motion | None = None
     duration: float | None = None
     theta0: float = 0.0
+    omega0: float = 0.0
     gravity: float = STANDARD_GRAVITY
     step: float | None = None
     count: int = 100
@@ -92,6 +94,7 @@ class ContactPlan:
             gravity=self.gravity,
             step=self.step,
             theta0=self.theta0,
+            omega0=self.omega0,
             out_of_plane=out_of_plane,
         )
 
@@ -180,7 +183,7 @@ def gather(plan: ContactPlan, members: Sequence[Member]) -> ContactEnsemble:
     """
     if len(members) != plan.count:
         raise ValueError(f"there are {len(members)} members; {plan.count} were expected")
-    stride = stride_of(plan.table)
+    stride, block = stride_of(plan.table), plane_block(plan.body, plan.gravity)
     return ContactEnsemble(
         time=plan.table.time[::stride],
         central=plan.central().angle[::stride],
@@ -189,6 +192,10 @@ def gather(plan: ContactPlan, members: Sequence[Member]) -> ContactEnsemble:
         inputs=np.array([each.inputs for each in members]),
         peak_ratio=np.array([each.peak_ratio for each in members]),
         overturning_time=np.array([each.overturning_time for each in members]),
+        histories=np.array(
+            [capped(plan.table.time[::stride], each.angle, each.overturning_time, block) for each in members[:KEPT]],
+            dtype=np.float32,
+        ),
         restitution=np.array([each.restitution for each in members]),
         largest_out_of_plane=np.array([each.largest_out_of_plane for each in members]),
     )
