@@ -96,6 +96,8 @@ class Answer(BaseModel):
     error_number : int or None
         The system's own number of what went wrong, where it did.
     out_of_memory : bool
+    exit_code : int or None
+        How the copy of the process that was to read it ended, where it did so without an answer.
     """
 
     model_config = _STRICT
@@ -103,6 +105,7 @@ class Answer(BaseModel):
     refusal: str = ""
     error_number: int | None = None
     out_of_memory: bool = False
+    exit_code: int | None = None
     companions: tuple[str, ...] = ()
     format: str = ""
     start: datetime | None = None

@@ -113,6 +113,9 @@ def _answer(request: Request) -> tuple[Answer, list[Array]]:
     """Ask; ReadError where the file is refused."""
     name, bounds = Path(request.path).name, request.bounds
     answer, arrays = _ask(request)
+    if answer.exit_code is not None:
+        failure = _failure(request, answer.exit_code, [])
+        raise failure from failure.__cause__
     if answer.out_of_memory:
         raise ReadError(
             f"{name}: reading it takes more than {bounds.memory // MEGABYTE} MB of memory, far more than a file "

@@ -20,6 +20,8 @@ from colonnade.readers.recording import Array
 
 BACKSTOP = 5.0
 """Seconds by which this process outlives its time, if whoever asks does not end it."""
+ANSWERING = b"1"
+"""Said by a copy to this process before it answers."""
 KILLED_WITH_PARENT = 1
 """PR_SET_PDEATHSIG."""
 
@@ -57,13 +59,13 @@ def in_a_fork(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None
     copy = os.fork()
     if copy:
         os.close(alive)
-        _expect_end(copy, ended, requests)
+        _expect_end(copy, ended, requests, answers)
         return
     try:
         _end_with(own)
         requests.close()
         enclose(request.bounds, Path(request.within))
-        _handle(request, answers)
+        _handle(request, answers, lambda: os.write(alive, ANSWERING))
     except BaseException:
         os._exit(1)
     os._exit(0)
@@ -72,15 +74,17 @@ def in_a_fork(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None
 def in_place(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None:
     """Handle a request in this process, where a system has no safe copies of one."""
     limit(request.bounds)
-    _handle(request, answers)
+    _handle(request, answers, lambda: None)
 
 
-def _handle(request: Request, answers: IO[bytes]) -> None:
+def _handle(request: Request, answers: IO[bytes], announce: Callable[[], object]) -> None:
     # Ends this process even where a library never gives control back, and where nobody is left who could.
     faulthandler.dump_traceback_later(request.bounds.elapsed + BACKSTOP, exit=True, file=2)
     answers.write(messages.BEGUN)
     answers.flush()
-    messages.send(answers, *_answer(request))
+    answer = _answer(request)
+    announce()
+    messages.send(answers, *answer)
     faulthandler.cancel_dump_traceback_later()
 
 
@@ -100,19 +104,22 @@ def _answer(request: Request) -> tuple[Answer, list[Array]]:
         return Answer(refusal="out of memory", out_of_memory=True), []
 
 
-def _expect_end(copy: int, ended: int, requests: IO[bytes]) -> None:
-    """Wait for a copy; end it and this process where nobody is left who asks, and this one where it ended otherwise."""
+def _expect_end(copy: int, ended: int, requests: IO[bytes], answers: IO[bytes]) -> None:
+    """Wait for a copy; say how it ended where it gave no answer, and end both where nobody is left who asks."""
     poll = select.poll()
     for descriptor in (ended, requests.fileno()):
         poll.register(descriptor, 0)  # the other end was closed; the next request may be there already
     if ended not in {descriptor for descriptor, _ in poll.poll()}:
         os.kill(copy, signal.SIGKILL)
         os._exit(1)
+    answered = os.read(ended, 1) == ANSWERING
     os.close(ended)
     code = os.waitstatus_to_exitcode(os.waitpid(copy, 0)[1])
-    if code:
-        # What it has already said would run into the next answer: whoever asks starts another process.
-        os._exit(code if code > 0 else 128 - code)
+    code = code if code >= 0 else 128 - code
+    if not answered:
+        messages.send(answers, Answer(exit_code=code), [])
+    elif code:
+        os._exit(code)  # half an answer would run into the next one: whoever asks starts another process
 
 
 def _end_with(parent: int) -> None:
