@@ -11,7 +11,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import fields
+from dataclasses import fields, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -272,12 +272,14 @@ def test_a_system_without_safe_copies_reads_in_the_process_itself(installed: Pat
         "import sys; sys.path.insert(0, sys.argv[1]); from colonnade.readers.bounded import server; "
         "server.serve(sys.stdin.buffer, sys.stdout.buffer, server.in_place)"
     )
-    lines = 2 * request.line()
+    elsewhere = tmp_path.parent / f"{tmp_path.name}-secret"
+    elsewhere.write_text("secret")
+    deed = replace(request, options={"deed": "look", "victim": str(elsewhere)})
+    lines = request.line() + deed.line() + request.line()
     told = subprocess.run([sys.executable, "-c", serve, str(installed)], input=lines, capture_output=True, check=True)
-    begun, answer, *_ = told.stdout.split(b"\n", 2)
-    assert begun + b"\n" == messages.BEGUN
-    assert json.loads(answer)["sizes"] == [2]
-    assert told.stdout.count(messages.BEGUN) == 2
+    first, refused, last = (part.split(b"\n", 1)[0] for part in told.stdout.split(messages.BEGUN)[1:])
+    assert json.loads(first)["sizes"] == json.loads(last)["sizes"] == [2]
+    assert "outside the campaign's folder" in json.loads(refused)["refusal"]
 
 
 def test_a_long_file_has_more_time_and_memory_up_to_the_machine(tmp_path: Path) -> None:

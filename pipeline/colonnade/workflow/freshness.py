@@ -123,7 +123,7 @@ class RawIndex:
         self._seen: dict[str, RawFile] = {}
         try:
             known = json.loads(layout.raw_index.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+        except (OSError, ValueError, RecursionError):
             known = None
         self._known: dict[str, Any] = known if isinstance(known, dict) else {}
 
@@ -149,7 +149,8 @@ class RawIndex:
             except ReadError:
                 return []  # told where the file is read
             known |= {"asked": asked, "companions": [other.name for other in others]}
-        return [path.with_name(other) for other in known["companions"]]
+        names = known.get("companions")
+        return [path.with_name(Path(str(name)).name or path.name) for name in names] if isinstance(names, list) else []
 
     def _name(self, path: Path) -> str:
         return path.relative_to(self._folder).as_posix()

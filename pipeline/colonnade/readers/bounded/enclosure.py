@@ -77,19 +77,24 @@ def _data() -> int:
 
 
 def watch(readable: Iterable[Path]) -> None:
-    """Refuse to Python code, for good, all that is forbidden, and every file outside some folders."""
-    folders = tuple(os.path.realpath(path) for path in readable)
-
-    def refuse(event: str, arguments: tuple[Any, ...]) -> None:
-        if event == "open":
-            _expect_reading(arguments[0], arguments[2], folders)
-        elif event.startswith(FORBIDDEN):
-            raise ForbiddenError(f"{event} was refused, as reading never needs it")
-
-    sys.addaudithook(refuse)
+    """Refuse to Python code, from here on, all that is forbidden, and every file outside some folders."""
+    is_new = not _folders
+    _folders[:] = [os.path.realpath(path) for path in readable]
+    if is_new:
+        sys.addaudithook(_refuse)
 
 
-def _expect_reading(opened: Any, flags: Any, folders: tuple[str, ...]) -> None:
+_folders: list[str] = []
+
+
+def _refuse(event: str, arguments: tuple[Any, ...]) -> None:
+    if event == "open":
+        _expect_reading(arguments[0], arguments[2])
+    elif event.startswith(FORBIDDEN):
+        raise ForbiddenError(f"{event} was refused, as reading never needs it")
+
+
+def _expect_reading(opened: Any, flags: Any) -> None:
     if not isinstance(opened, (str, bytes, os.PathLike)):
         return  # a number: it is open already
     name = os.fsdecode(opened)
@@ -98,7 +103,7 @@ def _expect_reading(opened: Any, flags: Any, folders: tuple[str, ...]) -> None:
     if isinstance(flags, int) and flags & WRITING:
         raise ForbiddenError("writing a file was refused, as reading never needs it")
     path = os.path.realpath(name)
-    if not any(path == folder or path.startswith(folder.rstrip(os.sep) + os.sep) for folder in folders):
+    if not any(path == folder or path.startswith(folder.rstrip(os.sep) + os.sep) for folder in _folders):
         raise ForbiddenError("opening a file outside the campaign's folder was refused")
 
 

@@ -14,7 +14,7 @@ from typing import IO, Any
 
 from colonnade.errors import ReadError
 from colonnade.readers.bounded import messages
-from colonnade.readers.bounded.enclosure import enclose, limit, own_folders
+from colonnade.readers.bounded.enclosure import enclose, limit, own_folders, watch
 from colonnade.readers.bounded.messages import Answer, Request
 from colonnade.readers.recording import Array
 
@@ -74,6 +74,7 @@ def in_a_fork(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None
 def in_place(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None:
     """Handle a request in this process, where a system has no safe copies of one."""
     limit(request.bounds)
+    watch([Path(request.within), *own_folders()])
     _handle(request, answers, lambda: None)
 
 
