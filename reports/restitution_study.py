@@ -4,30 +4,47 @@ from __future__ import annotations
 
 import argparse
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from joblib import Parallel, delayed
-from monte_carlo.design import BEYOND
+from monte_carlo.design import BEYOND, draw
 from monte_carlo.levels import judge_bounds, judge_estimators, judge_levels
 from monte_carlo.page import draw_levels, page
-from monte_carlo.trial import Trial, run
+from monte_carlo.trial import Trial, run, tried
 
 from colonnade import figures
 
 HERE = Path(__file__).resolve().parent
 NAME = "restitution-study"
-RECORDS, SEED, WORKERS = 4600, 2013, 2
+RECORDS, SEED, WORKERS = 5000, 2013, 2
+
+BY_SPEED = -0.02
+"""Change of e from the slowest to the fastest impact, in the records where it depends on the speed."""
+
+DRIFT = 0.02
+"""Of the zero over the record, in α, in the records where it drifts."""
 
 
-def run_trials(records: int, seed: int, workers: int) -> tuple[list[Trial], list[Trial]]:
-    """Run so many records of the design, and a tenth as many beyond it."""
-    pool = Parallel(n_jobs=workers, batch_size=16)
-    within = pool(delayed(run)(seed, number) for number in range(records))
-    beyond = pool(delayed(run)(seed + 1, number, BEYOND) for number in range(max(records // 10, 1)))
-    return list(within), list(beyond)
+def run_trials(records: int, seed: int, workers: int) -> dict[str, list[Trial]]:
+    """Run so many records of the design, a tenth as many beyond it, and some of blocks that are not of one e."""
+    pool, some = Parallel(n_jobs=workers, batch_size=16), max(records // 16, 1)
+    return {
+        "design": list(pool(delayed(run)(seed, number) for number in range(records))),
+        "beyond": list(pool(delayed(run)(seed + 1, number, BEYOND) for number in range(max(records // 10, 1)))),
+        "speed": list(pool(delayed(run_by_speed)(seed + 2, number) for number in range(some))),
+        "drift": list(pool(delayed(run)(seed + 3, number, drift=DRIFT) for number in range(some))),
+    }
+
+
+def run_by_speed(seed: int, number: int) -> Trial:
+    """Run a record whose e changes by `BY_SPEED` over the speeds of its impacts."""
+    drawn = draw(seed, number)
+    fastest = np.sqrt(drawn.release * (2 - drawn.release))
+    slowest = fastest * drawn.restitution ** (drawn.impacts - 1)
+    return tried(replace(drawn, by_speed=BY_SPEED / (fastest - slowest)))
 
 
 def numbers(within: list[Trial], beyond: list[Trial], seed: int) -> dict[str, Any]:

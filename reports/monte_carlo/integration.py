@@ -26,18 +26,40 @@ STANDING = 1e-7
 """Of p α: velocity after an impact below which the block stands; it would rise to 5e-15 α."""
 
 
-def integrated_angle(rocking: FreeRocking, time: Array) -> Array:
-    """Angle at given times, rad, with the zero offset."""
+def integrated_angle(
+    rocking: FreeRocking, time: Array, restitutions: Array | None = None, by_speed: float = 0.0
+) -> tuple[Array, Array, Array]:
+    """
+    Integrate an angle.
+
+    Parameters
+    ----------
+    rocking : FreeRocking
+    time : ndarray, shape (n,)
+        s.
+    restitutions : ndarray, shape (m,), optional
+        e of each impact, that of the last for all later ones; default: that of `rocking`.
+    by_speed : float, optional
+        What is added to e at a speed of p α.
+
+    Returns
+    -------
+    angle : ndarray, shape (n,)
+        rad, with the zero offset.
+    impacts, used : ndarray
+        Times of the impacts up to the last of `time`, s, and e of each.
+    """
     side = np.sign(rocking.release_angle)
-    heights = _integrate(
+    heights, impacts, used = _integrate(
         time,
         rocking.critical_angle,
         rocking.p,
-        rocking.restitution,
+        np.array([rocking.restitution]) if restitutions is None else restitutions,
+        by_speed,
         abs(rocking.release_angle),
         rocking.release_time,
     )
-    return side * heights + rocking.zero_offset
+    return side * heights + rocking.zero_offset, impacts, used
 
 
 @njit(cache=True)
@@ -57,8 +79,9 @@ def _step(height, velocity, length, alpha, square):
 
 
 @njit(cache=True)
-def _integrate(time, alpha, p, restitution, release, begin):
+def _integrate(time, alpha, p, restitutions, by_speed, release, begin):
     angles = np.zeros(time.size)
+    impacts, used = [0.0 for _ in range(0)], [0.0 for _ in range(0)]
     filled = np.searchsorted(time, begin)
     angles[:filled] = release
     now, height, velocity, side, square = begin, release, 0.0, 1.0, p * p
@@ -83,8 +106,11 @@ def _integrate(time, alpha, p, restitution, release, begin):
             filled += 1
         now, height, velocity = now + taken, next_height, next_velocity
         if landed:
+            restitution = restitutions[min(len(used), restitutions.size - 1)] - by_speed * velocity / (p * alpha)
+            impacts.append(now)
+            used.append(restitution)
             side, height, velocity = -side, 0.0, -restitution * velocity
             if velocity < STANDING * p * alpha:
                 break
             length = min(longest, 2 * velocity / (square * np.sin(alpha)) / FEWEST_STEPS)
-    return angles
+    return angles, np.array(impacts), np.array(used)

@@ -18,6 +18,7 @@ ESTIMATORS = {
     "impact-by-impact": "impact by impact",
     "history-linear": "whole history, linear",
     "history-nonlinear": "whole history, nonlinear",
+    "history-scatter": "whole history, e of each impact",
 }
 """Estimators by the name they are stored with, in words."""
 

@@ -16,17 +16,19 @@ from colonnade.errors import StageError
 from colonnade.findings import MEASUREMENT, Finding, warning
 from colonnade.identification.restitution.choice import METHODS, disagreement
 from colonnade.identification.restitution.identify import identify_restitution
+from colonnade.identification.restitution.noise import ORDER
 from colonnade.identification.restitution.result import Estimate, Restitution
 
 
 class Instructions(BaseModel):
-    """What this stage reads of the campaign: the block, and how e is identified."""
+    """What this stage reads of the campaign: the block, how e is identified, and the order of the low-pass."""
 
     model_config = ConfigDict(frozen=True)
 
     block: Block
     level: float
     lowest_amplitude: float
+    filter_order: int = ORDER
 
 
 def instructions(campaign: Campaign, test: Test) -> Instructions:
@@ -35,6 +37,7 @@ def instructions(campaign: Campaign, test: Test) -> Instructions:
         block=campaign.specimens[test.specimen].block(campaign.gravity),
         level=campaign.processing.restitution.level,
         lowest_amplitude=campaign.processing.restitution.lowest_amplitude,
+        filter_order=campaign.processing.filter_order,
     )
 
 
@@ -140,6 +143,8 @@ def _identified(rocking: xr.Dataset, instructions: Instructions, *, free: tuple[
         level=instructions.level,
         lowest_amplitude=instructions.lowest_amplitude,
         noise=float(np.nanmedian(rocking["rocking_angle_standard_error"])),
+        # A filter of another order is not the one that the fit knows: it finds the nearest one itself.
+        lowpass=rocking["rocking_angle"].attrs.get("cutoff_hz") if instructions.filter_order == ORDER else None,
         free=free,
         **beside,
     )

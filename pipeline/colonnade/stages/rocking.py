@@ -119,6 +119,7 @@ def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     attributes = {"outcome": "", "separation": separation, "warnings": warnings}
     if motion is not None:
         variables |= _motion_variables(time, motion, instructions, attributes)
+        variables["rocking_angle"] += ({"cutoff_hz": cutoff},) if (cutoff := _cutoff(conditioned, motion, used)) else ()
         variables |= _quality(conditioned, motion, used)
     return xr.Dataset(variables, coords={"elapsed": ("elapsed", time)}, attrs=attributes)
 
@@ -203,6 +204,13 @@ def _motion_variables(
         "overturning_time": ((), found.verdict.overturning_time),
         "noise_threshold": ((), found.threshold),
     }
+
+
+def _cutoff(conditioned: xr.Dataset, motion: SpecimenMotion, used: list[str]) -> float | None:
+    """Low-pass that the angle went through, Hz: that of its transducers, where it is one and nothing smoothed more."""
+    entered = [name for name, counts in zip(used, motion.entered, strict=True) if counts]
+    cutoffs = {float(conditioned[name].attrs.get("cutoff_hz", np.nan)) for name in entered}
+    return None if motion.is_integrated or len(cutoffs) != 1 or not np.isfinite(min(cutoffs)) else cutoffs.pop()
 
 
 def _quality(conditioned: xr.Dataset, motion: SpecimenMotion, used: list[str]) -> dict[str, Any]:

@@ -7,60 +7,53 @@ import pytest
 from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.choice import choose
 from colonnade.identification.restitution.decay import Decay
-from colonnade.identification.restitution.history import HistoryFit
-from colonnade.identification.restitution.result import Constancy, Estimate
+from colonnade.identification.restitution.each_impact import EachImpact
+from colonnade.identification.restitution.result import Estimate
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 DECAY = Decay({}, 1, 10, PRISM, linearised=False)
 PEAKS = Estimate("peaks", 0.951, 0.949, 0.953, 0.001, 0.95, "")
-WHOLE = Estimate("history-nonlinear", 0.95, 0.9498, 0.9502, 1e-4, 0.95, "")
-STEADY = Constancy(0.001, 0.002, 0.001, 0.0, 10.0, 10)
+WHOLE = Estimate("history-scatter", 0.95, 0.9498, 0.9502, 1e-4, 0.95, "")
 
 
 def history(estimate=WHOLE, probability=0.4):
-    return HistoryFit(estimate, "nonlinear", DECAY, probability=probability)
+    return EachImpact(estimate, DECAY, probability)
 
 
 def test_a_consistent_whole_history_is_recommended():
-    assert choose(history(), PEAKS, STEADY) == (WHOLE, "")
+    assert choose(history(), PEAKS) == (WHOLE, "")
 
 
 def test_an_inconsistent_one_gives_way_to_the_peaks():
-    assert choose(history(probability=1e-4), replace(PEAKS, standard_error=5e-4), STEADY)[0].name == "peaks"
-    assert choose(history(replace(WHOLE, value=0.9), 1e-4), PEAKS, STEADY)[0].name == "peaks"
+    assert choose(history(probability=1e-4), replace(PEAKS, standard_error=5e-4))[0].name == "peaks"
+    assert choose(history(replace(WHOLE, value=0.9), 1e-4), PEAKS)[0].name == "peaks"
 
 
 def test_an_inconsistent_one_that_agrees_with_poor_peaks_is_widened():
-    chosen, _ = choose(history(probability=1e-4), replace(PEAKS, standard_error=0.004), STEADY)
-    assert chosen.name == "history-nonlinear"
+    chosen, _ = choose(history(probability=1e-4), replace(PEAKS, standard_error=0.004))
+    assert chosen.name == "history-scatter"
     assert chosen.standard_error > 0.02 * (1 - 0.95)
     assert chosen.low < WHOLE.low
 
 
-def test_e_that_scatters_from_impact_to_impact_is_left_to_the_peaks():
-    uneven = replace(STEADY, scatter=0.01)
-    assert choose(history(probability=1e-4), replace(PEAKS, standard_error=0.0025), uneven)[0].name == "peaks"
-
-
 @pytest.mark.parametrize(
-    ("whole", "constancy", "words"),
+    ("whole", "words"),
     [
-        (replace(WHOLE, high=1.001), STEADY, "does not decay"),
-        (replace(WHOLE, standard_error=0.004), STEADY, "standard error of 0.004"),
-        (WHOLE, Constancy(-0.05, 0.002, -0.04, 0.0, 10.0, 10), "not constant"),
+        (replace(WHOLE, high=1.001), "does not decay"),
+        (replace(WHOLE, standard_error=0.004), "standard error of 0.004"),
     ],
-    ids=["no decay", "too uncertain", "changes with velocity"],
+    ids=["no decay", "too uncertain"],
 )
-def test_what_gives_no_value_has_a_reason(whole, constancy, words):
-    chosen, reason = choose(history(whole), PEAKS, constancy)
+def test_what_gives_no_value_has_a_reason(whole, words):
+    chosen, reason = choose(history(whole), PEAKS)
     assert chosen is None
     assert words in reason
 
 
 def test_neither_history_nor_peaks_is_a_refusal_with_both_reasons():
     without = Estimate("peaks", None, None, None, None, 0.95, "", "3 peaks are too few.")
-    refused = HistoryFit(replace(without, name="history-nonlinear", reason="No arcs."), "nonlinear")
-    chosen, reason = choose(refused, without, STEADY)
+    refused = EachImpact(replace(without, name="history-scatter", reason="No arcs."))
+    chosen, reason = choose(refused, without)
     assert chosen is None
     assert "3 peaks are too few." in reason
     assert "No arcs." in reason

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import exp
 
 import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.dynamics.block import Block
-from colonnade.identification.restitution.rocking_arc import LOCAL, angle_of_arcs, course_of, follow_arcs
+from colonnade.identification.restitution.rocking_arc import (
+    LOCAL,
+    angle_of_arcs,
+    course_of,
+    follow_arcs,
+    half_duration_of,
+)
 
 Array = NDArray[np.float64]
 
@@ -38,6 +44,8 @@ class Decay:
         Number of arcs.
     block : Block
     linearised : bool
+    deviations : ndarray, shape (count − 1,), optional
+        ln e of each impact less their mean's; zero beyond its end.
     """
 
     values: dict[str, float]
@@ -45,6 +53,7 @@ class Decay:
     count: int
     block: Block
     linearised: bool
+    deviations: Array = field(default_factory=lambda: np.empty(0))
 
     def moved(self, steps: dict[str, float]) -> Decay:
         """Return the decay with steps added to its unknowns."""
@@ -64,7 +73,10 @@ class Decay:
 
     def arcs(self) -> tuple[Array, Array, Array]:
         """Peaks (|θ|, rad), their times and the ends of the arcs (s), shape (count,)."""
-        restitution = np.full(self.count - 1, exp(self.values["restitution"]))
+        restitution = np.full(self.count - 1, self.values["restitution"])
+        known = min(self.deviations.size, restitution.size)
+        restitution[:known] += self.deviations[:known]
+        restitution = np.exp(restitution)
         return course_of(
             restitution,
             self.values["peak"],
@@ -117,3 +129,52 @@ class Decay:
             if name in OPTIONAL:
                 result[:, 3 + OPTIONAL.index(name), column] = 1.0
         return result
+
+    def derivatives_by_impact(self) -> tuple[Array, Array]:
+        """Derivatives of each arc's peak (rad) and of its time (s) by ln e of each impact, shape (count, count − 1)."""
+        peaks, _, _ = self.arcs()
+        side = (self.side + np.arange(self.count)) % 2
+        critical, p = self.critical[side], self.p[side]
+        if self.linearised:
+            by_energy = 2 * peaks * (critical - peaks / 2) / (critical - peaks)
+        else:
+            by_energy = 4 * np.sin(critical - peaks / 2) * np.sin(peaks / 2) / np.sin(critical - peaks)
+        step = STEPS["peak"] * peaks
+        longer, shorter = (half_duration_of(peaks + sign * step, critical, self.linearised) for sign in (1, -1))
+        by_peak = (longer - shorter) / (2 * step) / p * by_energy
+        later = np.tri(self.count, self.count - 1, -1)
+        half_longer = later * by_peak[:, None]
+        return later * by_energy[:, None], 2 * np.cumsum(half_longer, axis=0) - half_longer
+
+    def moved_by_impact(self, steps: dict[str, float], deviations: Array) -> Decay:
+        """Return the decay with steps added to its unknowns, and to ln e of each impact, shape (count − 1,)."""
+        return replace(self.moved(steps), deviations=self.by_impact + deviations)
+
+    @property
+    def by_impact(self) -> Array:
+        """`deviations` of all impacts, shape (count − 1,)."""
+        return np.concatenate((self.deviations, np.zeros(self.count)))[: self.count - 1]
+
+    def followed(self, time: Array) -> tuple[Array, NDArray[np.int64]]:
+        """Angle at times (s), rad, shape (n,), and the number of the arc of each."""
+        angle, _, arc = self.angle(time)
+        return angle, arc
+
+    def jacobian(self, time: Array, names: tuple[str, ...]) -> tuple[Array, Array]:
+        """Derivatives of the angle by the unknowns named, shape (n, k), and by ln e of each impact, (n, count − 1)."""
+        _, sensitivity, arc = self.angle(time)
+        derivatives = self.derivatives(names)[arc]
+        by_peak, by_time = self.derivatives_by_impact()
+        return (
+            np.einsum("nl,nlk->nk", sensitivity, derivatives),
+            sensitivity[:, :1] * by_peak[arc] + sensitivity[:, 1:2] * by_time[arc],
+        )
+
+    def impact_speeds(self) -> Array:
+        """Angular velocity at each impact before its last arc, before the impact, rad/s, shape (count − 1,)."""
+        peaks = self.arcs()[0][:-1]
+        side = (self.side + np.arange(self.count - 1)) % 2
+        critical, p = self.critical[side], self.p[side]
+        if self.linearised:
+            return np.asarray(p * np.sqrt(2 * peaks * (critical - peaks / 2)))
+        return np.asarray(2 * p * np.sqrt(np.sin(critical - peaks / 2) * np.sin(peaks / 2)))

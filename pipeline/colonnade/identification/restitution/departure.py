@@ -12,7 +12,9 @@ class Departure:
 
     Attributes
     ----------
-    name : {"three-dimensional rocking", "sliding", "bouncing", "unequal restitution", "unequal sides"}
+    name : str
+        "three-dimensional rocking", "sliding", "bouncing", "unequal restitution", "unequal sides", "zero drift" or
+        "speed-dependent restitution".
     size, standard_error : float
         In `unit`; what is measured stands in the sentence.
     unit : str

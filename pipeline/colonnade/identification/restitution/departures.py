@@ -62,8 +62,8 @@ def find_departures(
     Returns
     -------
     departures : tuple of Departure
-        Three-dimensional rocking, sliding, bouncing, unequal restitution, unequal sides, as far as found, in this
-        order; each threshold stands with the function that finds it.
+        Three-dimensional rocking, sliding, bouncing, unequal restitution, unequal sides, zero drift, as far as found,
+        in this order; each threshold stands with the function that finds it.
 
     Raises
     ------

@@ -150,7 +150,7 @@ def closest_cutoff(decay: Decay, stretch: Stretch, cutoff_hz: float) -> float:
         cutoffs = best * step ** np.arange(-3.0, 4.0)
         cutoffs = cutoffs[cutoffs < 0.49 / stretch.interval]
         squares = [
-            float(np.nanmean((stretch.angle - sharp - _blur(decay, replace(stretch, cutoff_hz=each))) ** 2))
+            float(np.nanmean((stretch.angle - sharp - blur(decay, replace(stretch, cutoff_hz=each))) ** 2))
             for each in cutoffs.tolist()
         ]
         best, step = float(cutoffs[int(np.argmin(squares))]), step**0.4
@@ -162,10 +162,10 @@ def _evaluated(decay: Decay, stretch: Stretch, names: tuple[str, ...]) -> Follow
     if not np.isfinite(peaks).all():
         raise UnfollowedError("the block would overturn")
     angle, sensitivity, arc = decay.angle(stretch.time)
-    seen = angle if stretch.cutoff_hz is None else angle + _blur(decay, stretch)
+    seen = angle if stretch.cutoff_hz is None else angle + blur(decay, stretch)
     residual = stretch.angle - seen
     if stretch.margin > 0:
-        residual = np.where(_nearest(stretch.time, ends) < stretch.margin, np.nan, residual)
+        residual = np.where(nearest(stretch.time, ends) < stretch.margin, np.nan, residual)
     counted = np.isfinite(residual)
     if counted.sum() <= 2 * len(names):
         raise UnfollowedError("too few samples")
@@ -188,12 +188,13 @@ def _evaluated(decay: Decay, stretch: Stretch, names: tuple[str, ...]) -> Follow
     return Followed(decay, seen, residual, sensitivity, arc, products, gradients, gradient, inverse, power)
 
 
-def _nearest(time: Array, ends: Array) -> Array:
+def nearest(time: Array, ends: Array) -> Array:
+    """Return the time from each of `time` to the nearest end of an arc, s."""
     after = np.clip(np.searchsorted(ends, time), 1, ends.size - 1)
     return np.minimum(np.abs(time - ends[after - 1]), np.abs(time - ends[after]))
 
 
-def _blur(decay: Decay, stretch: Stretch) -> Array:
+def blur(decay: Decay, stretch: Stretch) -> Array:
     """Filtered less unfiltered angle, rad: what the low-pass does to the corners at impacts."""
     if stretch.cutoff_hz is None or stretch.interval is None:
         return np.zeros(stretch.time.size)
@@ -202,11 +203,11 @@ def _blur(decay: Decay, stretch: Stretch) -> Array:
     step, extra = stretch.interval / finer, int(ABOUT_FILTER / (stretch.cutoff_hz * stretch.interval)) + 1
     count = (stretch.time.size + 2 * extra) * finer
     time = stretch.time[0] - extra * stretch.interval + step * (np.arange(count) - 0.5 * (finer - 1))
-    wider = Decay(decay.values, decay.side, decay.count + 2, decay.block, decay.linearised)
+    wider = replace(decay, count=decay.count + 2)
     angle = wider.angle_alone(time)
     smooth = _filtered(angle, step, stretch.cutoff_hz, stretch.interval / stretch.group)
-    blur = (smooth - angle).reshape(-1, finer).mean(axis=1)
-    return np.asarray(blur[extra:-extra])
+    rounded = (smooth - angle).reshape(-1, finer).mean(axis=1)
+    return np.asarray(rounded[extra:-extra])
 
 
 def _filtered(angle: Array, step: float, cutoff_hz: float, recorded_step: float) -> Array:

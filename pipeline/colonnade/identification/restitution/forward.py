@@ -85,12 +85,12 @@ def followed_forward(
         if longer is None:
             break
         decay = longer
-    earlier = _earlier(followed.decay, samples) if from_release else None
+    before = earlier(followed.decay, samples) if from_release else None
     if names != ALWAYS:
         followed = follow(followed.decay, stretch_of(samples, followed.decay, margin=margin), names)
-    if earlier is not None:
+    if before is not None:
         try:
-            return follow(earlier, stretch_of(samples, earlier, from_release=True, margin=margin), names), True
+            return follow(before, stretch_of(samples, before, from_release=True, margin=margin), names), True
         except UnfollowedError:
             pass
     return followed, False
@@ -114,7 +114,7 @@ def _longer(followed: Followed, samples: Samples, lowest: float) -> Decay | None
     return None if more == count else replace(followed.decay, count=more)
 
 
-def _earlier(decay: Decay, samples: Samples) -> Decay | None:
+def earlier(decay: Decay, samples: Samples) -> Decay | None:
     """Return the decay with the release before its first arc; None where no such release leads to it."""
     peaks, times, ends = decay.arcs()
     critical, p, side = decay.critical, decay.p, 1 - decay.side
@@ -128,11 +128,12 @@ def _earlier(decay: Decay, samples: Samples) -> Decay | None:
     time = 2 * float(times[0]) - float(ends[0]) - impact
     if samples.time[0] > time + 0.9 * impact:
         return None
-    return replace(before, values=before.values | {"time": time}, count=decay.count + 1)
+    deviations = np.concatenate(([0.0], decay.by_impact))
+    return replace(before, values=before.values | {"time": time}, count=decay.count + 1, deviations=deviations)
 
 
 def without_first(decay: Decay) -> Decay:
     """Return the decay from its second arc on."""
     peaks, times, _ = decay.arcs()
     values = decay.values | {"peak": float(peaks[1]), "time": float(times[1])}
-    return replace(decay, side=1 - decay.side, values=values, count=decay.count - 1)
+    return replace(decay, side=1 - decay.side, values=values, count=decay.count - 1, deviations=decay.by_impact[1:])

@@ -160,7 +160,7 @@ def _judged(
     lowpass: float | None,
 ) -> HistoryFit:
     """Find the noise, follow the record once more as that allows, and judge what is left over."""
-    cutoff = _usable(_noise(followed, samples, None).cutoff_hz if lowpass is None else lowpass, samples)
+    cutoff = usable_cutoff(_noise(followed, samples, None).cutoff_hz if lowpass is None else lowpass, samples)
     for attempt in range(MOST_CUTOFFS):
         stretch = stretch_of(samples, followed.decay, from_release=from_release, cutoff_hz=cutoff)
         followed = follow(followed.decay, stretch, names)
@@ -171,7 +171,7 @@ def _judged(
         if lowpass is not None or cutoff is None or _probability(followed, noise, len(names)) >= UNLIKELY:
             break
         # What is left over lies at the corners: there the cut-off shows more clearly than in the noise.
-        closer = _usable(closest_cutoff(followed.decay, stretch, cutoff), samples)
+        closer = usable_cutoff(closest_cutoff(followed.decay, stretch, cutoff), samples)
         if closer is None or abs(closer - cutoff) < SAME_CUTOFF * cutoff:
             break
         cutoff = closer
@@ -222,7 +222,8 @@ def _noise(followed: Followed, samples: Samples, lowpass: float | None) -> Noise
     return replace(noise, level=noise.level / max(1 - len(ALWAYS) / noise.freedom, 0.5))
 
 
-def _usable(cutoff_hz: float | None, samples: Samples) -> float | None:
+def usable_cutoff(cutoff_hz: float | None, samples: Samples) -> float | None:
+    """Return a cut-off (Hz) that rounds what the samples show; else None."""
     if cutoff_hz is None or samples.interval is None or cutoff_hz > FINEST_CUTOFF / samples.interval:
         return None
     return cutoff_hz

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from colonnade.dynamics.block import Block
-from colonnade.identification.restitution import half_periods, history, impact_by_impact, peaks
+from colonnade.identification.restitution import each_impact, half_periods, history, impact_by_impact, peaks
 from colonnade.identification.restitution.arcs import Arcs, arcs_between, find_impacts, noise_level
 from colonnade.identification.restitution.choice import METHODS, RULE, choose
 from colonnade.identification.restitution.departures import find_departures
+from colonnade.identification.restitution.each_impact import fit_each_impact
 from colonnade.identification.restitution.free_rocking import objection
 from colonnade.identification.restitution.half_periods import fit_half_periods
 from colonnade.identification.restitution.history import HistoryFit, fit_history
@@ -20,6 +21,7 @@ from colonnade.identification.restitution.impact_by_impact import fit_impacts, i
 from colonnade.identification.restitution.peaks import fit_peaks
 from colonnade.identification.restitution.result import Estimate, Peaks, Restitution
 from colonnade.identification.restitution.samples import Samples, thinned
+from colonnade.identification.restitution.speed import speed_dependence
 
 Array = NDArray[np.float64]
 
@@ -29,6 +31,7 @@ ASSUMPTIONS = {
     impact_by_impact.NAME: impact_by_impact.ASSUMPTIONS,
     "history-linear": history.ASSUMPTIONS,
     "history-nonlinear": history.ASSUMPTIONS,
+    each_impact.NAME: each_impact.ASSUMPTIONS,
 }
 """Of each estimator, in the order of `Restitution.estimates`."""
 
@@ -107,9 +110,9 @@ def identify_restitution(
         return _refused(reason, level, peaks=seen.peaks)
     lowest = lowest_amplitude * block.critical_angle
     common: dict[str, Any] = {"free": free, "lowest": lowest, "level": level}
-    nonlinear = fit_history(samples, seen.arcs, block, lowpass=lowpass, **common)
+    scattered = fit_each_impact(samples, seen.arcs, block, lowpass=lowpass, **common)
     # Impacts are where the angle passes its true zero.
-    shift = nonlinear.decay.values["zero_offset"] if nonlinear.decay is not None else 0.0
+    shift = scattered.decay.values["zero_offset"] if scattered.decay is not None else 0.0
     seen = seen.shifted(shift, samples, block)
     arcs, usable = seen.arcs, seen.usable
     by_peaks, table, offset = fit_peaks(arcs, seen.critical, usable, seen.noise, level=level)
@@ -133,10 +136,11 @@ def identify_restitution(
         by_peaks, table, offset = fit_peaks(arcs, seen.critical, usable, seen.noise, level=level)
         common["from_release"] = False
         later = Arcs(*(getattr(arcs, name)[left_out:] for name in vars(arcs)))
-        nonlinear = fit_history(samples, later, block, lowpass=lowpass, **common)
-        linear = _linear(samples, later, block, nonlinear, lowpass, common)
+        scattered = fit_each_impact(samples, later, block, lowpass=lowpass, **common)
     else:
-        linear = _linear(samples, arcs, block, nonlinear, lowpass, common)
+        later = seen.arcs
+    nonlinear = fit_history(samples, later, block, lowpass=lowpass, **common)
+    linear = _linear(samples, later, block, nonlinear, lowpass, common)
     singles = single_impacts(arcs, offset, usable, block)
     by_impact, constancy = fit_impacts(arcs, offset, singles, block, level=level)
     row = slice(left_out, _end_of_row(impact_covariance, left_out))
@@ -149,7 +153,8 @@ def identify_restitution(
         level=level,
     )
 
-    chosen, reason = choose(nonlinear, by_peaks, constancy)
+    departures += speed_dependence(scattered)
+    chosen, reason = choose(scattered, by_peaks)
     refusing = [departure.sentence for departure in departures if departure.refuses]
     if refusing:
         chosen, reason = None, refusing[0]
@@ -164,8 +169,8 @@ def identify_restitution(
         shift + offset,
         table,
         singles,
-        (by_peaks, periods.estimate, by_impact, linear.estimate, nonlinear.estimate),
-        nonlinear.fitted,
+        (by_peaks, periods.estimate, by_impact, linear.estimate, nonlinear.estimate, scattered.estimate),
+        scattered.fitted or nonlinear.fitted,
         departures,
         "",
         constancy,

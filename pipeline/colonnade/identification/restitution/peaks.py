@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
 
 from colonnade.identification.restitution.arcs import Arcs
 from colonnade.identification.restitution.energy import angle_of_energy, released_energy
+from colonnade.identification.restitution.mixture import Parts, mean_of
 from colonnade.identification.restitution.result import Estimate, Peaks
 
 Array = NDArray[np.float64]
@@ -53,8 +53,8 @@ def fit_peaks(
     Notes
     -----
     The logarithm of the energy of the n-th peak falls by 2 ln e an impact. Variances: that of each peak's own fit,
-    scaled where the scatter is larger, and a random walk for an e that differs from impact to impact, their ratio by
-    restricted maximum likelihood.
+    scaled where the scatter is larger, and a random walk for an e that differs from impact to impact. The interval is
+    a mixture over their ratio by its restricted likelihood (`mixture.mean_of`), the line drawn that of the likeliest.
     """
     unfitted = np.full(arcs.peak_angle.shape, np.nan)
     peaks = Peaks(arcs.peak_time, arcs.peak_angle, arcs.peak_standard_error, unfitted, usable)
@@ -64,7 +64,7 @@ def fit_peaks(
     number = np.flatnonzero(usable).astype(np.float64)
     angle, alpha = arcs.peak_angle[usable], critical[usable]
     error = np.maximum(arcs.peak_standard_error[usable], 1e-3 * max(noise, 1e-9))
-    offset, line = 0.0, _Line(np.zeros(3), np.zeros((3, 3)))
+    offset, line = 0.0, None
     for _ in range(6):
         # The common zero offset is the third unknown: it moves peaks of opposite sign in opposite ways.
         moved = np.abs(angle - offset)
@@ -76,39 +76,50 @@ def fit_peaks(
         offset += step
         if abs(step) < 1e-9 or not np.abs(angle - offset).min() > 0:
             break
-    slope, slope_error = float(line.coefficients[1]), float(np.sqrt(line.covariance[1, 1]))
-    half = float(stats.t.ppf((1 + level) / 2, number.size - 3)) * slope_error
-    fitted = np.exp(line.coefficients[0] + slope * number)
+    assert line is not None
+    mean = mean_of(line.parts, level)
+    fitted = np.exp(line.coefficients[0] + line.coefficients[1] * number)
     unfitted[usable] = np.sign(angle) * angle_of_energy(fitted, alpha)
     peaks = Peaks(arcs.peak_time, arcs.peak_angle - offset, arcs.peak_standard_error, unfitted, usable)
-    low, value, high = (float(np.exp(bound / 2)) for bound in (slope - half, slope, slope + half))
-    return Estimate(NAME, value, low, high, value * slope_error / 2, level, ASSUMPTIONS), peaks, offset
+    low, value, high = (float(np.exp(bound)) for bound in (mean.low, mean.value, mean.high))
+    return Estimate(NAME, value, low, high, value * mean.standard_error, level, ASSUMPTIONS), peaks, offset
 
 
 @dataclass(frozen=True)
 class _Line:
+    """Height, slope and zero offset of the likeliest line; what each scatter says of ln e, half the slope."""
+
     coefficients: Array
-    covariance: Array
+    parts: Parts
 
 
 def _weighted_line(design: Array, values: Array, error: Array, number: Array) -> _Line:
     """
-    Generalised least squares with variance s² [diag(error²) + ρ min(i, j)], ρ by restricted maximum likelihood.
+    Generalised least squares with variance s² [diag(error²) + ρ min(i, j)], for each ρ of `RATIOS`.
 
     The walk begins at the first peak; ρ = 0 is independent scatter alone.
     """
-    walk = np.minimum.outer(number - number[0], number - number[0]) / np.outer(error, error) * np.median(error) ** 2
+    unit = float(np.median(error) ** 2)
+    walk = np.minimum.outer(number - number[0], number - number[0]) / np.outer(error, error) * unit
     # In the eigenvectors of the walk both parts are diagonal.
     spread, vectors = np.linalg.eigh(walk)
     columns, aim = vectors.T @ (design / error[:, None]), vectors.T @ (values / error)
-    ratios = np.concatenate(([0.0], np.geomspace(1e-3, 1e3, 25)))
-    variance = 1 + np.outer(ratios, np.maximum(spread, 0.0))
+    variance = 1 + np.outer(RATIOS, np.maximum(spread, 0.0))
     normal = (columns.T[None, :, :] / variance[:, None, :]) @ columns
     inverse = np.linalg.inv(normal)
     coefficients = (inverse @ ((columns.T[None, :, :] / variance[:, None, :]) @ aim)[:, :, None])[:, :, 0]
     residual = aim[None, :] - coefficients @ columns.T
     freedom = values.size - design.shape[1]
     scale = np.maximum((residual**2 / variance).sum(axis=1) / freedom, 1e-300)
-    criterion = np.log(variance).sum(axis=1) + np.linalg.slogdet(normal)[1] + freedom * np.log(scale)
-    best = int(np.argmin(criterion))
-    return _Line(coefficients[best], inverse[best] * max(float(scale[best]), 1.0))
+    volume = np.log(variance).sum(axis=1) + np.linalg.slogdet(normal)[1]
+    likelihood = -0.5 * (volume + freedom * np.log(scale))
+    # The logarithm of the energy falls by 2 ln e.
+    centre, slope_error = coefficients[:, 1] / 2, np.sqrt(inverse[:, 1, 1] * np.maximum(scale, 1.0)) / 2
+    scatter = np.sqrt(RATIOS * unit * scale) / 2
+    step = float(np.log(RATIOS[2] / RATIOS[1])) / 2
+    parts = Parts(scatter, likelihood, centre, slope_error, float(freedom), step)
+    return _Line(coefficients[int(np.argmax(likelihood))], parts)
+
+
+RATIOS = np.concatenate(([0.0], np.geomspace(1e-3, 1e4, 41)))
+"""Values of ρ that are tried, in the median variance of the peaks."""

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from colonnade.identification.restitution.arc_series import ArcSeries
 from colonnade.identification.restitution.departure import Departure
 from colonnade.identification.restitution.scatter_fit import Fit, Problem
+
+Array = NDArray[np.float64]
 
 FEWEST_ARCS = 8
 
@@ -22,7 +25,13 @@ SCALE = 0.004
 LEAST_TILT = 0.005
 """... and that of the critical angles more than twice this share of α."""
 
-LOSS, UNEQUAL, OFFSET, TILT = 1, 2, 3, 4
+LEAST_DRIFT = 0.005
+"""Share of α by which the zero drifts over the arcs at least where a drift is named."""
+
+SURE_DRIFT = 2.0
+"""Standard errors from which on a drift is allowed for where the sides are compared."""
+
+LOSS, UNEQUAL, OFFSET, TILT, DRIFT = 1, 2, 3, 4, 7
 """Places of unknowns in `sides_problem`."""
 
 
@@ -39,20 +48,26 @@ def compare_sides(series: ArcSeries) -> tuple[Departure, ...]:
     departures : tuple of Departure
         "unequal restitution": e of impacts that end an arc at θ > 0 minus that at θ < 0, dimensionless.
         "unequal sides": half the difference of the critical angles, (α₊ − α₋)/2 beyond that of the block, rad, which is
-        the angle by which a table is tilted down towards −x. Neither leaves out an arc: the geometric mean of the two e
-        is that of the decay.
+        the angle by which a table is tilted down towards −x. "zero drift": of the angle's zero over the arcs, rad.
+        None leaves out an arc: the geometric mean of the two e is that of the decay.
 
     Notes
     -----
-    Unknown are ln e of either side, a zero offset of θ, the half difference of α, and a common error of α and of p. An
-    unequal e makes the energies of the peaks alternate, and the durations follow them; an unequal α makes the durations
-    alternate at the same peaks; an offset does so the more, the smaller the peak. Threshold: `SURE` standard errors by
-    Student's t, and `LEAST_DIFFERENCE` and 2 `SCALE`, or `LEAST_TILT`.
+    Unknown are ln e of either side, a zero offset of θ and its drift, the half difference of α, and a common error of α
+    and of p. An unequal e makes the energies of the peaks alternate, and the durations follow them; an unequal α makes
+    the durations alternate at the same peaks; an offset does so the more, the smaller the peak, and a drift more and
+    more with time. Threshold: `SURE` standard errors by Student's t, and `LEAST_DIFFERENCE` and 2 `SCALE`,
+    `LEAST_TILT` or `LEAST_DRIFT`.
     """
     if series.number.size < FEWEST_ARCS:
         return ()
-    fit = sides_problem(series).fit()
-    found = (_unequal_restitution(fit), _unequal_sides(fit, float(series.critical.min())))
+    problem = sides_problem(series)
+    drifting = problem.fit(zero_drift(series))
+    drifts = drifting.is_sure(DRIFT, SURE_DRIFT)
+    fit = drifting if drifts else problem.fit()
+    critical = float(series.critical.min())
+    drift = _zero_drift(fit, critical) if drifts else None
+    found = (_unequal_restitution(fit), _unequal_sides(fit, critical), drift)
     return tuple(departure for departure in found if departure is not None)
 
 
@@ -79,8 +94,7 @@ def sides_problem(series: ArcSeries) -> Problem:
         -series.energy_by_critical,
         nothing,
     ]
-    # What is left of an offset moves the zeros of the angle that a duration lies between, and the peak beside it.
-    moved = 2 / (series.speed * series.duration) - series.period_by_peak
+    moved = _moved(series)
     periods = [
         *(nothing, nothing, nothing),
         series.side * moved,
@@ -96,6 +110,18 @@ def sides_problem(series: ArcSeries) -> Problem:
         series.covariance(),
         walk,
     )
+
+
+def zero_drift(series: ArcSeries) -> Array:
+    """Give the column of `sides_problem` of a zero that drifts, by the drift over the arcs; none in their middle."""
+    middle = (series.start + series.end) / 2
+    course = (middle - (middle[0] + middle[-1]) / 2) / (middle[-1] - middle[0])
+    return np.concatenate((series.energy_by_peak, _moved(series))) * np.tile(series.side * course, 2)
+
+
+def _moved(series: ArcSeries) -> Array:
+    """Change of ln of the durations by an offset: it moves the zeros that one lies between, and the peak with them."""
+    return np.asarray(2 / (series.speed * series.duration) - series.period_by_peak)
 
 
 def _unequal_restitution(fit: Fit) -> Departure | None:
@@ -126,4 +152,18 @@ def _unequal_sides(fit: Fit, critical: float) -> Departure | None:
         f"The critical angles of the two sides differ by 2 × ({1e3 * tilt:+.2f} ± {1e3 * error:.2f}) mrad from those "
         "of the block: arcs on one side last longer than on the other at the same peak. The table is tilted by as "
         "much, or the block is not as symmetric as given (table_tilt, critical_angle).",
+    )
+
+
+def _zero_drift(fit: Fit, critical: float) -> Departure | None:
+    drift, error = float(fit.coefficients[DRIFT]), fit.error(DRIFT)
+    if not fit.is_sure(DRIFT, SURE) or abs(drift) < LEAST_DRIFT * critical:
+        return None
+    return Departure(
+        "zero drift",
+        drift,
+        error,
+        "rad",
+        f"The zero of the angle drifts by {1e3 * drift:+.2f} ± {1e3 * error:.2f} mrad over the arcs. The whole history "
+        "allows for it; the peaks do not. Check the transducers' mounts and the warm-up of the recorder.",
     )
