@@ -55,7 +55,7 @@ def test_e_of_each_impact_is_its_own_velocity_ratio(rocked, identified):
 
 
 def energy_ratios(rocked, times):
-    """Find e of the impacts at these times by the energy of the peaks before and after, as the angle without noise has it."""
+    """Find e of the impacts at these times by the energy of the peaks on either side, in the angle without noise."""
     size, impacts = np.abs(rocked.angle), rocked.impact_times
     inside = [(rocked.time > start) & (rocked.time < end) for start, end in pairwise(impacts)]
     energy = released_energy([size[each].max() for each in inside], PRISM.critical_angle)
