@@ -116,7 +116,7 @@ def zero_drift(series: ArcSeries) -> Array:
     """Give the column of `sides_problem` of a zero that drifts, by the drift over the arcs; none in their middle."""
     middle = (series.start + series.end) / 2
     course = (middle - (middle[0] + middle[-1]) / 2) / (middle[-1] - middle[0])
-    return np.concatenate((series.energy_by_peak, _moved(series))) * np.tile(series.side * course, 2)
+    return np.asarray(np.concatenate((series.energy_by_peak, _moved(series))) * np.tile(series.side * course, 2))
 
 
 def _moved(series: ArcSeries) -> Array:
