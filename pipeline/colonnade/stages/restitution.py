@@ -146,6 +146,7 @@ def _identified(rocking: xr.Dataset, instructions: Instructions, *, free: tuple[
         # A filter of another order is not the one that the fit knows: it finds the nearest one itself.
         lowpass=rocking["rocking_angle"].attrs.get("cutoff_hz") if instructions.filter_order == ORDER else None,
         free=free,
+        base_acceleration=rocking["base_acceleration"].to_numpy() if "base_acceleration" in rocking else None,
         **beside,
     )
 

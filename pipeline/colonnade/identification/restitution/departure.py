@@ -13,8 +13,8 @@ class Departure:
     Attributes
     ----------
     name : str
-        "three-dimensional rocking", "sliding", "bouncing", "unequal restitution", "unequal sides", "zero drift" or
-        "speed-dependent restitution".
+        "three-dimensional rocking", "sliding", "bouncing", "unequal restitution", "unequal sides", "zero drift",
+        "speed-dependent restitution" or "moving table".
     size, standard_error : float
         In `unit`; what is measured stands in the sentence.
     unit : str

@@ -12,6 +12,7 @@ from scipy import stats
 from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs import Arcs
 from colonnade.identification.restitution.decay import ALWAYS, OPTIONAL, Decay
+from colonnade.identification.restitution.driven_decay import Base, DrivenDecay
 from colonnade.identification.restitution.follow import Stretch, UnfollowedError
 from colonnade.identification.restitution.forward import (
     BLURRED,
@@ -105,9 +106,15 @@ def fit_each_impact(
     level: float = 0.95,
     lowpass: float | None = None,
     from_release: bool = True,
+    base: Base | None = None,
 ) -> EachImpact:
     """
     Identify the mean e of the impacts; arguments as of `history.fit_history`.
+
+    Parameters
+    ----------
+    base : Base, optional
+        Motion of a table that moves.
 
     Returns
     -------
@@ -124,6 +131,8 @@ def fit_each_impact(
     try:
         names = ALWAYS + free
         decay = first_guess(arcs, block, linearised=False)
+        if base is not None:
+            decay = DrivenDecay.of(decay, base)
         path = tracked(samples, Path(decay), lowest)
         before = earlier(path.decay, samples) if from_release else None
         if before is not None:

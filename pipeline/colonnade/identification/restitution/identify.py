@@ -13,7 +13,8 @@ from colonnade.identification.restitution import each_impact, half_periods, hist
 from colonnade.identification.restitution.arcs import Arcs, arcs_between, find_impacts, noise_level
 from colonnade.identification.restitution.choice import METHODS, RULE, choose
 from colonnade.identification.restitution.departures import find_departures
-from colonnade.identification.restitution.each_impact import fit_each_impact
+from colonnade.identification.restitution.driven_decay import moving_base
+from colonnade.identification.restitution.each_impact import EachImpact, fit_each_impact
 from colonnade.identification.restitution.free_rocking import objection
 from colonnade.identification.restitution.half_periods import fit_half_periods
 from colonnade.identification.restitution.history import HistoryFit, fit_history
@@ -21,7 +22,7 @@ from colonnade.identification.restitution.impact_by_impact import fit_impacts, i
 from colonnade.identification.restitution.peaks import fit_peaks
 from colonnade.identification.restitution.result import Estimate, Peaks, Restitution
 from colonnade.identification.restitution.samples import Samples, thinned
-from colonnade.identification.restitution.speed import speed_dependence
+from colonnade.identification.restitution.single_impacts import found_by_impact
 
 Array = NDArray[np.float64]
 
@@ -56,6 +57,7 @@ def identify_restitution(
     out_of_plane: ArrayLike | None = None,
     slide: ArrayLike | None = None,
     uplift: ArrayLike | None = None,
+    base_acceleration: ArrayLike | None = None,
 ) -> Restitution:
     """
     Identify the coefficient of restitution from a free vibration.
@@ -79,6 +81,9 @@ def identify_restitution(
     out_of_plane, slide, uplift : array_like, shape (n,), optional
         Rotation about x (rad), displacement of the pole and height of the base (m), where measured: departures from
         plane rocking are then seen directly.
+    base_acceleration : array_like, shape (n,), optional
+        Of the base along x, m/s², at steps that are even. If it moves the table (`base_motion.table_moves`) it drives
+        the history; only the whole history with an e of its own at each impact can follow that.
 
     Returns
     -------
@@ -110,7 +115,13 @@ def identify_restitution(
         return _refused(reason, level, peaks=seen.peaks)
     lowest = lowest_amplitude * block.critical_angle
     common: dict[str, Any] = {"free": free, "lowest": lowest, "level": level}
-    scattered = fit_each_impact(samples, seen.arcs, block, lowpass=lowpass, **common)
+    try:
+        base = moving_base(times, base_acceleration, block)
+    except ValueError as error:
+        return _refused(str(error), level, peaks=seen.peaks)
+    scattered = fit_each_impact(samples, seen.arcs, block, lowpass=lowpass, base=base, **common)
+    if base is not None:
+        return _driven(scattered, seen, level)
     # Impacts are where the angle passes its true zero.
     shift = scattered.decay.values["zero_offset"] if scattered.decay is not None else 0.0
     seen = seen.shifted(shift, samples, block)
@@ -153,7 +164,7 @@ def identify_restitution(
         level=level,
     )
 
-    departures += speed_dependence(scattered)
+    departures += found_by_impact(scattered)
     chosen, reason = choose(scattered, by_peaks)
     refusing = [departure.sentence for departure in departures if departure.refuses]
     if refusing:
@@ -164,7 +175,7 @@ def identify_restitution(
         None,
         None,
         level,
-        RULE if chosen is None else METHODS[chosen.name],
+        RULE,
         reason,
         shift + offset,
         table,
@@ -175,6 +186,35 @@ def identify_restitution(
         "",
         constancy,
     )
+    return _with_value(result, chosen)
+
+
+def _driven(scattered: EachImpact, seen: _Excursions, level: float) -> Restitution:
+    """Return what the whole history gives on a table that moves; the other estimators hold on one at rest only."""
+    reason = "The table moves: this estimator takes it to be at rest."
+    others = tuple(
+        Estimate(name, None, None, None, None, level, assumptions, reason)
+        for name, assumptions in ASSUMPTIONS.items()
+        if name != each_impact.NAME
+    )
+    departures = found_by_impact(scattered, driven=True)
+    chosen, refusal = choose(scattered, others[0])
+    refusing = [departure.sentence for departure in departures if departure.refuses]
+    if refusing:
+        chosen, refusal = None, refusing[0]
+    result = _refused(refusal, level, peaks=seen.peaks)
+    offset = scattered.decay.values["zero_offset"] if scattered.decay is not None else 0.0
+    result = replace(
+        result,
+        estimates=(*others, scattered.estimate),
+        history=scattered.fitted,
+        departures=departures,
+        zero_offset=offset,
+    )
+    return _with_value(result, chosen)
+
+
+def _with_value(result: Restitution, chosen: Estimate | None) -> Restitution:
     if chosen is None:
         return result
     return replace(
@@ -183,7 +223,9 @@ def identify_restitution(
         low=chosen.low,
         high=chosen.high,
         standard_error=chosen.standard_error,
+        method=METHODS[chosen.name],
         recommended=chosen.name,
+        reason="",
     )
 
 

@@ -1,0 +1,103 @@
+"""What e of single impacts shows: that it depends on their speed, or that the table moves under the block."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from scipy import stats
+
+from colonnade.identification.restitution.departure import Departure
+from colonnade.identification.restitution.each_impact import EachImpact
+
+NAME = "speed-dependent restitution"
+
+SURE = 4.0
+"""Standard errors (of a normal distribution) from which on a change is named, ..."""
+
+LEAST_CHANGE = 0.005
+"""... if e changes by more than this over the speeds of impact seen; ..."""
+
+LARGEST_CHANGE = 0.05
+"""... beyond this one value would mislead."""
+
+MOVING = "moving table"
+
+LARGEST_SCATTER = 0.01
+"""Standard deviation of e from impact to impact above which something else than impacts changes the energy."""
+
+FEWEST_IMPACTS = 5
+
+
+def found_by_impact(fit: EachImpact, *, driven: bool = False) -> tuple[Departure, ...]:
+    """
+    Look at e of single impacts.
+
+    Parameters
+    ----------
+    fit : EachImpact
+    driven : bool, optional
+        The motion of the table is in the history already.
+
+    Returns
+    -------
+    departures : tuple of Departure
+        "moving table": its size is the standard deviation of e from impact to impact, each drawn towards the mean as
+        far as noise allows; threshold `LARGEST_SCATTER`; it refuses. Else "speed-dependent restitution".
+    """
+    if fit.restitution.size >= FEWEST_IMPACTS and (scatter := float(fit.restitution.std(ddof=1))) > LARGEST_SCATTER:
+        trend = abs(fit.change) if isfinite(fit.change) and abs(fit.change) > SURE * fit.change_error else 0.0
+        if scatter > trend:
+            return (_moving(fit, scatter, driven=driven),)
+    return speed_dependence(fit)
+
+
+def _moving(fit: EachImpact, scatter: float, *, driven: bool) -> Departure:
+    cause = (
+        "the recorded motion of the table does not explain it. Check the gain, sign and clock of its accelerometer."
+        if driven
+        else "the table moves, or somebody touched the block. No value is given; record the table's acceleration "
+        '(on = "table", quantity = "acceleration"), or repeat the test on a table at rest.'
+    )
+    return Departure(
+        MOVING,
+        scatter,
+        scatter / (2 * fit.restitution.size) ** 0.5,
+        "1",
+        f"e of single impacts scatters by {scatter:.3f}, from {fit.restitution.min():.3f} to "
+        f"{fit.restitution.max():.3f}; up to {LARGEST_SCATTER:g} was expected of impacts alone: {cause}",
+        refuses=True,
+    )
+
+
+def speed_dependence(fit: EachImpact) -> tuple[Departure, ...]:
+    """
+    Ask whether e changes with the speed of impact.
+
+    Parameters
+    ----------
+    fit : EachImpact
+
+    Returns
+    -------
+    departures : tuple of Departure
+        None, or one whose size is the change of e over the speeds of impact seen; it refuses above `LARGEST_CHANGE`.
+        Threshold: `SURE` standard errors by Student's t, and `LEAST_CHANGE`.
+    """
+    if not (isfinite(fit.change) and fit.change_error > 0):
+        return ()
+    chance = 2 * float(stats.t.sf(abs(fit.change) / fit.change_error, fit.restitution.size - 2))
+    if chance > 2 * float(stats.norm.sf(SURE)) or abs(fit.change) < LEAST_CHANGE:
+        return ()
+    refuses = abs(fit.change) > LARGEST_CHANGE
+    end = "one value would mislead." if refuses else "the value given is the mean over the impacts seen."
+    return (
+        Departure(
+            NAME,
+            fit.change,
+            fit.change_error,
+            "1",
+            f"e is not constant: it changes by {fit.change:+.4f} ± {fit.change_error:.4f} from the slowest to the "
+            f"fastest impact; {end}",
+            refuses=refuses,
+        ),
+    )
