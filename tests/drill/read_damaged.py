@@ -22,7 +22,7 @@ import numpy as np
 from damage import KINDS, damaged
 
 from colonnade.errors import ReadError
-from colonnade.readers.registry import read
+from colonnade.readers.registry import read_here
 
 WITHOUT_LENGTH = ("delimited", "mts", "tdms")
 """Formats in which a file that ends between two rows or segments is whole as far as anyone can tell."""
@@ -34,13 +34,13 @@ MEMORY = 4 << 30
 
 def shortest(path: Path, format: str) -> int:
     """Values of a file's shortest channel."""
-    return min(channel.values.size for channel in read(path, format).channels)
+    return min(channel.values.size for channel in read_here(path, format, {}, None).channels)
 
 
 def outcome(path: Path, format: str, size: int, least: int) -> str:
     """Read a file; in one word what came of it. A channel with fewer values than `least` has to be told."""
     try:
-        recording = read(path, format)
+        recording = read_here(path, format, {}, None)
     except ReadError as error:
         if path.name not in str(error) or len(str(error)) < 30:
             return f"finding: refused without its name or a reason: {error}"

