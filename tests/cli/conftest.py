@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import pytest
 
-from colonnade.cli import invoke
+from colonnade.cli import invoke, progress
 
 CAMPAIGN = """\
 schema = 1
@@ -62,6 +62,7 @@ def colonnade(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Ca
     """Run a command in this process, in a folder of its own."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
+    monkeypatch.setattr(progress, "EVERY", float("inf"))  # a slow machine is told of by lines of progress
 
     def run(*arguments: str) -> Told:
         capsys.readouterr()

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from colonnade.findings import Finding, serious, warning
+from colonnade.findings import Finding, serious
 from colonnade.identification.factors import as_expected, cause
 from colonnade.signals.filters import lowpass, second_derivative
 
@@ -125,10 +125,11 @@ def dead(interval: float, acceleration: TableChannel, displacement: TableChannel
     if moves and derived.std() > STANDING * acceleration.noise and recorded.std() < DEAD * derived.std():
         return _standing(acceleration.name, displacement.name, recorded.std(), derived.std(), "m/s²")
     if moves and shakes:
-        return warning(
+        return serious(
             "table motion",
             f"channels {acceleration.name} and {displacement.name} both move, but not as one table does (correlation "
-            f"{_correlation(recorded, derived):.2f}): look at their columns and recorders",
+            f"{_correlation(recorded, derived):.2f}): one of them was read from another column "
+            "or recorder, or is of another component of the motion",
         )
     return None
 

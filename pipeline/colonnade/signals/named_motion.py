@@ -131,7 +131,8 @@ def check_motion(
         likely = [value for value in (scale, best_scale(record, series)) if value > 0]
         fit = max((match(record, series.stretched(value)) for value in likely), key=lambda each: abs(each.correlation))
         if abs(fit.correlation) >= max(AGREES, abs(found.correlation) + BETTER):
-            return [warning("another motion", f'{begun}): it moved as "{other}" ({fit.correlation:.2f})')]
+            text = f'{begun}): it moved as "{other}" ({fit.correlation:.2f}): another component was read, or meant'
+            return [warning("another motion", text)]
     text = f"{begun}; {AGREES:g} is needed): it is another motion, or the table did not follow"
     return [warning("another motion", text, follows=("dead channel", "table motion"))]
 

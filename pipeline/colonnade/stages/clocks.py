@@ -125,7 +125,7 @@ def recorder_offsets(
             state = "aligned" if found.is_determined else "taken to start with the main one"
             weight = warning if found.is_determined else serious
             doubt = f"recorder {recorder} was {state} by {channel} and {own_channel}: {found.doubt}."
-            warnings.append(weight("clock", doubt, follows=("dead channel",)))
+            warnings.append(weight("clock", doubt, follows=("dead channel", "table motion", "gain", "sign")))
         if found.drift is not None:
             warnings.append(
                 note(

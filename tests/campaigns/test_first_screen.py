@@ -1,0 +1,175 @@
+"""Mistakes that people make: the first screen of `check`, and of `run`, gives the true cause before all else."""
+
+from __future__ import annotations
+
+import re
+import shutil
+
+import numpy as np
+import pytest
+
+from colonnade.cli import invoke
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
+from colonnade.laboratory.files import COMMAS
+from colonnade.laboratory.instruments import Transducer
+from colonnade.laboratory.programme import write
+from colonnade.laboratory.table import recorded
+from colonnade.signals.filters import lowpass
+
+SCREEN = 24
+"""Lines."""
+
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+SHAPE = {"shape": "prism", "width": "86 mm", "depth": "86 mm", "height": "456 mm", "mass": "26.10 kg"}
+
+
+def _component(seed):
+    """An earthquake of some seconds, at the model's time scale."""
+    time = 0.005 * np.arange(1600)
+    values = lowpass(np.random.default_rng(seed).normal(size=time.size), 0.005, 12.0)
+    values = (values - lowpass(values, 0.005, 1.0)) * np.exp(-(((time - 3.0) / 1.5) ** 2))
+    return Motion(2.5 * PRISM.uplift_acceleration * values / np.abs(values).max(), 0.005)
+
+
+def _write_motion(path, motion):
+    rows = "".join(f"{k * motion.dt:.3f},{value:.6f}\n" for k, value in enumerate(motion.acceleration))
+    path.write_text("time (s),acceleration (m/s^2)\n" + rows, encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def sound(tmp_path_factory):
+    """A free vibration and an earthquake, without a mistake; the record's other component is known too."""
+    folder = tmp_path_factory.mktemp("sound")
+    shaken = recorded(_component(1), start=1.5)
+    plan = Plan(
+        campaign="sound",
+        title="Without a mistake",
+        specimens={"prism": Specimen(SHAPE, PRISM, 0.976)},
+        setups={
+            "rig": Setup(
+                {
+                    MAIN: Recorder(
+                        (
+                            Transducer(
+                                "top", "LVDT 1", "displacement", "specimen", 0.150, "mm", at=(0.043, 0.0, 0.440)
+                            ),
+                            Transducer(
+                                "bottom", "LVDT 2", "displacement", "specimen", 0.05, "mm", at=(0.043, 0.0, 0.04)
+                            ),
+                            Transducer("table", "ACT", "displacement", "table", 0.050, "mm"),
+                            Transducer("acceleration", "ACC", "acceleration", "table", 20.0, "m/s^2"),
+                        ),
+                        250.0,
+                        COMMAS,
+                    )
+                }
+            )
+        },
+        trials=(
+            Trial("free", "free-vibration", "rig", 16.0, theta0=0.55 * PRISM.critical_angle, release=1.5),
+            Trial("quake", "earthquake", "rig", shaken.stop + 2.0, table=shaken, entry={"motion": "Valley NS"}),
+        ),
+    )
+    write(plan, folder, seed=3)
+    for name, seed in (("ns", 1), ("ew", 2)):
+        _write_motion(folder / f"valley-{name}.csv", _component(seed))
+    motions = '\n[motions]\n"Valley NS" = "valley-ns.csv"\n"Valley EW" = "valley-ew.csv"\n\n[setups.'
+    path = folder / "campaign.toml"
+    path.write_text(path.read_text(encoding="utf-8").replace("\n[setups.", motions, 1), encoding="utf-8")
+    return folder
+
+
+def _in_campaign(*changes):
+    def plant(folder):
+        path = folder / "campaign.toml"
+        text = path.read_text(encoding="utf-8")
+        for pattern, replacement in changes:
+            text, count = re.subn(pattern, replacement, text)
+            assert count == 1, pattern
+        path.write_text(text, encoding="utf-8")
+
+    return plant
+
+
+def _swap(folder):
+    path = folder / "raw" / "free.csv"
+    rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines()]
+    lines = [",".join([*row[:1], row[2], row[1], *row[3:]]) for row in rows[2:]]
+    path.write_text("\n".join([*(",".join(row) for row in rows[:2]), *lines, ""]), encoding="utf-8")
+
+
+def _wrap(folder):
+    """The table's acceleration alone, eight numbers a row; the fourth column is taken for a channel of its own."""
+    values = np.round(_component(1).acceleration, 5)
+    rows = ["".join(f"{value:10.5f}" for value in values[first : first + 8]) for first in range(0, values.size, 8)]
+    (folder / "raw" / "quake.csv").write_text("\n".join([*rows, ""]), encoding="utf-8")
+    channel = 'column = 4, quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]'
+    setup = f'[setups.logger]\nsampling_rate = "200 Hz"\n[setups.logger.channels]\nacceleration = {{{channel}}}\n\n'
+    _in_campaign((r"\[\[tests\]\]\nid = \"free\"", f'{setup}[[tests]]\nid = "free"'))(folder)
+    path = folder / "campaign.toml"
+    before, quake = path.read_text(encoding="utf-8").split('id = "quake"')
+    path.write_text(f'{before}id = "quake"{quake.replace("rig", "logger")}', encoding="utf-8")
+
+
+def _copy(folder):
+    (folder / "raw" / "second").mkdir()
+    for name in ("free", "quake"):
+        shutil.copy(folder / "raw" / f"{name}.csv", folder / "raw" / "second")
+    path = folder / "campaign.toml"
+    text = path.read_text(encoding="utf-8")
+    again = text[text.index("[[tests]]") :]
+    for name in ("free", "quake"):
+        again = again.replace(f'id = "{name}"', f'id = "{name}-2"').replace(f"raw/{name}.csv", f"raw/second/{name}.csv")
+    path.write_text(f"{text}\n{again}", encoding="utf-8")
+
+
+MISTAKES = {
+    "gain x 10": (
+        _in_campaign((r'gain = "15 mm/V"', 'gain = "150 mm/V"')),
+        r"serious \(gain\): free: Channel top shows .* times the rotation .*: a gain ten times off",
+    ),
+    "swapped columns": (_swap, r"serious \(swapped channels\): free: Channels top and bottom look swapped"),
+    "V for mm": (
+        _in_campaign((r'unit = "V", gain = "15 mm/V", range = "10 V"', 'unit = "mm"')),
+        r'serious \(unit\): free: channel top: free.csv says "V" .* the campaign file says "mm"',
+    ),
+    "mm for m": (
+        _in_campaign((r'height = "456 mm"', 'height = "456 m"')),
+        r"serious \(specimen\): campaign file: .* make 7.7 kg/m³; .* one of the lengths in mm taken for m",
+    ),
+    "wrapped rows": (_wrap, r"quake[\s\S]*quake.csv: .*run on from row to row"),
+    "wrong component": (
+        _in_campaign(('motion = "Valley NS"', 'motion = "Valley EW"')),
+        r'\(another motion\): quake: .* did not move as "Valley EW" .*: it moved as "Valley NS" .*another component',
+    ),
+    "empty file": (lambda folder: (folder / "raw" / "free.csv").write_bytes(b""), r"free.csv: the file is empty"),
+    "copied folder": (
+        _copy,
+        r"serious \(copied file\): campaign file: 2 raw files hold the same bytes .* Was a folder copied",
+    ),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_the_first_screen_gives_the_true_cause(mistake, sound, tmp_path, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "400")
+    plant, expected = MISTAKES[mistake]
+    folder = tmp_path / "campaign"
+    shutil.copytree(sound, folder)
+    plant(folder)
+    for command in (("check", str(folder)), ("run", str(folder), "--until", "restitution", "--workers", "1")):
+        capsys.readouterr()
+        invoke(command)
+        screen = "\n".join(capsys.readouterr().out.splitlines()[:SCREEN])
+        assert re.search(expected, screen), screen
+        found = re.search(r"^(serious|warning) .*", screen, re.MULTILINE)
+        assert found is None or re.search(expected, found[0]) or mistake in ("wrapped rows", "empty file"), found
+
+
+def test_without_a_mistake_there_is_nothing_but_notes(sound, tmp_path, capsys):
+    folder = tmp_path / "campaign"
+    shutil.copytree(sound, folder)
+    assert invoke(("check", str(folder), "--strict")) == 0
+    assert "serious" not in capsys.readouterr().out
