@@ -71,6 +71,21 @@ def test_planted_spikes_are_found_at_their_places(values, places, sign, width):
     assert (found == planted).all()
 
 
+def test_values_beyond_the_range_are_in_another_unit():
+    verdict = check_clipping(TIME, 40.0 * np.sin(TIME), full_scale=10.0)
+    assert (verdict.finding.kind, verdict.finding.severity) == ("unit", "serious")
+    assert "beyond the range of ±10, up to 40: the values are in another unit" in verdict.reason
+    spiked = np.sin(TIME)
+    spiked[300] = 90.0
+    assert check_clipping(TIME, spiked, full_scale=10.0).finding.kind == "end of the range"
+
+
+def test_a_channel_that_begins_at_the_end_of_its_range_is_told():
+    values = np.where(TIME < 0.5, 10.0, np.sin(TIME))
+    assert "It begins there: look at its cable" in check_clipping(TIME, values, full_scale=10.0).reason
+    assert "begins" not in check_clipping(TIME, values[::-1].copy(), full_scale=10.0).reason
+
+
 def test_a_clipped_record_is_flagged_where_it_is_clipped():
     values = np.clip(1.2 * np.sin(TIME), -1, 1)
     verdict = check_clipping(TIME, values, full_scale=1.0)

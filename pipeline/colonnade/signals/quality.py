@@ -32,6 +32,16 @@ FEW_SPIKES = 0.001
 """Share of the samples up to which spikes are only noted."""
 
 
+BEYOND = 1.1
+"""Of the range; no recorder gives values so much larger."""
+
+FEW_BEYOND = 0.01
+"""Share of the samples that may be beyond it: spikes and overflows are not the unit."""
+
+FIRST = 10
+"""Samples with which a channel begins."""
+
+
 class Flag(IntEnum):
     """Quality of a sample: good and suspect samples are used, failed and missing ones are bridged."""
 
@@ -120,7 +130,15 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
     where = np.abs(values) >= limit
     if not where.any():
         return Verdict.good(values.size)
+    if (np.abs(values) > BEYOND * full_scale).mean() > FEW_BEYOND:
+        reason = (
+            f"{counted(where)} beyond the range of ±{full_scale:g}, up to {float(np.nanmax(np.abs(values))):.4g}: the "
+            "values are in another unit, of another column, or the range is wrong"
+        )
+        return Verdict(Flag.SUSPECT, where, reason, "unit", Severity.SERIOUS)
     reason = f"{counted(where)} at the end of the range (±{full_scale:g}){first_at(time, where)}: the value was larger"
+    if where[:FIRST].all():
+        reason = f"{reason}. It begins there: look at its cable, supply and zero"
     return Verdict(Flag.SUSPECT, where, reason, "end of the range")
 
 
