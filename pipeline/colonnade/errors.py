@@ -35,6 +35,26 @@ class StoreError(ColonnadeError):
     """A result cannot be written or read back."""
 
 
+class RunEndedError(ColonnadeError):
+    """The run that this process works for has ended: nothing may be written any more."""
+
+
+_LONGEST = 60
+"""Characters of a user's text that a message repeats."""
+
+
+def quoted(text: str) -> str:
+    """
+    Put a user's text in quotes, shortened.
+
+    Examples
+    --------
+    >>> quoted("mm")
+    '"mm"'
+    """
+    return f'"{text}"' if len(text) <= _LONGEST else f'"{text[: _LONGEST - 3]}…"'
+
+
 def nearest(name: str, valid: Iterable[str]) -> str:
     """
     Hint at the valid name closest to a mistyped one.
@@ -53,8 +73,8 @@ def nearest(name: str, valid: Iterable[str]) -> str:
     folded = {candidate.casefold(): candidate for candidate in names}
     close = difflib.get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.6)
     if close:
-        return f' Did you mean "{folded[close[0]]}"?'
+        return f" Did you mean {quoted(folded[close[0]])}?"
     if names:
-        listed = ", ".join(f'"{candidate}"' for candidate in names[:12])
+        listed = ", ".join(map(quoted, names[:12]))
         return f" There is: {listed}{'…' if len(names) > 12 else ''}."
     return ""

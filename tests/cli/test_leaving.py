@@ -100,15 +100,43 @@ def invoke(arguments):
 """
 
 
+INSIDE_FINALISER = """
+class Handle:
+    def __del__(self):
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(9)
+
+def invoke(arguments):
+    Handle()
+    time.sleep(30)
+    return 0
+"""
+INSIDE_CALLBACK = """
+import ctypes
+
+@ctypes.CFUNCTYPE(None)
+def back():
+    os.kill(os.getpid(), signal.SIGTERM)
+    time.sleep(9)
+
+def invoke(arguments):
+    back()
+    time.sleep(30)
+    return 0
+"""
+
+
 @pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
 @pytest.mark.parametrize(
     "invoke",
     [
+        pytest.param(INSIDE_FINALISER, id="within a finaliser, where Python drops the exception"),
+        pytest.param(INSIDE_CALLBACK, id="within a callback of a compiled library, where Python drops it too"),
         pytest.param(INSIDE_EXEC, id="within exec of a text, where Python would end by SIGINT"),
         pytest.param(INSIDE_COMPILED_MODULE, id="within a compiled module, which makes an ImportError of it"),
     ],
 )
-def test_an_interrupt_during_imports_is_130_too(tmp_path, invoke):
+def test_an_interrupt_wherever_it_falls_is_130(tmp_path, invoke):
     (tmp_path / "interrupted.py").write_text(
         f"import os, signal, time\nfrom colonnade import cli\n{invoke}\ncli.invoke = invoke\ncli.main()\n"
     )
@@ -117,3 +145,4 @@ def test_an_interrupt_during_imports_is_130_too(tmp_path, invoke):
     )
     assert ended.returncode == 130
     assert "Traceback" not in ended.stderr
+    assert "ignored" not in ended.stderr

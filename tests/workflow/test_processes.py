@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
+from colonnade import interruption
 from colonnade.workflow import processes
 
 RUN = """
@@ -73,8 +76,11 @@ def killer(monkeypatch):
 
 def test_a_worker_that_is_stopped_once_costs_nothing(untouched, undisturbed, killer, tmp_path):
     killer("pulse-01", tmp_path, times=1)
-    assert not untouched.run(workers=2).failed
+    result = untouched.run(workers=2)
+    assert not result.failed
     assert untouched.contents() == undisturbed.contents()
+    (notice,) = result.notices
+    assert re.search(r"A worker process was stopped \(SIGKILL\(-9\).*tried again alone: .*pulse-01", notice)
 
 
 def test_a_test_that_stops_its_worker_each_time_fails_alone_and_is_tried_again(
@@ -101,6 +107,19 @@ def test_an_interrupt_in_this_process_frees_the_lock_and_leaves_whole_files(unto
     assert untouched.contents().items() <= undisturbed.contents().items()
     assert not untouched.run().failed
     assert untouched.contents() == undisturbed.contents()
+
+
+def test_an_interrupt_whose_exception_was_dropped_ends_the_run_before_its_next_stage(untouched, monkeypatch):
+    monkeypatch.setattr(interruption, "_noted", [])
+
+    def drop(stage, done, total):
+        with suppress(KeyboardInterrupt):
+            interruption.note(signal.SIGTERM, None)
+
+    with pytest.raises(KeyboardInterrupt):
+        untouched.run(progress=drop, until="ingest")
+    assert [path.parent.name for path in untouched.folder.rglob("*.nc")] == ["free-01"]
+    assert not untouched.layout.lock_holder.exists()
 
 
 @pytest.fixture

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import os
+import signal
 import socket
 import subprocess
 import sys
+import time
+from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
@@ -16,10 +19,12 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.ensembles import Plan
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.uncertainty import Uncertainty
-from colonnade.errors import ColonnadeError
+from colonnade.errors import ColonnadeError, RunEndedError
 from colonnade.store import files
-from colonnade.workflow.chain import Chain
+from colonnade.workflow.chain import Chain, walk
 from colonnade.workflow.ensembles import run_ensemble
+from colonnade.workflow.freshness import RawIndex
+from colonnade.workflow.lock import expect_run, only_run
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import make_maps
 from colonnade.workflow.processes import execute
@@ -50,25 +55,50 @@ def end(processes) -> None:
             process.wait()
 
 
+@contextmanager
+def scheduling():
+    """A scheduler: its address and its process."""
+    port = free_port()
+    process = start("distributed.cli.dask_scheduler", "--port", str(port))
+    try:
+        with distributed.Client(f"tcp://127.0.0.1:{port}", timeout=60, set_as_default=False):
+            pass
+        yield f"tcp://127.0.0.1:{port}", process
+    finally:
+        end([process])
+
+
+@contextmanager
+def working(scheduler, *threads):
+    """Workers of a scheduler, one process for each number of threads."""
+    processes = [start("distributed.cli.dask_worker", scheduler, "--no-nanny", "--nthreads", n) for n in threads]
+    try:
+        with distributed.Client(scheduler, timeout=60, set_as_default=False) as client:
+            client.wait_for_workers(len(threads), timeout=60)
+        yield processes
+    finally:
+        end(processes)
+
+
 @pytest.fixture(scope="module")
 def scheduler():
     """Address of a scheduler, without workers yet."""
-    port = free_port()
-    process = start("distributed.cli.dask_scheduler", "--port", str(port))
-    with distributed.Client(f"tcp://127.0.0.1:{port}", timeout=60, set_as_default=False):
-        pass
-    yield f"tcp://127.0.0.1:{port}"
-    end([process])
+    with scheduling() as (address, _):
+        yield address
 
 
 @pytest.fixture(scope="module")
 def cluster(scheduler):
     """The same with two workers, one of them with two threads."""
-    processes = [start("distributed.cli.dask_worker", scheduler, "--no-nanny", "--nthreads", n) for n in ("1", "2")]
-    with distributed.Client(scheduler, timeout=60, set_as_default=False) as client:
-        client.wait_for_workers(2, timeout=60)
-    yield scheduler
-    end(processes)
+    with working(scheduler, "1", "2"):
+        yield scheduler
+
+
+@pytest.fixture
+def soon(monkeypatch):
+    """Look at the workers more often."""
+    monkeypatch.setattr("colonnade.workflow.cluster._LOOK", 0.1)
+    monkeypatch.setattr("colonnade.workflow.cluster._PATIENCE", 1.0)
 
 
 def whose(number: int) -> tuple[int, int]:
@@ -83,13 +113,13 @@ def refuse(number: int) -> None:
 
 
 def test_a_scheduler_without_workers_is_told_with_what_to_do(scheduler, monkeypatch):
-    monkeypatch.setattr("colonnade.workflow.spreading._PATIENCE", 1)
+    monkeypatch.setattr("colonnade.workflow.cluster._PATIENCE", 1)
     with pytest.raises(ColonnadeError, match=r"has no workers\. Start some: dask worker tcp://"):
         list(spread(whose, [1], scheduler=scheduler))
 
 
 def test_a_scheduler_that_is_not_there_is_told(monkeypatch):
-    monkeypatch.setattr("colonnade.workflow.spreading._PATIENCE", 1)
+    monkeypatch.setattr("colonnade.workflow.cluster._PATIENCE", 1)
     with pytest.raises(ColonnadeError, match="no Dask scheduler answers there"):
         list(spread(whose, [1], scheduler=f"tcp://127.0.0.1:{free_port()}"))
 
@@ -114,7 +144,7 @@ def test_an_error_on_a_worker_is_told_as_here(cluster):
 
 
 def test_workers_with_other_code_are_refused(cluster, monkeypatch):
-    monkeypatch.setattr("colonnade.workflow.spreading.source_hash", lambda: "another")
+    monkeypatch.setattr("colonnade.workflow.cluster.source_hash", lambda: "another")
     with pytest.raises(ColonnadeError, match="another version of colonnade"):
         list(spread(whose, [1], scheduler=cluster))
 
@@ -128,7 +158,7 @@ def test_a_campaign_run_on_the_cluster_is_that_of_one_process(cluster, untouched
 def test_workers_that_do_not_see_the_campaign_are_told(cluster, untouched):
     campaign = replace(load(untouched.folder), path=untouched.folder / "elsewhere.toml")
     elsewhere = Chain.of(
-        campaign, untouched.layout, "pulse-01", phase="measuring", until="ingest", redo_from=None, raw={}
+        campaign, untouched.layout, "pulse-01", phase="measuring", until="ingest", run="", redo_from=None, raw={}
     )
     with pytest.raises(ColonnadeError, match="does not see this file"):
         list(execute([elsewhere], None, cluster))
@@ -151,3 +181,70 @@ def test_an_ensemble_on_the_cluster_is_that_of_one_process_bit_for_bit(cluster):
     there, here = (run_ensemble(plan, **options) for options in ({"scheduler": cluster}, {"workers": 1}))
     np.testing.assert_array_equal(there.bands, here.bands)
     np.testing.assert_array_equal(there.peak_ratio, here.peak_ratio)
+
+
+def test_a_single_worker_does_the_work_and_not_this_process(untouched):
+    with scheduling() as (address, _), working(address, "1") as (worker,):
+        assert {process for _, process in spread(whose, range(3), scheduler=address)} == {worker.pid}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+@pytest.mark.parametrize("sent", [signal.SIGKILL, signal.SIGTERM], ids=lambda sent: sent.name)
+def test_a_run_whose_scheduler_ends_says_so_and_nobody_writes_after_it(untouched, undisturbed, soon, sent):
+    with scheduling() as (address, process), working(address, "1"):
+
+        def kill(stage, done, total):
+            process.send_signal(sent)
+
+        with pytest.raises(ColonnadeError, match=r"the scheduler of the Dask cluster ended before the work was done"):
+            untouched.run(scheduler=address, progress=kill)
+        left = untouched.files()
+        assert untouched.contents().items() <= undisturbed.contents().items()
+        time.sleep(2.0)
+        assert untouched.files() == left
+    assert not untouched.run().failed
+    assert untouched.contents() == undisturbed.contents()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+def test_a_worker_of_the_cluster_that_is_stopped_is_named_and_its_work_is_done_by_another(soon):
+    told = []
+    with scheduling() as (address, _), working(address, "1", "1") as (worker, _):
+        results = spread(whose, range(30), scheduler=address, tell=told.append)
+        squares = [next(results)[0]]
+        worker.kill()
+        squares += [square for square, _ in results]
+    assert sorted(squares) == [number**2 for number in range(30)]
+    (sentence,) = told
+    assert f"this worker (process {worker.pid} on " in sentence
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+def test_a_cluster_whose_workers_all_end_is_told_and_not_waited_for(soon):
+    with scheduling() as (address, _), working(address, "1") as (worker,):
+        results = spread(whose, range(30), scheduler=address)
+        next(results)
+        worker.kill()
+        with pytest.raises(ColonnadeError, match="all of its workers have ended"):
+            list(results)
+
+
+def test_a_worker_that_outlives_its_run_writes_nothing(untouched, undisturbed):
+    def chain(run):
+        campaign, raw = load(untouched.folder), RawIndex(untouched.layout, verify=True)
+        files_of = campaign.tests["pulse-01"].files.values()
+        options = {"phase": "measuring", "until": "ingest", "redo_from": None, "raw": raw.look(files_of)}
+        return Chain.of(campaign, untouched.layout, "pulse-01", run=run, **options)
+
+    with pytest.raises(RunEndedError):
+        walk(chain("before this one"))
+    with only_run(untouched.layout) as run:
+        late = chain(run)
+        assert [stage.action for stage in walk(late)] == ["done"]
+    path = untouched.layout.stage("pulse-01", "ingest")
+    with files.only_while(lambda: expect_run(untouched.layout, run)):
+        for change in (lambda: files.remove(path), lambda: files.write_text(path, "late")):
+            with pytest.raises(RunEndedError):
+                change()
+    assert files.read(path).attrs["content"] == undisturbed.contents()["processed/tests/pulse-01/recorded.nc"]
+    assert list(path.parent.iterdir()) == [path]

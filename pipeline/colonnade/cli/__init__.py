@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import io
-import signal
 import sys
 from collections.abc import Sequence
-from types import FrameType
 from typing import NoReturn
+
+from colonnade import interruption
 
 INTERRUPTED = 130
 """Exit code of Ctrl-C and of a polite kill; click's own is 1, which means here that a test failed."""
@@ -24,26 +24,18 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         if isinstance(stream, io.TextIOWrapper):
             # A console that cannot show θ or ± gets a question mark, not a traceback.
             stream.reconfigure(errors="replace")
-    interrupted = False
-
-    def interrupt(signum: int, frame: FrameType | None) -> None:
-        nonlocal interrupted
-        interrupted = True
-        raise KeyboardInterrupt
-
-    signal.signal(signal.SIGTERM, interrupt)
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # not where a shell has it ignored
-        signal.signal(signal.SIGINT, interrupt)
+    interruption.listen()
     try:
         code = invoke(arguments)
     except KeyboardInterrupt:  # before there was anything to say it with
         code = INTERRUPTED
     except Exception:
-        if not interrupted:
+        if not interruption.noted():
             raise
         # The import of a compiled module makes an ImportError of an interrupt.
         sys.stderr.write(f"{INTERRUPTION}\n")
         code = INTERRUPTED
+    interruption.stop_listening()
     # An interrupt within `exec` of a text, as dataclasses do at import, makes Python end itself by SIGINT although it
     # was caught (its `unhandled_keyboard_interrupt`); another such `exec` makes it forget.
     exec("")

@@ -47,6 +47,8 @@ def show_result(result: RunResult) -> None:
     show_by_kind(result.findings)
     failed = failed_rows(result)
     show_table(("failed", "stage", "reason"), failed)
+    for notice in result.notices:
+        say(notice)
     kept = sum(stage.action == "up-to-date" for stage in result.stages)
     say(f"{len(redone)} redone, {kept} up to date, {len(failed)} failed")
     say(f"summary: {result.summary}")
@@ -87,6 +89,7 @@ def _record(result: RunResult) -> dict[str, Any]:
         "summary": str(result.summary),
         "report": None if result.report is None else str(result.report),
         "warnings": all_records(result.findings),
+        "notices": list(result.notices),
         "stages": [
             {name: value for name, value in vars(stage).items() if name != "findings"} for stage in result.stages
         ],

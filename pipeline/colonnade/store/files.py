@@ -11,8 +11,10 @@ from __future__ import annotations
 import errno
 import os
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -34,6 +36,30 @@ _COMPRESSION = {"zlib": True, "complevel": 4, "shuffle": True}
 _LABEL = "_name"
 
 Told = TypeVar("Told")
+
+_permit: ContextVar[Callable[[], None] | None] = ContextVar("permit", default=None)
+
+
+@contextmanager
+def only_while(expect_permit: Callable[[], None]) -> Iterator[None]:
+    """
+    Ask before each file that is put in place or removed in this context.
+
+    Parameters
+    ----------
+    expect_permit : callable
+        Raises if files may not be changed any more.
+    """
+    before = _permit.set(expect_permit)
+    try:
+        yield
+    finally:
+        _permit.reset(before)
+
+
+def _expect_permit() -> None:
+    if (expect_permit := _permit.get()) is not None:
+        expect_permit()
 
 
 def write(dataset: xr.Dataset, path: Path, *, attributes: Mapping[str, Any]) -> str:
@@ -163,6 +189,7 @@ def write_bytes(path: Path, data: bytes | memoryview) -> None:
 
 def remove(path: Path) -> bool:
     """Remove a file where it is there, and tell whether it was."""
+    _expect_permit()
     try:
         path.unlink()
     except FileNotFoundError:
@@ -260,6 +287,7 @@ def _in_one_step(path: Path, write_to: Callable[[Path], Told]) -> Told:
         partial.unlink(missing_ok=True)  # it may be a link
         try:
             told = write_to(partial)
+            _expect_permit()
             partial.replace(path)
         except BaseException:  # Ctrl-C too: nothing half-written stays
             partial.unlink(missing_ok=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,7 +17,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow.chain import advance
 from colonnade.workflow.freshness import stored_attributes
-from colonnade.workflow.lock import only_run
+from colonnade.workflow.lock import expect_run, only_run
 from colonnade.workflow.pooling import pool
 from colonnade.workflow.spreading import spread
 from colonnade.workflow.steps import contact_step
@@ -72,6 +73,7 @@ class Calibrated:
 class _Task:
     campaign: Campaign
     layout: Layout
+    run: str
     specimen: str
     settings: ContactSettings
 
@@ -122,11 +124,7 @@ def calibrate(
             raise CampaignError(f'{loaded.path.name} has no specimen "{name}".{nearest(name, loaded.specimens)}')
     chosen = list(specimens or loaded.specimens)
     own = loaded.processing.predict.contact
-    tasks = [
-        _Task(loaded, layout, name, own.model_copy(update={"mesh": mesh, "step": step}))
-        for name, mesh, step in product(chosen, meshes or (own.mesh,), steps or (own.step,))
-    ]
-    with only_run(layout):
+    with only_run(layout) as run:
         for name in chosen:
             is_given = loaded.specimens[name].restitution is not None
             if not is_given and stored_attributes(layout.specimen(name)).get("status") != "done":
@@ -135,6 +133,10 @@ def calibrate(
         for name in chosen:
             if name in unpooled:
                 raise CampaignError(f"{name}: {unpooled[name]}")
+        tasks = [
+            _Task(loaded, layout, run, name, own.model_copy(update={"mesh": mesh, "step": step}))
+            for name, mesh, step in product(chosen, meshes or (own.mesh,), steps or (own.step,))
+        ]
         found = dict(spread(_calibrated, list(enumerate(tasks)), workers=workers))
     return [found[number] for number in range(len(tasks))]
 
@@ -148,7 +150,8 @@ def _calibrated(numbered: tuple[int, _Task]) -> tuple[int, Calibrated]:
     if task.settings == campaign.processing.predict.contact:
         path = layout.contact(task.specimen)
         step = contact_step(campaign, layout, task.specimen)
-        done = advance(campaign, layout, task.specimen, step, redo_from=None, raw={})
+        with files.only_while(partial(expect_run, layout, task.run)):
+            done = advance(campaign, layout, task.specimen, step, redo_from=None, raw={})
         result, reason = (None, done.reason) if done.action == "failed" else (files.read(path), "")
     else:
         from colonnade.stages import contact

@@ -7,15 +7,18 @@ import time
 import traceback
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, Literal
 
 from colonnade.campaign import Campaign
-from colonnade.errors import ColonnadeError, StoreError
+from colonnade.errors import ColonnadeError, RunEndedError, StoreError
 from colonnade.findings import Finding, at_stage
+from colonnade.interruption import expect_none
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import global_attributes
 from colonnade.workflow.freshness import Look, RawFile, ingredients, key_of, stored_attributes, why_stale
+from colonnade.workflow.lock import expect_run
 from colonnade.workflow.results import Action, StageRun
 from colonnade.workflow.steps import STAGES, Step, measuring_steps, predicting_steps
 
@@ -48,6 +51,8 @@ class Chain:
         From raw files to what was measured, or from there to the comparison.
     until : str
         Last stage.
+    run : str
+        The run that it belongs to; nothing is written once that has ended.
     redo_from : str or None
         Stage from which on results are made again whatever their state.
     raw : mapping of str to RawFile
@@ -59,6 +64,7 @@ class Chain:
     test: str
     phase: Phase
     until: str
+    run: str
     redo_from: str | None
     raw: Mapping[str, RawFile]
 
@@ -78,9 +84,22 @@ class Chain:
 
 
 def walk(chain: Chain) -> list[StageRun]:
-    """Bring a chain up to date, up to the first step that fails; what lies behind a failure is taken away."""
+    """
+    Bring a chain up to date, up to the first step that fails; what lies behind a failure is taken away.
+
+    Raises
+    ------
+    RunEndedError
+        If the run that it belongs to has ended.
+    """
+    with files.only_while(partial(expect_run, chain.layout, chain.run)):
+        return _walked(chain)
+
+
+def _walked(chain: Chain) -> list[StageRun]:
     runs: list[StageRun] = []
     for step in chain.steps():
+        expect_run(chain.layout, chain.run)
         run = advance(chain.campaign, chain.layout, chain.test, step, redo_from=chain.redo_from, raw=chain.raw)
         runs.append(run)
         if run.action == "failed":
@@ -131,6 +150,7 @@ def advance(
     raw: Mapping[str, RawFile],
 ) -> StageRun:
     """Bring one result up to date."""
+    expect_none()
     state = _state(step, redo_from, raw, stored_attributes)
     if not state.because:
         return _standing(subject, step, state.stored)
@@ -149,7 +169,10 @@ def advance(
         found = at_stage(result.attrs.get("warnings", []), step.stage)
         if step.is_of_specimen:
             files.remove(layout.specimen_error_log(subject))
+    except RunEndedError:
+        raise
     except Exception as error:
+        expect_none()  # an interrupt in the import of a compiled module comes as an ImportError
         if isinstance(error, ColonnadeError):
             reason = str(error)
         elif isinstance(error, MemoryError):

@@ -10,6 +10,7 @@ from pathlib import Path
 from colonnade.campaign import Campaign, Test
 from colonnade.errors import ReadError, StageError
 from colonnade.findings import Finding, Severity, at_stage, note
+from colonnade.interruption import expect_none
 from colonnade.readers.recording import Recording
 from colonnade.workflow.steps import models_of
 
@@ -69,6 +70,7 @@ def check(campaign: Campaign, advance: Callable[[], None] = lambda: None) -> dic
 
     found = {}
     for name, test in campaign.tests.items():
+        expect_none()
         if excluded := campaign.review(name).excluded:
             found[name] = Checked(findings=[note("excluded", f"{excluded} (review.toml).")])
         else:

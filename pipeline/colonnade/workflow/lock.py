@@ -9,19 +9,25 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
+from uuid import uuid4
 
 from filelock import FileLock, Timeout
 
-from colonnade.errors import StoreError
+from colonnade.errors import RunEndedError, StoreError
 from colonnade.store.files import remove, sweep, write_text
 from colonnade.store.layout import Layout
 from colonnade.store.own_files import own_files
 
 
 @contextmanager
-def only_run(layout: Layout) -> Iterator[None]:
+def only_run(layout: Layout) -> Iterator[str]:
     """
     Hold a campaign's lock, and sweep what a killed run left half-written.
+
+    Yields
+    ------
+    run : str
+        The run's own name, by which other processes know that it still goes on (`expect_run`).
 
     Raises
     ------
@@ -43,16 +49,18 @@ def only_run(layout: Layout) -> Iterator[None]:
             f"{layout.processed}: results cannot be written here ({error.strerror or error}). A folder with room that "
             "you may write to was expected; free some space, or give another folder with --results."
         ) from error
+    run = uuid4().hex
     after_a_kill = layout.lock_holder.exists()
     try:
         _sweep(layout)
         holder = {
+            "run": run,
             "process": os.getpid(),
             "host": platform.node(),
             "since": datetime.now().astimezone().isoformat("T", "seconds"),
         }
         write_text(layout.lock_holder, json.dumps(holder) + "\n")
-        yield
+        yield run
     finally:
         try:
             remove(layout.lock_holder)
@@ -60,6 +68,23 @@ def only_run(layout: Layout) -> Iterator[None]:
                 _sweep(layout)
         finally:
             lock.release()
+
+
+def expect_run(layout: Layout, run: str) -> None:
+    """
+    Ask whether a run still goes on; a worker of a cluster may outlive it, and a thread of one cannot be stopped.
+
+    Raises
+    ------
+    RunEndedError
+        If it has ended, or another has begun.
+    """
+    try:
+        holder = json.loads(layout.lock_holder.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        holder = None
+    if not isinstance(holder, dict) or holder.get("run") != run:
+        raise RunEndedError(f"{layout.home}: the run that asked for this has ended; nothing more is written for it.")
 
 
 def _folders(layout: Layout) -> tuple[Path, Path]:
@@ -75,7 +100,7 @@ def _held(layout: Layout) -> str:
     try:
         holder = json.loads(layout.lock_holder.read_text(encoding="utf-8"))
         who = f"process {holder['process']} on {holder['host']}, since {holder['since']}"
-    except (OSError, ValueError, KeyError):
+    except (OSError, ValueError, KeyError, TypeError):
         who = "another process"
     return (
         f"{layout.folder}: this campaign is being run already, by {who}. Wait until it has ended, or stop it; "

@@ -6,12 +6,19 @@ import platform
 from collections.abc import Iterator, Mapping, Sequence
 
 from colonnade.errors import ColonnadeError
+from colonnade.interruption import expect_none
 from colonnade.workflow.chain import Chain, lost, walk
+from colonnade.workflow.cluster import AHEAD, Tell
 from colonnade.workflow.results import StageRun
-from colonnade.workflow.spreading import AHEAD, on_processes, spread
+from colonnade.workflow.spreading import on_processes, spread, stopped
 
 
-def execute(chains: Sequence[Chain], workers: int | None, scheduler: str | None = None) -> Iterator[list[StageRun]]:
+def execute(
+    chains: Sequence[Chain],
+    workers: int | None,
+    scheduler: str | None = None,
+    tell: Tell = lambda sentence: None,
+) -> Iterator[list[StageRun]]:
     """
     Execute chains that do not depend on each other.
 
@@ -22,6 +29,8 @@ def execute(chains: Sequence[Chain], workers: int | None, scheduler: str | None 
         Processes; one a core by default. With one, all is done in this process.
     scheduler : str or None
         Address of a running Dask scheduler whose workers are used instead; they share the campaign's folder.
+    tell : callable, optional
+        Told of workers that were stopped.
 
     Yields
     ------
@@ -31,7 +40,7 @@ def execute(chains: Sequence[Chain], workers: int | None, scheduler: str | None 
     Raises
     ------
     ColonnadeError
-        If the cluster is not there, runs other code or does not see the folder.
+        If the cluster is not there, runs other code, does not see the folder or ends before the work does.
 
     Notes
     -----
@@ -39,13 +48,14 @@ def execute(chains: Sequence[Chain], workers: int | None, scheduler: str | None 
     has failed, and the others go on.
     """
     if scheduler is not None:
-        yield from spread(_walk_there, chains, scheduler=scheduler)
+        yield from spread(_walk_there, chains, scheduler=scheduler, tell=tell)
         return
     import joblib
 
     count = min(workers or joblib.cpu_count(), len(chains))
     if count <= 1:
         for chain in chains:
+            expect_none()
             yield walk(chain)
         return
     from joblib.externals.loky.process_executor import BrokenProcessPool
@@ -56,8 +66,13 @@ def execute(chains: Sequence[Chain], workers: int | None, scheduler: str | None 
             for number, runs in _in_workers(waiting, count):
                 del waiting[number]
                 yield runs
-        except BrokenProcessPool:
-            for number in list(waiting)[: AHEAD * count]:
+        except BrokenProcessPool as error:
+            suspects = list(waiting)[: AHEAD * count]
+            tell(
+                f"{stopped(error)} by the system, most often because memory ran out. One of these tests was being "
+                f"worked on, and each was tried again alone: {', '.join(waiting[number].test for number in suspects)}."
+            )
+            for number in suspects:
                 chain = waiting.pop(number)
                 try:
                     yield from (runs for _, runs in _in_workers({number: chain}, count))

@@ -68,6 +68,8 @@ class RunResult:
         What the campaign file and its test log were found to hold.
     concerning : mapping of str to tuple of Finding
         What of it is about the specimen or the set-up of each test.
+    notices : tuple of str
+        What befell the run itself, such as that the system stopped a worker.
     """
 
     stages: tuple[StageRun, ...]
@@ -75,6 +77,7 @@ class RunResult:
     report: Path | None
     of_campaign: tuple[Finding, ...] = ()
     concerning: Mapping[str, tuple[Finding, ...]] = field(default_factory=dict)
+    notices: tuple[str, ...] = ()
 
     @property
     def failed(self) -> bool:

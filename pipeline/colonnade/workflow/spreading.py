@@ -1,4 +1,4 @@
-"""Calls that do not depend on each other, on processes of this machine or on a Dask cluster that is there already."""
+"""Calls that do not depend on each other, on processes of this machine; on a Dask cluster, see `cluster`."""
 
 from __future__ import annotations
 
@@ -9,31 +9,30 @@ import threading
 import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack, closing, contextmanager
-from importlib import import_module
+from contextlib import ExitStack, contextmanager
 from typing import Any, TypeVar
 
 from colonnade.errors import ColonnadeError
-from colonnade.workflow.freshness import source_hash
+from colonnade.interruption import expect_none
+from colonnade.workflow.cluster import AHEAD, Tell, on_cluster
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
-AHEAD = 2
-"""Items that are handed out a process, the first of which it works on."""
 _PATROL = 0.1
 """Seconds between two looks of a worker at whether its parent is alive."""
-_PATIENCE = 10
-"""Seconds until a scheduler answers, and until it has a worker."""
 
-_ADDRESS = re.compile(r"([a-z]+://)?[^\s/]+:\d{1,5}")
-
-_one_at_a_time = threading.Lock()
-"""Held on a cluster's worker: netCDF's library is not made for several threads of one process."""
+_EXIT_CODES = re.compile(r"The exit codes of the workers are \{(.+)\}")
+"""What joblib says of processes that ended by themselves, such as "SIGKILL(-9)"."""
 
 
 def spread(
-    work: Callable[[Item], Result], items: Sequence[Item], *, workers: int | None = None, scheduler: str | None = None
+    work: Callable[[Item], Result],
+    items: Sequence[Item],
+    *,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    tell: Tell = lambda sentence: None,
 ) -> Iterator[Result]:
     """
     Call a function once for each item.
@@ -49,6 +48,8 @@ def spread(
     scheduler : str, optional
         Address of a running Dask scheduler, as "tcp://10.0.0.1:8786": its workers are used instead. Each of their
         processes does one item at a time.
+    tell : callable, optional
+        Told of workers that were stopped.
 
     Yields
     ------
@@ -58,16 +59,17 @@ def spread(
     Raises
     ------
     ColonnadeError
-        If a worker was stopped, or the cluster is not there or runs other code.
+        If a worker was stopped, or the cluster is not there, runs other code or ends before the work does.
     """
     if scheduler is not None:
-        yield from _on_cluster(work, items, scheduler)
+        yield from on_cluster(work, items, scheduler, tell)
         return
     import joblib
 
     count = min(workers or joblib.cpu_count(), len(items))
     if count <= 1:
         for item in items:
+            expect_none()
             yield work(item)
         return
     from joblib.externals.loky.process_executor import BrokenProcessPool
@@ -76,9 +78,15 @@ def spread(
         yield from on_processes(work, items, count)
     except BrokenProcessPool as error:
         raise ColonnadeError(
-            "The system stopped a worker process, most often because memory ran out. What was finished is kept. "
+            f"{stopped(error)}, most often because memory ran out. What was finished is kept. "
             "Run again with fewer workers (`--workers 1` takes the least memory)."
         ) from error
+
+
+def stopped(error: BaseException) -> str:
+    """Say that a worker process ended by itself, and how, as far as joblib's exception tells it."""
+    found = _EXIT_CODES.search(str(error))
+    return f"A worker process was stopped{f' ({found[1]})' if found else ''}"
 
 
 def on_processes(work: Callable[[Item], Result], items: Iterable[Item], count: int) -> Iterator[Result]:
@@ -119,7 +127,9 @@ def on_processes(work: Callable[[Item], Result], items: Iterable[Item], count: i
             )
             results: Any = parallel([joblib.delayed(work)(item) for item in items])
             stack.enter_context(_stopped_quietly(results))
-        yield from results
+        for result in results:
+            expect_none()
+            yield result
 
 
 @contextmanager
@@ -159,78 +169,6 @@ def _interrupts_held_back() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def _on_cluster(work: Callable[[Item], Result], items: Sequence[Item], scheduler: str) -> Iterator[Result]:
-    try:
-        distributed: Any = import_module("distributed")
-    except ImportError as error:
-        raise ColonnadeError(
-            "`--scheduler` needs the package `distributed`, which is not installed here: pip install colonnade[cluster]"
-        ) from error
-    import joblib
-
-    if not items:
-        return
-    if not _ADDRESS.fullmatch(scheduler):
-        raise ColonnadeError(_no_scheduler(scheduler, "that is no address"))
-    try:
-        client = distributed.Client(scheduler, timeout=_PATIENCE, set_as_default=False)
-    except OSError as error:
-        raise ColonnadeError(_no_scheduler(scheduler, str(error))) from error
-    with closing(client):
-        _expect_workers(client, scheduler, distributed)
-        jobs = [joblib.delayed(_on_worker)(work, item) for item in items]
-        with joblib.parallel_config(backend="dask", client=client):
-            results: Any = joblib.Parallel(n_jobs=-1, return_as="generator_unordered", batch_size=1)(jobs)
-            try:
-                yield from results
-            except distributed.KilledWorker as error:
-                raise ColonnadeError(
-                    f"{scheduler}: its workers were stopped several times over the same work, most often because "
-                    "memory ran out. What was finished is kept. Give each worker more memory and run again."
-                ) from error
-            finally:
-                results.close()
-
-
-def _no_scheduler(scheduler: str, found: str) -> str:
-    return (
-        f"{scheduler}: no Dask scheduler answers there ({found}). The address that `dask scheduler` shows when it "
-        'starts was expected, such as "tcp://10.0.0.1:8786".'
-    )
-
-
-def _expect_workers(client: Any, scheduler: str, distributed: Any) -> None:
-    """Refuse a cluster without workers, or whose workers have other sources than this process: results would differ."""
-    try:
-        client.wait_for_workers(1, timeout=_PATIENCE)
-    except (TimeoutError, distributed.TimeoutError) as error:
-        raise ColonnadeError(
-            f"{scheduler}: this scheduler has no workers. Start some: dask worker {scheduler} --nthreads 1"
-        ) from error
-    try:
-        theirs = client.run(_sources)
-    except Exception as error:
-        raise ColonnadeError(
-            f"{scheduler}: its workers cannot import colonnade ({type(error).__name__}: {error}). Install this version "
-            "of colonnade, with the same packages, where they run."
-        ) from error
-    others = sorted(worker for worker, code in theirs.items() if code != source_hash())
-    if others:
-        raise ColonnadeError(
-            f"{scheduler}: {len(others)} of {len(theirs)} workers run another version of colonnade, the first of them "
-            f"{others[0]}. Install the same one everywhere and restart the workers."
-        )
-
-
-def _sources() -> str:
-    return source_hash()
-
-
-def _on_worker(work: Callable[[Item], Result], item: Item) -> Result:
-    with _one_at_a_time:
-        return work(item)
 
 
 def _settle_in(parent: int) -> None:

@@ -1,0 +1,83 @@
+"""
+Ctrl-C and a polite kill, noted as they come.
+
+Python raises KeyboardInterrupt wherever its main thread is. In a callback or a finaliser it prints the exception and
+goes on, and a compiled module may make another exception of it. So the signal is noted too: it is sent again if Python
+says that it dropped the exception, and work asks at each point where it can stop.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+import threading
+from types import FrameType
+
+_AGAIN = 0.1
+"""Seconds after which a signal whose exception was dropped is sent again: out of the callback by then."""
+
+_noted: list[int] = []
+"""Signals in the order in which they came."""
+
+
+def listen() -> None:
+    """Note SIGTERM, and SIGINT except where a shell has it ignored; both raise KeyboardInterrupt."""
+    signal.signal(signal.SIGTERM, note)
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, note)
+    sys.unraisablehook = _dropped
+
+
+def stop_listening() -> None:
+    """Ignore what comes from here on: the process ends."""
+    for signum in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(signum, signal.SIG_IGN)
+
+
+def note(signum: int, frame: FrameType | None) -> None:
+    """
+    Note a signal.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        Always.
+    """
+    _noted.append(signum)
+    raise KeyboardInterrupt
+
+
+def noted() -> bool:
+    """Whether a signal came, whatever became of its exception."""
+    return bool(_noted)
+
+
+def expect_none() -> None:
+    """
+    Stop here if a signal came: called between two pieces of work.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        If one was noted.
+    """
+    if _noted:
+        raise KeyboardInterrupt
+
+
+def _dropped(failure: sys.UnraisableHookArgs) -> None:
+    """Send a signal again whose exception Python dropped; show other exceptions as usual."""
+    if not (_noted and issubclass(failure.exc_type, KeyboardInterrupt)):
+        sys.__unraisablehook__(failure)
+        return
+    again = threading.Timer(_AGAIN, _send, (_noted[-1],))
+    again.daemon = True
+    again.start()
+
+
+def _send(signum: int) -> None:
+    main = threading.main_thread().ident
+    if main is not None and hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(main, signum)
+    else:
+        signal.raise_signal(signum)
