@@ -72,3 +72,12 @@ def test_a_table_that_is_piped_has_one_line_a_row_without_trailing_spaces(colonn
     lines = colonnade("show", "settings").stdout.splitlines()
     assert len(lines) == 1 + len(json.loads(colonnade("show", "settings", "--json").stdout))
     assert all(line == line.rstrip() for line in lines)
+
+
+@pytest.mark.parametrize("text", ["", "[]", "[" * 100_000, '{"tests": 3}'], ids=["empty", "a list", "nested", "others"])
+def test_a_summary_that_was_damaged_is_told(colonnade, campaign, text):
+    (campaign / "processed").mkdir()
+    (campaign / "processed" / "summary.json").write_text(text, encoding="utf-8")
+    told = colonnade("show", "tests")
+    assert told.returncode == 1
+    assert "summary.json: it was altered or damaged. `colonnade run` makes it again." in told.stderr

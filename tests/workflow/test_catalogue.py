@@ -46,6 +46,9 @@ def test_verifying_opens_every_result(small, opened):
     [
         "",
         "no JSON",
+        "[" * 100_000,
+        "null",
+        '{"files": {}, "records": {}, "sha256": 3}',
         "[]",
         "{}",
         '{"files": 3, "records": {}}',
@@ -57,6 +60,23 @@ def test_a_catalogue_that_is_no_good_only_costs_time(small, text):
     small.layout.catalogue.write_text(text, encoding="utf-8")
     assert small.redone() == {}
     assert small.summary() == before
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        pytest.param('\\"kind\\":\\"pulse\\"', '\\"kind\\":\\"pulsar\\"', id="a record that is none"),
+        pytest.param('\\"status\\":\\"done\\"', '\\"status\\":\\"failed\\"', id="another status in a record"),
+        pytest.param('"status":"done"', '"status":"failed"', id="another status of a file"),
+        pytest.param('"content":"', '"content":"0', id="another hash of a file"),
+    ],
+)
+def test_a_catalogue_that_was_altered_only_costs_time(small, before, after):
+    summary, text = small.summary(), small.layout.catalogue.read_text(encoding="utf-8")
+    assert before in text
+    small.layout.catalogue.write_text(text.replace(before, after), encoding="utf-8")
+    assert small.redone() == {}
+    assert small.summary() == summary
 
 
 def test_records_follow_their_results(small):

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import os
+import shutil
+from pathlib import Path
 
 import pytest
+import xarray as xr
 
+from colonnade.report import tests_page
 from colonnade.workflow import freshness
 
 OF_A_PULSE = ("ingest", "condition", "rocking", "predict", "ensemble", "compare")
@@ -149,3 +153,74 @@ def test_a_damaged_result_is_made_anew(small):
 def test_a_damaged_index_of_raw_files_costs_a_hash_and_nothing_else(small, text):
     small.layout.raw_index.write_text(text)
     assert small.redone() == {}
+
+
+def alter(path):
+    """Change one number of a result, as another program would: its time and its attributes stay."""
+    times = (path.stat().st_atime_ns, path.stat().st_mtime_ns)
+    stored = xr.load_dataset(path, decode_times=False, decode_timedelta=False, mask_and_scale=False)
+    name = next(name for name, each in stored.data_vars.items() if each.dtype.kind == "f" and each.size)
+    stored[name] = stored[name] + 0.125
+    stored.to_netcdf(path)
+    os.utime(path, ns=times)
+
+
+def test_verifying_heals_results_that_were_altered(small):
+    before = small.contents()
+    altered = [
+        small.layout.stage("pulse-01", "ingest"),
+        small.layout.stage("free-01", "compare"),
+        small.layout.specimen("prism"),
+    ]
+    for path in altered:
+        alter(path)
+    result = small.run(verify=True)
+    assert not result.failed
+    assert small.contents() == before
+    told = " ".join(result.notices)
+    assert all(path.relative_to(small.folder).as_posix() in told for path in altered)
+    assert small.run(verify=True).notices == ()
+
+
+def pages(small):
+    return {name: state for name, state in small.files().items() if name.startswith("report/")}
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """Tests whose pages were drawn."""
+    names = []
+    of_test = tests_page.of_test
+    monkeypatch.setattr(tests_page, "of_test", lambda *given: names.append(given[1].id) or of_test(*given))
+    return names
+
+
+@pytest.mark.parametrize("place", ["tests/pulse-01.html", "specimens/prism.html", "quality.html", "index.html"])
+def test_a_page_that_is_gone_or_altered_comes_back_and_no_other_is_drawn(small, drawn, place):
+    before, page = pages(small), small.layout.report.parent / place
+    text = page.read_bytes()
+    for spoil in (page.unlink, lambda: page.write_bytes(text.replace(b"</html>", b"<p>altered</html>"))):
+        spoil()
+        small.run(until="report")
+        assert page.read_bytes() == text
+        assert {name for name, state in pages(small).items() if state != before[name]} == {f"report/{place}"}
+    assert set(drawn) <= {"pulse-01"}
+
+
+def test_a_page_altered_within_its_size_and_time_is_healed_by_verifying(small):
+    page = small.layout.report.parent / "tests" / "pulse-01.html"
+    text, times = page.read_bytes(), (page.stat().st_atime_ns, page.stat().st_mtime_ns)
+    page.write_bytes(text.replace(b"pulse-01", b"pulse-99"))
+    os.utime(page, ns=times)
+    small.run(until="report", verify=True)
+    assert page.read_bytes() == text
+
+
+def test_the_report_of_a_copy_is_not_drawn_again(small, drawn, tmp_path):
+    copy = type(small)(Path(shutil.copytree(small.folder, tmp_path / "copy", copy_function=shutil.copyfile)))
+    before = pages(copy)
+    assert {stage.action for stage in copy.run(until="report").stages} == {"up-to-date"}
+    assert pages(copy) == before
+    (copy.layout.report.parent / "quality.html").unlink()
+    copy.run(until="report")
+    assert drawn == []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -95,6 +95,21 @@ class Campaign:
     folder: Path
     warnings: tuple[Finding, ...] = ()
     reviews: dict[str, Review] = field(default_factory=dict)
+
+    def wherever_it_lies(self) -> Campaign:
+        """Return the same campaign with all paths from its folder: that of a copy elsewhere is equal to it."""
+
+        def within(path: Path) -> Path:
+            return path.relative_to(self.folder)
+
+        tests = {
+            name: test.model_copy(update={"files": {recorder: within(path) for recorder, path in test.files.items()}})
+            for name, test in self.tests.items()
+        }
+        motions = {
+            name: motion.model_copy(update={"file": within(motion.file)}) for name, motion in self.motions.items()
+        }
+        return replace(self, path=within(self.path), folder=Path(), tests=tests, motions=motions)
 
     def review(self, test: str) -> Review:
         """Decisions of the manual review about a test; those of a test that has none change nothing."""

@@ -44,7 +44,11 @@ def work_options(command: Command) -> Command:
     for option in (
         json_option,
         strict_option,
-        click.option("--verify", is_flag=True, help="Hash raw files again also where size and time are unchanged."),
+        click.option(
+            "--verify",
+            is_flag=True,
+            help="Read raw files, results and pages even if size and time are unchanged; remake what was altered.",
+        ),
         results_option,
         scheduler_option,
         workers_option,

@@ -24,11 +24,20 @@ class KnownCampaign:
     def of(cls, path: Path, results: Path | None = None) -> KnownCampaign:
         """Read both, the summary in the folder of results where one is given; nothing is run."""
         from colonnade.campaign import load
+        from colonnade.campaign.summary import Summary
+        from colonnade.errors import StoreError
         from colonnade.store.layout import Layout
 
         campaign = load(path)
         written = Layout.of(campaign.folder, results).summary_json
-        return cls(campaign, json.loads(written.read_text(encoding="utf-8")) if written.is_file() else {})
+        if not written.is_file():
+            return cls(campaign, {})
+        try:
+            text = written.read_text(encoding="utf-8")
+            Summary.model_validate_json(text)
+            return cls(campaign, json.loads(text))
+        except (OSError, ValueError, RecursionError):
+            raise StoreError(f"{written}: it was altered or damaged. `colonnade run` makes it again.") from None
 
 
 NEVER_RUN: Record = {

@@ -12,6 +12,7 @@ from colonnade.campaign.settings import settings
 from colonnade.identification.base_motion import LEAST_MOTION
 from colonnade.identification.restitution.choice import RULE
 from colonnade.identification.verdict import WITHIN
+from colonnade.interruption import expect_none
 from colonnade.report import (
     channels,
     charts,
@@ -91,6 +92,7 @@ def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *,
     folder = layout.report.parent
     there = set()
     for address, text in render(campaign, layout, outdated, code=code):
+        expect_none()
         if text is not None:
             files.write_text(folder / address, text)
         there.add(folder / address)
@@ -158,12 +160,13 @@ def _tests(
 ) -> Iterator[tuple[str, str | None]]:
     """Render the page of each test whose page does not say that it was made from the same."""
     ids = [None, *campaign.tests, None]
+    elsewhere = campaign.wherever_it_lies()
     for before, test, after in zip(ids, campaign.tests.values(), ids[2:], strict=False):
         found = NOTHING if test.id in outdated else results.of_test(campaign, layout, test)
         row = rows.of_test(campaign, test, found)
         gathered.add(campaign, test, found, row)
         address = pages.of_test(test.id)
-        made_from = _made_from(campaign, test, found, code, (before, after)) if code else ""
+        made_from = _made_from(elsewhere, test.id, found, code, (before, after)) if code else ""
         if made_from and made_from in _head(layout.report.parent / address):
             yield address, None
             continue
@@ -172,9 +175,10 @@ def _tests(
 
 
 def _made_from(
-    campaign: Campaign, test: Test, found: Results, code: str, neighbours: tuple[str | None, str | None]
+    campaign: Campaign, name: str, found: Results, code: str, neighbours: tuple[str | None, str | None]
 ) -> str:
-    """Hash of all that the page of a test shows."""
+    """Hash of all that the page of a test shows; paths of the campaign are those from its folder."""
+    test = campaign.tests[name]
     around = (campaign.title, campaign.gravity, tuple(campaign.specimens), campaign.processing.predict.models)
     own = (test, campaign.specimens[test.specimen], campaign.review(test.id))
     told = found.keys, found.failures, found.warnings, found.raw_files

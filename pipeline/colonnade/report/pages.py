@@ -6,6 +6,7 @@ from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from colonnade.campaign import Campaign
 from colonnade.campaign.settings import Setting
 from colonnade.report import wording
 
@@ -37,6 +38,12 @@ def of_test(test: str) -> str:
 def of_specimen(specimen: str) -> str:
     """Address of a specimen's page within the report."""
     return f"specimens/{specimen}.html"
+
+
+def addresses(campaign: Campaign) -> list[str]:
+    """Addresses of all pages of a campaign's report."""
+    tests, specimens = map(of_test, campaign.tests), map(of_specimen, campaign.specimens)
+    return [*tests, *specimens, *WHOLE.values()]
 
 
 class Renderer:

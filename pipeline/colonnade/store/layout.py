@@ -141,7 +141,7 @@ class Layout:
 
     @property
     def report_key(self) -> Path:
-        """Hash of what the report's page shows."""
+        """Hash of what the report shows, and how its pages were written."""
         return self.processed / "report.key"
 
     @property
@@ -153,6 +153,11 @@ class Layout:
     def lock_holder(self) -> Path:
         """Who holds the lock."""
         return self.processed / ".lock-holder.json"
+
+    def results_there(self) -> list[Path]:
+        """Results of tests and specimens that are there, in the order of their paths."""
+        folders = (self.tests.glob("*/*.nc"), self.specimens.glob("*.nc"), self.contacts.glob("*.nc"))
+        return sorted(path for found in folders for path in found)
 
     def test(self, test_id: str) -> Path:
         """Folder of a test's results."""

@@ -23,7 +23,7 @@ class Catalogue:
     Attributes of results and the summary's records that follow from them, as of the last run.
 
     A result is put in place by a rename, so one of the same size, time and inode is the same. The catalogue only saves
-    time: without it, or where it does not fit, the files are opened.
+    time: without it, or if it is not as it was written, the files are opened.
 
     Parameters
     ----------
@@ -39,8 +39,9 @@ class Catalogue:
         if not verify:
             try:
                 known = json.loads(layout.catalogue.read_text(encoding="utf-8"))
-                self._files, self._records = dict(known["files"]), dict(known["records"])
-            except (OSError, ValueError, KeyError, TypeError):
+                if known.pop("sha256") == hash_of(known):
+                    self._files, self._records = dict(known["files"]), dict(known["records"])
+            except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
                 pass
         self._seen_files: dict[str, Any] = {}
         self._seen_records: dict[str, Any] = {}
@@ -83,7 +84,8 @@ class Catalogue:
 
     def save(self) -> None:
         """Write what was looked at; the rest is gone from the campaign."""
-        known = {"files": self._seen_files, "records": self._seen_records}
+        known: dict[str, Any] = {"files": self._seen_files, "records": self._seen_records}
+        known["sha256"] = hash_of(known)
         write_text(self._layout.catalogue, json.dumps(known, separators=(",", ":"), sort_keys=True) + "\n")
 
 

@@ -14,6 +14,8 @@ import colonnade
 from colonnade.campaign import Campaign
 from colonnade.campaign.setup import FileOptions
 from colonnade.errors import ReadError, StoreError
+from colonnade.interruption import expect_none
+from colonnade.readers.irregular import irregular
 from colonnade.readers.registry import companions
 from colonnade.store.files import write_text
 from colonnade.store.layout import Layout
@@ -72,15 +74,14 @@ def why_stale(stored: Mapping[str, Any], made_from: Mapping[str, Any], *, from_r
 
 def report_key(campaign: Campaign, layout: Layout, outdated: Collection[str], look: Look) -> str:
     """Hash of all that the report shows: the campaign as read, the results as `look` tells of them, and the code."""
-    results = sorted((*layout.tests.glob("*/*.nc"), *layout.specimens.glob("*.nc"), *layout.contacts.glob("*.nc")))
     shown = {
         path.relative_to(layout.processed).as_posix(): [look(path).get(part) for part in ("key", "status", "content")]
-        for path in results
+        for path in layout.results_there()
     }
     return hash_of(
         {
             "code": source_hash(without=("cli", "laboratory")),
-            "campaign": repr(campaign),
+            "campaign": repr(campaign.wherever_it_lies()),
             "results": shown,
             "outdated": sorted(outdated),
         }
@@ -165,6 +166,8 @@ class RawIndex:
             if not path.resolve().is_relative_to(self._folder):  # reading refuses it
                 return RawFile(None)
             status = path.stat()
+            if irregular(path):
+                return RawFile(None)
             known = self._known.get(name)
             seen = (known.get("size"), known.get("time")) if isinstance(known, dict) and "sha256" in known else None
             if not self._verify and seen == (status.st_size, status.st_mtime_ns):
@@ -182,6 +185,21 @@ class RawIndex:
     def save(self) -> None:
         """Write the index, if it changed."""
         write_text(self._layout.raw_index, json.dumps(self._known, indent=1, sort_keys=True) + "\n")
+
+
+def remove_altered(layout: Layout) -> list[str]:
+    """Remove the results of tests and specimens that are not as they were written; return a sentence on each."""
+    from colonnade.store.files import read, remove
+
+    told = []
+    for path in layout.results_there():
+        expect_none()
+        try:
+            read(path)
+        except StoreError:
+            remove(path)
+            told.append(f"{path.relative_to(layout.home).as_posix()}: it was altered or damaged; it is made again.")
+    return told
 
 
 def stored_attributes(path: Path) -> dict[str, Any]:

@@ -8,13 +8,15 @@ from pathlib import Path
 
 from colonnade.campaign import Campaign, load
 from colonnade.errors import CampaignError, nearest
-from colonnade.store.files import write_text
+from colonnade.interruption import expect_none
 from colonnade.store.layout import Layout
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.chain import Chain, Phase, advance, clear_behind, is_fresh
+from colonnade.workflow.cluster import Tell
 from colonnade.workflow.copies import with_copies
-from colonnade.workflow.freshness import RawIndex, report_key, source_hash
+from colonnade.workflow.freshness import RawIndex, remove_altered, report_key, source_hash
 from colonnade.workflow.lock import only_run
+from colonnade.workflow.pages import WrittenPages
 from colonnade.workflow.pooling import pool
 from colonnade.workflow.processes import execute
 from colonnade.workflow.results import RunResult, StageRun
@@ -54,7 +56,7 @@ def run(
     scheduler : str, optional
         Address of a running Dask scheduler, whose workers are used instead. They share the campaign's folder.
     verify : bool, optional
-        Read every raw file again, whatever its size and time.
+        Read every raw file, result and page again, whatever its size and time; what was altered is made again.
     results : Path or str, optional
         Folder that holds `processed` and `report`, such as one on another disk; default that of the campaign file.
     progress : callable, optional
@@ -77,7 +79,8 @@ def run(
         raise CampaignError(f"from {first} until {last}: the stage to stop at comes before the one to start from.")
     tests = _chosen(loaded, (only,) if isinstance(only, str) else only)
     layout, places = Layout.of(loaded.folder, results), (workers, scheduler)
-    with only_run(layout):
+    notices: list[str] = []
+    with only_run(layout) as this_run:
         index = RawIndex(layout, verify=verify)
         raw = {
             name: index.look(
@@ -95,21 +98,25 @@ def run(
             },
         )
         catalogue = Catalogue(layout, verify=verify)
+        if verify:
+            notices += remove_altered(layout)
         for name in loaded.tests:
             if loaded.review(name).excluded:
                 clear_behind(loaded, layout, name, order=-1)
 
         def chains(names: Iterable[str], phase: Phase, until: str = last) -> list[Chain]:
             return [
-                Chain.of(loaded, layout, name, phase=phase, until=until, redo_from=first, raw=raw[name])
+                Chain.of(loaded, layout, name, phase=phase, until=until, run=this_run, redo_from=first, raw=raw[name])
                 for name in names
             ]
 
-        runs = list(_walked(chains(tests, "measuring"), catalogue, places, progress))
+        def walked(names: Iterable[str], phase: Phase) -> Iterator[StageRun]:
+            return _walked(chains(names, phase), catalogue, places, progress, notices.append)
+
+        runs = list(walked(tests, "measuring"))
         if STAGES.index(last) >= STAGES.index("predict"):
             asked = set(tests)
-            needed = [name for name in _free_vibrations(loaded, tests) if name not in asked]
-            runs += _walked(chains(needed, "measuring"), catalogue, places, progress)
+            runs += walked([name for name in _free_vibrations(loaded, tests) if name not in asked], "measuring")
         if STAGES.index(last) >= STAGES.index("restitution"):
             runs += pool(loaded, layout, catalogue.attributes, redo_from=first)
         if STAGES.index(last) >= STAGES.index("predict"):
@@ -127,7 +134,7 @@ def run(
                     failed.setdefault(name, f"specimen {specimen}: {unknown[specimen]}")
                 elif name not in failed:
                     ready.append(name)
-            runs += _walked(chains(ready, "predicting"), catalogue, places, progress)
+            runs += walked(ready, "predicting")
         failed |= _reasons(runs, of_specimens=False)
         kept = [name for name in loaded.tests if not loaded.review(name).excluded]
         whole = (*chains(kept, "measuring", "report"), *chains(kept, "predicting", "report"))
@@ -135,21 +142,24 @@ def run(
         stale = {chain.test for chain in whole if is_fresh(replace(chain, redo_from=None), look) is None}
         outdated = (stale - failed.keys()) | (loaded.tests.keys() - set(kept))
         write_summary(loaded, layout, catalogue, outdated=outdated, failed=failed)
-        report = _report(loaded, layout, catalogue, outdated) if last == "report" else None
+        report = _report(loaded, layout, catalogue, outdated, verify=verify) if last == "report" else None
         catalogue.save()
     concerning = {name: loaded.concerning(name) for name in loaded.tests}
-    return RunResult(tuple(runs), layout.summary_json, report, loaded.warnings, concerning)
+    return RunResult(tuple(runs), layout.summary_json, report, loaded.warnings, concerning, tuple(notices))
 
 
-def _report(campaign: Campaign, layout: Layout, catalogue: Catalogue, outdated: Set[str]) -> Path:
-    """Build the pages, unless those that are there show just this."""
+def _report(campaign: Campaign, layout: Layout, catalogue: Catalogue, outdated: Set[str], *, verify: bool) -> Path:
+    """Build the pages, unless those that are there are whole and show just this."""
     key = report_key(campaign, layout, outdated, catalogue.attributes)
-    if layout.report.is_file() and layout.report_key.is_file() and layout.report_key.read_text(encoding="utf-8") == key:
+    pages = WrittenPages(layout, verify=verify)
+    if pages.show(key):
         return layout.report
     from colonnade.report import build
+    from colonnade.report.pages import addresses
 
+    pages.remove_altered()
     page = build(campaign, layout, outdated, code=source_hash(without=("cli", "laboratory")))
-    write_text(layout.report_key, key)
+    pages.save(key, addresses(campaign))
     return page
 
 
@@ -179,19 +189,20 @@ def _free_vibrations(campaign: Campaign, tests: Sequence[str]) -> list[str]:
 
 
 def _walked(
-    chains: Sequence[Chain], catalogue: Catalogue, places: Places, progress: Progress | None
+    chains: Sequence[Chain], catalogue: Catalogue, places: Places, progress: Progress | None, tell: Tell
 ) -> Iterator[StageRun]:
     """Walk the chains, those with nothing to do here and the others in worker processes."""
     done = 0
     waiting = []
     for chain in chains:
+        expect_none()
         standing = is_fresh(chain, catalogue.attributes)
         if standing is None:
             waiting.append(chain)
             continue
         done += 1
         yield from _told(standing, done, len(chains), progress)
-    for runs in execute(waiting, *places):
+    for runs in execute(waiting, *places, tell):
         done += 1
         yield from _told(runs, done, len(chains), progress)
 

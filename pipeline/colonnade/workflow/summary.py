@@ -61,13 +61,14 @@ def summarise(
     campaign: Campaign, layout: Layout, catalogue: Catalogue, *, outdated: Collection[str], failed: Mapping[str, str]
 ) -> Summary:
     """Gather a record a specimen and a test from what is stored; see `write_summary`."""
+    elsewhere = campaign.wherever_it_lies()
     return Summary(
         campaign=campaign.campaign,
         colonnade=colonnade.__version__,
         specimens={name: _specimen(campaign, layout, name) for name in campaign.specimens},
         tests={
             name: _remembered(campaign, layout, catalogue, test, name in outdated, failed.get(name))
-            for name, test in campaign.tests.items()
+            for name, test in elsewhere.tests.items()
         },
     )
 
