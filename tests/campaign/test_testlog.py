@@ -149,8 +149,30 @@ def test_what_is_no_table_is_refused(content, told, tmp_path):
 
 
 def test_a_broken_workbook_is_refused(tmp_path):
-    with pytest.raises(CampaignError, match=r"log\.xlsx cannot be read as a workbook"):
+    with pytest.raises(CampaignError, match=r"log\.xlsx: it is not whole"):
         with_log(tmp_path, "log.xlsx", LOGS["log.xlsx"][:300])
+
+
+STRAY = {
+    "xl/worksheets/sheet1.xml": ("</sheetData>", '<row r="1048576"><c r="XFD1048576"><v>1</v></c></row></sheetData>'),
+}
+
+
+def test_a_stray_cell_far_outside_is_refused_before_it_fills_the_memory(tmp_path):
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(LOGS["log.xlsx"])) as whole, zipfile.ZipFile(buffer, "w") as archive:
+        for name in whole.namelist():
+            archive.writestr(name, whole.read(name).decode().replace(*STRAY.get(name, ("", ""))))
+    with pytest.raises(CampaignError, match=r"sheet1\.xml has .* filled cells within .*Delete the stray cells"):
+        with_log(tmp_path, "log.xlsx", buffer.getvalue())
+
+
+@pytest.mark.parametrize("gap", [" " * 200_000, " " * 200_000 + ";"], ids=["blanks", "blanks before a separator"])
+def test_blanks_in_an_interval_cost_nothing(tmp_path, gap):
+    heads, row = ["id", "kind", "specimen", "setup", "file", "window"], ["1", "sine", "prism", "frame", "raw/a.csv"]
+    with pytest.raises(CampaignError) as refused:
+        with_log(tmp_path, "log.csv", table(",", [heads, [*row, f'"2 s{gap}x"']]).encode())
+    assert len(str(refused.value)) < 1000
 
 
 def test_a_missing_log_names_the_nearest_file(tmp_path):

@@ -8,6 +8,9 @@ from typing import Any
 
 from colonnade.campaign.places import Place
 from colonnade.errors import CampaignError
+from colonnade.readers.irregular import irregular
+
+_LARGEST_BYTES = 20_000_000
 
 
 def read_text(path: Path) -> str:
@@ -19,7 +22,11 @@ def read_text(path: Path) -> str:
     CampaignError
         If it cannot be read or is not UTF-8.
     """
+    if kind := irregular(path):
+        raise CampaignError(f"{path.name}: this is {kind}; a text file was expected.")
     try:
+        if path.stat().st_size > _LARGEST_BYTES:
+            raise CampaignError(f"{path.name} is larger than a campaign's own files can be. Is it a raw file?")
         return path.read_bytes().decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise CampaignError(

@@ -19,6 +19,7 @@ from colonnade.campaign.review import read_review
 from colonnade.campaign.specimen import SHAPES
 from colonnade.campaign.testlog import Log, read_log
 from colonnade.errors import CampaignError
+from colonnade.readers.irregular import irregular
 
 FILE_NAME = "campaign.toml"
 
@@ -65,6 +66,8 @@ def _found(path: Path) -> Path:
         path = path.parent.resolve() / path.name  # a campaign file that is a link belongs to the folder it stands in
         if path.is_file():
             return path
+        if kind := irregular(path):
+            raise CampaignError(f"{path}: this is {kind}; a campaign file, or its folder, was expected.")
         others = sorted(other.name for other in path.parent.glob("*.toml"))
     except (OSError, RuntimeError, ValueError) as error:
         raise CampaignError(f"{path}: this is no path that can be followed ({error}).") from None

@@ -7,9 +7,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from colonnade.errors import quoted
+
 Place = tuple[str | int, ...]
 
-_HEADER = re.compile(r"^\s*(\[\[?)\s*([^\[\]]+?)\s*\]\]?\s*(?:#.*)?$")
+_HEADER = re.compile(r"^\s*(\[\[?)([^\[\]]+)\]\]?\s*(?:#.*)?$")
 _KEY = re.compile(r"""^\s*((?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')(?:\s*\.\s*(?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*'))*)\s*=""")
 _PART = re.compile(r"""[A-Za-z0-9_-]+|"[^"]*"|'[^']*'""")
 
@@ -68,13 +70,17 @@ def written(place: Place, document: Mapping[str, Any]) -> str:
         tests = document.get("tests")
         named = tests[place[1]] if isinstance(tests, list) and place[1] < len(tests) else None
         name = named.get("id") if isinstance(named, dict) else None
-        start = f"tests[{name if isinstance(name, str) and name else place[1] + 1}]"
+        start = f"tests[{_short(name) if isinstance(name, str) and name else place[1] + 1}]"
         place = place[2:]
     else:
         start, place = "", place
     for part in place:
-        start += f"[{part + 1}]" if isinstance(part, int) else f"{'.' if start else ''}{part}"
+        start += f"[{part + 1}]" if isinstance(part, int) else f"{'.' if start else ''}{_short(part)}"
     return start
+
+
+def _short(part: str) -> str:
+    return quoted(part)[1:-1]
 
 
 @dataclass(frozen=True)

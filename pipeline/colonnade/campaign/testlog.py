@@ -14,14 +14,16 @@ from typing import Any
 
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.test import Test
-from colonnade.errors import nearest
+from colonnade.errors import ReadError, nearest, quoted
 from colonnade.findings import Finding, note
+from colonnade.readers.irregular import irregular
 
-EXCEL_SUFFIXES = (".xlsx", ".xlsm", ".xls", ".xlsb", ".ods")
+EXCEL_SUFFIXES = (".xlsx", ".xlsm", ".xls", ".ods")
 _NUMBERS = ("span", "time_scale")
 _QUANTITIES = ("frequency", "window", "zero")
 _INTERVALS = ("window", "zero")
-_LARGEST_BYTES = 50_000_000
+_LARGEST_BYTES = 10_000_000
+_MOST_COLUMNS = 1000
 
 
 @dataclass(frozen=True)
@@ -81,8 +83,9 @@ def read_log(path: Path) -> Log:
             continue
         surplus = [cell for cell in row[len(heads) :] if _filled(cell)]
         if surplus:
+            first = quoted(str(_plain(surplus[0])))
             problems.append(
-                f'{path.name}, row {index}: there are more cells than the {len(heads)} heads ("{_plain(surplus[0])}"). '
+                f"{path.name}, row {index}: there are more cells than the {len(heads)} heads ({first}). "
                 "Put a cell that holds the separator in quotes."
             )
         tests.append(_test(dict(zip(heads, row, strict=False)), decimal_comma))
@@ -92,11 +95,15 @@ def read_log(path: Path) -> Log:
 
 def _cells(path: Path) -> tuple[list[list[Any]], bool]:
     """Rows of cells, and whether a comma between digits is a decimal sign."""
+    if kind := irregular(path):
+        raise ValueError(f"{path.name} is {kind}. A test log was expected: a CSV file or a workbook.")
+    if path.suffix.lower() == ".xlsb":
+        raise ValueError(f"{path.name} is a workbook in Excel's binary form. Save it as .xlsx, or as CSV.")
     try:
-        if path.suffix.lower() in EXCEL_SUFFIXES:
-            return _workbook(path), True
         if path.stat().st_size > _LARGEST_BYTES:
             raise ValueError(f"{path.name} is larger than a test log can be. Is it a raw file?")
+        if path.suffix.lower() in EXCEL_SUFFIXES:
+            return _workbook(path), True
         raw = path.read_bytes()
     except FileNotFoundError:
         there = [entry.name for entry in path.parent.iterdir()] if path.parent.is_dir() else []
@@ -122,17 +129,16 @@ def _decoded(raw: bytes) -> str:
 
 
 def _workbook(path: Path) -> list[list[Any]]:
-    from python_calamine import CalamineError, CalamineWorkbook
+    from colonnade.readers.excel import rows_of_first_sheet
 
-    if not path.is_file():
-        raise FileNotFoundError(path)
     try:
-        return [
-            list(row)
-            for row in CalamineWorkbook.from_path(str(path)).get_sheet_by_index(0).to_python(skip_empty_area=False)
-        ]
-    except CalamineError as error:
-        raise ValueError(f"{path.name} cannot be read as a workbook ({error}). Save it again, or as CSV.") from None
+        rows = rows_of_first_sheet(path)
+    except ReadError as error:
+        raise ValueError(str(error)) from None
+    widest = max(map(len, rows), default=0)
+    if widest > _MOST_COLUMNS:
+        raise ValueError(f"{path.name} has {widest} columns, more than a test log can have. Delete its stray cells.")
+    return rows
 
 
 def _judge(heads: Sequence[str], name: str, row: int) -> tuple[list[str], list[Finding]]:
@@ -141,15 +147,17 @@ def _judge(heads: Sequence[str], name: str, row: int) -> tuple[list[str], list[F
     keys = Test.purposes()
     for head in dict.fromkeys(head for head in heads if head and heads.count(head) > 1):
         problems.append(
-            f'{name}, row {row}: the column head "{head}" stands there twice. Each key may have one column.'
+            f"{name}, row {row}: the column head {quoted(head)} stands there twice. Each key may have one column."
         )
     for head in dict.fromkeys(head for head in heads if head):
         if head in keys or head.startswith("file."):
             continue
         if get_close_matches(head.casefold(), keys, n=1, cutoff=0.75):
-            problems.append(f'{name}, row {row}: there is no key "{head}".{nearest(head, keys)}')
+            problems.append(f"{name}, row {row}: there is no key {quoted(head)}.{nearest(head, keys)}")
         else:
-            warnings.append(note("unused column", f'{name}: column "{head}" is not a key of a test and is not used.'))
+            warnings.append(
+                note("unused column", f"{name}: column {quoted(head)} is not a key of a test and is not used.")
+            )
     return problems, warnings
 
 
@@ -173,7 +181,7 @@ def _value(key: str, cell: Any, decimal_comma: bool) -> Any:
         except ValueError:
             return text
     if key in _INTERVALS:
-        parts = [part.strip() for part in re.split(r"\s*(?:[;,…]|\.\.\.|\bto\b)\s*", text.strip("[]")) if part.strip()]
+        parts = [part.strip() for part in re.split(r"[;,…]|\.\.\.|\bto\b", text.strip("[]")) if part.strip()]
         return [part.strip("\"'") for part in parts] if len(parts) > 1 else text
     return text
 

@@ -13,6 +13,7 @@ from colonnade.errors import CampaignError
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Trial, raw_path
 from colonnade.laboratory.files import FileFormat
 from colonnade.laboratory.instruments import VOLTS, Transducer
+from colonnade.readers.irregular import irregular
 
 FILE_NAME = "campaign.toml"
 MARK = "# Written by colonnade's virtual laboratory"
@@ -67,7 +68,7 @@ def refuse_foreign(folder: Path) -> None:
         If the folder holds a campaign file that the laboratory did not write.
     """
     path = folder / FILE_NAME
-    if path.exists() and not path.read_bytes().startswith(MARK.encode()):
+    if path.exists() and (irregular(path) or not path.read_bytes().startswith(MARK.encode())):
         raise CampaignError(
             f"{path}: this campaign was not written by the virtual laboratory, and is left as it is. "
             "Name another folder for the demo."

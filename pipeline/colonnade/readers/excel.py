@@ -87,10 +87,7 @@ def read(path: Path, options: ExcelOptions) -> Recording:
     ReadError
         If it is none, is damaged, would exhaust the memory, holds no rows of numbers, or lacks what the options name.
     """
-    recognition = recognise(path)
-    if not recognition.yes:
-        raise ReadError(f"{path.name}: {recognition.reason}.")
-    (excel_guard if head(path).startswith(ZIP) else ole).check(path)
+    _expect_sound(path)
     name, rows, notes = _sheet(path, options.sheet)
     block = find_block(rows, after=max(options.names_row or 0, options.units_row or 0))
     if block is None:
@@ -110,6 +107,26 @@ def read(path: Path, options: ExcelOptions) -> Recording:
         notes=(*notes, *(_of_rows(note) for note in heading.notes), *clocks.notes),
         warnings=(*block.warnings, *(_of_rows(warning) for warning in heading.warnings), *warnings, *clocks.warnings),
     )
+
+
+def rows_of_first_sheet(path: Path) -> list[list[Any]]:
+    """
+    Read all cells of a workbook's first sheet, as of a table that people wrote.
+
+    Raises
+    ------
+    ReadError
+        If it is no workbook, is damaged, or would exhaust the memory.
+    """
+    _expect_sound(path)
+    return _sheet(path, 1)[1]
+
+
+def _expect_sound(path: Path) -> None:
+    recognition = recognise(path)
+    if not recognition.yes:
+        raise ReadError(f"{path.name}: {recognition.reason}.")
+    (excel_guard if head(path).startswith(ZIP) else ole).check(path)
 
 
 def _of_rows(text: str) -> str:

@@ -16,7 +16,7 @@ _BASE = (
 UNIT = re.compile(
     rf"(?:{_BASE})(?:(?:\^|\*\*)?-?[0-9²³])?(?:\s?[/·*. ]\s?(?:{_BASE})(?:(?:\^|\*\*)?-?[0-9²³])?)*\.?", re.IGNORECASE
 )
-BRACKETED = re.compile(r"(?P<name>.*?)\s*(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))\s*")
+BRACKETED = re.compile(r"(?P<name>.*?)(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))\s*")
 BEFORE_PLOT = re.compile(r"(?P<name>.*?\w)\s*[\[(](?P<unit>[^\[\]()]*)[\])]\s*(?P<plot>-\s.*)")
 """`Time [s] - Plot 0`, as LabVIEW exports its graphs."""
 SOLIDUS = re.compile(r"(?P<name>.*\w{2}.*?)(?:\s*/\s*|\s+in\s+)(?P<unit>\S+)")
@@ -78,12 +78,12 @@ def take_apart(heading: str) -> tuple[str, str | None]:
     ('Time - Plot 0', 's')
     """
     match = BRACKETED.fullmatch(heading)
-    if match and match["name"]:
+    if match and (name := match["name"].rstrip()):
         square, round_ = match["square"], match["round"]
         if square is not None and not square.strip().isdigit():
-            return match["name"], square.strip() or None
+            return name, square.strip() or None
         if round_ is not None and looks_like_unit(round_):
-            return match["name"], round_.strip()
+            return name, round_.strip()
     match = BEFORE_PLOT.fullmatch(heading)
     if match and looks_like_unit(match["unit"]):
         return f"{match['name']} {match['plot']}", match["unit"].strip()

@@ -13,8 +13,9 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from colonnade.errors import ReadError, nearest
+from colonnade.errors import ReadError, nearest, quoted
 from colonnade.readers.bounded import process as bounded
+from colonnade.readers.irregular import irregular
 from colonnade.readers.recording import Recording, Window
 
 GROUP = "colonnade.formats"
@@ -140,6 +141,8 @@ def read(
         exist, or the content cannot be read.
     """
     path = Path(path)
+    if kind := irregular(path):
+        raise ReadError(f"{path.name}: this is {kind}; a raw file was expected.")
     chosen, evidence = _named(format) if format is not None else _recognised(path)
     checked = check_options(chosen, options or {}, where=path.name)
     if not chosen.is_installed:
@@ -174,6 +177,8 @@ def companions(
     ReadError
         If what the file says of them cannot be read.
     """
+    if irregular(path):
+        return ()
     several = [each for each in formats().values() if each.companions is not None]
     if format is not None:
         chosen = next((each for each in several if each.name == format), None)
@@ -219,7 +224,7 @@ def check_options(format: Format, options: Mapping[str, Any], where: str) -> Bas
             else:
                 message = problem["msg"].removeprefix("Value error, ")
                 problems.append(
-                    f'{where}: option "{key}" of format "{format.name}" is {problem["input"]!r}: {message}.'
+                    f'{where}: option "{key}" of format "{format.name}" is {quoted(str(problem["input"]))}: {message}.'
                 )
         raise ReadError("\n".join(problems)) from error
 

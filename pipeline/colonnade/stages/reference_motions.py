@@ -14,6 +14,7 @@ from colonnade.campaign import Campaign
 from colonnade.errors import ReadError
 from colonnade.findings import Finding, warning
 from colonnade.readers import el_centro
+from colonnade.readers.irregular import irregular
 from colonnade.readers.registry import companions
 from colonnade.signals.named_motion import Series
 
@@ -91,6 +92,8 @@ def _digest_now(path: Path) -> str:
     try:
         status = path.stat()
     except OSError:
+        return ""
+    if irregular(path):
         return ""
     return _digest_of(path, status.st_size, status.st_mtime_ns)
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 from math import isfinite
 
-from colonnade.errors import UnitError
+from colonnade.errors import UnitError, quoted
 from colonnade.units.dimensions import DIMENSIONS, article, expected, words
 from colonnade.units.registry import Unit, resolve
 
 NUMBER_PATTERN = r"[+\-−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-−]?[0-9]+)?"
-_QUANTITY = re.compile(rf"\s*({NUMBER_PATTERN})\s*(.*?)\s*", re.DOTALL)
-_DECIMAL_COMMA = re.compile(r"\s*[+\-−]?[0-9]+,[0-9]+.*", re.DOTALL)
+_QUANTITY = re.compile(rf"({NUMBER_PATTERN})\s*(.*)", re.DOTALL)
+_DECIMAL_COMMA = re.compile(r"[+\-−]?[0-9]+,[0-9]+.*", re.DOTALL)
 
 
 def parse(text: str) -> tuple[float, str]:
@@ -34,14 +34,17 @@ def parse(text: str) -> tuple[float, str]:
     >>> parse("86 mm"), parse("-0.5g")
     ((86.0, 'mm'), (-0.5, 'g'))
     """
+    text = text.strip()
     match = _QUANTITY.fullmatch(text)
     if match is None:
-        raise UnitError(f'"{text}" is not a quantity. A number with its unit was expected, such as "86 mm".')
+        raise UnitError(f'{quoted(text)} is not a quantity. A number with its unit was expected, such as "86 mm".')
     if _DECIMAL_COMMA.fullmatch(text):
-        raise UnitError(f'"{text}" has a decimal comma. Write it with a point: "{text.replace(",", ".", 1)}".')
+        raise UnitError(
+            f"{quoted(text)} has a decimal comma. Write it with a point: {quoted(text.replace(',', '.', 1))}."
+        )
     value = float(match[1].replace("−", "-"))
     if not isfinite(value):
-        raise UnitError(f'"{text}" is too large a number.')
+        raise UnitError(f"{quoted(text)} is too large a number.")
     return value, match[2]
 
 
@@ -67,11 +70,11 @@ def to_si(text: str, dimension: str) -> float:
     """
     value, unit = parse(text)
     if not unit and dimension != "dimensionless":
-        raise UnitError(f'"{text}" has no unit. {expected(dimension, value)}')
+        raise UnitError(f"{quoted(text)} has no unit. {expected(dimension, value)}")
     try:
         return _times(value, factor_to_si(unit, dimension))
     except UnitError as error:
-        raise UnitError(f'"{text}": {error}') from None
+        raise UnitError(f"{quoted(text)}: {error}") from None
 
 
 def factor_to_si(unit: str, dimension: str) -> float:
@@ -90,7 +93,7 @@ def factor_to_si(unit: str, dimension: str) -> float:
     """
     found, wanted = resolve(unit, dimension), resolve(DIMENSIONS[dimension][0])
     if found.dimension != wanted.dimension:
-        raise UnitError(f'"{unit}" is {_told(found)}. {expected(dimension)}')
+        raise UnitError(f"{quoted(unit)} is {_told(found)}. {expected(dimension)}")
     return found.factor
 
 
@@ -122,14 +125,14 @@ def gain_to_si(gain: str, recorded_unit: str, dimension: str) -> float:
     if _product(per_unit, recorded) != wanted.dimension:
         below = f"({recorded.symbol})" if {"/", " "} & set(recorded.symbol) else recorded.symbol
         example = f"{DIMENSIONS[dimension][1]}/{below}" if below else DIMENSIONS[dimension][1]
-        doubt = f' Is "{recorded_unit}" the unit of the values in the file?' if "/" in recorded.symbol else ""
+        doubt = f" Is {quoted(recorded_unit)} the unit of the values in the file?" if "/" in recorded.symbol else ""
         raise UnitError(
-            f'"{gain}" times a recorded value in "{recorded_unit}" is not {article(dimension)}. '
+            f"{quoted(gain)} times a recorded value in {quoted(recorded_unit)} is not {article(dimension)}. "
             f'A gain in "{example}" was expected.{doubt}'
         )
     factor = value * per_unit.factor * recorded.factor
     if not isfinite(factor):
-        raise UnitError(f'"{gain}" is too large a number.')
+        raise UnitError(f"{quoted(gain)} is too large a number.")
     return factor
 
 

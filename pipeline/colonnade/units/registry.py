@@ -13,7 +13,7 @@ from functools import cache, lru_cache
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from colonnade.errors import UnitError, nearest
+from colonnade.errors import UnitError, nearest, quoted
 from colonnade.units.dimensions import expected
 
 if TYPE_CHECKING:
@@ -59,6 +59,8 @@ rpm = revolution / minute
 # Hints at what was meant.
 COMMON = ("mm", "cm", "m", "kg", "s", "ms", "Hz", "g", "Gal", "m/s^2", "mm/s", "V", "mV", "N", "kN", "rad", "deg")
 LARGEST_POWER = 9
+LONGEST = 100
+"""Characters of a unit."""
 _TOKEN = re.compile(r"\s*(?:([^\W\d_]+|%|1(?![0-9]))(?:(?:\^|\*\*)?([+-]?[0-9](?![0-9])))?|(\*|/|\(|\)))")
 _SPELLINGS = str.maketrans(
     {
@@ -94,6 +96,8 @@ def resolve(text: str, dimension: str | None = None) -> Unit:
     UnitError
         If it is not known.
     """
+    if len(text) > LONGEST:
+        raise _unknown(text, text, dimension)
     powers: dict[str, int] = {}
     for name, power in _factors(text, dimension):
         powers[name] = powers.get(name, 0) + power
@@ -173,9 +177,9 @@ def _registry() -> pint.UnitRegistry[Any]:
 
 def _unknown(name: str, text: str, dimension: str | None) -> UnitError:
     # A single letter is near to everything short, so it is no hint for a longer name.
-    hint = nearest(name, [unit for unit in COMMON if len(unit) > 1 or len(name) == 1])
-    within = "" if name == text else f' in "{text}"'
+    hint = "" if len(name) > LONGEST else nearest(name, [unit for unit in COMMON if len(unit) > 1 or len(name) == 1])
+    within = "" if name == text else f" in {quoted(text)}"
     return UnitError(
-        f'"{name}"{within} is not a unit I know.{hint if "Did you mean" in hint else ""} '
+        f"{quoted(name)}{within} is not a unit I know.{hint if 'Did you mean' in hint else ''} "
         + (expected(dimension) if dimension else 'A unit such as "mm", "V" or "m/s^2" was expected.')
     )

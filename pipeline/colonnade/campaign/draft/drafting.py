@@ -15,6 +15,7 @@ from colonnade.campaign.draft.survey import survey
 from colonnade.campaign.draft.writing import Draft, write
 from colonnade.campaign.loading import FILE_NAME
 from colonnade.errors import CampaignError
+from colonnade.readers.irregular import irregular
 
 RAW_FOLDERS = ("raw", "data", "rohdaten", "dati", "daten")
 """Names of folders that say nothing of the campaign in them."""
@@ -83,7 +84,12 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     CampaignError
         If there is no such folder, it has a campaign file, or no file in it can be read.
     """
-    folder = folder.resolve()
+    try:
+        folder = folder.resolve()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise CampaignError(f"{folder}: invalid path ({error}). The folder with the raw files was expected.") from None
+    if (kind := irregular(folder)) and not folder.is_dir():
+        raise CampaignError(f"{folder}: this is {kind}. The folder with the raw files was expected.")
     if not folder.is_dir():
         raise CampaignError(f"{folder}: there is no such folder. The one with the raw files was expected.")
     path = folder / FILE_NAME

@@ -14,6 +14,7 @@ from colonnade.campaign.draft.lines import value
 from colonnade.campaign.draft.signal import Shape, shape_of
 from colonnade.campaign.rawpath import inside
 from colonnade.errors import ColonnadeError
+from colonnade.readers.irregular import irregular
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import MOST_GENERAL, read
 
@@ -143,7 +144,9 @@ def survey(folder: Path, progress: Callable[[int, int], None] | None = None) -> 
         try:
             relative.encode()
             path = inside(folder, relative)
-            if _is_log(path):
+            if kind := irregular(path):
+                refused.append((relative, f"it is {kind}, not a file"))
+            elif _is_log(path):
                 key = f"tests = {value(relative)} above [specimens]"
                 refused.append((relative, f"it looks like a log of tests; {key} takes it in place of [[tests]]"))
             else:
@@ -178,7 +181,8 @@ def _candidates(folder: Path) -> Iterator[Path]:
     for path in folder.rglob("*"):
         parts = path.relative_to(folder).parts
         hidden = any(part.startswith((".", "~")) for part in parts)
-        if path.is_file() and not hidden and parts[0] not in OWN_FOLDERS and path.suffix.lower() not in NO_RECORDINGS:
+        is_one = path.is_file() or (bool(irregular(path)) and not path.is_dir())
+        if is_one and not hidden and parts[0] not in OWN_FOLDERS and path.suffix.lower() not in NO_RECORDINGS:
             yield path
 
 

@@ -1,0 +1,30 @@
+"""What a path leads to where that is no file: opened, a pipe or a device would be waited for, or never end."""
+
+from __future__ import annotations
+
+import stat
+from pathlib import Path
+
+_KINDS = {
+    stat.S_IFDIR: "a folder",
+    stat.S_IFIFO: "a named pipe",
+    stat.S_IFSOCK: "a socket",
+    stat.S_IFCHR: "a device",
+    stat.S_IFBLK: "a device",
+}
+
+
+def irregular(path: Path) -> str:
+    """
+    Say what a path leads to.
+
+    Returns
+    -------
+    kind : str
+        Such as "a named pipe"; empty for a file, and where nothing is found: who opens that says why.
+    """
+    try:
+        mode = path.stat().st_mode
+    except (OSError, ValueError):
+        return ""
+    return "" if stat.S_ISREG(mode) else _KINDS.get(stat.S_IFMT(mode), "not a file")
