@@ -9,6 +9,7 @@ from typing import Annotated, Any, Self
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
 from colonnade import units
+from colonnade.campaign.bounds import CONVERSION, outside
 from colonnade.campaign.fields import Column, Delay, Direction, Position, number, one_of, shown
 from colonnade.campaign.identifier import Identifier
 from colonnade.campaign.table import Table, problem, refuse
@@ -128,9 +129,14 @@ class Channel(Table):
             if {"unit", "gain", "offset"} & set(wrong):
                 break
             try:
-                getattr(self, derived)
+                value = getattr(self, derived)
             except UnitError as error:
                 wrong[key] = str(error)
+                continue
+            low, high = CONVERSION
+            expected = outside(value or 0.0, (low if derived == "factor" else 0.0, high), self.si_unit)
+            if expected:
+                wrong[key] = f"It is {value:g} {self.si_unit}. {expected}"
         if wrong:
             raise refuse("Channel", [problem(message, key) for key, message in wrong.items()])
         return self

@@ -11,10 +11,14 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, WithJsonSchema
 
 from colonnade import units
-from colonnade.errors import UnitError, nearest
+from colonnade.campaign.bounds import BETWEEN, PLAIN, SCALE, UNITS, outside, too_large
+from colonnade.errors import UnitError, nearest, quoted
 
 Vector = tuple[float, float, float]
 Sided = float | tuple[float, float]
+
+_LONGEST_INTEGER = 256
+"""Bits of an integer that a message repeats."""
 
 _QUANTITY_PATTERN = rf"^\s*{units.NUMBER_PATTERN}\s*[^\s0-9.,].*$"
 
@@ -29,13 +33,15 @@ def shown(value: object) -> str:
     ('"mm"', 'true', '[1, 0]')
     """
     if isinstance(value, str):
-        return f'"{value}"' if len(value) <= 60 else f'"{value[:57]}…"'
+        return quoted(value)
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, dict):
         return "a table"
     if isinstance(value, (list, tuple)) and all(isinstance(item, (str, int, float)) for item in value):
         return f"[{', '.join(shown(item) for item in value[:4])}{', …' if len(value) > 4 else ''}]"
+    if isinstance(value, int) and value.bit_length() > _LONGEST_INTEGER:  # Python refuses to write it out
+        return "a whole number of very many digits"
     if isinstance(value, (date, time)):
         return "a date or time"
     return reprlib.repr(value)
@@ -46,8 +52,14 @@ def one_line(message: str) -> str:
     return "".join(sign if sign.isprintable() else sign.encode("unicode_escape").decode() for sign in message)
 
 
-def quantity(dimension: str, *, above_zero: bool = False, example: str = "") -> tuple[Any, Any]:
-    """Give validator and JSON Schema of a quantity in text, such as ``"86 mm"``, that becomes its SI value."""
+def quantity(
+    dimension: str, *, above_zero: bool = False, example: str = "", between: tuple[float, float] | None = None
+) -> tuple[Any, Any]:
+    """
+    Give validator and JSON Schema of a quantity in text, such as ``"86 mm"``, that becomes its SI value.
+
+    One above zero has to lie between the bounds, SI, by default those of its dimension.
+    """
     example = example or f"1 {units.DIMENSIONS[dimension][1]}"
 
     def convert(value: object) -> float:
@@ -60,9 +72,15 @@ def quantity(dimension: str, *, above_zero: bool = False, example: str = "") -> 
         except UnitError as error:
             raise ValueError(str(error)) from None
         if not isfinite(number):
-            raise ValueError(f'"{value}" is too large a number.')
+            raise ValueError(f"{shown(value)} is too large a number.")
         if above_zero and number <= 0.0:
-            raise ValueError(f'"{value}" was found. It has to be above zero.')
+            raise ValueError(f"{shown(value)} was found. It has to be above zero.")
+        if above_zero:
+            expected = outside(number, between or BETWEEN[dimension], UNITS[dimension])
+        else:
+            expected = too_large(number, dimension)
+        if expected:
+            raise ValueError(f"{shown(value)} was found. {expected}")
         return number
 
     schema = {
@@ -87,11 +105,19 @@ def number(value: object) -> float:
     return converted
 
 
-def _positive_number(value: object) -> float:
-    converted = number(value)
-    if converted <= 0.0:
-        raise ValueError(f"{shown(value)} was found. It has to be above zero.")
-    return converted
+def positive_number(between: tuple[float, float]) -> tuple[Any, Any]:
+    """Give validator and JSON Schema of a number above zero, within bounds."""
+
+    def positive(value: object) -> float:
+        converted = number(value)
+        if converted <= 0.0:
+            raise ValueError(f"{shown(value)} was found. It has to be above zero.")
+        if expected := outside(converted, between):
+            raise ValueError(f"{shown(value)} was found. {expected}")
+        return converted
+
+    low, high = between
+    return BeforeValidator(positive), WithJsonSchema({"type": "number", "minimum": low, "maximum": high})
 
 
 def _restitution(value: object) -> float:
@@ -216,9 +242,8 @@ Direction = Annotated[
     BeforeValidator(_unit_vector),
     WithJsonSchema({"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}),
 ]
-PositiveNumber = Annotated[
-    float, BeforeValidator(_positive_number), WithJsonSchema({"type": "number", "exclusiveMinimum": 0})
-]
+PositiveNumber = Annotated[float, *positive_number(PLAIN)]
+Scale = Annotated[float, *positive_number(SCALE)]
 Text = Annotated[str, BeforeValidator(text), WithJsonSchema({"type": "string", "minLength": 1})]
 Interval = Annotated[tuple[float, float], BeforeValidator(interval), WithJsonSchema(INTERVAL_SCHEMA)]
 Column = Annotated[

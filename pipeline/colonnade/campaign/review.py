@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, ValidationError, WithJsonSchema
 
+from colonnade.campaign.bounds import FACTOR, outside
 from colonnade.campaign.decision import Review, decided
 from colonnade.campaign.document import parse, place_of, read_text
 from colonnade.campaign.fields import Interval, Text, number, one_line, one_of, shown, text
@@ -51,6 +52,8 @@ def _factor(value: object) -> float:
     factor = number(value)
     if factor == 0.0:
         raise ValueError("A factor of zero leaves nothing of the recording. To leave the channel out, [[exclude]] it.")
+    if expected := outside(factor, FACTOR):
+        raise ValueError(f"{shown(value)} was found. {expected}")
     return factor
 
 

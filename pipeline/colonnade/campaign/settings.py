@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
+from colonnade.campaign.bounds import STEP
 from colonnade.campaign.fields import Angle, Duration, number, one_of, quantity, shown
 from colonnade.campaign.table import Table
 
@@ -91,7 +92,7 @@ def _setting(default: Any, unit: str = "") -> Any:
 class RestitutionSettings(Table):
     """What the identification of the coefficient of restitution takes."""
 
-    lowest_amplitude: Annotated[float, *_bounded(0.0, 1.0)] = _setting(0.02, "of α")
+    lowest_amplitude: Annotated[float, *_bounded(1e-6, 1.0)] = _setting(0.02, "of α")
     """Peaks below this fraction of the critical angle are left out."""
     level: Annotated[float, *_bounded(0.5, 1.0)] = _setting(0.95)
     """Probability of the interval that is given for e."""
@@ -142,17 +143,17 @@ class ContactSettings(Table):
 
     mesh: Annotated[str, *one_of(*MESHES)] = _setting("rigid")
     """Body of the contact model: "rigid" on nodes, or elastic on a "coarse", "medium" or "fine" mesh."""
-    step: Duration = _setting(1e-5, "s")
+    step: Annotated[float, *quantity("time", above_zero=True, between=STEP, example="10 us")] = _setting(1e-5, "s")
     """Step of the contact model; it has to be stable."""
     damping_fraction: Annotated[Literal["auto"] | float, *_auto_or(_deviation(10.0))] = _setting("auto")
     """Critical damping fraction of the contact; "auto" takes the one that gives the specimen's restitution."""
-    penetration: Annotated[float, *_bounded(0.0, 0.01)] = _setting(1e-6, "of the height of the centre of mass")
+    penetration: Annotated[float, *_bounded(1e-10, 0.01)] = _setting(1e-6, "of the height of the centre of mass")
     """How deep the standing specimen sinks into its contact, which sets the contact's stiffness."""
     friction: Annotated[float, *_deviation(10.0)] = _setting(0.6)
     """Coulomb's coefficient between specimen and table."""
     modulus: Annotated[float, *quantity("pressure", above_zero=True)] = _setting(2e11, "Pa")
     """Young's modulus of an elastic specimen."""
-    poisson_ratio: Annotated[float, *_bounded(-1.0, 0.5)] = _setting(0.3)
+    poisson_ratio: Annotated[float, *_bounded(-0.999, 0.4999)] = _setting(0.3)
     """Poisson's ratio of an elastic specimen."""
     out_of_plane: Angle = _setting(0.0, "rad")
     """Rotation about x with which the contact model starts: a disturbance out of the plane."""
@@ -163,7 +164,7 @@ class PredictSettings(Table):
 
     models: Models = _setting(DEFAULT_MODELS)
     """Models of rocking that are run on the recorded base motion."""
-    rest_angle: Annotated[float, *_bounded(0.0, 0.1)] = _setting(1e-6, "of α")
+    rest_angle: Annotated[float, *_bounded(1e-10, 0.1)] = _setting(1e-6, "of α")
     """An arc after an impact that stays below this fraction of the critical angle is taken as rest."""
     ensemble: EnsembleSettings = EnsembleSettings()
     """The ensembles beside the predictions."""

@@ -8,10 +8,11 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from colonnade.campaign.bounds import FREQUENCY_PARAMETER, outside
 from colonnade.campaign.fields import (
     Length,
     Mass,
-    PositiveNumber,
+    Scale,
     Sided,
     SidedAngle,
     SidedInertia,
@@ -44,7 +45,7 @@ class Specimen(Table):
     """Its shape: "prism", "cylinder", "cone" or "measured"."""
     mass: Mass
     """Mass, such as "26.10 kg"."""
-    scale: PositiveNumber | None = None
+    scale: Scale | None = None
     """Scale of the model: 20 means 1:20."""
     critical_angle: SidedAngle | None = None
     """Rotation that brings the centre of mass above the pole, such as "0.1864 rad"."""
@@ -62,11 +63,15 @@ class Specimen(Table):
     @model_validator(mode="after")
     def _is_a_block(self) -> Self:
         try:
-            self.block(STANDARD_GRAVITY)
+            p = self.block(STANDARD_GRAVITY).p
         except ArithmeticError:
             raise ValueError("These numbers are too large or too small for a block. Check the units.") from None
         except ValueError as error:
             raise ValueError(f"These numbers make no block: {error}.") from None
+        if expected := outside(p, FREQUENCY_PARAMETER, "rad/s"):
+            raise ValueError(
+                f"These numbers make a block whose frequency parameter is {p:.3g} rad/s. {expected} Check the units."
+            )
         return self
 
     def dimensions(self, gravity: float) -> Block | None:

@@ -49,6 +49,7 @@ def calibrate(
     are only shown.
     """
     from colonnade import units
+    from colonnade.campaign.bounds import STEP, outside
     from colonnade.errors import CampaignError, UnitError
     from colonnade.workflow.calibration import calibrate as calibrated
 
@@ -59,6 +60,8 @@ def calibrate(
     for text, value in zip(step, steps, strict=True):
         if not value > 0.0:
             raise CampaignError(f'--step: "{text}" was found. A time above zero was expected, such as "10 us".')
+        if expected := outside(value, STEP, "s"):
+            raise CampaignError(f'--step: "{text}" was found. {expected}')
     made = calibrated(campaign, specimens=specimen, meshes=mesh, steps=steps, workers=workers, results=results)
     if as_json:
         show_json(

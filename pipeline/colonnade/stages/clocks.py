@@ -24,6 +24,8 @@ TOGETHER = Offset(0.0, np.nan, 0.0)
 """A recorder that starts with the main one."""
 
 FEWEST_SAMPLES = 16
+MOST_SAMPLES = 20_000_000
+"""Of a test on its one clock, where fewer than half as many were recorded."""
 """That the channels of a test have to share."""
 
 
@@ -138,6 +140,16 @@ def recorder_offsets(
     return offsets
 
 
+def _expect_room(leader: Record, interval: float, start: float, stop: float) -> None:
+    """Refuse a sampling rate that makes far more samples than were recorded, and would only fill the memory."""
+    count, most = (stop - start) / interval, max(MOST_SAMPLES, 2 * leader.time.size)
+    if count > most:
+        raise StageError(
+            f"At {1 / interval:.4g} Hz the {stop - start:.4g} s of this test are {count:.3g} samples; at most "
+            f"{most:.3g} were expected. It was recorded at {1 / leader.interval:.4g} Hz: see `sampling_rate`."
+        )
+
+
 def common_clock(
     records: Mapping[str, Record],
     offsets: Mapping[str, Offset],
@@ -168,6 +180,7 @@ def common_clock(
     leading = min(fastest, key=lambda name: abs(delays[name]))
     leader = records[leading]
     interval = leader.interval if isinstance(rate, str) else 1 / rate
+    _expect_room(leader, interval, start, stop)
     steps = np.ceil((start - leader.time[0]) / interval - 1e-6)
     clock = uniform_clock(leader.time[0] + steps * interval, stop, interval)
     if clock.size < FEWEST_SAMPLES:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, cast, get_args
 import numpy as np
 
 from colonnade.campaign import Campaign
+from colonnade.campaign.bounds import MAP_RATIO, MOST_CYCLES, MOST_POINTS, outside
 from colonnade.campaign.summary import Summary
 from colonnade.dynamics.block import Sided
 from colonnade.dynamics.history import Outcome
@@ -115,6 +116,7 @@ def plan_of(
     """
     from colonnade.dynamics.maps.plan import EDGE, STEPS_A_WIDTH, WIDTH, plan_map
 
+    _expect_bounded(wanted)
     if wanted.responses and wanted.motion is not None:
         raise CampaignError("Steady responses are those to a sine: ask for them without a recorded motion.")
     motion, frequency = (None, None) if wanted.motion is None else _recorded(campaign, layout, wanted.motion)
@@ -150,6 +152,19 @@ def plan_of(
         )
     except ValueError as error:
         raise CampaignError(f"This map cannot be made: {error}.") from error
+
+
+def _expect_bounded(wanted: Wanted) -> None:
+    """Refuse numbers with which a map would never end, or fill the memory."""
+    for name, ratios in (("omega", wanted.frequency_ratio), ("amplitude", wanted.amplitude_ratio)):
+        for ratio in ratios or ():
+            if expected := outside(ratio, MAP_RATIO):
+                raise CampaignError(f"--{name}: {ratio:g} was found. {expected}")
+    for name, cycles in (("cycles", wanted.cycles), ("ramp", wanted.ramp), ("phase", wanted.phase)):
+        if not abs(cycles) <= MOST_CYCLES:
+            raise CampaignError(f"--{name}: {cycles:g} was found. At most {MOST_CYCLES:g} was expected.")
+    if max(wanted.points or (0,)) > MOST_POINTS:
+        raise CampaignError(f"--points: {max(wanted.points or (0,))} was found. At most {MOST_POINTS} were expected.")
 
 
 def _space(campaign: Campaign, layout: Layout, specimen: str) -> InSpace:
