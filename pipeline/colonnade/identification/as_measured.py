@@ -80,17 +80,16 @@ def as_measured(
     recorded : ndarray, shape (m, n)
         rad.
     """
-    recorded = np.empty(histories.shape)
-    for number, history in enumerate(histories):
-        gain, zero = _calibration(measurement, float(starts[number]), random)
-        error = zero + measurement.drift * random.standard_normal()
-        noise = random.standard_normal(history.size)
-        angle = (1 + gain) * history.astype(np.float64)
-        if measurement.cutoff_hz is not None and measurement.cutoff_hz < 0.5 / measurement.interval:
-            angle, noise = _filtered(angle, measurement), _filtered(noise, measurement)
-            noise /= noise.std() or 1.0
-        recorded[number] = angle + error + measurement.noise * noise
-    return recorded
+    angle, error, noise = histories.astype(np.float64), np.empty(histories.shape), np.empty(histories.shape)
+    for number, start in enumerate(starts.tolist()):
+        gain, zero = _calibration(measurement, start, random)
+        angle[number] *= 1 + gain
+        error[number] = zero + measurement.drift * random.standard_normal()
+        noise[number] = random.standard_normal(angle.shape[1])
+    if measurement.cutoff_hz is not None and measurement.cutoff_hz < 0.5 / measurement.interval:
+        angle, noise = _filtered(angle, measurement), _filtered(noise, measurement)
+        noise /= noise.std(axis=1, keepdims=True)
+    return np.asarray(angle + error + measurement.noise * noise)
 
 
 def _calibration(measurement: Measurement, start: float, random: np.random.Generator) -> tuple[float, float]:
@@ -110,6 +109,7 @@ def _calibration(measurement: Measurement, start: float, random: np.random.Gener
 def _filtered(values: Array, measurement: Measurement) -> Array:
     """Low-pass what begins at rest or at a peak: its mirror image goes before it."""
     assert measurement.cutoff_hz is not None
-    memory = min(int(3 * measurement.filter_order / (measurement.cutoff_hz * measurement.interval)), values.size - 1)
-    mirrored = np.concatenate((values[memory:0:-1], values))
-    return lowpass(mirrored, measurement.interval, measurement.cutoff_hz, measurement.filter_order)[memory:]
+    longest = int(3 * measurement.filter_order / (measurement.cutoff_hz * measurement.interval))
+    memory = min(longest, values.shape[-1] - 1)
+    mirrored = np.concatenate((values[:, memory:0:-1], values), axis=1)
+    return lowpass(mirrored, measurement.interval, measurement.cutoff_hz, measurement.filter_order)[:, memory:]

@@ -44,8 +44,8 @@ def lowpass(values: Array, interval: float, cutoff_hz: float, order: int = 4) ->
 
     Parameters
     ----------
-    values : ndarray, shape (n,)
-        At equal steps, all finite.
+    values : ndarray, shape (..., n)
+        At equal steps along the last axis, all finite.
     interval : float
         s.
     cutoff_hz : float
@@ -55,7 +55,7 @@ def lowpass(values: Array, interval: float, cutoff_hz: float, order: int = 4) ->
 
     Returns
     -------
-    smooth : ndarray, shape (n,)
+    smooth : ndarray, shape (..., n)
 
     Raises
     ------
@@ -69,7 +69,7 @@ def lowpass(values: Array, interval: float, cutoff_hz: float, order: int = 4) ->
         )
     sections = signal.butter(order, cutoff_hz, fs=1 / interval, output="sos")
     # The odd extension has to outlast the filter's own memory; a short record has no more than itself to give.
-    padding = min(int(3 * order / (cutoff_hz * interval)), values.size - 1)
+    padding = min(int(3 * order / (cutoff_hz * interval)), values.shape[-1] - 1)
     return np.asarray(signal.sosfiltfilt(sections, values, padlen=padding), dtype=np.float64)
 
 
