@@ -15,6 +15,7 @@ from colonnade.dynamics.contact.mesh import (
     round_mesh,
 )
 from colonnade.dynamics.contact.reduction import reduce_body
+from colonnade.dynamics.contact.rim import RIM_NODES, refine_rim
 from colonnade.errors import nearest
 
 
@@ -73,6 +74,7 @@ def elastic_body(
     mesh: str,
     modulus: float = STEELS_MODULUS,
     poisson_ratio: float = STEELS_POISSON_RATIO,
+    around: int = RIM_NODES,
 ) -> ContactBody:
     """
     Build the reduced elastic body of given dimensions and mass.
@@ -86,6 +88,8 @@ def elastic_body(
     modulus : float, optional
         Young's modulus, Pa.
     poisson_ratio : float, optional
+    around : int, optional
+        Nodes on the rim of a round body, see `refine_rim`.
 
     Returns
     -------
@@ -97,4 +101,5 @@ def elastic_body(
     ValueError
         If an argument is out of its range.
     """
-    return reduce_body(meshed_body(sizes, mass, mesh=mesh, modulus=modulus, poisson_ratio=poisson_ratio))
+    body = reduce_body(meshed_body(sizes, mass, mesh=mesh, modulus=modulus, poisson_ratio=poisson_ratio))
+    return body if "width" in sizes else refine_rim(body, around)
