@@ -19,7 +19,7 @@ MODELS = (*DEFAULT_MODELS, "contact")
 """Models that `predict` can run."""
 
 MESHES = ("rigid", "coarse", "medium", "fine")
-"""Bodies of the contact model: rigid on nodes, or elastic on one of three meshes."""
+"""Bodies of the contact model: rigid on nodes or circles, or elastic on one of three meshes."""
 
 
 def _bounded(low: float, high: float) -> tuple[Any, Any]:
@@ -142,7 +142,8 @@ class ContactSettings(Table):
     """What the contact model takes."""
 
     mesh: Annotated[str, *one_of(*MESHES)] = _setting("rigid")
-    """Body of the contact model: "rigid" on nodes, or elastic on a "coarse", "medium" or "fine" mesh."""
+    """Body of the contact model: "rigid" (a round base on whole circles), or elastic on a "coarse", "medium" or "fine"
+    mesh."""
     step: Annotated[float, *quantity("time", above_zero=True, between=STEP, example="10 us")] = _setting(1e-5, "s")
     """Step of the contact model; it has to be stable."""
     damping_fraction: Annotated[Literal["auto"] | float, *_auto_or(_deviation(10.0))] = _setting("auto")

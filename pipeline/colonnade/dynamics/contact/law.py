@@ -42,6 +42,10 @@ class ContactLaw:
     The normal force is max(0, k δ + 2 ξ sqrt(m k) dδ/dt) for a depth δ > 0: the table never pulls. The tangential force
     follows the elastic slip s, −k_t s − c_t ds/dt, and where k_t |s| would exceed µ N the node slides and s stays at
     µ N / k_t.
+
+    A ring of radius r has its stiffness k and its mass m spread evenly around: by length k' = k / 2πr, m' = m / 2πr and
+    the damping 2 ξ sqrt(m' k'), each the limit of more and more nodes. Per area, k is the stiffness times the area of
+    the annulus that the ring stands for.
     """
 
     stiffness: float
