@@ -7,13 +7,14 @@ import json
 import os
 from collections.abc import Callable
 from dataclasses import asdict
+from datetime import date
 from pathlib import Path
 from typing import Any
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
-from contact_model import convergence, damping, drawings, space, speed
+from contact_model import convergence, damping, disturbed, drawings, space, speed
 from contact_model.free import prism_body
 from contact_model.observed import measure_observed
 from contact_model.page import page
@@ -46,7 +47,7 @@ FIGURES: dict[str, tuple[Callable[[dict[str, Any]], Any], str, str]] = {
     "misfit": (
         drawings.draw_misfit,
         "Misfit of plane rocking over the disturbance",
-        "Prism, cylinder and cone after a slight rotation about x, from a large and a middle release.",
+        "Prism, cylinder and cone released at 0.9 α with a push, spin, tilted table, uneven or oval base.",
     ),
 }
 
@@ -63,7 +64,8 @@ PARTS: dict[str, Callable[[ContactLaw, int], Any]] = {
     "friction": lambda law, workers: space.measure_friction(law, workers=workers),
     "disturbance": lambda law, workers: space.measure_disturbance(law, workers=workers),
     "ensemble": lambda law, workers: space.measure_ensemble(law, workers=workers),
-    "misfit": lambda _, workers: space.measure_misfit(workers=workers),
+    "misfit": lambda _, workers: disturbed.measure_misfit(workers=workers),
+    "controls": lambda _, workers: disturbed.measure_controls(workers=workers),
     "speed": lambda _, workers: speed.measure_speed(),
 }
 """What is measured; `law` is the calibrated one of the rigid prism."""
@@ -72,7 +74,9 @@ PARTS: dict[str, Callable[[ContactLaw, int], Any]] = {
 def measure(only: list[str], kept: dict[str, Any], workers: int) -> dict[str, Any]:
     """Measure parts anew and keep the others."""
     law = ContactLaw(**kept["law"]) if "law" in kept else space.calibrated("5 × 5", prism_body("5 × 5"))
-    return kept | {"law": asdict(law)} | {part: PARTS[part](law, workers) for part in only}
+    today = date.today().isoformat()
+    dates = kept.get("dates", {}) | dict.fromkeys(only, today)
+    return kept | {"law": asdict(law)} | {part: PARTS[part](law, workers) for part in only} | {"dates": dates}
 
 
 def write(found: dict[str, Any], folder: Path) -> None:

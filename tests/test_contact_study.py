@@ -19,7 +19,7 @@ def study():
     """The parts of the study, and its numbers."""
     sys.path.insert(0, str(REPORTS))
     try:
-        names = ("convergence", "damping", "free", "page", "space", "speed", "misfit_words")
+        names = ("convergence", "damping", "disturbed", "free", "page", "space", "speed", "misfit_words")
         parts = {name: importlib.import_module(f"contact_model.{name}") for name in names}
         whole = importlib.import_module("contact_study")
         yield SimpleNamespace(**parts, whole=whole)
@@ -104,24 +104,84 @@ def test_scatter_is_the_range_between_bodies_at_one_effective_damping(study):
     assert [row["highest"] - row["lowest"] for row in rows] == pytest.approx([0.005] * len(rows))
 
 
-def test_the_verdict_on_rocking_in_space_follows_the_misfits(study):
-    def runs(prism, round_ones):
-        return [
-            {
-                "specimen": specimen,
-                "base": "nodes",
-                "release": 0.9,
-                "disturbance": disturbance,
-                "fitted": 0.97,
-                "out_of_plane": 0.1,
-                "misfit": {"nonlinear": 0.01 + extra * (disturbance > 0), "linear": 0.02},
-            }
-            for specimen, extra in (("prism", prism), ("cylinder", round_ones), ("cone", round_ones))
-            for disturbance in (0.0, 0.01)
-        ]
+def _disturbed(prism, round_ones):
+    """Runs of a release at 0.9 α whose added misfit is proportional to the size of one disturbance."""
+    return [
+        {
+            "specimen": specimen,
+            "variant": "",
+            "kind": kind,
+            "size": size,
+            "release": 0.9,
+            "fitted": 0.97,
+            "out_of_plane": 0.1,
+            "overturned": False,
+            "misfit": {"nonlinear": 0.01 + share * size, "linear": 0.02},
+        }
+        for specimen, share in (("prism", prism), ("cylinder", round_ones), ("cone", 1.25 * round_ones))
+        for kind, size in (("none", 0.0), ("push", 0.001), ("push", 0.01))
+    ]
 
-    assert "Yes: released" in "\n".join(study.misfit_words.misfit_lines(runs(0.001, 0.2), "x.svg"))
-    assert "No: released" in "\n".join(study.misfit_words.misfit_lines(runs(0.2, 0.2), "x.svg"))
+
+def test_the_verdict_on_rocking_in_space_follows_the_misfits(study):
+    words = study.misfit_words
+    yes = words.judged(_disturbed(0.1, 20.0), 0.9)["push"]
+    assert yes[0] == pytest.approx(0.0025)  # what gives the cylinder, the less moved of the two, 5 % of α
+    assert yes[1] == pytest.approx(0.1 * 0.01)
+    assert words.judged(_disturbed(20.0, 20.0), 0.9)["push"][0] is None  # the prism moves as much
+    assert words.judged(_disturbed(0.0, 1.0), 0.9)["push"][0] is None  # too little to be seen
+    lines = words.misfit_lines(_disturbed(0.1, 20.0), _disturbed(0.1, 20.0), "x.svg")
+    told = "\n".join(lines)
+    assert "- sideways push, from 0.25 % of pα (1.3 mm/s at the top)" in told
+    assert "These do not" not in told
+    assert "none." in "\n".join(words.verdict(_disturbed(20.0, 20.0), 0.9))
+
+
+def test_a_tilted_table_and_a_push_are_released_as_they_are_called(study):
+    body = study.disturbed.bodies()["cylinder"]
+    block = study.free.CYLINDER
+    law = study.free.law_for(body, 0.4)
+    given = (body, block, law, 0.9)
+    start, table = study.disturbed._release(*given, "tilt", 0.01, 1.0)
+    assert table.transverse.max() == pytest.approx(9.81 * np.sin(0.01 * block.critical_angle))
+    assert not start.angular_velocity.any()
+    start, table = study.disturbed._release(*given, "push", 0.01, 1.0)
+    assert start.angular_velocity[0] == pytest.approx(0.01 * block.p * block.critical_angle)
+    assert start.velocity[1] < 0.0  # a right-handed turn about x takes the top to −y
+    assert not table.transverse.any()
+
+
+def test_a_rotation_about_x_adds_nothing_to_the_misfit_of_round_bodies(study, monkeypatch):
+    monkeypatch.setattr(study.disturbed, "calibrated", lambda name, body, step: study.free.law_for(body, 0.4))
+    runs = study.disturbed.measure_misfit({"none": (0.0,), "lean": (0.0025,)}, releases=(0.5,), duration=1.2)
+    assert len(runs) == 6
+    for specimen in ("cylinder", "cone"):
+        ((_, more),) = study.misfit_words.added(runs, 0.5, specimen, "lean")
+        assert abs(more) < 1e-4
+
+
+def test_what_the_report_says_of_disturbances_is_what_the_program_gives(study, kept):
+    """One that is plain, one that is pushed: the cylinder with the damping of the report's own run."""
+    for kind, size in (("none", 0.0), ("push", 0.001)):
+        then = next(
+            run
+            for run in kept["misfit"]
+            if (run["specimen"], run["release"], run["kind"], run["size"]) == ("cylinder", 0.9, kind, size)
+        )
+        body = study.disturbed.bodies()["cylinder"]
+        law = study.free.law_for(body, then["damping_fraction"])
+        now = study.disturbed._run("cylinder", body, law, 0.9, kind, size, 4.0)
+        assert now["misfit"]["nonlinear"] == pytest.approx(then["misfit"]["nonlinear"], abs=2e-3)
+        assert now["fitted"] == pytest.approx(then["fitted"], abs=3e-4)
+
+
+def test_an_uneven_base_keeps_its_low_spots(study):
+    body = study.disturbed.bodies(24)["cylinder"]
+    for kind, spots in (("warp", 2), ("feet", 3)):
+        shaped = study.disturbed._shaped(body, kind, 1e-4)
+        rim = shaped.nodes[-24:, 2]
+        assert rim.max() - rim.min() == pytest.approx(1e-4, rel=1e-9)
+        assert np.isclose(rim, body.nodes[0, 2]).sum() == (spots if spots == 2 else 3 * (24 % 3 == 0))
 
 
 def test_rebound_of_the_peaks_is_housners(study):

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from colonnade.figures.style import blank_figure, styled
 from contact_model.convergence import step_errors
 from contact_model.free import MESHES, TARGET
+from contact_model.misfit_words import VISIBLE
 
 MARKERS = "osD^vPX*<"
 MESH_COLOUR = "#0a8a5f"
@@ -135,31 +135,37 @@ def draw_amplitude(found: dict[str, Any]) -> Figure:
 
 
 def draw_misfit(found: dict[str, Any]) -> Figure:
-    """Draw the misfit of the first cycles over the disturbance, a panel a release."""
-    runs = found["misfit"]
-    releases = sorted({run["release"] for run in runs}, reverse=True)
+    """Draw the misfit of the first cycles after a large release over the disturbance, a panel a kind."""
+    release = max(run["release"] for run in found["misfit"])
+    runs = [run for run in found["misfit"] if run["release"] == release]
+    panels = (
+        ("push", "sideways push, % of pα", 100.0),
+        ("spin", "spin, % of p", 100.0),
+        ("tilt", "table tilted across, % of α", 100.0),
+        ("warp", "base warped by, µm", 1e6),
+        ("feet", "three low spots, µm", 1e6),
+        ("oval", "radius oval by ±, µm", 1e6),
+    )
     with styled():
-        figure = blank_figure(3.0)
-        panels = np.atleast_1d(figure.subplots(1, len(releases), sharey=True))
-        for axes, release in zip(panels, releases, strict=True):
-            cases = dict.fromkeys((run["specimen"], run["base"]) for run in runs)
-            for specimen, base in cases:
-                series = [
-                    run for run in runs if (run["specimen"], run["base"], run["release"]) == (specimen, base, release)
-                ]
-                axes.plot(
-                    [100.0 * run["disturbance"] for run in series],
+        figure = blank_figure(4.4)
+        grid = figure.subplots(2, 3, sharey=True)
+        for axes, (kind, label, scale) in zip(grid.ravel(), panels, strict=True):
+            for specimen, colour in SPECIMENS.items():
+                series = [run for run in runs if (run["specimen"], run["kind"]) == (specimen, kind)]
+                axes.semilogx(
+                    [scale * run["size"] for run in series],
                     [100.0 * run["misfit"]["nonlinear"] for run in series],
-                    color=SPECIMENS[specimen],
-                    linestyle="--" if base.endswith("72") else "-",
-                    marker="s" if base.endswith("72") else "o",
+                    color=colour,
+                    marker="o",
                     markersize=3,
                     markerfacecolor="none",
-                    label=f"{specimen}, {base} nodes" if specimen == "prism" else f"{specimen}, {base}",
+                    label=specimen,
                 )
-            axes.set_title(f"released at {release:g} α")
-            axes.set_xlabel("rotation about x at the start, % of α")
-            axes.margins(x=0.05)
-        panels[0].set_ylabel("misfit of the first cycles, % of α")
-        panels[-1].legend(fontsize=7)
+            axes.axhline(100.0 * VISIBLE, color=GREY, linewidth=0.8)
+            axes.set_xlabel(label)
+            axes.xaxis.set_major_formatter("{x:g}")
+            axes.xaxis.set_minor_formatter(NullFormatter())
+        for axes in grid[:, 0]:
+            axes.set_ylabel("misfit, % of α")
+        grid[0, 0].legend(fontsize=7)
     return figure

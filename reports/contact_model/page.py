@@ -28,16 +28,23 @@ def page(found: dict[str, Any], drawn: dict[str, str]) -> str:
         "1 below. A step is the longest up to the one named that divides the sampling interval. Costs are seconds of",
         "processor time, one thread, on a loaded machine of two cores.",
         "",
+        *_dated(found["dates"]),
+        "",
         *_table(found),
         *_unreduced(found),
         *observed_lines(found["observed"]),
         *_convergence(found, drawn["convergence"]),
         *_collapse(found, drawn["collapse"]),
         *_amplitude(found, drawn["amplitude"]),
-        *misfit_lines(found["misfit"], drawn["misfit"]),
+        *misfit_lines(found["misfit"], found["controls"], drawn["misfit"]),
         *_speed(found),
     ]
     return "\n".join(lines) + "\n"
+
+
+def _dated(dates: dict[str, str]) -> list[str]:
+    days = sorted(set(dates.values()))
+    return [f"Measured on {day}: {', '.join(part for part in dates if dates[part] == day)}." for day in days]
 
 
 def _table(found: dict[str, Any]) -> list[str]:

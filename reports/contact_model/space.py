@@ -1,4 +1,4 @@
-"""What only a body in space can tell: e over amplitude, friction and disturbance; rocking that leaves its plane."""
+"""What the calibrated rigid prism gives: e over amplitude, friction and disturbance."""
 
 from __future__ import annotations
 
@@ -8,16 +8,11 @@ from typing import Any
 import numpy as np
 from joblib import Parallel, delayed
 
-from colonnade import identify_restitution
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.calibration import calibrate, free_restitution
 from colonnade.dynamics.contact.ensembles import ContactPlan, gather, run_member
-from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.layout import rigid_body
-from colonnade.dynamics.rock import rock
-from contact_model.free import CONE, CYLINDER, GRAVITY, PRISM, TARGET, law_for, prism_body, timed, vibrate
+from contact_model.free import GRAVITY, PRISM, TARGET, law_for, prism_body, timed, vibrate
 
 STEP = 1e-5
 RELEASES = (0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9)
@@ -28,12 +23,6 @@ IMPACTS = 6
 """Of a calibration."""
 MEMBERS = 32
 SEED = 2013
-LARGE = 0.9
-"""|θ|/α of a large first amplitude."""
-FIRST = 4
-"""Half cycles at the start, over which the misfit is taken."""
-ROUND = {"rings of 24": (4, 24), "rings of 72": (2, 72)}
-"""Rings of a round base, and nodes on each."""
 
 
 def calibrated(name: str, body: ContactBody, step: float = STEP, target: float = TARGET) -> ContactLaw:
@@ -106,74 +95,3 @@ def measure_ensemble(law: ContactLaw, members: int = MEMBERS, workers: int = 1) 
         "out_of_plane": float(found.largest_out_of_plane.max()),
         "correlations": found.correlations(found.restitution),
     }
-
-
-def measure_misfit(
-    disturbances: tuple[float, ...] = DISTURBANCES,
-    releases: tuple[float, ...] = (LARGE, 0.5),
-    bases: tuple[str, ...] = tuple(ROUND),
-    duration: float = 4.0,
-    workers: int = 1,
-) -> list[Any]:
-    """Fit plane rocking to rocking in space, of prism, cylinder and cone."""
-    cases: list[tuple[str, str, Block, ContactBody]] = [("prism", "5 × 5", PRISM, prism_body("5 × 5"))]
-    for base in bases:
-        cases += [
-            (name, base, block, rigid_body(block, rings=ROUND[base]))
-            for name, block in (("cylinder", CYLINDER), ("cone", CONE))
-        ]
-    pool = Parallel(n_jobs=workers)
-    laws = pool(delayed(calibrated)(name, body, 2 * STEP) for name, _, _, body in cases)
-    jobs = (
-        delayed(_misfit)(*case, law, release, disturbance, duration)
-        for case, law in zip(cases, laws, strict=True)
-        for release in releases
-        for disturbance in disturbances
-    )
-    return list(pool(jobs))
-
-
-def _misfit(
-    name: str,
-    base: str,
-    block: Block,
-    body: ContactBody,
-    law: ContactLaw,
-    release: float,
-    disturbance: float,
-    duration: float,
-) -> dict[str, Any]:
-    history, _ = timed(body, law, 2 * STEP, duration, release=release, out_of_plane=disturbance * block.critical_angle)
-    fitted = identify_restitution(history.time, history.angle, block)
-    return {
-        "specimen": name,
-        "base": base,
-        "damping_fraction": law.damping_fraction,
-        "stiffness": law.stiffness,
-        "release": release,
-        "disturbance": disturbance,
-        "fitted": fitted.value,
-        "reason": fitted.reason,
-        "own": free_restitution(history),
-        "out_of_plane": float(np.abs(history.out_of_plane).max() / block.critical_angle),
-        "overturned": history.outcome == "overturned",
-        "misfit": misfits(history, block, TARGET if fitted.value is None else fitted.value, release),
-    }
-
-
-def misfits(history: ContactHistory, block: Block, restitution: float, release: float) -> dict[str, float]:
-    """Give the RMS of θ less plane rocking over α, up to the plane model's fourth impact, of either plane model."""
-    found = {}
-    for model in ("nonlinear", "linear"):
-        plane = rock(
-            block,
-            restitution=restitution,
-            model=model,
-            theta0=release * block.critical_angle,
-            duration=float(history.time[-1]),
-        )
-        angle = np.interp(history.time, plane.time, plane.angle)
-        ends = plane.impact_times[FIRST - 1] if plane.impact_times.size >= FIRST else history.time[-1]
-        early = history.time <= ends
-        found[model] = float(np.sqrt(np.mean((history.angle - angle)[early] ** 2)) / block.critical_angle)
-    return found

@@ -39,7 +39,9 @@ def summary(found: dict[str, Any]) -> str:
         f"{released[-1][1]:.4f} from {released[-1][0]:g} α.",
         f"- e at equal ξ_eff scatters by up to {everything:.3f} over all bodies, {meshes:.3f} over the meshes.",
         f"- Peaks converge with the step with the observed orders: {orders}.",
-        "- Rocking in space as the reason of the paper's misfit at large first amplitudes: "
-        + " ".join(verdict(found["misfit"], large)),
+        "",
+        "What can turn rocking three-dimensional, as the paper says of its large first amplitudes:",
+        "",
+        *verdict(found["misfit"], large),
     ]
     return "\n".join(lines)
