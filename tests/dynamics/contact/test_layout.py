@@ -81,7 +81,11 @@ def test_a_measured_block_says_what_was_taken_for_its_depth():
     [
         (PRISM, {"grid": (1, 5)}, r"grid is \(1, 5\)"),
         (CYLINDER, {"rings": (2, 2)}, r"rings is \(2, 2\)"),
-        (Block.measured(mass=80.0, pole_distance=0.61, critical_angle=0.21, inertia=20.0), {}, "I₀ − m R² is"),
+        (
+            Block.measured(mass=80.0, pole_distance=0.61, critical_angle=0.21, inertia=80.0 * 0.61**2),
+            {},
+            "I₀ − m R² is",
+        ),
     ],
     ids=["one row", "two nodes round", "inertia too small"],
 )
