@@ -152,7 +152,7 @@ WRONG = [
     (
         "level = 0.9",
         "level = 90",
-        "processing.restitution.level: 90 was found. A number between 0.5 and 1 was expected.",
+        "processing.restitution.level: 90 was found. A number between 0.5 and 0.999999 was expected.",
     ),
     ('id = "span-2.0"', 'id = "Free-01"', 'tests[Free-01].id: "Free-01": It is the same as "free-01" but for case.'),
     ('id = "span-2.0"', 'id = "free-01"', "There is a test of this id already."),

@@ -94,7 +94,7 @@ class RestitutionSettings(Table):
 
     lowest_amplitude: Annotated[float, *_bounded(1e-6, 1.0)] = _setting(0.02, "of α")
     """Peaks below this fraction of the critical angle are left out."""
-    level: Annotated[float, *_bounded(0.5, 1.0)] = _setting(0.95)
+    level: Annotated[float, *_bounded(0.5, 0.999999)] = _setting(0.95)
     """Probability of the interval that is given for e."""
 
 
