@@ -5,6 +5,7 @@
 # make format   rewrites the sources in the project's style
 # make reports  rebuilds the reference reports in reports/ and the picture of the README
 # make restitution-study  5000 records with known truth: reports/restitution-study.md, ten minutes and more
+# make verdict-study  1000 tests with known truth judged by their spread: reports/verdict-study.md, a quarter of an hour
 # make contact-study  measures the contact model anew: reports/contact-study.md, half an hour
 # make clean    removes what the other targets made
 #
@@ -17,7 +18,7 @@ INSTALLED := .venv/installed
 # Files of tests are shared out over the cores, each file to one of them, where it computes in one thread.
 SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 
-.PHONY: demo test study drill format reports restitution-study contact-study clean
+.PHONY: demo test study drill format reports restitution-study verdict-study contact-study clean
 
 demo: $(INSTALLED)
 	@$(BIN)/colonnade demo demo
@@ -47,6 +48,9 @@ reports: $(INSTALLED)
 
 restitution-study: $(INSTALLED)
 	$(BIN)/python reports/restitution_study.py
+
+verdict-study: $(INSTALLED)
+	$(BIN)/python reports/verdict_study.py
 
 contact-study: $(INSTALLED)
 	$(BIN)/python reports/contact_study.py
