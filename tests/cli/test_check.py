@@ -118,3 +118,23 @@ def test_a_campaign_file_that_cannot_be_used_is_exit_code_2(colonnade, campaign)
     assert told.returncode == 2
     assert "specimens.prism.width" in told.stderr
     assert "Traceback" not in told.stderr
+
+
+def test_numbers_that_run_on_are_told_as_the_cause_of_a_missing_column(colonnade, campaign):
+    path = campaign / "campaign.toml"
+    text = path.read_text(encoding="utf-8").replace('column = "top"', "column = 8")
+    path.write_text(
+        text.replace("\n[setups.frame.channels", '\n[setups.frame]\nsampling_rate = "200 Hz"\n\n[setups.frame.channels')
+    )
+    for name in ("free-01", "free-02"):
+        raw = campaign / "raw" / f"{name}.csv"
+        values = [line.replace(";", ",").split(",")[1] for line in raw.read_text().splitlines()[1:]]
+        raw.write_text("\n".join(" ".join(values[row : row + 8]) for row in range(0, len(values), 8)) + "\n")
+    told = colonnade("check")
+    assert told.returncode == 1
+    assert "free-01: would fail" in told.stdout
+    said = " ".join(told.stdout.split())
+    assert "there is no column 8; it has 1 column." in said
+    assert "Its numbers, 8 in a row, run on from row to row and are read as one series of 2400" in said
+    path.write_text(path.read_text().replace("column = 8", "column = 1"))
+    assert colonnade("check").returncode == 0

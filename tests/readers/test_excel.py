@@ -264,3 +264,17 @@ def test_a_damaged_workbook_is_read_or_refused(tmp_path: Path) -> None:
         except ReadError:
             refused += 1
     assert 30 < refused < 60
+
+
+def test_numbers_that_run_on_from_row_to_row_are_one_channel(tmp_path: Path) -> None:
+    steps = np.random.default_rng(3).standard_normal(400)
+    series = np.round(np.convolve(steps, np.hanning(9), "same"), 4).tolist()
+    wrapped = [series[row : row + 8] for row in range(0, 400, 8)]
+    path = xlsx(tmp_path / "a.xlsx", A=sheet_xml([["400 points at equal spacing of 0.02 sec, units are g"], *wrapped]))
+    recording = read(path)
+    (channel,) = recording.channels
+    assert (channel.values.tolist(), channel.unit) == (series, "g")
+    np.testing.assert_allclose(channel.time, 0.02 * np.arange(400))
+    with pytest.raises(ReadError, match="Its numbers, 8 in a row, run on"):
+        recording.channel(8)
+    assert len(read(path, "excel", {"layout": "columns"}).channels) == 8

@@ -171,3 +171,10 @@ def test_a_single_series_takes_unit_and_interval_from_the_lines_above(tmp_path: 
     np.testing.assert_allclose(channel.time, 0.005 * np.arange(300))
     motion = read_motion(path)
     assert (motion.dt, motion.peak) == (pytest.approx(0.005), pytest.approx(np.abs(series).max() / 100))
+
+
+def test_a_title_that_fills_the_first_of_eight_cells_names_no_columns(tmp_path: Path) -> None:
+    series = shaking(800)
+    rows = "\n".join(",".join(f"{number:.5f}" for number in row) for row in series.reshape(-1, 8))
+    (tmp_path / "motion.csv").write_text(f"El Centro 1940 NS,,,,,,,\n{rows}\n")
+    np.testing.assert_array_equal(read(tmp_path / "motion.csv").channel(1).values, series)

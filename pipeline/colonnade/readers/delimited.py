@@ -16,7 +16,7 @@ from colonnade.readers.delimited_header import DelimitedOptions, Header, read_he
 from colonnade.readers.recording import TIME_UNITS, Array, RecordedChannel, Recording, Window
 from colonnade.readers.registry import Format, Recognition
 from colonnade.readers.row_layout import Verdict, judge
-from colonnade.readers.running_block import fixed_fields, series_of, undecided
+from colonnade.readers.running_block import fixed_fields, read_block, series_of, undecided
 from colonnade.readers.samples import Samples, Stretch, read_samples
 from colonnade.readers.strong_motion import foreign_format
 from colonnade.readers.text_encoding import ends_within_line
@@ -61,7 +61,9 @@ def read(path: Path, options: DelimitedOptions, window: Window | None = None) ->
     verdict = _layout(header, samples, options)
     if verdict.layout == "columns":
         return _recording(header, samples, options)
-    return series_of(header.source, announced(header.above), verdict, header.notes)
+    told, source = announced(header.above), header.source
+    recording = Recording(path, "delimited", (), notes=header.notes)
+    return series_of(recording, read_block(source, told.width), len(source.headings), told, verdict)
 
 
 def _layout(header: Header, samples: Samples, options: DelimitedOptions) -> Verdict:
@@ -80,7 +82,7 @@ def _layout(header: Header, samples: Samples, options: DelimitedOptions) -> Verd
         columns, named = (columns, named) if fields is None else (fields, "")
     verdict = judge(columns, told, named=named, is_free=is_free, is_whole=is_whole)
     if verdict.layout is None:
-        raise ReadError(undecided(source, verdict))
+        raise ReadError(undecided(source.path, len(source.headings), verdict))
     return verdict
 
 

@@ -146,16 +146,18 @@ def read_header(path: Path, options: DelimitedOptions) -> Header:
     return Header(
         source,
         heading,
-        _named(lines, where, sniffed.dialect, options),
+        _named(lines, where, heading, sniffed.dialect, options),
         "\n".join(lines[:first]),
         notes + sniffed.notes,
         (*sniffed.warnings, *unread),
     )
 
 
-def _named(lines: list[str], where: HeadingLines, dialect: Dialect, options: DelimitedOptions) -> Named:
+def _named(
+    lines: list[str], where: HeadingLines, heading: Heading, dialect: Dialect, options: DelimitedOptions
+) -> Named:
     """Say whether names stand above the columns; between single blanks they may be the words of a sentence."""
-    if where.names is None and where.units is None:
+    if not heading.names_most:
         return ""
     if where.units is not None or where.names is None or options.names_row is not None:
         return "names"

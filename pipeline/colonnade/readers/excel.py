@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from colonnade.errors import ReadError, nearest
 from colonnade.readers import excel_guard, ole
+from colonnade.readers.announced import Announced, announced
 from colonnade.readers.cells import Dialect
 from colonnade.readers.clock import Clocks, find_clocks, in_seconds
 from colonnade.readers.excel_cells import Block, column_kinds, find_block, take_column
@@ -20,6 +21,8 @@ from colonnade.readers.heading import Heading, HeadingLines, describe_columns, f
 from colonnade.readers.magic import OLE, head, look
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import Format, Recognition
+from colonnade.readers.row_layout import Named, Verdict, judge
+from colonnade.readers.running_block import series_of, undecided
 from colonnade.readers.values import TimeUnit
 
 ZIP = b"PK\x03\x04"
@@ -43,6 +46,10 @@ class ExcelOptions(BaseModel):
     )
     time: str | int | None = Field(default=None, description="Name or number, from 1, of the column that is the clock.")
     time_unit: TimeUnit | None = Field(default=None, description="Unit of that column.")
+    layout: Literal["columns", "running"] | None = Field(
+        default=None,
+        description='"columns" where each column is a channel, "running" where numbers run on from row to row.',
+    )
 
     @model_validator(mode="after")
     def _unit_has_column(self) -> ExcelOptions:
@@ -97,6 +104,12 @@ def read(path: Path, options: ExcelOptions) -> Recording:
     where = _heading_lines(lines, block, kinds, options)
     heading = describe_columns(lines, where, block.first, LINES, len(kinds))
     recording, warnings = _recorded(path, block, kinds, heading)
+    told = announced("\n".join(lines))
+    verdict = _layout(recording, kinds, told, heading, options)
+    if verdict.layout != "columns":
+        numbers = np.column_stack([channel.values for channel in recording.channels]).ravel()
+        numbers = numbers[: numbers.size - int(np.argmax(np.isfinite(numbers[::-1])))]
+        return series_of(replace(recording, notes=tuple(notes)), numbers, len(kinds), told, verdict)
     clocks = _clocks(recording, kinds, options)
     return replace(
         recording,
@@ -127,6 +140,22 @@ def _expect_sound(path: Path) -> None:
     if not recognition.yes:
         raise ReadError(f"{path.name}: {recognition.reason}.")
     (excel_guard if head(path).startswith(ZIP) else ole).check(path)
+
+
+def _layout(
+    recording: Recording, kinds: Sequence[str], told: Announced, heading: Heading, options: ExcelOptions
+) -> Verdict:
+    """Decide whether columns are channels: as given, by what they hold, else by the evidence."""
+    if options.layout is not None:
+        return Verdict(options.layout, ("as given",))
+    if options.time is not None or any(kind != "number" for kind in kinds):
+        return Verdict("columns")
+    named: Named = "names" if heading.names_most else ""
+    values = [channel.values for channel in recording.channels]
+    verdict = judge(values, told, named=named, is_free=False, is_whole=True)
+    if verdict.layout is None:
+        raise ReadError(undecided(recording.path, len(values), verdict))
+    return verdict
 
 
 def _of_rows(text: str) -> str:

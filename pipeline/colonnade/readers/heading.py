@@ -45,6 +45,15 @@ class Heading:
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
 
+    @property
+    def names_most(self) -> bool:
+        """Whether more than half of the columns have a name or a unit; a title above a table fills a cell only."""
+        own = [
+            head != f"column {number}" or unit is not None
+            for number, (head, unit) in enumerate(zip(self.headings, self.units, strict=True), start=1)
+        ]
+        return 2 * sum(own) > len(own)
+
 
 @dataclass(frozen=True)
 class HeadingLines:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 
 from colonnade.errors import ReadError
@@ -15,32 +18,29 @@ from colonnade.readers.running_numbers import split_numbers
 from colonnade.readers.text_encoding import head_lines
 
 
-def series_of(source: Source, told: Announced, verdict: Verdict, notes: tuple[str, ...]) -> Recording:
+def series_of(recording: Recording, values: Array, width: int, told: Announced, verdict: Verdict) -> Recording:
     """
-    Read numbers that run on from row to row as one series, or as times and values in turn.
+    Give numbers that run on from row to row as one series, or as times and values in turn.
 
     Parameters
     ----------
-    source : Source
+    recording : Recording
+        The file, with what is known of it already.
+    values : ndarray, shape (n,)
+        Its numbers, in their order.
+    width : int
+        Numbers in a row.
     told : Announced
         What the lines above say: interval and unit are taken from there.
     verdict : Verdict
         That they run on, and why.
-    notes : tuple of str
-        What is known of the file already.
-
-    Raises
-    ------
-    ReadError
-        If the block is interrupted.
     """
-    values, width = read_block(source, told.width), len(source.headings)
     why = "; ".join(verdict.reasons)
     hint = (
         f"Its numbers, {width} in a row, run on from row to row and are read as one series of {values.size} ({why}). "
         'If each column is a channel, say so: layout = "columns" in `file`.'
     )
-    notes = (*notes, f"numbers run on from row to row: {why}")
+    notes = (*recording.notes, f"numbers run on from row to row: {why}")
     if verdict.layout == "pairs":
         values = values[: values.size // 2 * 2]
         times = values[0::2].copy()
@@ -51,18 +51,17 @@ def series_of(source: Source, told: Announced, verdict: Verdict, notes: tuple[st
         even = None if told.step is None else even_times(values.size, told.step)
         channels = (RecordedChannel("column 1", told.unit, values, even),)
         notes = (*notes, "no clock" if told.step is None else f"clock: {told.step:g} s, as the header says")
-    return Recording(source.path, "delimited", channels, notes=notes, hint=hint)
+    return replace(recording, channels=channels, notes=notes, hint=hint)
 
 
-def undecided(source: Source, verdict: Verdict) -> str:
+def undecided(path: Path, width: int, verdict: Verdict) -> str:
     """Say why a file does not tell whether columns are channels, and what to do."""
-    width = len(source.headings)
     for_series = "; ".join(verdict.reasons) or "no names stand above the columns"
     for_channels = "; ".join(verdict.against) or "nothing says so"
     return (
-        f"{source.path.name}: the file does not show whether the {width} numbers of each row are samples of {width} "
-        f"channels, or one series that runs on from row to row. For channels: {for_channels}. For one series: "
-        f'{for_series}. Say which in `file`: layout = "columns" or layout = "running".'
+        f"{path.name}: the file does not show whether the {width} numbers of each row are samples of {width} channels, "
+        f"or one series that runs on from row to row. For channels: {for_channels}. For one series: {for_series}. "
+        'Say which in `file`: layout = "columns" or layout = "running".'
     )
 
 
