@@ -93,6 +93,13 @@ def test_the_restitution_given_comes_before_the_identified_before_the_rigid_one(
     assert rigid.attrs["restitution_source"] == "rigid-body"
     assert float(rigid["restitution"]) == pytest.approx(0.94848, abs=1e-5)
     assert "no free vibration" in rigid.attrs["reason"]
+    assert (given.attrs["warnings"], found.attrs["warnings"]) == ([], [])
+    (told,) = rigid.attrs["warnings"]
+    assert (told.severity, told.kind) == ("note", "rigid-body e")
+    refused = identified.assign(restitution=np.nan).assign_attrs(reason="the peaks do not decay")
+    (told,) = pooling.specimen({"free-01": refused}, read).attrs["warnings"]
+    assert told.severity == "warning"
+    assert "Predictions use the rigid body's e, 0.9485, as none of its free vibrations gives one" in told.text
 
 
 def test_the_prediction_on_the_recorded_motion_is_the_true_history(small_campaign, measured, pooled):

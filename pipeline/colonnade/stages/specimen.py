@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict
 
 from colonnade.campaign import Campaign
 from colonnade.dynamics.block import Block, Sided, pair
+from colonnade.findings import Finding, note, warning
 from colonnade.identification.restitution.pooling import pool
 
 Array = NDArray[np.float64]
@@ -148,6 +149,21 @@ def _taken(found: _Identified, instructions: Instructions) -> xr.Dataset:
             "reason": reason,
             "test_method": found.method,
             "refused": list(found.refused),
-            "warnings": [],
+            "warnings": _warnings(source, value, found),
         },
     )
+
+
+def _warnings(source: str, value: tuple[float, float], found: _Identified) -> list[Finding]:
+    """Say that predictions take the e of a rigid body, and warn where free vibrations were to give it."""
+    if source != "rigid-body":
+        return []
+    weight = warning if found.refused else note
+    why = "none of its free vibrations gives one" if found.refused else "it has no free vibration"
+    return [
+        weight(
+            "rigid-body e",
+            f"Predictions use the rigid body's e, {value[0]:.4g}, as {why}. Give `restitution` in the campaign file if "
+            "it is known.",
+        )
+    ]
