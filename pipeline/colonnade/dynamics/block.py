@@ -8,6 +8,7 @@ from math import atan2, cos, hypot, pi, sin, sqrt
 from typing import Literal
 
 from colonnade.dynamics.density import UnlikelyBlockWarning, cone_volume, mistaken_lengths, prism_volume
+from colonnade.validation import described, instance, number, sided
 
 STANDARD_GRAVITY = 9.81
 """Default gravity of a campaign, m/s²; a laboratory's own value may be given."""
@@ -17,6 +18,9 @@ SLENDEREST = 0.005
 
 HOLLOW = 0.9
 """Of m R²; no body has a smaller moment of inertia about its pole, whatever its shape and the errors of measurement."""
+
+LEAST, LARGEST = 1e-60, 1e60
+"""Of a length, a mass or an inertia in SI: products of several stay in the range of floating-point numbers."""
 
 Sided = float | tuple[float, float]
 """One value for both sides, or a pair (for θ < 0, for θ > 0)."""
@@ -42,9 +46,8 @@ class Side:
     inertia: float
 
     def __post_init__(self) -> None:
-        _positive(**vars(self))
-        if not self.critical_angle < pi / 2:
-            raise ValueError(f"critical_angle is {self.critical_angle} rad; an angle below π/2 was expected")
+        number("critical_angle", self.critical_angle, "an angle between 0 and π/2 rad", above=0.0, below=pi / 2)
+        _positive(pole_distance=self.pole_distance, inertia=self.inertia)
 
     @property
     def half_width(self) -> float:
@@ -70,6 +73,11 @@ class Solid:
     half_depth: float
     inertia_x: float
     inertia_z: float
+
+    def __post_init__(self) -> None:
+        if self.base not in ("rectangle", "circle"):
+            raise ValueError(f'base is {described(self.base)}; "rectangle" or "circle" was expected')
+        _positive(half_depth=self.half_depth, inertia_x=self.inertia_x, inertia_z=self.inertia_z)
 
 
 @dataclass(frozen=True)
@@ -102,6 +110,10 @@ class Block:
 
     def __post_init__(self) -> None:
         _positive(mass=self.mass, gravity=self.gravity)
+        instance("negative", self.negative, Side)
+        instance("positive", self.positive, Side)
+        if self.solid is not None:
+            instance("solid", self.solid, Solid)
 
     @classmethod
     def prism(
@@ -129,7 +141,7 @@ class Block:
         UnlikelyBlockWarning
             If the lengths look as if they were in millimetres or centimetres.
         """
-        _positive(width=width, depth=depth, height=height, mass=mass)
+        _positive(width=width, depth=depth, height=height, mass=mass, gravity=gravity)
         _expect_metres(mass / prism_volume(width, depth, height), width / height, width=width, height=height)
         half_width, centre_height = width / 2, height / 2
         inertia = mass * (width**2 + height**2) / 12 + mass * (half_width**2 + centre_height**2)
@@ -146,7 +158,7 @@ class Block:
         ValueError
             If a dimension, the mass or gravity is not positive.
         """
-        _positive(diameter=diameter, height=height, mass=mass)
+        _positive(diameter=diameter, height=height, mass=mass, gravity=gravity)
         _expect_metres(
             mass / cone_volume(diameter, diameter, height), diameter / height, diameter=diameter, height=height
         )
@@ -169,7 +181,7 @@ class Block:
         Moments of the cross-sections are integrated over the height, where the radius changes linearly:
         centre of mass ∫z r² / ∫r², transverse inertia about the base ∫(r⁴/4 + z² r²) / ∫r².
         """
-        _positive(base_diameter=base_diameter, top_diameter=top_diameter, height=height, mass=mass)
+        _positive(base_diameter=base_diameter, top_diameter=top_diameter, height=height, mass=mass, gravity=gravity)
         density = mass / cone_volume(base_diameter, top_diameter, height)
         _expect_metres(density, base_diameter / height, base_diameter=base_diameter, height=height)
         return cls._turned(base_diameter, top_diameter, height, mass, gravity)
@@ -214,7 +226,10 @@ class Block:
             If a value is not positive, an angle is not below π/2, or the inertia is smaller than that of the mass
             alone at the pole distance, which no body has.
         """
-        angles, distances, inertias = pair(critical_angle), pair(pole_distance), pair(inertia)
+        _positive(mass=mass, gravity=gravity)
+        angles = sided("critical_angle", critical_angle, "an angle between 0 and π/2 rad", above=0.0, below=pi / 2)
+        distances = sided("pole_distance", pole_distance, "a positive number", above=0.0)
+        inertias = sided("inertia", inertia, "a positive number", above=0.0)
         for distance, about_pole in zip(distances, inertias, strict=True):
             if about_pole < HOLLOW * mass * distance**2:
                 raise ValueError(
@@ -243,9 +258,12 @@ class Block:
         sides = []
         for index, side in enumerate((self.negative, self.positive)):
             given = {"critical_angle": critical_angle, "pole_distance": pole_distance, "inertia": inertia}
-            sides.append(
-                replace(side, **{name: pair(value)[index] for name, value in given.items() if value is not None})
-            )
+            changed = {
+                name: sided(name, value, "a positive number", above=0.0)[index]
+                for name, value in given.items()
+                if value is not None
+            }
+            sides.append(replace(side, **changed))
         return replace(self, negative=sides[0], positive=sides[1])
 
     @property
@@ -280,6 +298,7 @@ class Block:
 
     def side_p(self, side: Side) -> float:
         """Frequency parameter of one side, rad/s."""
+        instance("side", side, Side)
         return sqrt(self.mass * self.gravity * side.pole_distance / side.inertia)
 
     @property
@@ -303,16 +322,14 @@ def pair(value: Sided) -> tuple[float, float]:
     >>> pair(0.2), pair((0.2, 0.3))
     ((0.2, 0.2), (0.2, 0.3))
     """
-    if isinstance(value, (int, float)):
-        return float(value), float(value)
-    negative, positive = value
-    return float(negative), float(positive)
+    return sided("value", value, "a number")
 
 
 def _positive(**values: float) -> None:
     for name, value in values.items():
-        if not value > 0.0:
-            raise ValueError(f"{name} is {value}; a positive number was expected")
+        number(name, value, "a positive number", above=0.0)
+        if not LEAST <= value <= LARGEST:
+            raise ValueError(f"{name} is {value:g}; a number from {LEAST:g} to {LARGEST:g} was expected")
 
 
 def _expect_metres(density: float, slenderness: float, **lengths: float) -> None:

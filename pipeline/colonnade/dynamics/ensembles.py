@@ -22,6 +22,7 @@ from colonnade.dynamics.uncertainty import (
     member_block,
     member_restitution,
 )
+from colonnade.validation import instance, number, samples, sided, whole
 
 Array = NDArray[np.float64]
 Histories = NDArray[np.float32]
@@ -34,6 +35,12 @@ KEPT = 200
 
 LONGEST_CLOCK = 25_000
 """Samples of a band; a longer record's band takes every second, third … of its samples."""
+
+MOST_MEMBERS = 10_000_000
+LARGEST_SEED = 2**63 - 1
+
+LARGEST_Z = 1e6
+"""Standard deviations of an interval; beyond it is 0 to 1."""
 
 _BATCH = 128
 """Members that are run before they are counted together."""
@@ -74,8 +81,12 @@ class Plan:
     omega0: float = 0.0
 
     def __post_init__(self) -> None:
-        if self.count < 1:
-            raise ValueError(f"count is {self.count}; at least one member was expected")
+        instance("block", self.block, Block)
+        instance("motion", self.motion, Motion)
+        instance("uncertainty", self.uncertainty, Uncertainty)
+        sided("restitution", self.restitution, "a number between 0 and 1", low=0.0, high=1.0)
+        whole("count", self.count, 1, MOST_MEMBERS)
+        whole("seed", self.seed, 0, LARGEST_SEED)
 
     @property
     def stride(self) -> int:
@@ -168,15 +179,19 @@ class Ensemble:
 
     def overturning_interval(self, z: float = 1.959964) -> tuple[float, float]:
         """Return the interval (Wilson 1927) of the probability that the finite number of members leaves; 95 %."""
-        number, share = self.overturning_time.size, self.overturning_probability
-        middle = (share + z**2 / (2 * number)) / (1 + z**2 / number)
-        half = z * sqrt(share * (1 - share) / number + z**2 / (4 * number**2)) / (1 + z**2 / number)
+        z = number("z", z, "a positive number of standard deviations", above=0.0, high=LARGEST_Z)
+        members, share = self.overturning_time.size, self.overturning_probability
+        middle = (share + z**2 / (2 * members)) / (1 + z**2 / members)
+        half = z * sqrt(share * (1 - share) / members + z**2 / (4 * members**2)) / (1 + z**2 / members)
         return max(middle - half, 0.0), min(middle + half, 1.0)
 
     def peak_quantiles(self, levels: Sequence[float] = LEVELS) -> Array:
         """Quantiles of max |θ|/α over the members; those that overturn are above all others, inf."""
+        wanted = samples("levels", levels)
+        if not ((wanted >= 0.0) & (wanted <= 1.0)).all():
+            raise ValueError(f"levels go from {wanted.min():g} to {wanted.max():g}; numbers from 0 to 1 were expected")
         ranked = np.sort(np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio))
-        return np.asarray(ranked[np.rint(np.asarray(levels) * (ranked.size - 1)).astype(np.intp)])
+        return np.asarray(ranked[np.rint(wanted * (ranked.size - 1)).astype(np.intp)])
 
     def sensitivity(self) -> dict[str, float]:
         """
@@ -188,7 +203,9 @@ class Ensemble:
 
     def correlations(self, values: Array) -> dict[str, float]:
         """Rank correlation of the members' values, shape (members,), NaN being highest, with each input that varies."""
-        ranks = _ranks(values)
+        ranks = _ranks(samples("values", values, finite=False))
+        if ranks.size != len(self.inputs):
+            raise ValueError(f"values has {ranks.size} numbers; {len(self.inputs)}, one a member, were expected")
         varied = {name: column for name, column in zip(self.names, self.inputs.T, strict=True) if np.ptp(column) > 0.0}
         return {name: _correlation(ranks, _ranks(column)) for name, column in varied.items()}
 
@@ -241,7 +258,7 @@ def ensemble(
     >>> result.bands.shape, result.overturning_probability
     ((5, 600), 0.0)
     """
-    e = block.restitution if restitution is None else restitution
+    e = instance("block", block, Block).restitution if restitution is None else restitution
     plan = Plan(block, motion, e, uncertainty, count, seed, model, theta0, rest_angle)
     return gather(plan, [run_members(plan, 0, count)])
 

@@ -16,6 +16,7 @@ from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.errors import nearest
+from colonnade.validation import sided, text
 
 Array = NDArray[np.float64]
 Codes = NDArray[np.int8]
@@ -101,7 +102,7 @@ def check_model(model: str) -> None:
     ValueError
         Naming the nearest one.
     """
-    if model not in KERNELS:
+    if text("model", model, "the name of a model") not in KERNELS:
         raise ValueError(f'There is no model "{model}" for harmonic motion.{nearest(model, list(KERNELS))}')
 
 
@@ -114,7 +115,7 @@ def check_ramp_shape(shape: str) -> None:
     ValueError
         Naming the nearest one.
     """
-    if shape not in RAMP_SHAPES:
+    if text("ramp_shape", shape, "the shape of a ramp") not in RAMP_SHAPES:
         raise ValueError(f'There is no ramp of the shape "{shape}".{nearest(shape, RAMP_SHAPES)}')
 
 
@@ -155,11 +156,7 @@ def restitution_up_to(
             fall = 2.0 * (hypot(1.0, q) - cos(alpha) + q * sin(alpha))
             speeds.append(block.side_p(side) * max(alpha + q, fall**0.5))
         return RestitutionLaw.of(restitution, largest_speed=max(speeds))
-    values = pair(restitution)
-    for value in values:
-        if not 0.0 <= value <= 1.0:
-            raise ValueError(f"restitution is {value}; a number between 0 and 1 was expected")
-    return values
+    return sided("restitution", restitution, "a number between 0 and 1", low=0.0, high=1.0)
 
 
 def harmonic_run(

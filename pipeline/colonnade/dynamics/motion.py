@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
+from math import ceil
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from colonnade.dynamics.block import Block
+from colonnade.validation import number, samples
+
 Array = NDArray[np.float64]
+
+MOST_SAMPLES = 10_000_000
+"""Of a motion that is made for a duration: an hour of a small block; more asks for a wrong unit, or does not end."""
+
+FEWEST_TIMES = 10
+"""Samples with which accelerations that are equal to their times are taken for times."""
 
 
 class Motion:
@@ -34,12 +45,24 @@ class Motion:
         vertical: ArrayLike | None = None,
         transverse: ArrayLike | None = None,
     ) -> None:
-        if not (np.isfinite(dt) and dt > 0):
-            raise ValueError(f"dt is {dt}; a positive sampling interval in seconds was expected")
-        self.dt = float(dt)
-        self.acceleration = _samples("acceleration", acceleration)
-        self.vertical = None if vertical is None else _samples("vertical", vertical, self.acceleration.size)
-        self.transverse = None if transverse is None else _samples("transverse", transverse, self.acceleration.size)
+        self.dt = number("dt", dt, "a positive sampling interval in seconds, Motion(acceleration, dt),", above=0.0)
+        self.acceleration = samples("acceleration", acceleration, each="sample")
+        if _is_clock(self.acceleration, self.dt):
+            raise ValueError(
+                f"acceleration rises from 0 by dt = {self.dt:g} from sample to sample, as times do; accelerations in "
+                "m/s² were expected"
+            )
+        self.vertical = None if vertical is None else self._other("vertical", vertical)
+        self.transverse = None if transverse is None else self._other("transverse", transverse)
+
+    def _other(self, name: str, values: ArrayLike) -> Array:
+        along = samples(name, values, each="sample")
+        if along.size != self.acceleration.size:
+            raise ValueError(
+                f"{name} has {along.size} samples; {self.acceleration.size} were expected, as many as the acceleration "
+                "along x"
+            )
+        return along
 
     @property
     def time(self) -> Array:
@@ -57,17 +80,24 @@ class Motion:
         return float(np.abs(self.acceleration).max())
 
 
-def _samples(name: str, values: ArrayLike, size: int | None = None) -> Array:
-    samples = np.ascontiguousarray(values, dtype=np.float64)
-    if samples.ndim != 1 or samples.size == 0:
-        raise ValueError(
-            f"{name} has shape {samples.shape}; a one-dimensional array with at least one sample was expected"
-        )
-    if size is not None and samples.size != size:
-        raise ValueError(
-            f"{name} has {samples.size} samples; {size} were expected, as many as the acceleration along x"
-        )
-    finite = np.isfinite(samples)
-    if not finite.all():
-        raise ValueError(f"{name} is not finite at sample {int(np.argmin(finite))}; fill or cut the gap first")
-    return samples
+def at_rest(block: Block, duration: float | None) -> Motion:
+    """
+    Give a table at rest for a duration in s, sampled at about 1/(500 p).
+
+    Raises
+    ------
+    ValueError
+        If the duration is not positive, or has more than `MOST_SAMPLES`.
+    """
+    rate = block.p * 500
+    expected = f"a positive duration in seconds, needed without a motion and at most {MOST_SAMPLES / rate:.4g} s,"
+    seconds = number("duration", duration, expected, above=0.0, high=MOST_SAMPLES / rate)
+    intervals = max(ceil(seconds * rate), 2)
+    return Motion(np.zeros(intervals + 1), seconds / intervals)
+
+
+def _is_clock(values: Array, dt: float) -> bool:
+    """Whether accelerations are the times of their samples."""
+    if values.size < FEWEST_TIMES or values[0] != 0.0 or abs(values[-1] - (values.size - 1) * dt) > 1e-6 * dt:
+        return False
+    return bool(np.abs(np.diff(values) - dt).max() <= 1e-6 * dt)

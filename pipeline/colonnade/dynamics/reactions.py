@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from colonnade.dynamics.history import History
 from colonnade.dynamics.motion import Motion
+from colonnade.validation import instance, number
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -106,13 +107,15 @@ def reactions(history: History, motion: Motion, *, friction: float | None = None
     >>> forces.horizontal.round(2).tolist(), forces.first_break
     ([0.0, 26.1], nan)
     """
+    instance("history", history, History)
+    instance("motion", motion, Motion)
     if motion.acceleration.size != history.time.size:
         raise ValueError(
             f"The motion has {motion.acceleration.size} samples and the history {history.time.size}; "
             "the motion that the history was computed from was expected"
         )
-    if friction is not None and not friction >= 0.0:
-        raise ValueError(f"friction is {friction}; a coefficient from 0 on was expected")
+    if friction is not None:
+        friction = number("friction", friction, "a coefficient from 0 on", low=0.0, finite=False)
     block, angle, velocity = history.block, history.angle, history.angular_velocity
     sides = (block.negative, block.positive)
     rests = (angle == 0.0) & (velocity == 0.0)

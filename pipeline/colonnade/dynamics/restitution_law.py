@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from colonnade.validation import described, number, samples
+
 Array = NDArray[np.float64]
 
 POINTS = 1025
@@ -40,6 +42,10 @@ class RestitutionLaw:
     function: Callable[[float], float] | None = None
 
     def __post_init__(self) -> None:
+        samples("speeds", self.speeds, dimensions=(0, 1, 2), fewest=0)
+        samples("values", self.values, dimensions=(0, 1, 2), fewest=0)
+        if not (self.function is None or callable(self.function)):
+            raise ValueError(f"function is {described(self.function)}; a function of the speed, or None, was expected")
         if self.speeds.ndim != 1 or self.speeds.size == 0 or self.speeds.shape != self.values.shape:
             raise ValueError(
                 f"A restitution law has speeds of shape {self.speeds.shape} and values of shape {self.values.shape}; "
@@ -65,7 +71,7 @@ class RestitutionLaw:
         ValueError
             If speeds do not rise from 0 or above, a value is not between 0 and 1, or their numbers differ.
         """
-        return cls(np.ascontiguousarray(speeds, dtype=np.float64), np.ascontiguousarray(values, dtype=np.float64))
+        return cls(samples("speeds", speeds), samples("values", values))
 
     @classmethod
     def of(cls, function: Callable[[float], float], *, largest_speed: float) -> RestitutionLaw:
@@ -81,16 +87,21 @@ class RestitutionLaw:
         -----
         Between the points e is off by at most step² |e''| / 8.
         """
-        speeds = np.linspace(0.0, largest_speed, POINTS)
-        return cls(speeds, np.array([function(float(speed)) for speed in speeds], dtype=np.float64), function)
+        if not callable(function):
+            raise ValueError(f"function is {described(function)}; a function of the speed (rad/s) was expected")
+        largest = number("largest_speed", largest_speed, "a positive number of rad/s", above=0.0)
+        speeds = np.linspace(0.0, largest, POINTS)
+        values = [number("restitution", function(float(speed)), "a number from the function") for speed in speeds]
+        return cls(speeds, np.array(values), function)
 
     def reaching(self, velocities: Array) -> RestitutionLaw:
         """Return this law, or the same function sampled to twice the largest of `velocities` where that is beyond."""
-        largest = float(np.abs(velocities).max(initial=0.0))
+        largest = float(np.abs(samples("velocities", velocities, fewest=0)).max(initial=0.0))
         if self.function is None or not largest > self.speeds[-1]:
             return self
         return RestitutionLaw.of(self.function, largest_speed=2.0 * largest)
 
     def __call__(self, speed: ArrayLike) -> Array:
         """Give e at |ω| (rad/s), shape of `speed`."""
-        return np.asarray(np.interp(np.asarray(speed, dtype=np.float64), self.speeds, self.values), dtype=np.float64)
+        speeds = samples("speed", speed, dimensions=(0, 1, 2, 3), fewest=0)
+        return np.asarray(np.interp(speeds, self.speeds, self.values), dtype=np.float64)

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
-from math import ceil
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from colonnade.dynamics.block import Block, Sided, pair
+from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.history import History
-from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.motion import Motion, at_rest
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.errors import nearest
+from colonnade.validation import described, instance, number, sided, text
 
 if TYPE_CHECKING:
     from colonnade.dynamics.contact.law import ContactLaw
@@ -29,6 +29,11 @@ CONTACT = "contact"
 
 DEFAULT_REST_ANGLE = 1e-6
 """Fraction of α below which an arc after an impact is taken as rest."""
+
+LEAST_REST_ANGLE = 1e-12
+"""The same of any rest rule: arcs below it are so short that a run would not come to its end."""
+
+HALF = np.pi / 2
 
 LARGEST_ACCELERATION = 1e6
 """In g; more is no motion of a table."""
@@ -98,17 +103,30 @@ def rock(
     >>> rock(block, restitution=0.976, theta0=0.5 * block.critical_angle, duration=5.0).outcome
     'rocking'
     """
-    if model not in (*MODELS, CONTACT):
+    if text("model", model, "the name of a model") not in (*MODELS, CONTACT):
         raise ValueError(f'There is no model "{model}".{nearest(model, (*MODELS, CONTACT))}')
+    instance("block", block, Block)
+    if motion is not None:
+        instance("motion", motion, Motion)
+        if duration is not None:
+            raise ValueError(f"duration is {described(duration)}, and a motion is given; one of the two was expected")
+    theta0 = number("theta0", theta0, "an angle between −π/2 and π/2 rad, where it lies,", above=-HALF, below=HALF)
+    fastest = LARGEST_VELOCITY * max(block.side_p(block.negative), block.side_p(block.positive))
+    omega0 = number("omega0", omega0, f"less than {fastest:.4g} rad/s", above=-fastest, below=fastest)
+    out_of_plane = number("out_of_plane", out_of_plane, "an angle between −π/2 and π/2 rad", above=-HALF, below=HALF)
+    expected = f"a fraction of the critical angle from {LEAST_REST_ANGLE:g} to 1"
+    rest_angle = number("rest_angle", rest_angle, expected, low=LEAST_REST_ANGLE, below=1.0)
+    if contact is not None:
+        _expect_law(contact)
     if model == CONTACT:
         return _in_space(block, motion, restitution, theta0, omega0, duration, contact, out_of_plane)
     if contact is not None or out_of_plane:
         raise ValueError(f'contact and out_of_plane are for the model "{CONTACT}"; the model is "{model}"')
-    motion = _free(block, duration) if motion is None else motion
+    motion = at_rest(block, duration) if motion is None else motion
     law = _law(block, restitution)
-    _check(block, motion, theta0, omega0, rest_angle)
+    _check(block, motion)
     while True:
-        history = _propagated(block, motion, law, model, float(theta0), float(omega0), rest_angle)
+        history = _propagated(block, motion, law, model, theta0, omega0, rest_angle)
         wider = law.reaching(history.impact_velocities) if isinstance(law, RestitutionLaw) else law
         if wider is law:
             return history
@@ -158,11 +176,7 @@ def _law(
         return restitution
     if callable(restitution):
         return RestitutionLaw.of(restitution, largest_speed=4.0 * block.p * block.critical_angle)
-    values = pair(restitution)
-    for value in values:
-        if not 0.0 <= value <= 1.0:
-            raise ValueError(f"restitution is {value}; a number between 0 and 1 was expected")
-    return values
+    return sided("restitution", restitution, "a number between 0 and 1", low=0.0, high=1.0)
 
 
 def _table(law: RestitutionLaw | tuple[float, float]) -> tuple[Array, Array]:
@@ -209,26 +223,19 @@ def _propagated(
     )
 
 
-def _free(block: Block, duration: float | None) -> Motion:
-    if duration is None or not (np.isfinite(duration) and duration > 0):
-        raise ValueError(f"duration is {duration}; without a motion a positive duration in seconds is needed")
-    samples = max(ceil(duration * block.p * 500), 2)
-    return Motion(np.zeros(samples + 1), duration / samples)
+def _expect_law(contact: object) -> None:
+    from colonnade.dynamics.contact.law import ContactLaw
+
+    instance("contact", contact, ContactLaw)
 
 
-def _check(block: Block, motion: Motion, theta0: float, omega0: float, rest_angle: float) -> None:
+def _check(block: Block, motion: Motion) -> None:
     fastest = max(block.side_p(block.negative), block.side_p(block.positive))
-    if not abs(theta0) < np.pi / 2:
-        raise ValueError(f"theta0 is {theta0} rad; an angle between −π/2 and π/2, where the block lies, was expected")
-    if not abs(omega0) < LARGEST_VELOCITY * fastest:
-        raise ValueError(f"omega0 is {omega0} rad/s; less than {LARGEST_VELOCITY * fastest:.4g} rad/s was expected")
     if not motion.peak <= LARGEST_ACCELERATION * block.gravity:
         raise ValueError(
             f"The acceleration is {motion.peak:.4g} m/s² at sample {int(np.abs(motion.acceleration).argmax())}; "
             f"at most {LARGEST_ACCELERATION:g} g was expected. Is its unit right?"
         )
-    if not 0.0 < rest_angle < 1.0:
-        raise ValueError(f"rest_angle is {rest_angle}; a fraction of the critical angle between 0 and 1 was expected")
     if fastest * motion.dt > LONGEST_SAMPLE:
         raise ValueError(
             f"dt is {motion.dt} s, {fastest * motion.dt:.4g}/p; a sampling interval below {LONGEST_SAMPLE:g}/p "

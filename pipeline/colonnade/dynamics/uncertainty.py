@@ -8,12 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.dynamics.block import Block, Sided, pair
-from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.motion import MOST_SAMPLES, Motion
+from colonnade.validation import number, whole
 
 Array = NDArray[np.float64]
 
 INPUTS = ("restitution", "critical_angle", "p", "gain", "clock", "cutoff", "theta0")
 """What is drawn once a member, in the order of `draw_inputs`; the noise is drawn beside it."""
+
+HIGHEST_ORDER = 20
+"""Of a low-pass before it is run forwards and backwards; none is steeper."""
 
 _NEGLIGIBLE = 1e-3
 """Response of the filter below which no noise is drawn: it is 1e-6 of the noise's power."""
@@ -64,11 +68,10 @@ class Uncertainty:
 
     def __post_init__(self) -> None:
         for name in ("restitution", "critical_angle", "p", "gain", "clock", "noise", "filter", "theta0"):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value >= 0.0):
-                raise ValueError(f"{name} is {value}; a standard deviation, zero or more, was expected")
-        if self.cutoff is not None and not (np.isfinite(self.cutoff) and self.cutoff > 0.0):
-            raise ValueError(f"cutoff is {self.cutoff} Hz; a positive frequency, or None, was expected")
+            number(name, getattr(self, name), "a standard deviation, zero or more,", low=0.0)
+        whole("filter_order", self.filter_order, 1, HIGHEST_ORDER)
+        if self.cutoff is not None:
+            number("cutoff", self.cutoff, "a positive frequency in Hz, or None,", above=0.0)
         if self.filter > 0.0 and self.cutoff is None:
             raise ValueError("filter is uncertain, but no cutoff is given; the frequency of the low-pass was expected")
 
@@ -133,8 +136,13 @@ class MotionDraws:
 
         self._motion, self._uncertainty = motion, uncertainty
         self._cutoff = uncertainty.cutoff
-        memory = 0 if self._cutoff is None else int(4.0 / (self._cutoff * motion.dt))
-        self._length = next_fast_len(motion.acceleration.size + memory, real=True)
+        memory = 0 if self._cutoff is None else 4.0 / (self._cutoff * motion.dt)
+        if memory > MOST_SAMPLES:
+            raise ValueError(
+                f"cutoff is {self._cutoff:g} Hz; at least {4.0 / (MOST_SAMPLES * motion.dt):.3g} Hz was expected of "
+                f"a motion in steps of {motion.dt:g} s"
+            )
+        self._length = next_fast_len(motion.acceleration.size + int(memory), real=True)
         self._frequency = np.fft.rfftfreq(self._length, motion.dt)
         # (f/f_c)²ⁿ of the given filter; with f_c multiplied by k it is k⁻²ⁿ times that.
         self._order = 2 * uncertainty.filter_order

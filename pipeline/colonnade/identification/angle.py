@@ -8,8 +8,12 @@ from numpy.typing import ArrayLike, NDArray
 from colonnade.dynamics.block import Block
 from colonnade.identification.pose import PoseFit, fit_pose
 from colonnade.identification.sensors import Transducer
+from colonnade.validation import instance, samples
 
 Array = NDArray[np.float64]
+
+UNIT = 1e-3
+"""By which the length of a unit vector may differ from one: directions are often given with three digits."""
 
 
 def rocking_angle(displacements: ArrayLike, at: ArrayLike, direction: ArrayLike, block: Block) -> Array:
@@ -54,9 +58,15 @@ def fit_rocking(
     noise : array_like, shape (m,), optional
         Standard deviation of each reading, m: the weights of the fit. Default: all the same, taken from the residuals.
     """
-    readings = np.atleast_2d(np.asarray(displacements, dtype=np.float64))
-    points = np.asarray(at, dtype=np.float64).reshape(-1, 3)
-    directions = np.asarray(direction, dtype=np.float64).reshape(-1, 3)
+    instance("block", block, Block)
+    readings = np.atleast_2d(samples("displacements", displacements, dimensions=(1, 2), gaps=True))
+    points, directions = _vectors("at", at), _vectors("direction", direction)
+    lengths = np.linalg.norm(directions, axis=1)
+    if not (np.abs(lengths - 1.0) < UNIT).all():
+        worst = lengths[np.argmax(np.abs(lengths - 1.0))]
+        raise ValueError(f"direction has a vector of length {worst:g}; unit vectors were expected")
+    if noise is not None:
+        noise = samples("noise", noise)
     if not readings.shape[0] == points.shape[0] == directions.shape[0]:
         raise ValueError(
             f"{readings.shape[0]} records, {points.shape[0]} positions and {directions.shape[0]} directions; "
@@ -66,6 +76,13 @@ def fit_rocking(
         Transducer("point", _vector(along), _vector(point)) for point, along in zip(points, directions, strict=True)
     ]
     return fit_pose(readings, transducers, block, noise=noise)
+
+
+def _vectors(name: str, values: ArrayLike) -> Array:
+    vectors = samples(name, values, dimensions=(1, 2))
+    if vectors.shape[-1] != 3:
+        raise ValueError(f"{name} has shape {vectors.shape}; vectors of three components were expected")
+    return vectors.reshape(-1, 3)
 
 
 def _vector(values: Array) -> tuple[float, float, float]:

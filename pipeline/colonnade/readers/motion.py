@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,8 +17,11 @@ from colonnade.readers.announced import announced
 from colonnade.readers.clock import rising_share
 from colonnade.readers.delimited_header import DelimitedOptions, read_header
 from colonnade.readers.recording import RecordedChannel, Recording
+from colonnade.validation import described, number, text, whole
 
 Array = NDArray[np.float64]
+
+MOST_COLUMNS = 1_000_000
 
 UNEVEN = 0.01
 """Largest deviation of a time step, as a share of the mean step, in a motion with equal steps."""
@@ -58,6 +61,8 @@ def read_motion(
 
     Raises
     ------
+    ValueError
+        If an argument is of another kind or out of its range.
     ReadError
         If something has to be known that is neither given nor in the file, steps are unequal or a value is missing;
         if several columns may be the acceleration.
@@ -67,7 +72,7 @@ def read_motion(
     UserWarning
         If the file is not as its own header says, for example shorter.
     """
-    path = Path(path)
+    path = _checked(path, unit, dt, column, layout)
     recording = registry.read(path) if layout is None else registry.read(path, "delimited", {"layout": layout})
     channel, step = _column(recording, column)
     if recording.format != "delimited":
@@ -96,8 +101,22 @@ def _motion(recording: Recording, values: Array, unit: str | None, step: float |
         raise ReadError(f"{name}: accelerations are missing ({told}). A base motion has to be whole; mend the file.")
     try:
         return Motion(values * units.factor_to_si(unit, "acceleration"), step)
-    except UnitError as error:
+    except (UnitError, ValueError) as error:
         raise ReadError(f"{name}: {error}") from error
+
+
+def _checked(path: Any, unit: Any, dt: Any, column: Any, layout: Any) -> Path:
+    if not isinstance(path, (str, Path)):
+        raise ValueError(f"path is {described(path)}; the path of a file was expected")
+    if unit is not None:
+        text("unit", unit, 'a unit of acceleration such as "g"')
+    if dt is not None:
+        number("dt", dt, "a positive sampling interval in seconds", above=0.0)
+    if column is not None and not isinstance(column, str):
+        whole("column", column, 1, MOST_COLUMNS)
+    if layout is not None and text("layout", layout, '"columns" or "running"') not in ("columns", "running"):
+        raise ValueError(f'layout is {described(layout)}; "columns" or "running" was expected')
+    return Path(path)
 
 
 def _column(recording: Recording, column: str | int | None) -> tuple[RecordedChannel, float | None]:

@@ -10,6 +10,7 @@ from colonnade.campaign import Campaign, load
 from colonnade.errors import CampaignError, nearest
 from colonnade.interruption import expect_none
 from colonnade.store.layout import Layout
+from colonnade.workflow.arguments import check_run
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.chain import Chain, Phase, advance, clear_behind, is_fresh
 from colonnade.workflow.cluster import Tell
@@ -68,11 +69,24 @@ def run(
 
     Raises
     ------
+    ValueError
+        If an argument is not of its kind.
     CampaignError
         If the campaign file is not usable, or a stage or test is not known.
     StoreError
         If another run is under way, or results cannot be written.
     """
+    stages = {"until": until, "start_from": start_from}
+    check_run(
+        campaign,
+        stages=stages,
+        only=only,
+        workers=workers,
+        scheduler=scheduler,
+        verify=verify,
+        results=results,
+        progress=progress,
+    )
     loaded = load(Path(campaign))
     last, first = _known_stage("until", until) or "report", _known_stage("start_from", start_from)
     if first is not None and STAGES.index(first) > STAGES.index(last):

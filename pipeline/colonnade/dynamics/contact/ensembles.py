@@ -13,10 +13,10 @@ from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.calibration import free_restitution
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.simulate import motion_at_rest, plane_block, simulate
+from colonnade.dynamics.contact.simulate import plane_block, simulate
 from colonnade.dynamics.ensembles import KEPT, LEVELS, Ensemble, stride_of
 from colonnade.dynamics.history import capped
-from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.motion import Motion, at_rest
 
 Array = NDArray[np.float64]
 Range = tuple[float, float]
@@ -79,7 +79,7 @@ class ContactPlan:
         """Motion of the table, at rest where none was given."""
         if self.motion is not None:
             return self.motion
-        return motion_at_rest(plane_block(self.body, self.gravity), self.duration)
+        return at_rest(plane_block(self.body, self.gravity), self.duration)
 
     def central(self) -> ContactHistory:
         """Run the model with its law and the middle rotation out of the plane."""

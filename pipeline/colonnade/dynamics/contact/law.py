@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf, sqrt
+from math import sqrt
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.dynamics.contact.body import ContactBody
+from colonnade.validation import number, text
 
 Array = NDArray[np.float64]
 
@@ -56,15 +57,12 @@ class ContactLaw:
     tangential_damping: float = 1.0
 
     def __post_init__(self) -> None:
-        if self.per not in ("area", "node"):
+        if text("per", self.per, '"area" or "node"') not in ("area", "node"):
             raise ValueError(f'per is {self.per!r}; "area" or "node" was expected')
         for name in ("stiffness", "tangential_ratio"):
-            if not 0.0 < getattr(self, name) < inf:
-                raise ValueError(f"{name} is {getattr(self, name)}; a positive number was expected")
+            number(name, getattr(self, name), "a positive number", above=0.0)
         for name in ("damping_fraction", "friction", "tangential_damping"):
-            value = getattr(self, name)
-            if not value >= 0.0 or (value == inf and name != "friction"):
-                raise ValueError(f"{name} is {value}; a number from 0 on was expected")
+            number(name, getattr(self, name), "a number from 0 on", low=0.0, finite=name != "friction")
 
     @classmethod
     def stiff(

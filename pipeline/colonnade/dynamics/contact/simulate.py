@@ -15,12 +15,16 @@ from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.stability import longest_step
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
 from colonnade.dynamics.contact.state import COLUMNS, POINTS, Body, Near, State
-from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.motion import Motion, at_rest
+from colonnade.validation import number
 
 Array = NDArray[np.float64]
 
 DEFAULT_STEP = 1e-5
 """s; shorter where the contact is too stiff for it."""
+
+MOST_STEPS = 2e9
+"""Of a run: hours; more does not end while somebody waits for it."""
 
 STEP_SHARE = 0.2
 """Of the longest stable step: the default step is at most this."""
@@ -84,7 +88,7 @@ def simulate(
     'rocking'
     """
     block = plane_block(body, gravity)
-    motion = motion_at_rest(block, duration) if motion is None else motion
+    motion = at_rest(block, duration) if motion is None else motion
     interval, parts = _division(body, law, motion, step)
     _check(motion, theta0, omega0, out_of_plane)
     if start is None:
@@ -111,20 +115,17 @@ def plane_block(body: ContactBody, gravity: float) -> Block:
     )
 
 
-def motion_at_rest(block: Block, duration: float | None) -> Motion:
-    """Give a table at rest for a duration in s, sampled at about 1/(500 p)."""
-    if duration is None or not (np.isfinite(duration) and duration > 0):
-        raise ValueError(f"duration is {duration}; without a motion a positive duration in seconds is needed")
-    intervals = max(ceil(duration * block.p * 500), 2)
-    return Motion(np.zeros(intervals + 1), duration / intervals)
-
-
 def _division(body: ContactBody, law: ContactLaw, motion: Motion, step: float | None) -> tuple[float, int]:
     longest = longest_step(body, law)
     if step is None:
         step = min(DEFAULT_STEP, STEP_SHARE * longest)
-    if not step > 0.0:
-        raise ValueError(f"step is {step} s; a positive step was expected")
+    step = number("step", step, "a positive step in seconds", above=0.0)
+    steps = motion.dt / step * motion.acceleration.size
+    if steps > MOST_STEPS:
+        raise ValueError(
+            f"step is {step:.4g} s, of which {motion.acceleration.size} intervals of {motion.dt:.4g} s (dt) hold "
+            f"{steps:.3g}; at most {MOST_STEPS:.0e} were expected"
+        )
     parts = max(1, ceil(motion.dt / step * (1.0 - 1e-12)))
     if motion.dt / parts > longest:
         raise ValueError(

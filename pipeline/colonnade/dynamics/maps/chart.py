@@ -16,8 +16,11 @@ from colonnade.dynamics.maps.column import Codes, MapColumn, map_column
 from colonnade.dynamics.maps.plan import EDGE, WIDTH, MapPlan, plan_map
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.restitution_law import RestitutionLaw
+from colonnade.validation import whole
 
 Array = NDArray[np.float64]
+
+MOST_THREADS = 1024
 
 
 @dataclass(frozen=True)
@@ -142,8 +145,7 @@ def stability_map(
         motion=motion,
         motion_frequency=motion_frequency,
     )
-    if threads < 1:
-        raise ValueError(f"threads is {threads}; at least one was expected")
+    threads = whole("threads", threads, 1, MOST_THREADS)
     indices = range(plan.frequency_ratio.size)
     if threads == 1:
         return assemble(plan, [map_column(plan, index) for index in indices])

@@ -16,6 +16,7 @@ from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
+from colonnade.validation import instance, number, samples
 
 if TYPE_CHECKING:
     from colonnade.dynamics.maps.space import InSpace
@@ -27,6 +28,18 @@ WIDTH = 0.01
 
 EDGE = 1e-4
 """In A: how closely the edges of intervals are found."""
+
+LEAST_EDGE = 1e-9
+"""In A: the least edge; a finer one is lost in rounding, so that the search for it would not end."""
+
+MOST_CYCLES = 100_000
+"""Of a sine, and of each of its ramps."""
+
+MOST_STEPS = 1_000_000
+"""Of the scan over A, and cells of a map; a thousand times what a map has."""
+
+LARGEST_RATIO = 1e6
+"""Of Ω and A, and one over their least."""
 
 STEPS_A_WIDTH = 4
 """Scan steps a width, at least: nothing wider than a fourth of a width is passed over."""
@@ -153,37 +166,42 @@ def plan_map(
     ValueError
         If an argument is out of its range, an axis does not increase or the model is not known.
     """
+    instance("block", block, Block)
+    if motion is not None:
+        instance("motion", motion, Motion)
     if space is None:
         check_model(model)
     check_ramp_shape(ramp_shape)
+    frequencies = _axis("frequency_ratio", frequency_ratio, 1)
     amplitudes = _axis("amplitude_ratio", amplitude_ratio, 2)
+    cells = frequencies.size * amplitudes.size
+    if cells > MOST_STEPS:
+        raise ValueError(f"amplitude_ratio and frequency_ratio make {cells} cells; at most {MOST_STEPS} were expected")
     e = restitution_up_to(block, restitution, float(amplitudes[-1]))
-    if not (np.isfinite(cycles) and cycles >= 1):
-        raise ValueError(f"cycles is {cycles}; at least one cycle was expected")
-    if not (np.isfinite(ramp) and ramp >= 0):
-        raise ValueError(f"ramp is {ramp}; a number of cycles, 0 for none, was expected")
-    if not np.isfinite(phase):
-        raise ValueError(f"phase is {phase}; a finite angle in rad was expected")
-    if not 0.0 < edge <= width:
-        raise ValueError(f"edge is {edge} and width {width}; 0 < edge ≤ width was expected, in units of A")
+    cycles = number("cycles", cycles, f"at least one cycle and at most {MOST_CYCLES}", low=1.0, high=MOST_CYCLES)
+    ramp = number("ramp", ramp, f"a number of cycles from 0 for none to {MOST_CYCLES}", low=0.0, high=MOST_CYCLES)
+    phase = number("phase", phase, "a finite angle in rad")
+    finest = STEPS_A_WIDTH * float(amplitudes[-1] - amplitudes[0]) / MOST_STEPS
+    width = number("width", width, f"a width in A, at least {finest:.3g} for the scan to end,", above=0.0, low=finest)
+    edge = number("edge", edge, f"an edge from {LEAST_EDGE:g} to the width {width:g} in A", low=LEAST_EDGE, high=width)
     if (motion is None) != (motion_frequency is None):
         raise ValueError("A motion and its motion_frequency (Hz) come together; one of the two was given")
     if motion is not None and not motion.peak > 0:
         raise ValueError("The motion has no acceleration at all, so it cannot be scaled to an A")
-    if motion_frequency is not None and not (np.isfinite(motion_frequency) and motion_frequency > 0):
-        raise ValueError(f"motion_frequency is {motion_frequency}; a positive number of Hz was expected")
+    if motion_frequency is not None:
+        motion_frequency = number("motion_frequency", motion_frequency, "a positive number of Hz", above=0.0)
     return MapPlan(
         block,
         e,
         model,
-        _axis("frequency_ratio", frequency_ratio, 1),
+        frequencies,
         amplitudes,
-        float(cycles),
-        float(phase) % (2 * pi),
-        float(ramp),
+        cycles,
+        phase % (2 * pi),
+        ramp,
         ramp_shape,
-        float(width),
-        float(edge),
+        width,
+        edge,
         motion,
         motion_frequency,
         space,
@@ -191,9 +209,11 @@ def plan_map(
 
 
 def _axis(name: str, values: ArrayLike, fewest: int) -> Array:
-    axis = np.array(values, dtype=np.float64)
-    if axis.ndim != 1 or axis.size < fewest:
-        raise ValueError(f"{name} has shape {axis.shape}; a one-dimensional array of {fewest} or more was expected")
-    if not (np.isfinite(axis).all() and axis[0] > 0 and (np.diff(axis) > 0).all()):
+    axis = samples(name, values, fewest=fewest)
+    if not (axis[0] > 0 and (np.diff(axis) > 0).all()):
         raise ValueError(f"{name} has to be positive, finite and increasing")
-    return axis
+    if not (axis[0] >= 1 / LARGEST_RATIO and axis[-1] <= LARGEST_RATIO):
+        raise ValueError(
+            f"{name} goes from {axis[0]:g} to {axis[-1]:g}; {1 / LARGEST_RATIO:g} to {LARGEST_RATIO:g} was expected"
+        )
+    return axis.copy()

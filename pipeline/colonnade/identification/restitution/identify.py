@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from colonnade.dynamics.block import Block
 from colonnade.identification.restitution import each_impact, half_periods, history, impact_by_impact, peaks
 from colonnade.identification.restitution.arcs import Arcs, arcs_between, find_impacts, noise_level
+from colonnade.identification.restitution.arguments import check_records, check_settings
 from colonnade.identification.restitution.choice import METHODS, RULE, choose
 from colonnade.identification.restitution.departures import find_departures
 from colonnade.identification.restitution.driven_decay import moving_base
@@ -93,13 +94,17 @@ def identify_restitution(
     Raises
     ------
     ValueError
-        If time and angle differ in shape, time does not increase, or `free` names anything else.
+        If an argument is out of its range or of another kind, time and angle differ in shape, or time does not
+        increase.
 
     Notes
     -----
     What each estimator assumes stands in its `Estimate`. All are made; one is recommended (`choice.RULE`).
     """
-    times, angles = _checked(time, angle, free)
+    free = check_settings(
+        block, level=level, lowest_amplitude=lowest_amplitude, noise=noise, lowpass=lowpass, free=free
+    )
+    times, angles = check_records(time, angle, out_of_plane=out_of_plane, slide=slide, uplift=uplift)
     if np.isfinite(angles).sum() < 8:
         return _refused("The record holds fewer than 8 values.", level)
     samples = thinned(times, angles, block)
@@ -307,16 +312,3 @@ def _refused(reason: str, level: float, *, peaks: Peaks | None = None) -> Restit
         for name, assumptions in ASSUMPTIONS.items()
     )
     return Restitution(None, None, None, None, level, RULE, reason, peaks=peaks or Peaks(), estimates=estimates)
-
-
-def _checked(time: ArrayLike, angle: ArrayLike, free: tuple[str, ...]) -> tuple[Array, Array]:
-    times, angles = np.asarray(time, dtype=np.float64), np.asarray(angle, dtype=np.float64)
-    if times.ndim != 1 or times.shape != angles.shape:
-        raise ValueError(
-            f"time has shape {times.shape} and angle {angles.shape}; two arrays of one length were expected"
-        )
-    if times.size and not (np.diff(times) > 0).all():
-        raise ValueError(f"time does not increase after sample {int(np.argmin(np.diff(times) > 0))}")
-    if unknown := [name for name in free if name not in ("critical_angle", "p")]:
-        raise ValueError(f"free names {unknown[0]!r}; 'critical_angle' and 'p' were expected")
-    return times, angles

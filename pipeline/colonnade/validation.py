@@ -1,0 +1,246 @@
+"""Arguments of library calls: what is not a plain real number, array or object as expected is refused by its name."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf, isfinite
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Kind = TypeVar("Kind")
+
+_KINDS = {
+    "b": "truth values",
+    "c": "complex numbers",
+    "M": "dates",
+    "m": "time differences",
+    "O": "Python objects",
+    "S": "text",
+    "U": "text",
+    "T": "text",
+    "V": "records",
+}
+"""What an array holds by the kind of its data type, where that is not real numbers."""
+
+LONGEST_SHOWN = 40
+"""Characters of a value in a message."""
+
+
+def number(
+    name: str,
+    value: Any,
+    expected: str,
+    *,
+    above: float = -inf,
+    low: float = -inf,
+    below: float = inf,
+    high: float = inf,
+    finite: bool = True,
+) -> float:
+    """
+    Return an argument that is one real number in its range.
+
+    Parameters
+    ----------
+    name : str
+        Of the argument.
+    value : object
+    expected : str
+        What the message says was expected, such as "a positive number".
+    above, low, below, high : float, optional
+        Bounds; the number may be equal to `low` and `high`.
+    finite : bool, optional
+        Whether infinity is refused; NaN always is.
+
+    Raises
+    ------
+    ValueError
+        If it is anything else; the message names the argument.
+
+    Examples
+    --------
+    >>> number("mass", 26.1, "a positive number", above=0.0)
+    26.1
+    """
+    plain = _plain(value)
+    if plain is None or plain != plain or (finite and not isfinite(plain)):
+        is_sound = False
+    else:
+        is_sound = low <= plain <= high and (above == -inf or plain > above) and (below == inf or plain < below)
+    if plain is None or not is_sound:
+        raise ValueError(f"{name} is {described(value)}; {expected} was expected")
+    return plain
+
+
+def sided(name: str, value: Any, expected: str, **bounds: Any) -> tuple[float, float]:
+    """
+    Return an argument that is one number for both sides, or a pair (for θ < 0, for θ > 0); bounds as of `number`.
+
+    Raises
+    ------
+    ValueError
+        As `number`.
+    """
+    if isinstance(value, (tuple, list)) or (isinstance(value, np.ndarray) and value.shape == (2,)):
+        if len(value) != 2:
+            raise ValueError(f"{name} is {described(value)}; {expected}, or a pair of two, was expected")
+        negative, positive = (number(name, each, expected, **bounds) for each in value)
+        return negative, positive
+    both = number(name, value, expected, **bounds)
+    return both, both
+
+
+def whole(name: str, value: Any, low: int, high: int) -> int:
+    """
+    Return an argument that is a whole number from `low` to `high`.
+
+    Raises
+    ------
+    ValueError
+        If it is anything else.
+    """
+    expected = f"a whole number from {low} to {high}"
+    plain = number(name, value, expected, low=low, high=high)
+    if plain != int(plain):
+        raise ValueError(f"{name} is {described(value)}; {expected} was expected")
+    return int(value)
+
+
+def samples(
+    name: str,
+    values: Any,
+    *,
+    dimensions: Sequence[int] = (1,),
+    fewest: int = 1,
+    gaps: bool = False,
+    finite: bool = True,
+    each: str = "number",
+) -> Array:
+    """
+    Return an argument that is an array of real numbers.
+
+    Parameters
+    ----------
+    name : str
+        Of the argument.
+    values : object
+    dimensions : sequence of int, optional
+        Numbers of dimensions that it may have.
+    fewest : int, optional
+        Values that it holds at least.
+    gaps : bool, optional
+        Whether NaN stands for a missing value.
+    finite : bool, optional
+        Whether infinity is refused, and NaN without `gaps`.
+    each : str, optional
+        What one value is, for the message.
+
+    Returns
+    -------
+    array : ndarray
+        Contiguous, of float64.
+
+    Raises
+    ------
+    ValueError
+        If it is anything else; the message names the argument.
+    """
+    if np.ma.is_masked(values):
+        hint = "fill its gaps with NaN (values.filled(numpy.nan))" if gaps else "fill or cut the gap first"
+        raise ValueError(f"{name} is a masked array; a plain array was expected: {hint}")
+    try:
+        array = np.asarray(values)
+    except (ValueError, TypeError) as error:
+        raise ValueError(f"{name} is no array of numbers ({error}); one was expected") from None
+    if array.dtype.kind not in "iuf":
+        held = _KINDS.get(array.dtype.kind, str(array.dtype))
+        found = f"holds {held}" if array.ndim else f"is {described(values)}"
+        raise ValueError(f"{name} {found}; an array of real numbers was expected")
+    if array.ndim not in dimensions or array.size < fewest:
+        shaped = {1: "a one-dimensional", 2: "a two-dimensional"}
+        forms = " or ".join(shaped.get(number_of, f"a {number_of}-dimensional") for number_of in dimensions)
+        least = f"at least one {each}" if fewest == 1 else f"at least {fewest} {each}s"
+        raise ValueError(f"{name} has shape {array.shape}; {forms} array with {least} was expected")
+    plain = np.ascontiguousarray(array, dtype=np.float64)
+    wrong = np.isinf(plain) if gaps else ~np.isfinite(plain)
+    if finite and wrong.any():
+        place = int(np.argmax(wrong.ravel()))
+        advice = "a finite number, or NaN for a missing one, was expected" if gaps else "fill or cut the gap first"
+        raise ValueError(f"{name} is not finite at {each} {place}; {advice}")
+    return plain
+
+
+def instance(name: str, value: Any, kind: type[Kind]) -> Kind:
+    """
+    Return an argument that is of a class.
+
+    Raises
+    ------
+    ValueError
+        If it is of another.
+    """
+    if not isinstance(value, kind):
+        raise ValueError(f"{name} is {described(value)}; a {kind.__name__} was expected")
+    return value
+
+
+def text(name: str, value: Any, expected: str) -> str:
+    """
+    Return an argument that is text.
+
+    Raises
+    ------
+    ValueError
+        If it is not.
+    """
+    if not isinstance(value, str):
+        raise ValueError(f"{name} is {described(value)}; {expected} was expected")
+    return value
+
+
+def described(value: Any) -> str:
+    """
+    Say what a value is, in a few words.
+
+    Examples
+    --------
+    >>> described(-1.5), described("x"), described([1.0, 2.0]), described(1j)
+    ('-1.5', "the text 'x'", 'an array of shape (2,)', 'the complex number 1j')
+    """
+    if value is np.ma.masked:
+        return "masked"
+    if isinstance(value, (str, bytes)):
+        return f"the text {value[:LONGEST_SHOWN]!r}"
+    if isinstance(value, (complex, np.complexfloating)):
+        return f"the complex number {value}"
+    if isinstance(value, (np.datetime64, np.timedelta64)):
+        return f"the date or time difference {value}"
+    if isinstance(value, (np.ndarray, list, tuple)):
+        try:
+            return f"an array of shape {np.shape(value)}"
+        except ValueError:
+            return "a ragged list"
+    told = str(value)
+    return told if len(told) <= LONGEST_SHOWN and "\n" not in told else f"a {type(value).__name__}"
+
+
+def _plain(value: Any) -> float | None:
+    """One real number as float; None if it is anything else."""
+    if type(value) in (float, int):
+        return _converted(value)
+    if isinstance(value, (bool, np.bool_)) or value is np.ma.masked:
+        return None
+    array = np.asarray(value) if isinstance(value, (np.generic, np.ndarray)) or hasattr(value, "__array__") else None
+    if array is not None:
+        return _converted(array[()]) if array.ndim == 0 and array.dtype.kind in "iuf" else None
+    return _converted(value) if isinstance(value, (int, float)) else None
+
+
+def _converted(value: Any) -> float | None:
+    try:
+        return float(value)
+    except OverflowError:
+        return None

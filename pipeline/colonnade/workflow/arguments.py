@@ -1,0 +1,48 @@
+"""Arguments of `run`, as they come from a notebook."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from colonnade.validation import described, text, whole
+
+MOST_WORKERS = 10_000
+"""Processes; no machine has as many cores."""
+
+
+def check_run(
+    campaign: Any,
+    *,
+    stages: dict[str, Any],
+    only: Any,
+    workers: Any,
+    scheduler: Any,
+    verify: Any,
+    results: Any,
+    progress: Any,
+) -> None:
+    """
+    Check that each argument is of its kind; `stages` holds those that name a stage.
+
+    Raises
+    ------
+    ValueError
+        If one is not; the message names it.
+    """
+    for name, value, may_be_none in (("campaign", campaign, False), ("results", results, True)):
+        if not (isinstance(value, (str, Path)) or (may_be_none and value is None)):
+            raise ValueError(f"{name} is {described(value)}; a path was expected")
+    for name, value in {**stages, "scheduler": scheduler}.items():
+        if value is not None:
+            text(name, value, "an address" if name == "scheduler" else "the name of a stage")
+    if not isinstance(only, str) and not (
+        isinstance(only, (list, tuple, set, frozenset)) and all(isinstance(each, str) for each in only)
+    ):
+        raise ValueError(f"only is {described(only)}; the id of a test, or a list of ids, was expected")
+    if workers is not None:
+        whole("workers", workers, 1, MOST_WORKERS)
+    if not isinstance(verify, bool):
+        raise ValueError(f"verify is {described(verify)}; True or False was expected")
+    if progress is not None and not callable(progress):
+        raise ValueError(f"progress is {described(progress)}; a function was expected")

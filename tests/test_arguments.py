@@ -1,0 +1,332 @@
+"""Every argument of every public call refuses what it is not made for, with a ValueError that names it."""
+
+from __future__ import annotations
+
+import datetime
+import inspect
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+
+import colonnade
+from colonnade.dynamics.contact.law import ContactLaw
+
+BLOCK = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+TIME = np.arange(0.0, 4.0, 0.01)
+MOTION = colonnade.Motion(3.0 * np.sin(10.0 * TIME), 0.01)
+HISTORY = colonnade.rock(BLOCK, MOTION)
+FREE = colonnade.rock(BLOCK, theta0=0.5 * BLOCK.critical_angle, duration=4.0, restitution=0.9)
+LAW = colonnade.RestitutionLaw.table([0.0, 1.0], [1.0, 0.9])
+SURE = colonnade.Uncertainty()
+ENSEMBLE = colonnade.ensemble(BLOCK, MOTION, uncertainty=SURE, count=2)
+
+DAY = np.datetime64("2024-01-01")
+NUMBERS: dict[str, Any] = {
+    "text": "1.0",
+    "bytes": b"1",
+    "not a number": np.nan,
+    "infinite": np.inf,
+    "complex": 1.0 + 0.0j,
+    "a numpy complex": np.complex128(1.0),
+    "a date": DAY,
+    "a day of the calendar": datetime.date(2024, 1, 1),
+    "a time difference": np.timedelta64(1, "s"),
+    "masked": np.ma.masked,
+    "an array": np.array([1.0, 2.0, 3.0]),
+    "a list": [1.0],
+    "true": True,
+    "too large an integer": 10**400,
+    "an object": object(),
+}
+"""What is no number."""
+
+ARRAYS: dict[str, Any] = {
+    "masked": np.ma.masked_array([0.1, 0.2, 0.3, 0.4], mask=[False, True, False, False]),
+    "complex": np.full(4, 0.1 + 0.1j),
+    "dates": np.array([DAY, DAY + 1, DAY + 2, DAY + 3]),
+    "time differences": np.arange(4).astype("timedelta64[s]"),
+    "text": np.array(["a", "b", "c", "d"]),
+    "one text": "0.1 0.2",
+    "truth values": np.array([True, False, True, False]),
+    "objects": np.array([0.1, None, 0.3, 0.4], dtype=object),
+    "a ragged list": [[0.1], [0.2, 0.3]],
+    "infinite": np.array([0.1, np.inf, 0.3, 0.4]),
+    "four dimensions": np.zeros((1, 2, 1, 2)),
+    "an object": object(),
+}
+"""What is no array of numbers."""
+
+OBJECTS: dict[str, Any] = {"text": "x", "a number": 1.0, "an array": np.zeros(3), "an object": object(), "none": None}
+"""What is no object of ours, no path and no name."""
+
+NAMES: dict[str, Any] = {"a number": 1.0, "an array": np.zeros(3), "an object": object(), "true": True}
+"""What is no text."""
+
+FOR: dict[str, dict[str, Any]] = {
+    "number": NUMBERS,
+    "positive": NUMBERS | {"zero": 0.0, "negative": -1.0},
+    "deviation": NUMBERS | {"negative": -1.0},
+    "share": NUMBERS | {"zero": 0.0, "one": 1.0, "two": 2.0, "negative": -1.0},
+    "whole": NUMBERS | {"zero": 0, "negative": -1, "a broken number": 1.5, "endless": 10**300},
+    "seed": NUMBERS | {"negative": -1, "a broken number": 1.5},
+    "sided": NUMBERS | {"a pair with text": (0.1, "x"), "three": (0.1, 0.1, 0.1), "a negative pair": (-0.1, 0.1)},
+    "e": NUMBERS | {"above one": 1.1, "a pair with NaN": (0.9, np.nan), "three": (0.9, 0.9, 0.9)},
+    "array": ARRAYS,
+    "object": OBJECTS,
+    "object or none": {name: value for name, value in OBJECTS.items() if name != "none"},
+    "name": NAMES,
+    "path": NAMES,
+    "flag": {"text": "yes", "a number": 1.0, "none": None, "an array": np.zeros(2)},
+    "names": {"text alone": "p", "a number": 1.0, "another name": ("width",), "a list of numbers": [1.0]},
+    "ids": {"a number": 1.0, "a list of numbers": [1.0], "an object": object()},
+    "function": {"text": "x", "a number": 1.0, "an array": np.zeros(2)},
+    "duration": NUMBERS | {"zero": 0.0, "negative": -1.0, "endless": 1e300, "none": None},
+    "cycles": NUMBERS | {"endless": 1e12, "negative": -1.0},
+    "columns": {"zero": 0, "negative": -1, "a broken number": 1.5, "true": True, "an array": np.zeros(2)},
+    "fine": NUMBERS | {"too fine to end": 1e-300, "negative": -1.0},
+}
+"""Hostile values by what an argument is."""
+
+
+class Call(NamedTuple):
+    """A public call: the function, arguments with which it succeeds, and what each of its arguments is."""
+
+    function: Callable[..., Any]
+    sound: dict[str, Any]
+    kinds: dict[str, str]
+
+
+SOLID = {"mass": "positive", "gravity": "positive"}
+SIDES = {"critical_angle": "sided", "pole_distance": "sided", "inertia": "sided"}
+SIZES = {"width": "positive", "depth": "positive", "height": "positive"}
+BASE = {"model": "name", "theta0": "number", "rest_angle": "fine"}
+
+CALLS = {
+    "Block": Call(
+        colonnade.Block,
+        {"mass": 1.0, "gravity": 9.81, "negative": BLOCK.negative, "positive": BLOCK.positive},
+        SOLID | {"negative": "object", "positive": "object", "solid": "object or none"},
+    ),
+    "Block.prism": Call(
+        colonnade.Block.prism, {"width": 0.1, "depth": 0.1, "height": 0.5, "mass": 20.0}, SOLID | SIZES
+    ),
+    "Block.cylinder": Call(
+        colonnade.Block.cylinder,
+        {"diameter": 0.1, "height": 0.5, "mass": 20.0},
+        SOLID | {"diameter": "positive", "height": "positive"},
+    ),
+    "Block.cone": Call(
+        colonnade.Block.cone,
+        {"base_diameter": 0.1, "top_diameter": 0.05, "height": 0.5, "mass": 20.0},
+        SOLID | {"base_diameter": "positive", "top_diameter": "positive", "height": "positive"},
+    ),
+    "Block.measured": Call(
+        colonnade.Block.measured,
+        {"mass": 20.0, "pole_distance": 0.5, "critical_angle": 0.2, "inertia": 7.0},
+        SOLID | SIDES,
+    ),
+    "Block.override": Call(BLOCK.override, {}, SIDES),
+    "Block.side_p": Call(BLOCK.side_p, {"side": BLOCK.negative}, {"side": "object"}),
+    "Motion": Call(
+        colonnade.Motion,
+        {"acceleration": [0.0, 1.0, 2.0, 0.0], "dt": 0.01},
+        {"acceleration": "array", "dt": "positive", "vertical": "array", "transverse": "array"},
+    ),
+    "RestitutionLaw": Call(
+        colonnade.RestitutionLaw,
+        {"speeds": np.array([0.0, 0.5, 1.0, 2.0]), "values": np.full(4, 0.9)},
+        {"speeds": "array", "values": "array", "function": "function"},
+    ),
+    "RestitutionLaw.table": Call(
+        colonnade.RestitutionLaw.table,
+        {"speeds": [0.0, 0.5, 1.0, 2.0], "values": [0.9, 0.9, 0.9, 0.9]},
+        {"speeds": "array", "values": "array"},
+    ),
+    "RestitutionLaw.of": Call(
+        colonnade.RestitutionLaw.of,
+        {"function": lambda speed: 0.9, "largest_speed": 2.0},
+        {"function": "function", "largest_speed": "positive"},
+    ),
+    "RestitutionLaw.reaching": Call(LAW.reaching, {"velocities": [1.0]}, {"velocities": "array"}),
+    "RestitutionLaw.__call__": Call(LAW, {"speed": 0.5}, {"speed": "array"}),
+    "Uncertainty": Call(
+        colonnade.Uncertainty,
+        {"cutoff": 10.0},
+        dict.fromkeys(("restitution", "critical_angle", "p", "gain", "clock", "noise", "filter", "theta0"), "deviation")
+        | {"cutoff": "positive", "filter_order": "whole"},
+    ),
+    "ensemble": Call(
+        colonnade.ensemble,
+        {"block": BLOCK, "motion": MOTION, "uncertainty": SURE, "count": 1},
+        BASE
+        | {"block": "object", "motion": "object", "uncertainty": "object"}
+        | {"restitution": "e", "count": "whole", "seed": "seed"},
+    ),
+    "Ensemble.overturning_interval": Call(ENSEMBLE.overturning_interval, {}, {"z": "positive"}),
+    "Ensemble.peak_quantiles": Call(ENSEMBLE.peak_quantiles, {}, {"levels": "array"}),
+    "Ensemble.correlations": Call(ENSEMBLE.correlations, {"values": [0.1, 0.2]}, {"values": "ranked"}),
+    "identify_restitution": Call(
+        colonnade.identify_restitution,
+        {"time": TIME[:4], "angle": np.zeros(4), "block": BLOCK},
+        dict.fromkeys(("time", "angle", "out_of_plane", "slide", "uplift"), "array")
+        | {"block": "object", "level": "share", "noise": "deviation", "lowpass": "positive", "free": "names"}
+        | {"lowest_amplitude": "deviation"},
+    ),
+    "reactions": Call(
+        colonnade.reactions,
+        {"history": HISTORY, "motion": MOTION},
+        {"history": "object", "motion": "object", "friction": "a coefficient"},
+    ),
+    "read_motion": Call(
+        colonnade.read_motion,
+        {"path": "motion.txt"},
+        {"path": "path", "unit": "name", "dt": "positive", "column": "columns", "layout": "name"},
+    ),
+    "rock": Call(
+        colonnade.rock,
+        {"block": BLOCK, "duration": 0.1},
+        BASE
+        | {"block": "object", "motion": "object or none", "restitution": "e", "omega0": "number"}
+        | {"duration": "duration", "contact": "object or none", "out_of_plane": "number"},
+    ),
+    "rocking_angle": Call(
+        colonnade.rocking_angle,
+        {"displacements": [0.0, 0.001], "at": [0.04, 0.0, 0.4], "direction": [1.0, 0.0, 0.0], "block": BLOCK},
+        {"displacements": "array", "at": "array", "direction": "array", "block": "object"},
+    ),
+    "run": Call(
+        colonnade.run,
+        {"campaign": "nowhere"},
+        {"campaign": "path", "until": "name", "start_from": "name", "only": "ids", "workers": "whole"}
+        | {"scheduler": "name", "verify": "flag", "results": "path", "progress": "function"},
+    ),
+    "stability_map": Call(
+        colonnade.stability_map,
+        {"block": BLOCK, "frequency_ratio": [2.0, 3.0, 4.0, 5.0], "amplitude_ratio": [0.5, 0.6, 0.7, 0.8]},
+        {"block": "object", "frequency_ratio": "array", "amplitude_ratio": "array", "restitution": "e"}
+        | {"cycles": "cycles", "ramp": "cycles", "phase": "number", "ramp_shape": "name", "model": "name"}
+        | {"width": "fine", "edge": "fine", "motion": "object or none", "threads": "whole"}
+        | {"motion_frequency": "positive"},
+    ),
+}
+FOR["ranked"] = {name: value for name, value in ARRAYS.items() if name != "infinite"}
+FOR["a coefficient"] = {name: value for name, value in FOR["deviation"].items() if name != "infinite"}
+
+GIVEN_BACK = {"Ensemble", "History", "Reactions", "Restitution", "StabilityMap"}
+"""Results: nobody makes them from arguments; what their methods take is checked."""
+
+NOT_CALLED = {"__version__", "ColonnadeError"}
+
+OTHERS = {
+    ("stability_map", "motion_frequency"): {"motion": MOTION},
+}
+"""What an argument needs with it."""
+
+
+def public() -> Iterator[tuple[str, Callable[..., Any]]]:
+    """Everything that a user calls: functions, classes and their methods that take arguments."""
+    for name in set(colonnade.__all__) - NOT_CALLED:
+        thing = getattr(colonnade, name)
+        if not inspect.isclass(thing):
+            yield name, thing
+            continue
+        if name not in GIVEN_BACK:
+            yield name, thing
+        for method, function in inspect.getmembers(thing, callable):
+            is_public = not method.startswith("_") or (method == "__call__" and "__call__" in vars(thing))
+            if is_public and len(inspect.signature(function).parameters) > (not inspect.ismethod(function)):
+                yield f"{name}.{method}", function
+
+
+def cases() -> Iterator[Any]:
+    for name, call in CALLS.items():
+        for argument, kind in call.kinds.items():
+            for told, value in FOR[kind].items():
+                others = OTHERS.get((name, argument), {})
+                yield pytest.param(call, argument, value, others, id=f"{name} {argument} {told}")
+
+
+@pytest.mark.parametrize(("call", "argument", "value", "others"), list(cases()))
+def test_a_hostile_argument_is_refused_by_its_name(call, argument, value, others):
+    with pytest.raises(ValueError, match=rf"\b{argument}\b"):
+        call.function(**(call.sound | others | {argument: value}))
+
+
+def test_no_public_call_and_none_of_its_arguments_is_left_out():
+    found = dict(public())
+    assert found.keys() == CALLS.keys()
+    for name, function in found.items():
+        arguments = set(inspect.signature(function).parameters) - {"self"}
+        assert arguments == CALLS[name].kinds.keys(), name
+
+
+@pytest.mark.parametrize("name", sorted(CALLS.keys() - {"read_motion", "run"}))
+def test_the_same_call_succeeds_with_sound_arguments(name):
+    CALLS[name].function(**CALLS[name].sound)
+
+
+def test_times_are_no_accelerations():
+    acceleration = 3.0 * np.sin(10.0 * TIME)
+    with pytest.raises(ValueError, match=r"dt is an array of shape \(400,\).*Motion\(acceleration, dt\)"):
+        colonnade.Motion(TIME, acceleration)
+    with pytest.raises(ValueError, match="acceleration rises from 0 by dt"):
+        colonnade.Motion(TIME, 0.01)
+    # A base that is accelerated ever more is a motion.
+    assert colonnade.Motion(2.0 * TIME, 0.01).peak == pytest.approx(2.0 * TIME[-1])
+
+
+@pytest.mark.parametrize("at", [[0.04, 0.0], np.zeros((2, 2))], ids=["two components", "a table of two columns"])
+def test_points_have_three_components(at):
+    with pytest.raises(ValueError, match="at has shape"):
+        colonnade.rocking_angle([0.0, 0.001], at, [1.0, 0.0, 0.0], BLOCK)
+
+
+def test_directions_are_unit_vectors():
+    with pytest.raises(ValueError, match="direction has a vector of length 2"):
+        colonnade.rocking_angle([0.0, 0.001], [0.04, 0.0, 0.4], [2.0, 0.0, 0.0], BLOCK)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        ({"amplitude_ratio": [1e-300, 1.0]}, "amplitude_ratio"),
+        ({"frequency_ratio": [1e-300, 1.0]}, "frequency_ratio"),
+        ({"frequency_ratio": np.linspace(1, 2, 20_000), "amplitude_ratio": np.linspace(1, 2, 20_000)}, "cells"),
+        ({"amplitude_ratio": [0.5, 1.5], "width": 1e-9, "edge": 1e-9}, "width"),
+        ({"edge": 1e-12}, "edge"),
+    ],
+    ids=["a tiny amplitude", "a tiny frequency", "too many cells", "too fine a scan", "too fine an edge"],
+)
+def test_a_map_that_would_not_end_is_refused(arguments, named):
+    with pytest.raises(ValueError, match=named):
+        colonnade.stability_map(**(CALLS["stability_map"].sound | arguments))
+
+
+def test_a_run_of_the_contact_model_that_would_not_end_is_refused():
+    slow = colonnade.Motion([0.0, 1.0, 0.0], 1e9)
+    with pytest.raises(ValueError, match="dt"):
+        colonnade.rock(BLOCK, slow, model="contact")
+    with pytest.raises(ValueError, match="stiffness is"):
+        ContactLaw(np.inf)
+
+
+def test_a_low_pass_that_remembers_for_ever_is_refused():
+    with pytest.raises(ValueError, match="cutoff is 1e-12 Hz"):
+        colonnade.ensemble(BLOCK, MOTION, uncertainty=colonnade.Uncertainty(cutoff=1e-12, filter=0.1), count=1)
+
+
+def test_a_duration_beside_a_motion_is_refused():
+    with pytest.raises(ValueError, match="duration"):
+        colonnade.rock(BLOCK, MOTION, duration=1.0)
+
+
+def test_a_masked_array_without_a_gap_is_plain():
+    whole = np.ma.masked_array([0.0, 1.0, 0.0])
+    np.testing.assert_array_equal(colonnade.Motion(whole, 0.01).acceleration, [0.0, 1.0, 0.0])
+
+
+@pytest.mark.parametrize("value", [np.float32(0.5), np.int64(1), np.array(0.5), 1], ids=str)
+def test_numbers_of_any_kind_are_taken(value):
+    assert colonnade.Motion([0.0, 1.0], value).dt == float(value)
