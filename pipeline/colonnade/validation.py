@@ -39,6 +39,7 @@ def number(
     below: float = inf,
     high: float = inf,
     finite: bool = True,
+    unit: str = "",
 ) -> float:
     """
     Return an argument that is one real number in its range.
@@ -54,6 +55,8 @@ def number(
         Bounds; the number may be equal to `low` and `high`.
     finite : bool, optional
         Whether infinity is refused; NaN always is.
+    unit : str, optional
+        Of the number, for the message.
 
     Raises
     ------
@@ -71,7 +74,8 @@ def number(
     else:
         is_sound = low <= plain <= high and (above == -inf or plain > above) and (below == inf or plain < below)
     if plain is None or not is_sound:
-        raise ValueError(f"{name} is {described(value)}; {expected} was expected")
+        found = described(value) if plain is None else f"{described(value)} {unit}".rstrip()
+        raise ValueError(f"{name} is {found}; {expected} was expected")
     return plain
 
 
@@ -93,7 +97,7 @@ def sided(name: str, value: Any, expected: str, **bounds: Any) -> tuple[float, f
     return both, both
 
 
-def whole(name: str, value: Any, low: int, high: int) -> int:
+def whole(name: str, value: Any, low: int, high: int, expected: str = "") -> int:
     """
     Return an argument that is a whole number from `low` to `high`.
 
@@ -102,7 +106,7 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
     ValueError
         If it is anything else.
     """
-    expected = f"a whole number from {low} to {high}"
+    expected = expected or f"a whole number from {low} to {high}"
     plain = number(name, value, expected, low=low, high=high)
     if plain != int(plain):
         raise ValueError(f"{name} is {described(value)}; {expected} was expected")

@@ -85,7 +85,7 @@ class Plan:
         instance("motion", self.motion, Motion)
         instance("uncertainty", self.uncertainty, Uncertainty)
         sided("restitution", self.restitution, "a number between 0 and 1", low=0.0, high=1.0)
-        whole("count", self.count, 1, MOST_MEMBERS)
+        whole("count", self.count, 1, MOST_MEMBERS, f"at least one member, and at most {MOST_MEMBERS},")
         whole("seed", self.seed, 0, LARGEST_SEED)
 
     @property

@@ -90,7 +90,7 @@ def at_rest(block: Block, duration: float | None) -> Motion:
         If the duration is not positive, or has more than `MOST_SAMPLES`.
     """
     rate = block.p * 500
-    expected = f"a positive duration in seconds, needed without a motion and at most {MOST_SAMPLES / rate:.4g} s,"
+    expected = f"without a motion a positive duration in seconds, at most {MOST_SAMPLES / rate:.4g},"
     seconds = number("duration", duration, expected, above=0.0, high=MOST_SAMPLES / rate)
     intervals = max(ceil(seconds * rate), 2)
     return Motion(np.zeros(intervals + 1), seconds / intervals)

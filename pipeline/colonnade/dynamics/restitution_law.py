@@ -42,8 +42,8 @@ class RestitutionLaw:
     function: Callable[[float], float] | None = None
 
     def __post_init__(self) -> None:
-        samples("speeds", self.speeds, dimensions=(0, 1, 2), fewest=0)
-        samples("values", self.values, dimensions=(0, 1, 2), fewest=0)
+        for name in ("speeds", "values"):
+            samples(name, getattr(self, name), dimensions=(0, 1, 2), fewest=0, finite=False)
         if not (self.function is None or callable(self.function)):
             raise ValueError(f"function is {described(self.function)}; a function of the speed, or None, was expected")
         if self.speeds.ndim != 1 or self.speeds.size == 0 or self.speeds.shape != self.values.shape:
@@ -57,7 +57,7 @@ class RestitutionLaw:
         if wrong.any():
             first = int(np.argmax(wrong))
             raise ValueError(
-                f"The restitution law gives e = {self.values[first]} at {self.speeds[first]:g} rad/s; "
+                f"The values of the restitution law give e = {self.values[first]} at {self.speeds[first]:g} rad/s; "
                 "a number between 0 and 1 was expected"
             )
 
@@ -71,7 +71,7 @@ class RestitutionLaw:
         ValueError
             If speeds do not rise from 0 or above, a value is not between 0 and 1, or their numbers differ.
         """
-        return cls(samples("speeds", speeds), samples("values", values))
+        return cls(samples("speeds", speeds, fewest=0, finite=False), samples("values", values, fewest=0, finite=False))
 
     @classmethod
     def of(cls, function: Callable[[float], float], *, largest_speed: float) -> RestitutionLaw:

@@ -110,10 +110,11 @@ def rock(
         instance("motion", motion, Motion)
         if duration is not None:
             raise ValueError(f"duration is {described(duration)}, and a motion is given; one of the two was expected")
-    theta0 = number("theta0", theta0, "an angle between −π/2 and π/2 rad, where it lies,", above=-HALF, below=HALF)
+    between = "an angle between −π/2 and π/2, where the block lies,"
+    theta0 = number("theta0", theta0, between, above=-HALF, below=HALF, unit="rad")
     fastest = LARGEST_VELOCITY * max(block.side_p(block.negative), block.side_p(block.positive))
-    omega0 = number("omega0", omega0, f"less than {fastest:.4g} rad/s", above=-fastest, below=fastest)
-    out_of_plane = number("out_of_plane", out_of_plane, "an angle between −π/2 and π/2 rad", above=-HALF, below=HALF)
+    omega0 = number("omega0", omega0, f"less than {fastest:.4g} rad/s", above=-fastest, below=fastest, unit="rad/s")
+    out_of_plane = number("out_of_plane", out_of_plane, between, above=-HALF, below=HALF, unit="rad")
     expected = f"a fraction of the critical angle from {LEAST_REST_ANGLE:g} to 1"
     rest_angle = number("rest_angle", rest_angle, expected, low=LEAST_REST_ANGLE, below=1.0)
     if contact is not None:

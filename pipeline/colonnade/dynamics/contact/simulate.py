@@ -119,7 +119,7 @@ def _division(body: ContactBody, law: ContactLaw, motion: Motion, step: float | 
     longest = longest_step(body, law)
     if step is None:
         step = min(DEFAULT_STEP, STEP_SHARE * longest)
-    step = number("step", step, "a positive step in seconds", above=0.0)
+    step = number("step", step, "a positive step", above=0.0, unit="s")
     steps = motion.dt / step * motion.acceleration.size
     if steps > MOST_STEPS:
         raise ValueError(
