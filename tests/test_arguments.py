@@ -170,8 +170,15 @@ CALLS = {
     "identify_restitution": Call(
         colonnade.identify_restitution,
         {"time": TIME[:4], "angle": np.zeros(4), "block": BLOCK},
-        dict.fromkeys(("time", "angle", "out_of_plane", "slide", "uplift"), "array")
-        | {"block": "object", "level": "share", "noise": "deviation", "lowpass": "positive", "free": "names"}
+        dict.fromkeys(("angle", "out_of_plane", "slide", "uplift"), "ranked")
+        | {
+            "time": "array",
+            "block": "object",
+            "level": "share",
+            "noise": "deviation",
+            "lowpass": "positive",
+            "free": "names",
+        }
         | {"lowest_amplitude": "deviation"},
     ),
     "reactions": Call(
@@ -211,6 +218,7 @@ CALLS = {
         | {"motion_frequency": "positive"},
     ),
 }
+# What is not finite counts as missing, or as beyond all others.
 FOR["ranked"] = {name: value for name, value in ARRAYS.items() if name != "infinite"}
 FOR["a coefficient"] = {name: value for name, value in FOR["deviation"].items() if name != "infinite"}
 

@@ -168,7 +168,7 @@ def samples(
         forms = " or ".join(shaped.get(number_of, f"a {number_of}-dimensional") for number_of in dimensions)
         least = f"at least one {each}" if fewest == 1 else f"at least {fewest} {each}s"
         raise ValueError(f"{name} has shape {array.shape}; {forms} array with {least} was expected")
-    plain = np.ascontiguousarray(array, dtype=np.float64)
+    plain = np.asarray(array, dtype=np.float64, order="C")
     wrong = np.isinf(plain) if gaps else ~np.isfinite(plain)
     if finite and wrong.any():
         place = int(np.argmax(wrong.ravel()))

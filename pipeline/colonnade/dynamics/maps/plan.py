@@ -183,7 +183,9 @@ def plan_map(
     phase = number("phase", phase, "a finite angle in rad")
     finest = STEPS_A_WIDTH * float(amplitudes[-1] - amplitudes[0]) / MOST_STEPS
     width = number("width", width, f"a width in A, at least {finest:.3g} for the scan to end,", above=0.0, low=finest)
-    edge = number("edge", edge, f"an edge from {LEAST_EDGE:g} to the width {width:g} in A", low=LEAST_EDGE, high=width)
+    edge = number("edge", edge, f"a number in A, at least {LEAST_EDGE:g},", low=LEAST_EDGE)
+    if not edge <= width:
+        raise ValueError(f"edge is {edge} and width {width}; 0 < edge ≤ width was expected, in units of A")
     if (motion is None) != (motion_frequency is None):
         raise ValueError("A motion and its motion_frequency (Hz) come together; one of the two was given")
     if motion is not None and not motion.peak > 0:
@@ -209,8 +211,8 @@ def plan_map(
 
 
 def _axis(name: str, values: ArrayLike, fewest: int) -> Array:
-    axis = samples(name, values, fewest=fewest)
-    if not (axis[0] > 0 and (np.diff(axis) > 0).all()):
+    axis = samples(name, values, fewest=fewest, finite=False)
+    if not (np.isfinite(axis).all() and axis[0] > 0 and (np.diff(axis) > 0).all()):
         raise ValueError(f"{name} has to be positive, finite and increasing")
     if not (axis[0] >= 1 / LARGEST_RATIO and axis[-1] <= LARGEST_RATIO):
         raise ValueError(

@@ -50,9 +50,9 @@ def check_records(time: Any, angle: Any, **others: Any) -> tuple[Array, Array]:
     ValueError
         If one is no array of real numbers, they differ in shape or time does not increase.
     """
-    times, angles = samples("time", time, fewest=0), samples("angle", angle, fewest=0, gaps=True)
+    times, angles = samples("time", time, fewest=0), samples("angle", angle, fewest=0, finite=False)
     for name, values in {"angle": angles, **others}.items():
-        if values is not None and samples(name, values, fewest=0, gaps=True).shape != times.shape:
+        if values is not None and samples(name, values, fewest=0, finite=False).shape != times.shape:
             raise ValueError(
                 f"time has shape {times.shape} and {name} {np.shape(values)}; arrays of one length were expected"
             )
