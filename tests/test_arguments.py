@@ -170,7 +170,7 @@ CALLS = {
     "identify_restitution": Call(
         colonnade.identify_restitution,
         {"time": TIME[:4], "angle": np.zeros(4), "block": BLOCK},
-        dict.fromkeys(("angle", "out_of_plane", "slide", "uplift"), "ranked")
+        dict.fromkeys(("angle", "out_of_plane", "slide", "uplift", "base_acceleration"), "ranked")
         | {
             "time": "array",
             "block": "object",

@@ -104,7 +104,9 @@ def identify_restitution(
     free = check_settings(
         block, level=level, lowest_amplitude=lowest_amplitude, noise=noise, lowpass=lowpass, free=free
     )
-    times, angles = check_records(time, angle, out_of_plane=out_of_plane, slide=slide, uplift=uplift)
+    times, angles = check_records(
+        time, angle, out_of_plane=out_of_plane, slide=slide, uplift=uplift, base_acceleration=base_acceleration
+    )
     if np.isfinite(angles).sum() < 8:
         return _refused("The record holds fewer than 8 values.", level)
     samples = thinned(times, angles, block)
