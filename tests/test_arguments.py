@@ -164,6 +164,7 @@ CALLS = {
         | {"block": "object", "motion": "object", "uncertainty": "object"}
         | {"restitution": "e", "count": "whole", "seed": "seed"},
     ),
+    "Ensemble.horizon": Call(ENSEMBLE.horizon, {"width": 0.1}, {"width": "positive"}),
     "Ensemble.overturning_interval": Call(ENSEMBLE.overturning_interval, {}, {"z": "positive"}),
     "Ensemble.peak_quantiles": Call(ENSEMBLE.peak_quantiles, {}, {"levels": "array"}),
     "Ensemble.correlations": Call(ENSEMBLE.correlations, {"values": [0.1, 0.2]}, {"values": "ranked"}),

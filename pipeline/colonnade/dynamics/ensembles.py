@@ -169,7 +169,7 @@ class Ensemble:
 
     def horizon(self, width: float) -> float:
         """Return the first time (s) at which the widest band is wider than `width` (rad), else the last one."""
-        wide = self.bands[-1] - self.bands[0] > width
+        wide = self.bands[-1] - self.bands[0] > number("width", width, "a positive angle in rad", above=0.0)
         return float(self.time[int(np.argmax(wide)) if wide.any() else -1])
 
     @property
