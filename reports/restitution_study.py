@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections import Counter
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ from typing import Any
 import numpy as np
 from joblib import Parallel, delayed
 from monte_carlo.design import BEYOND, draw
-from monte_carlo.levels import judge_bounds, judge_estimators, judge_levels
+from monte_carlo.levels import judge, judge_bounds, judge_estimators, judge_kinds, judge_levels
 from monte_carlo.page import draw_levels, page
 from monte_carlo.trial import Trial, run, tried
 
@@ -47,12 +48,21 @@ def run_by_speed(seed: int, number: int) -> Trial:
     return tried(replace(drawn, by_speed=BY_SPEED / (fastest - slowest)))
 
 
-def numbers(within: list[Trial], beyond: list[Trial], seed: int) -> dict[str, Any]:
+def numbers(trials: dict[str, list[Trial]], seed: int) -> dict[str, Any]:
     """Everything that the page tells."""
+    within, beyond = trials["design"], trials["beyond"]
+    apart = {kind: trials[kind] for kind in ("speed", "drift")}
     return {
         "records": len(within),
         "seed": seed,
+        "by_speed": BY_SPEED,
+        "drift": DRIFT,
         "levels": [asdict(each) for each in judge_levels(within)],
+        "kinds": [asdict(each) for each in judge_kinds(within)],
+        "departures": [asdict(judge(those, kind, "all")) for kind, those in apart.items()],
+        "named": {
+            kind: dict(Counter(name for each in those for name in each.departures)) for kind, those in apart.items()
+        },
         "bounds": [
             asdict(each) for each in (*judge_bounds(within, "in the design"), *judge_bounds(beyond, "beyond it"))
         ],
@@ -89,7 +99,7 @@ def main() -> None:
     parser.add_argument("--workers", type=int, default=WORKERS)
     parser.add_argument("--folder", type=Path, default=HERE, help="where the results go")
     told = parser.parse_args()
-    found = numbers(*run_trials(told.records, told.seed, told.workers), told.seed)
+    found = numbers(run_trials(told.records, told.seed, told.workers), told.seed)
     write(found, told.folder)
 
 

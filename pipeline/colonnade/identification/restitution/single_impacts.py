@@ -41,14 +41,19 @@ def found_by_impact(fit: EachImpact, *, driven: bool = False) -> tuple[Departure
     Returns
     -------
     departures : tuple of Departure
-        "moving table": its size is the standard deviation of e from impact to impact, each drawn towards the mean as
-        far as noise allows; threshold `LARGEST_SCATTER`; it refuses. Else "speed-dependent restitution".
+        "moving table": its size is the scatter of e from impact to impact beyond the noise, whatever its spectrum;
+        threshold `LARGEST_SCATTER`; it refuses. Else "speed-dependent restitution".
     """
-    if fit.restitution.size >= FEWEST_IMPACTS and (scatter := float(fit.restitution.std(ddof=1))) > LARGEST_SCATTER:
+    if fit.restitution.size >= FEWEST_IMPACTS and min(fit.scatter, _seen_scatter(fit)) > LARGEST_SCATTER:
         trend = abs(fit.change) if isfinite(fit.change) and abs(fit.change) > SURE * fit.change_error else 0.0
-        if scatter > trend:
-            return (_moving(fit, scatter, driven=driven),)
+        if fit.scatter > trend:
+            return (_moving(fit, fit.scatter, driven=driven),)
     return speed_dependence(fit)
+
+
+def _seen_scatter(fit: EachImpact) -> float:
+    """Scatter of the e that were found, each drawn towards the mean as far as noise allows."""
+    return float(fit.restitution.std(ddof=1))
 
 
 def _moving(fit: EachImpact, scatter: float, *, driven: bool) -> Departure:
