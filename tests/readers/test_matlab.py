@@ -234,7 +234,8 @@ def test_bristols_other_layout_warns_of_channels_that_are_not_there(tmp_path: Pa
 def test_a_file_that_is_none_is_refused_with_what_it_is(tmp_path: Path, content: bytes, reason: str) -> None:
     path = tmp_path / "a.mat"
     path.write_bytes(content)
-    with pytest.raises(ReadError, match=f"matlab: .*{reason}"):
+    # Of an empty file no format is asked.
+    with pytest.raises(ReadError, match=f"matlab: .*{reason}" if content else f"^a.mat: {reason}"):
         read(path)
     with pytest.raises(ReadError, match=reason):
         read(path, "matlab")
