@@ -83,7 +83,7 @@ def mean_of(parts: Parts, level: float) -> Mean:
     The scatter of a few impacts is badly known, and an interval that takes the likeliest one is too narrow. Each
     scatter counts by its restricted likelihood times a weight (`SCALE`), as in a random-effects meta-analysis of few
     studies (Röver 2020). Only where one e for all impacts is `NO_SCATTER` times as likely as all of these together is
-    there no scatter. These numbers were set by simulation: docs/decisions/0022.
+    there no scatter. These numbers were set by simulation: docs/decisions/0024.
     """
     likelihood = np.exp(parts.likelihood - parts.likelihood.max())
     scattered = parts.scatter > 0
