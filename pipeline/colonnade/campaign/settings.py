@@ -225,4 +225,5 @@ def settings(processing: Table, prefix: str = "processing") -> Iterator[Setting]
             yield from settings(value, key)
         else:
             extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
-            yield Setting(key, value, field.default, str(extra.get("unit", "")), field.description or "")
+            description = " ".join((field.description or "").split())
+            yield Setting(key, value, field.default, str(extra.get("unit", "")), description)
