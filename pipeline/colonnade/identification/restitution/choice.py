@@ -89,7 +89,9 @@ def _of_two(history: EachImpact, peaks: Estimate) -> Estimate:
 def disagreement(result: Restitution) -> str:
     """Say by how much the whole history is off the peaks, where this is beyond their errors; else nothing."""
     by_name = {estimate.name: estimate for estimate in result.estimates}
-    peaks, history = by_name.get("peaks"), by_name.get("history-scatter")
+    # An e of its own at each impact takes up what a wrong block does; where that shows, one e for all shows it best.
+    misfits = result.history is not None and result.history.probability < UNLIKELY
+    peaks, history = by_name.get("peaks"), by_name.get("history-nonlinear" if misfits else "history-scatter")
     if peaks is None or history is None or peaks.value is None or history.value is None:
         return ""
     difference = history.value - peaks.value
