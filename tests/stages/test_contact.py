@@ -6,7 +6,7 @@ import xarray as xr
 
 from colonnade.campaign.settings import ContactSettings
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.calibration import TOLERANCE, free_restitution
+from colonnade.dynamics.contact.calibration import TOLERANCE, VELOCITY_RATIO, free_restitution
 from colonnade.dynamics.contact.layout import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.identification.restitution.identify import identify_restitution
@@ -16,13 +16,13 @@ PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 STEP = 3e-5
 
 
-def calibrated(restitution, **settings):
+def calibrated(restitution, *, lowest_amplitude=0.02, **settings):
     read = calibrating.Instructions(
         block=PRISM,
         shape="prism",
         sizes=(),
         settings=ContactSettings(step=f"{STEP} s", **settings),
-        lowest_amplitude=0.02,
+        lowest_amplitude=lowest_amplitude,
     )
     return calibrating.contact(xr.Dataset({"restitution": restitution}), read)
 
@@ -63,4 +63,12 @@ def test_with_too_few_arcs_to_identify_an_e_it_is_the_mean_velocity_ratio(law):
         rigid_body(PRISM), law=calibrating.law_of(law), theta0=0.5 * PRISM.critical_angle, duration=0.5, step=STEP
     )
     assert identify_restitution(history.time, history.angle, PRISM).value is None
-    assert calibrating.identified(history, lowest_amplitude=0.02) == free_restitution(history)
+    assert calibrating.identified(history, lowest_amplitude=0.02) == (free_restitution(history), VELOCITY_RATIO)
+
+
+def test_a_law_says_which_e_it_gives(law):
+    assert law.attrs["contact_restitution_source"] == calibrating.IDENTIFIED
+    # Above so high an amplitude there are too few arcs.
+    refused = calibrated(0.976, damping_fraction=0.3, lowest_amplitude=0.45)
+    assert refused.attrs["contact_restitution_source"] == VELOCITY_RATIO
+    assert float(refused["contact_restitution"]) == float(refused["contact_velocity_ratio"])

@@ -43,7 +43,8 @@ def calibrate(
     CAMPAIGN is a campaign.toml or its folder, by default the one you stand in; identify its free vibrations first.
 
     e is identified from the rocking angle of a free vibration of the model, as from a record. The mean velocity ratio
-    of its impacts is shown with it: a contact that bounces also loses energy between impacts, so the two differ.
+    of its impacts is shown with it: a contact that bounces also loses energy between impacts, so the two differ. If e
+    cannot be identified, as after too few impacts, the mean velocity ratio is used: "source" shows which of the two.
 
     Writes processed/contact/<SPECIMEN>.nc for the mesh and step of the settings (processing.predict.contact); others
     are only shown.
@@ -72,7 +73,19 @@ def calibrate(
         )
     else:
         show_table(
-            ("specimen", "mesh", "step", "CDF ξ", "ξ_eff", "stiffness", "e", "e wanted", "velocity ratio", "seconds"),
+            (
+                "specimen",
+                "mesh",
+                "step",
+                "CDF ξ",
+                "ξ_eff",
+                "stiffness",
+                "e",
+                "source",
+                "e wanted",
+                "velocity ratio",
+                "seconds",
+            ),
             [
                 (
                     each.specimen,
@@ -82,6 +95,7 @@ def calibrate(
                     _number(each.effective_damping, ".3g"),
                     _number(each.stiffness, ".3g", " N/m³"),
                     _number(each.restitution, ".4f"),
+                    each.source or "–",
                     _number(each.target, ".4f"),
                     _number(each.velocity_ratio, ".4f"),
                     f"{each.seconds:.1f}",

@@ -28,6 +28,11 @@ SOURCES = {
     "rigid-body": "the rigid-body value, as none is given or identified",
 }
 
+_CONTACT_SOURCES = {
+    "identified": "e identified from its free vibration",
+    "velocity-ratio": "e of its free vibration, the mean velocity ratio, as none could be identified",
+}
+
 _DIMENSIONS = ("width", "depth", "height", "diameter", "base_diameter", "top_diameter")
 
 _DERIVED: tuple[tuple[str, str, str, Callable[[Block], float]], ...] = (
@@ -168,7 +173,7 @@ def _contact(pooled: Results) -> tuple[tuple[str, str], ...]:
         ("friction µ", wording.number(value("friction"))),
         ("base nodes", f"{rings}{_range(masses, 'kg')} and {_range(weights, 'N')} each"),
         (
-            "e identified from its free vibration",
+            _CONTACT_SOURCES[pooled.text("contact", "contact_restitution_source")],
             f"{wording.number(value('contact_restitution'), 4)}; {wording.number(value('restitution'), 4)} was wanted",
         ),
         ("mean velocity ratio of the same impacts", wording.number(value("contact_velocity_ratio"), 4)),

@@ -13,12 +13,15 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.settings import ContactSettings
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody
-from colonnade.dynamics.contact.calibration import Calibration, calibrate, free_restitution
+from colonnade.dynamics.contact.calibration import VELOCITY_RATIO, Calibration, calibrate, free_restitution
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.errors import StageError
 from colonnade.findings import warning
 from colonnade.identification.restitution.identify import identify_restitution
+
+IDENTIFIED = "identified"
+"""What a restitution is that was identified from a rocking angle."""
 
 DAMPED = 0.4
 """Critical damping fraction, the paper's, for which the modes of an elastic specimen are chosen."""
@@ -66,7 +69,8 @@ def contact(specimen: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     -------
     law : xr.Dataset
         What `law_variables` gives, all that was tried, and of the free vibration with this law the
-        `contact_restitution`, identified from its rocking angle as from a record, and the `contact_velocity_ratio`. A
+        `contact_restitution`, identified from its rocking angle as from a record, and the `contact_velocity_ratio`. The
+        attribute `contact_restitution_source` is `IDENTIFIED`, or `VELOCITY_RATIO` if the identification gives no e. A
         damping fraction given in the campaign is not calibrated, but its restitution is computed.
 
     Raises
@@ -97,14 +101,17 @@ def contact(specimen: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     )
 
 
-def identified(history: ContactHistory, *, lowest_amplitude: float) -> float:
+def identified(history: ContactHistory, *, lowest_amplitude: float) -> tuple[float, str]:
     """
-    Restitution that a laboratory would identify from the rocking angle of a free vibration.
+    Restitution that a laboratory would identify from the rocking angle of a free vibration, and `IDENTIFIED`.
 
-    If the identification refuses it, as after two or three arcs, the mean velocity ratio of the impacts.
+    If the identification refuses it, as after two or three arcs, the mean velocity ratio of the impacts, and
+    `VELOCITY_RATIO`.
     """
     result = identify_restitution(history.time, history.angle, history.block, lowest_amplitude=lowest_amplitude)
-    return free_restitution(history) if result.value is None else result.value
+    if result.value is None:
+        return free_restitution(history), VELOCITY_RATIO
+    return result.value, IDENTIFIED
 
 
 def law_variables(body: ContactBody, law: ContactLaw, gravity: float) -> dict[str, Any]:
@@ -208,5 +215,9 @@ def _described(found: Calibration, reason: str) -> xr.Dataset:
     return xr.Dataset(
         {name: ((), value) for name, value in scalars.items()}
         | {name: ("trial", np.asarray(values)) for name, values in tried.items()},
-        attrs={"body": found.body, "warnings": [warning("contact law", reason)] if reason else []},
+        attrs={
+            "body": found.body,
+            "contact_restitution_source": found.source,
+            "warnings": [warning("contact law", reason)] if reason else [],
+        },
     )

@@ -64,7 +64,10 @@ _WIDE = "Of the intervals that are at least as wide as the attribute `width`; mi
 _RANK = "By their largest distances up to the horizon. Up to 0.95 the measured angle is within the model's own spread."
 _HORIZON = "First time at which the 95 % band of its runs is wider than the setting `horizon`, else the record's end."
 _DISTANCE = "Up to the horizon; 1 is the edge of the 95 % band of all others."
-_FEW_ARCS = "If too few arcs stand above the lowest amplitude to identify it, the mean velocity ratio of the impacts."
+_FEW_ARCS = (
+    "If too few arcs stand above the lowest amplitude to identify it, the mean velocity ratio of the impacts: see the "
+    "attribute contact_restitution_source."
+)
 _ORDERS = "k: it repeats every k cycles of the base; 0 at rest, -1 irregular, -2 overturned."
 
 VARIABLES: dict[str, Variable] = {

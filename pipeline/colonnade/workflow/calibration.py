@@ -38,7 +38,10 @@ class Calibrated:
     step : float
         s.
     target, restitution : float or None
-        e asked for, and identified from the rocking angle of the free vibration; None where it failed.
+        e asked for, and that of the free vibration; None where it failed.
+    source : str
+        What the latter is: `IDENTIFIED` from the rocking angle, or the `VELOCITY_RATIO` if the identification gives no
+        e; empty where it failed.
     velocity_ratio : float or None
         Mean velocity ratio of the impacts of the same free vibration.
     damping_fraction, effective_damping, stiffness : float or None
@@ -59,6 +62,7 @@ class Calibrated:
     step: float
     target: float | None
     restitution: float | None
+    source: str
     velocity_ratio: float | None
     damping_fraction: float | None
     effective_damping: float | None
@@ -170,6 +174,7 @@ def _calibrated(numbered: tuple[int, _Task]) -> tuple[int, Calibrated]:
         step=known["contact_step"] or task.settings.step,
         target=known["restitution"],
         restitution=known["contact_restitution"],
+        source="" if result is None else str(result.attrs["contact_restitution_source"]),
         velocity_ratio=known["contact_velocity_ratio"],
         damping_fraction=known["damping_fraction"],
         effective_damping=known["effective_damping"],

@@ -19,7 +19,10 @@ from colonnade.dynamics.contact.simulate import plane_block, simulate
 from colonnade.dynamics.contact.stability import longest_step
 
 Array = NDArray[np.float64]
-Identify = Callable[[ContactHistory], float]
+Identify = Callable[[ContactHistory], tuple[float, str]]
+
+VELOCITY_RATIO = "velocity-ratio"
+"""What a restitution is that is the mean velocity ratio of the impacts."""
 
 FRACTIONS = (0.0, 0.01, 0.03, 0.1, 0.3, 1.0)
 """Critical damping fractions that are tried first; e falls along most of them, and rises again where ξ is large."""
@@ -54,6 +57,8 @@ class Calibration:
         The one whose restitution is nearest to the one asked for.
     restitution : float
         Of a free vibration with it, by `identify`.
+    source : str
+        What that restitution is: `VELOCITY_RATIO`, or as `identify` calls it.
     velocity_ratio : float
         Of the same free vibration: `free_restitution`.
     target : float
@@ -73,6 +78,7 @@ class Calibration:
 
     law: ContactLaw
     restitution: float
+    source: str
     velocity_ratio: float
     target: float
     fractions: Array
@@ -159,8 +165,8 @@ def calibrate(
     vary_stiffness : bool, optional
         Whether the stiffness may be changed.
     identify : callable, optional
-        Restitution of a free vibration, NaN if it gives none; default `free_restitution`. A bouncing contact loses
-        energy between impacts too, so velocities at impacts give another e than the decay of the rocking angle.
+        Restitution of a free vibration, NaN if it gives none, and what it is; default `free_restitution`. A bouncing
+        contact loses energy between impacts too, so velocities at impacts give another e than the decay of the angle.
 
     Returns
     -------
@@ -203,12 +209,12 @@ class _Runs:
         identify: Identify | None,
     ) -> None:
         self._body, self._law, self._gravity, self._step, self._impacts = body, law, gravity, step, impacts
-        self._identify = identify or partial(free_restitution, impacts=impacts)
+        self._identify = identify or partial(_by_velocities, impacts=impacts)
         self._target = restitution
         block = plane_block(body, gravity)
         self._theta0 = release * block.critical_angle
         self._duration = _duration(release, restitution, impacts) / block.p
-        self._found: dict[tuple[float, float], tuple[float, ContactHistory]] = {}
+        self._found: dict[tuple[float, float], tuple[float, str, ContactHistory]] = {}
         self._costs: list[float] = []
 
     def at(self, stiffness: float) -> Callable[[float], float]:
@@ -230,12 +236,12 @@ class _Runs:
                 step=self._step,
             )
             self._costs.append((time.process_time() - began) / self._duration)
-            self._found[stiffness, fraction] = self._identify(history), history
+            self._found[stiffness, fraction] = *self._identify(history), history
         return self._found[stiffness, fraction][0]
 
     def result(self) -> Calibration:
         """Take the run whose restitution is nearest."""
-        values = np.array([value for value, _ in self._found.values()])
+        values = np.array([value for value, _, _ in self._found.values()])
         if self._step is not None and values.size == 0:
             longest = longest_step(self._body, self._law)
             raise ValueError(
@@ -247,10 +253,11 @@ class _Runs:
                 f"No free vibration of this body ({self._body.description}) gave a restitution; a block that rocks was "
                 "expected"
             )
-        value, history = list(self._found.values())[int(np.nanargmin(np.abs(values - self._target)))]
+        value, source, history = list(self._found.values())[int(np.nanargmin(np.abs(values - self._target)))]
         return Calibration(
             law=history.law,
             restitution=value,
+            source=source,
             velocity_ratio=free_restitution(history, impacts=self._impacts),
             target=self._target,
             fractions=np.array([fraction for _, fraction in self._found]),
@@ -262,6 +269,10 @@ class _Runs:
             residual=history.energies.relative_residual,
             body=self._body.description,
         )
+
+
+def _by_velocities(history: ContactHistory, *, impacts: int) -> tuple[float, str]:
+    return free_restitution(history, impacts=impacts), VELOCITY_RATIO
 
 
 def _bracket(runs: Callable[[float], float], target: float, fractions: Sequence[float]) -> tuple[float, float] | None:
