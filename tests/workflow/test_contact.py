@@ -100,7 +100,7 @@ def test_an_ensemble_of_the_contact_model_is_compared_and_reported_while_it_is_a
 
 
 def test_a_specimen_without_a_law_fails_its_tests_with_what_to_do(in_space):
-    in_space.edit('step = "30 us"', 'step = "10 ms"')
+    in_space.edit('step = "30 us"', 'step = "1 ms"')
     stages = in_space.run().stages
     reasons = {stage.reason for stage in stages if stage.action == "failed"}
     assert any("Take a shorter step or a softer contact" in reason for reason in reasons)
