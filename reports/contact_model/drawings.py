@@ -98,9 +98,9 @@ def draw_convergence(found: dict[str, Any]) -> Figure:
         nodes.legend(fontsize=7)
         for axes in (steps, modes, nodes):
             axes.margins(x=0.05)
-        for axes in (steps, nodes):
-            axes.xaxis.set_major_formatter("{x:g}")
-            axes.xaxis.set_minor_formatter(NullFormatter())
+        for axis in (steps.xaxis, steps.yaxis, nodes.xaxis):
+            axis.set_major_formatter("{x:g}")
+            axis.set_minor_formatter(NullFormatter())
         figure.legend(*steps.get_legend_handles_labels(), loc="outside lower center", ncols=2, fontsize=7)
     return figure
 
@@ -162,6 +162,7 @@ def draw_misfit(found: dict[str, Any]) -> Figure:
                     label=specimen,
                 )
             axes.axhline(100.0 * VISIBLE, color=GREY, linewidth=0.8)
+            axes.margins(x=0.04)
             axes.set_xlabel(label)
             axes.xaxis.set_major_formatter("{x:g}")
             axes.xaxis.set_minor_formatter(NullFormatter())

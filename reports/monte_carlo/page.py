@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib.ticker import NullFormatter
 
 from colonnade.figures.style import blank_figure, styled
 from monte_carlo.design import LEVELS
@@ -197,12 +198,15 @@ def draw_levels(found: dict[str, Any]) -> Any:
         coverage.set_xlabel("intervals that hold e, %")
         for name, colour, label in (("scatter", "#0b6bb0", "recommended"), ("naive_scatter", "#d1490f", "naive")):
             scatter.semilogx([row[name] for row in rows], places, "o", markersize=3, color=colour, label=label)
+        scatter.xaxis.set_major_formatter("{x:g}")
+        scatter.xaxis.set_minor_formatter(NullFormatter())
         scatter.set_xlabel("RMS error of e")
         scatter.legend(fontsize=7, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
         bias.set_yticks(places, [f"{WORDS[row['factor']]}: {row['level']}" for row in rows], fontsize=6)
         bias.set_ylim(len(rows) - 0.5, -0.5)
         edges = [place for place in places[1:] if rows[place]["factor"] != rows[place - 1]["factor"]]
         for axes in (bias, coverage, scatter):
+            axes.margins(x=0.05)
             for edge in edges:
                 axes.axhline(edge - 0.5, color="0.85", linewidth=0.6)
     return figure
