@@ -7,6 +7,7 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs import find_impacts
+from colonnade.identification.verdict import is_within, rank
 from colonnade.stages import compare as comparing
 from colonnade.stages import condition as conditioning
 from colonnade.stages import ensemble as running
@@ -89,6 +90,21 @@ def test_a_prediction_from_a_peak_between_two_samples_is_not_late(small_campaign
         true = find_impacts(time[time > begins], angle[time > begins], lowest=0.02 * ALPHA)
         lateness.append(float(prediction["impact_time"][0]) - true[0])
     assert np.abs(lateness).max() < 0.15 * every * float(time[1])
+
+
+def test_a_wrong_zero_that_is_identified_leaves_a_true_model_within_its_spread(small_campaign, released, specimen):
+    ready, rocking = measured(small_campaign, released(E)[0])
+    shifted = rocking.assign(rocking_angle=rocking["rocking_angle"] + 0.02 * ALPHA)
+    identified = identifying.restitution(
+        shifted, identifying.instructions(small_campaign, small_campaign.tests["free-01"])
+    )
+    read = running.instructions(small_campaign, small_campaign.tests["free-01"], "nonlinear")
+    read = read.model_copy(update={"members": 40})
+    ranks = [
+        rank(float(bands["measured_distance"]), bands["member_distance"].to_numpy())
+        for bands in (running.ensemble(ready, shifted, specimen, read, each) for each in (None, identified))
+    ]
+    assert [is_within(each) for each in ranks] == [False, True]
 
 
 def test_a_zero_offset_of_a_restitution_that_was_refused_is_not_used(small_campaign, released, specimen):
