@@ -98,14 +98,15 @@ def campaign(tmp_path: Path) -> Path:
     from colonnade.dynamics.kinematics import point_displacement
 
     block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-    history = rock(block, theta0=0.4 * block.critical_angle, restitution=0.95, duration=12.0)
+    history = rock(block, theta0=0.4 * block.critical_angle, restitution=0.95, model="nonlinear", duration=12.0)
     time = np.arange(0.0, 12.0, 0.005)
     angle = np.interp(time, history.time, history.angle)
     top = 1000 * point_displacement(angle, (0.043, 0.0, 0.440), block)[0, :, 0]
-    top += np.random.default_rng(1).normal(0.0, 0.01, time.size)
+    random = np.random.default_rng(1)
     (tmp_path / "raw").mkdir()
     for name, delimiter in (("free-01", ","), ("free-02", ";")):
-        rows = [f"{instant:.4f}{delimiter}{value:.5f}" for instant, value in zip(time, top, strict=True)]
+        recorded = top + random.normal(0.0, 0.01, time.size)
+        rows = [f"{instant:.4f}{delimiter}{value:.5f}" for instant, value in zip(time, recorded, strict=True)]
         text = "\n".join([delimiter.join(("Time [s]", "top [mm]")), *rows, ""])
         (tmp_path / "raw" / f"{name}.csv").write_text(text, encoding="utf-8")
     (tmp_path / "campaign.toml").write_text(CAMPAIGN, encoding="utf-8")

@@ -273,9 +273,10 @@ def test_extreme_motions_and_blocks_end_with_an_outcome(model):
     rng = np.random.default_rng(11)
     for _ in range(300):
         sides = rng.uniform(0.02, 1.2, 2)
+        distances = rng.uniform(0.1, 3, 2)
         block = Block.measured(
-            mass=1.0, pole_distance=tuple(rng.uniform(0.1, 3, 2)), critical_angle=tuple(sides),
-            inertia=tuple(rng.uniform(0.05, 1, 2)),
+            mass=1.0, pole_distance=tuple(distances), critical_angle=tuple(sides),
+            inertia=tuple(distances**2 * rng.uniform(1, 5, 2)),
         )  # fmt: skip
         omega = 10 ** rng.uniform(-2, 2) * block.p
         cycles, ramp, phase = rng.choice([1, 3, 20]), rng.choice([0.0, 0.3, 2.0]), rng.uniform(0, 7)

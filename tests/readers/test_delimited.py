@@ -317,7 +317,7 @@ def test_a_file_without_samples_is_refused(tmp_path: Path, text: str, message: s
     ("options", "message"),
     [
         ({"delimeter": ";"}, r'no option "delimeter". Did you mean "delimiter"'),
-        ({"decimal": "point"}, r'option "decimal" .* is \'point\''),
+        ({"decimal": "point"}, 'option "decimal" .* is "point"'),
         ({"encoding": "utf-9"}, r"no such encoding"),
         ({"delimiter": "ab"}, r"one character was expected"),
         ({"time": 1, "time_unit": "mm"}, r"a unit of time was expected"),

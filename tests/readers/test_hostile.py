@@ -89,12 +89,11 @@ def test_no_command_runs_what_a_file_by_the_name_of_a_table_holds(
         path = hostile.FILES[name](inner).path
         text += f'[[tests]]\nid = "{path.stem}"\nkind = "other"\nfile = "raw/{path.name}"\n'
         text += 'specimen = "prism"\nsetup = "frame"\n\n'
-    assert invoke(["init", str(tmp_path)]) in (0, 1)
-    (tmp_path / "campaign.toml").unlink(missing_ok=True)
-    (tmp_path / "campaign.toml").write_text(text, encoding="utf-8")
-    for command in (["check"], ["ingest", "--workers", "1"]):
+    for command in (["init"], ["check"], ["ingest", "--workers", "1"]):
         capsys.readouterr()
         invoke([*command, str(tmp_path)])
+        if command == ["init"]:
+            (tmp_path / "campaign.toml").write_text(text, encoding="utf-8")
         assert "Internal error" not in capsys.readouterr().out
     assert (tmp_path / "processed" / "tests" / "free-01" / "recorded.nc").exists()
     assert not inner.victim.exists()

@@ -232,7 +232,8 @@ def test_a_cluster_whose_workers_all_end_is_told_and_not_waited_for(soon):
 def test_a_worker_that_outlives_its_run_writes_nothing(untouched, undisturbed):
     def chain(run):
         campaign, raw = load(untouched.folder), RawIndex(untouched.layout, verify=True)
-        files_of = campaign.tests["pulse-01"].files.values()
+        test = campaign.tests["pulse-01"]
+        files_of = [(path, campaign.setups[test.setup].recorders[name].file) for name, path in test.files.items()]
         options = {"phase": "measuring", "until": "ingest", "redo_from": None, "raw": raw.look(files_of)}
         return Chain.of(campaign, untouched.layout, "pulse-01", run=run, **options)
 
