@@ -115,6 +115,19 @@ def test_an_e_that_depends_on_the_speed_is_named_and_the_value_is_its_mean():
     assert result.low - 5e-4 <= truth[:followed].mean() <= result.high + 5e-4
 
 
+def test_a_change_with_the_speed_is_named_with_eight_impacts_and_none_where_there_is_none():
+    speed = 0.9 ** np.arange(8)
+    change = 0.02 * (speed.mean() - speed) / np.ptp(speed)
+    named = []
+    for falls in (change, 0 * change):
+        drawn = [np.array(scattered(seed, 0.9, 0.002, 8)) + falls for seed in range(8)]
+        results = [identify(tuple(each.tolist()), seed) for seed, each in enumerate(drawn)]
+        named.append([departure.name for result in results for departure in result.departures])
+    # Four standard errors, by Student's t with six degrees of freedom, name 3 of the 8.
+    assert named[0].count("speed-dependent restitution") >= 7
+    assert named[1].count("speed-dependent restitution") == 0
+
+
 def test_the_derivatives_by_each_impact_are_those_of_differences():
     values = {"restitution": np.log(0.9), "peak": 0.5 * ALPHA, "time": 1.0, "zero_offset": 0.0}
     decay = Decay(values | {"critical_angle": 0.0, "p": 0.0}, 1, 8, PRISM, linearised=False)

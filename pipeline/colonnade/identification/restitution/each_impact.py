@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from math import exp
+from math import exp, isfinite
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,6 +89,16 @@ class EachImpact:
     impact_times: Array = field(default_factory=lambda: np.empty(0))
     restitution: Array = field(default_factory=lambda: np.empty(0))
     fitted: FittedHistory | None = None
+
+    @property
+    def change_chance(self) -> float:
+        """Probability that e changes as much by chance; 1 where that is not known."""
+        return _chance(self.change, self.change_error, self.restitution.size)
+
+    @property
+    def has_trend(self) -> bool:
+        """Whether e changes with the speed of impact, surely enough that the mean is that at the mean speed."""
+        return self.change_chance < SURE_TREND
 
     @property
     def is_consistent(self) -> bool:
@@ -224,10 +234,17 @@ def _trend(path: Path, stretch: Stretch, names: tuple[str, ...]) -> tuple[float,
     parts, _ = solve(Transformed(replace(linear, fixed=np.column_stack((along, linear.fixed)))))
     top = int(np.argmax(parts.likelihood))
     change, error = float(parts.centre[top]), float(parts.error[top])
-    if 2 * float(stats.t.sf(abs(change) / error, impacts - 2)) >= SURE_TREND:
+    if _chance(change, error, impacts) >= SURE_TREND:
         return change, error, None
     at_mean, _ = solve(Transformed(replace(linear, fixed=np.column_stack((linear.fixed, along)))))
     return change, error, at_mean
+
+
+def _chance(change: float, error: float, impacts: int) -> float:
+    """Probability that e of so many impacts changes as much by chance, by Student's t; 1 where that is not known."""
+    if not (isfinite(change) and error > 0):
+        return 1.0
+    return 2 * float(stats.t.sf(abs(change) / error, impacts - 2))
 
 
 def _described(

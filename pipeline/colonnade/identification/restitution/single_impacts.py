@@ -11,14 +11,14 @@ from colonnade.identification.restitution.each_impact import EachImpact
 
 NAME = "speed-dependent restitution"
 
-SURE = 4.0
-"""Standard errors (of a normal distribution) from which on a change is named, ..."""
-
 LEAST_CHANGE = 0.005
-"""... if e changes by more than this over the speeds of impact seen; ..."""
+"""Change of e over the speeds of impact seen that is named, if it is sure (`each_impact.SURE_TREND`); ..."""
 
 LARGEST_CHANGE = 0.05
-"""... beyond this one value would mislead."""
+"""... beyond this one value would mislead, ..."""
+
+SURE = 4.0
+"""... but for a refusal more certainty is needed than for a name: standard errors (of a normal distribution)."""
 
 MOVING = "moving table"
 
@@ -85,15 +85,12 @@ def speed_dependence(fit: EachImpact) -> tuple[Departure, ...]:
     Returns
     -------
     departures : tuple of Departure
-        None, or one whose size is the change of e over the speeds of impact seen; it refuses above `LARGEST_CHANGE`.
-        Threshold: `SURE` standard errors by Student's t, and `LEAST_CHANGE`.
+        None, or one whose size is the change of e over the speeds of impact seen. Threshold: that from which on the
+        mean is the one at the mean speed, and `LEAST_CHANGE`. It refuses above `LARGEST_CHANGE`, if it is `SURE`.
     """
-    if not (isfinite(fit.change) and fit.change_error > 0):
+    if not fit.has_trend or abs(fit.change) < LEAST_CHANGE:
         return ()
-    chance = 2 * float(stats.t.sf(abs(fit.change) / fit.change_error, fit.restitution.size - 2))
-    if chance > 2 * float(stats.norm.sf(SURE)) or abs(fit.change) < LEAST_CHANGE:
-        return ()
-    refuses = abs(fit.change) > LARGEST_CHANGE
+    refuses = abs(fit.change) > LARGEST_CHANGE and fit.change_chance <= 2 * float(stats.norm.sf(SURE))
     end = "one value would mislead." if refuses else "the value given is the mean over the impacts seen."
     return (
         Departure(
