@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 from joblib import Parallel, delayed
-from monte_carlo.design import BEYOND, draw
+from monte_carlo.design import BEYOND, SPREAD, Draw, draw
 from monte_carlo.levels import judge, judge_bounds, judge_estimators, judge_kinds, judge_levels
 from monte_carlo.page import draw_levels, page
 from monte_carlo.trial import Trial, run, tried
@@ -42,10 +42,17 @@ def run_trials(records: int, seed: int, workers: int) -> dict[str, list[Trial]]:
 
 def run_by_speed(seed: int, number: int) -> Trial:
     """Run a record whose e changes by `BY_SPEED` over the speeds of its impacts."""
-    drawn = draw(seed, number)
+    return tried(changing(draw(seed, number)))
+
+
+def changing(drawn: Draw) -> Draw:
+    """Let e change by `BY_SPEED` from the slowest to the fastest impact of a record, about the mean that was drawn."""
+    # At the slowest impact, too, e is below 1.
+    restitution = min(drawn.restitution, 1 - SPREAD * drawn.scatter - 1e-3 - abs(BY_SPEED))
     fastest = np.sqrt(drawn.release * (2 - drawn.release))
-    slowest = fastest * drawn.restitution ** (drawn.impacts - 1)
-    return tried(replace(drawn, by_speed=BY_SPEED / (fastest - slowest)))
+    speeds = fastest * restitution ** np.arange(drawn.impacts)
+    by_speed = BY_SPEED / float(np.ptp(speeds))
+    return replace(drawn, restitution=restitution, by_speed=by_speed, mean_speed=float(speeds.mean()))
 
 
 def numbers(trials: dict[str, list[Trial]], seed: int) -> dict[str, Any]:

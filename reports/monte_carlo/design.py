@@ -88,8 +88,8 @@ class Draw:
         Share of the sampling interval between the clock's zero and the record's; and share of the last arc recorded.
     seed : tuple of int
         Of the study, and the record's number: gives the noise, and e of each impact.
-    by_speed : float
-        Change of e from an impact at rest to one with p α.
+    by_speed, mean_speed : float
+        Change of e from an impact at rest to one with p α; speed, over p α, at which e is as drawn.
     drift : float
         Of the zero over the record, over α.
     """
@@ -110,6 +110,7 @@ class Draw:
     phase: float
     seed: tuple[int, int]
     by_speed: float = 0.0
+    mean_speed: float = 0.0
     drift: float = 0.0
 
     @property
@@ -134,7 +135,8 @@ class Draw:
     def restitutions(self) -> Array:
         """Return e of each impact before its speed counts; drawn once, the same for every call."""
         random = np.random.default_rng((*self.seed, 2))
-        return self.restitution + self.scatter * random.normal(size=MOST_IMPACTS)
+        at_rest = self.restitution - self.by_speed * self.mean_speed
+        return at_rest + self.scatter * random.normal(size=MOST_IMPACTS)
 
     def clock(self) -> Array:
         """Times of the samples, s; as the mean e would have the impacts."""

@@ -89,8 +89,9 @@ def page(found: dict[str, Any], figure: str) -> str:
             "",
             "## Blocks and recorders that are not as assumed",
             "",
-            f"e changes by {abs(found['by_speed']):g} from the slowest to the fastest impact (the truth is then the",
-            f"mean of the impacts that the value is from), or the zero drifts by {found['drift']:g} α over the record.",
+            f"e changes by {abs(found['by_speed']):g} from the slowest to the fastest impact about the mean that was",
+            "drawn (the truth is then the mean of the impacts that the value is from), or the zero drifts by",
+            f"{found['drift']:g} α over the record.",
             "Departures that were named, in how many records: " + _named(found["named"]) + ".",
             "",
             *_table(found["departures"]),
@@ -115,9 +116,9 @@ def page(found: dict[str, Any], figure: str) -> str:
 
 
 def _missed(found: dict[str, Any]) -> list[str]:
-    """Name the levels and kinds that miss a goal, with their figures."""
+    """Name the levels, kinds and departures that miss a goal, with their figures."""
     lines = []
-    for row in (*found["levels"], *found["kinds"]):
+    for row in (*found["levels"], *found["kinds"], *found["departures"]):
         if row["recommended"] < FEWEST or row["factor"] == "recommended":
             continue
         name = f"{WORDS.get(row['factor'], row['factor'])}, {row['level']}"

@@ -44,12 +44,11 @@ def whole():
 def test_a_short_study_keeps_the_goals_as_far_as_sixty_records_can_tell(short):
     everything = short["levels"][0]
     assert everything["records"] == 60
-    assert everything["refused_of_eight"] <= 0.05
-    # Where e scatters by 0.005, the mean of a few impacts is off by 1e-3.
-    assert abs(everything["bias"]) < 5 * everything["bias_error"]
+    assert everything["refused"] <= 0.05
+    assert abs(everything["bias"]) < 1e-4
     assert everything["coverage"] >= 0.85
     assert everything["width"] < 2 * everything["best_width"]
-    assert everything["margin"] > 1
+    assert everything["margin"] > 10
     steady = next(each for each in short["levels"] if (each["factor"], each["level"]) == ("scatter", "0"))
     assert abs(steady["bias"]) < 1e-4
     assert steady["margin"] > 10
@@ -70,6 +69,16 @@ def test_the_mean_e_is_that_of_all_impacts_and_each_record_has_its_own(study):
     _, impacts, used = drawn.motion(drawn.clock())
     np.testing.assert_array_equal(used, own[: used.size])
     assert impacts.size == used.size
+
+
+def test_e_that_depends_on_the_speed_changes_by_what_the_page_says(command, study):
+    for number in range(40):
+        drawn = replace(command.changing(study.draw(5, number)), scatter=0.0)
+        _, _, used = drawn.motion(drawn.clock())
+        # The last impacts of a block that hardly loses anything are more than the mean e has in the same time.
+        assert np.ptp(used) == pytest.approx(abs(command.BY_SPEED), rel=0.25), number
+        assert used.mean() == pytest.approx(drawn.restitution, abs=0.007)
+        assert used.max() < 1
 
 
 def test_pink_noise_has_its_power_and_its_variance(study):
@@ -159,7 +168,8 @@ def test_an_e_that_depends_on_the_speed_is_named_and_its_interval_holds(whole):
     by_speed, drifting = whole["departures"]
     assert by_speed["coverage"] >= 0.92
     assert drifting["coverage"] >= 0.92
-    assert whole["named"]["speed"]["speed-dependent restitution"] > 200
+    # Of 312; the others have too few impacts, or too much scatter, for a change of 0.02 to show.
+    assert whole["named"]["speed"]["speed-dependent restitution"] >= 235
     assert whole["named"]["drift"]["zero drift"] > 10 * whole["named"]["drift"]["unequal sides"]
 
 
