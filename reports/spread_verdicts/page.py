@@ -22,11 +22,11 @@ horizon, over half of their 95 % band. The rank of the measured angle is the sha
 distance. It is within the spread up to a rank of {limit:.2f}.
 
 {tests} tests whose truth is known went through the stages `ingest`, `condition`, `rocking`, `ensemble` and
-`compare`, {duration:g} s at {rate:g} samples a second, with prisms of {heights} m. In each, the true e, α, p,
-clock, gain of the accelerometer, gain and zero of the transducers differ from the known ones by errors drawn
-from the standard deviations of the settings (e: {deviation:g}); both recorders are noisy. The model, the
-nonlinear one, is true. Then the same {tests} tests were judged by ensembles around an e that is wrong by
-{wrong:g}, up and down.
+`compare`, free vibrations also through `restitution`, which gives their zero offset. Each lasts {duration:g} s at
+{rate:g} samples a second, with prisms of {heights} m. In each, the true e, α, p, clock, gain of the
+accelerometer, gain and zero of the transducers differ from the known ones by errors drawn from the standard
+deviations of the settings (e: {deviation:g}); both recorders are noisy. The model, the nonlinear one, is true. Then
+the same {tests} tests were judged by ensembles around an e that is wrong by {wrong:g}, up and down.
 
 **Under the true model {within:.1%} of {judged} tests are within the spread** (nominal {nominal:.1%};
 95 % of such shares are between {low:.1%} and {high:.1%}). **With e wrong by {wrong:g}, {found:.1%} are called
