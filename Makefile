@@ -28,7 +28,7 @@ test: $(INSTALLED)
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest $(SHARED) -m "not slow and not drill"
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest $(SHARED) --durations=10 -m "not slow and not drill"
 
 study: $(INSTALLED)
 	$(BIN)/python -m pytest -m slow

@@ -9,7 +9,7 @@ from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.layout import rigid_body
 from colonnade.report.results import Results
 from colonnade.report.specimens_page import _contact
-from colonnade.stages.contact import law_variables
+from colonnade.stages.contact import IDENTIFIED, law_variables
 from colonnade.store.variables import VARIABLES
 
 CYLINDER = Block.cylinder(diameter=0.097, height=0.455, mass=26.30)
@@ -18,7 +18,8 @@ CYLINDER = Block.cylinder(diameter=0.097, height=0.455, mass=26.30)
 def test_mass_weight_and_radius_of_each_ring_are_stored_and_shown():
     body = rigid_body(CYLINDER)
     law = ContactLaw.stiff(body, CYLINDER.gravity)
-    stored = xr.Dataset(law_variables(body, law, CYLINDER.gravity), attrs={"body": body.description})
+    attributes = {"body": body.description, "contact_restitution_source": IDENTIFIED}
+    stored = xr.Dataset(law_variables(body, law, CYLINDER.gravity), attrs=attributes)
     assert set(stored) <= set(VARIABLES)
     np.testing.assert_allclose(stored["ring_radius"], 0.0485 * np.arange(1, 5) / 4)
     assert float(stored["node_mass"].sum()) == pytest.approx(26.30)
