@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -138,3 +139,14 @@ def test_numbers_that_run_on_are_told_as_the_cause_of_a_missing_column(colonnade
     assert "Its numbers, 8 in a row, run on from row to row and are read as one series of 2400" in said
     path.write_text(path.read_text().replace("column = 8", "column = 1"))
     assert colonnade("check").returncode == 0
+
+
+def test_a_problem_names_the_serious_finding_that_it_follows_from(colonnade, campaign):
+    path = campaign / "campaign.toml"
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace('unit = "mm"\n', 'unit = "mm"\ngain = "0.001 mm/mm"\n'), encoding="utf-8")
+    lines = colonnade("check").stdout.splitlines()
+    (problem, *_) = (line for line in lines if line.startswith("  problem: "))
+    kind = re.match(r"  problem: probably because of what is serious below \(([^)]+)\): This free vibration", problem)
+    assert kind, lines
+    assert any(line.startswith(f"serious ({kind[1]}): ") for line in lines[lines.index(problem) :])

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import rich_click as click
 
 from colonnade.cli.console import say, show_json
-from colonnade.cli.findings import records_of, show_by_kind
+from colonnade.cli.findings import probable_cause, records_of, show_by_kind
 from colonnade.cli.options import campaign_argument, json_option, strict_option
 from colonnade.cli.progress import counting
 
@@ -57,12 +57,12 @@ def _tell(campaign: Campaign, checked: dict[str, Checked]) -> None:
     from colonnade.findings import in_order
 
     say(f"{campaign.path}: {_count(len(campaign.tests), 'test')}, {_count(len(campaign.specimens), 'specimen')}")
+    told = {"campaign file": in_order(campaign.warnings)}
+    told |= {name: in_order(each.findings, each.concerning) for name, each in checked.items()}
     for name, each in checked.items():
         say(f"{name}: {each.status}")
         for problem in each.problems:
-            say(f"  problem: {_indented(problem)}")
-    told = {"campaign file": in_order(campaign.warnings)}
-    told |= {name: in_order(each.findings, each.concerning) for name, each in checked.items()}
+            say(f"  problem: {probable_cause(told[name], where='below')}{_indented(problem)}")
     show_by_kind(told)
     statuses = Counter(each.status for each in checked.values())
     if statuses["would fail"] or statuses["doubtful"]:

@@ -49,6 +49,12 @@ def line_of(record: Mapping[str, Any]) -> str:
     return f"{record['severity']}{follows}: {record['text']}"
 
 
+def probable_cause(findings: Sequence[tuple[Finding, bool]], *, where: str) -> str:
+    """Say what else was found of a test that fails, as far as it is serious, and where on the screen that is."""
+    kinds = dict.fromkeys(each.kind for each, explained in findings if each.severity == "serious" and not explained)
+    return f"probably because of what is serious {where} ({', '.join(kinds)}): " if kinds else ""
+
+
 def show_by_kind(findings: Findings) -> None:
     """
     Write findings by kind, the worst first: a few in full, of the others whom they are about.

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from colonnade.cli.console import say, show_json, show_table
-from colonnade.cli.findings import all_records, show_by_kind
+from colonnade.cli.findings import all_records, probable_cause, show_by_kind
 from colonnade.cli.progress import following
 
 if TYPE_CHECKING:
-    from colonnade.findings import Finding
     from colonnade.workflow import RunResult, StageRun
 
 STAGES = ("ingest", "condition", "rocking", "restitution", "predict", "ensemble", "compare", "report")
@@ -62,16 +61,10 @@ def failed_rows(result: RunResult) -> list[tuple[str, str, str]]:
     """Test or specimen, stage and reason of all that failed, now or in an earlier run; its probable cause first."""
     findings = result.findings
     return [
-        (stage.subject, stage.stage, f"{_cause(findings.get(stage.told_of, []))}{stage.reason}")
+        (stage.subject, stage.stage, f"{probable_cause(findings.get(stage.told_of, []), where='above')}{stage.reason}")
         for stage in result.stages
         if stage.action == "failed"
     ]
-
-
-def _cause(findings: Sequence[tuple[Finding, bool]]) -> str:
-    """Say what else was found of a test that failed, as far as it is serious."""
-    kinds = dict.fromkeys(each.kind for each, explained in findings if each.severity == "serious" and not explained)
-    return f"probably because of what is serious above ({', '.join(kinds)}): " if kinds else ""
 
 
 def _grouped(stages: Iterable[StageRun]) -> Iterator[tuple[str, str, str, str]]:
