@@ -199,7 +199,7 @@ def draw_limit(axes: Axes, level: float, name: str) -> None:
 
 
 def largest_of(curves: Sequence[Curve]) -> float:
-    """Return the largest finite magnitude, 0 where there is none."""
+    """Return the largest finite magnitude, 0 if it has none."""
     return max(
         (float(np.abs(curve.values[np.isfinite(curve.values)]).max(initial=0.0)) for curve in curves), default=0.0
     )

@@ -30,7 +30,7 @@ def companions_of(path: Path, kind: str) -> tuple[str, ...]:
     Raises
     ------
     ReadError
-        If the header names a file elsewhere: it would be opened wherever it is.
+        If the header names a file elsewhere: it would be opened anywhere.
     """
     if kind == "Q":
         return (f"{path.stem}.QBN",)

@@ -224,7 +224,7 @@ def _bend(before: Array, sample: Array, behind: Array) -> Array:
 
 
 def _smallest_step(values: Array, enough: float) -> float:
-    """Smallest change between neighbours, or any that is not larger than `enough`; 0 where there is none."""
+    """Smallest change between neighbours, or any that is not larger than `enough`; 0 if it has none."""
     smallest = np.inf
     for part in blocks(values.size - 1):
         steps = np.abs(values[part.start + 1 : part.stop + 1] - values[part])

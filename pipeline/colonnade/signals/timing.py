@@ -194,7 +194,7 @@ def _longest_increasing(values: list[float], *, repeats: bool) -> NDArray[np.int
 
 
 def _resolution(times: Array) -> float:
-    """Largest power of ten, s, that all times are multiples of; 0 where there is none."""
+    """Largest power of ten, s, that all times are multiples of; 0 if it has none."""
     largest = float(np.abs(times).max(initial=0.0))
     for decimals in range(10):
         scaled = times * 10.0**decimals

@@ -15,7 +15,7 @@ LARGEST_TRANSVERSE = 0.1
 """Of the peak along x: what the base may move across without a word, though a plane model leaves it out."""
 
 VERTICAL = "vertical motion"
-"""Kind of what is told of the motion along z."""
+"""Kind of the findings about the motion along z."""
 
 LEAST_VERTICAL = 1e-6
 """m/s², from lowest to highest: an accelerometer that reads less is dead."""

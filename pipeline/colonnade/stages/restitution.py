@@ -121,7 +121,7 @@ def expect_angle(rocking: xr.Dataset) -> None:
 
 
 def _warnings(result: Restitution) -> list[Finding]:
-    """What speaks against the value, or why there is none."""
+    """What speaks against the value, or why it is missing."""
     told = [
         ("no restitution", f"No restitution from this test: {result.reason}" if result.reason else ""),
         ("two values of e", disagreement(result)),

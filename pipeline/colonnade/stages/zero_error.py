@@ -18,10 +18,10 @@ PARTS = 4
 """Of a window, whose means are held against its own: so far may the zero be off."""
 
 LARGEST_ANGLE = 0.01
-"""Of the critical angle; a zero that is less certain than this is told."""
+"""Of the critical angle; a zero less certain than this is reported."""
 
 LARGEST_ACCELERATION = 0.03
-"""Of the acceleration that uplifts the specimen; a zero of the table that is less certain than this is told."""
+"""Of the acceleration that uplifts the specimen; a zero of the table less certain than this is reported."""
 
 SERIOUS = 10.0
 """Times these, from which on results are wrong."""

@@ -48,7 +48,7 @@ def check_records(time: Any, angle: Any, **others: Any) -> tuple[Array, Array]:
     Raises
     ------
     ValueError
-        If one is no array of real numbers, they differ in shape or time does not increase.
+        If one is not an array of real numbers, they differ in shape or time does not increase.
     """
     times, angles = samples("time", time, fewest=0), samples("angle", angle, fewest=0, finite=False)
     for name, values in {"angle": angles, **others}.items():

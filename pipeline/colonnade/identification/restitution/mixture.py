@@ -55,7 +55,7 @@ class Parts:
 
 @dataclass(frozen=True)
 class Mean:
-    """A mean with its interval and standard error, and the scatter: its mean by weight, 0 where there is none."""
+    """A mean with its interval and standard error, and the scatter: its mean by weight, 0 if it has none."""
 
     value: float
     low: float
