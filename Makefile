@@ -1,6 +1,6 @@
 # make demo     writes the virtual campaign into demo/ and runs it: open demo/report/index.html
 # make test     style, types, import rules, tests, and the built wheel in a fresh environment
-# make study    the slow tests: seeds 0-19 of the virtual campaign, other laboratories' files
+# make study    the slow tests: seeds 0-19 of the virtual campaign, MuJoCo, benchmarks, other laboratories' files
 # make drill    500 kills, full and read-only disks (as root), two runs at once, 2000 damaged files: two hours
 # make format   rewrites the sources in the project's style
 # make reports  rebuilds the reference reports in reports/ and the picture of the README
@@ -14,13 +14,18 @@
 PYTHONS := python3.14 python3.13 python3.12 python3.11 python3 python
 FITS := import sys, venv, ensurepip; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 14))
 BIN := .venv/bin
+DEMO_INSTALLED := .venv/installed-demo
 INSTALLED := .venv/installed
+STUDY_INSTALLED := .venv/installed-study
 # Files of tests are shared out over the cores, each file to one of them, where it computes in one thread.
 SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 
+# Each command and worker starts several seconds sooner if Python keeps the bytecode of what it has imported.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: demo test study drill format reports restitution-study verdict-study contact-study clean
 
-demo: $(INSTALLED)
+demo: $(DEMO_INSTALLED)
 	@$(BIN)/colonnade demo demo
 
 test: $(INSTALLED)
@@ -30,7 +35,7 @@ test: $(INSTALLED)
 	$(BIN)/lint-imports
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest $(SHARED) --durations=10 -m "not slow and not drill"
 
-study: $(INSTALLED)
+study: $(STUDY_INSTALLED)
 	$(BIN)/python -m pytest -m slow
 
 drill: $(INSTALLED)
@@ -60,9 +65,13 @@ clean:
 	find pipeline tests -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # An interpreter counts if it runs, is 3.11 to 3.14 and can make an environment; being on the PATH is not enough
-# (version managers leave stubs there). Installed again only when pyproject.toml is newer. A package's sources
-# are compiled as they are first imported: most never are.
-$(INSTALLED): pyproject.toml
+# (version managers leave stubs there). Installed again only when pyproject.toml is newer. The demo installs only what
+# it needs; the tests add linters and the packages they compare with, the study also heyoka and MuJoCo. Packages are
+# compiled when they are first imported: most modules never are.
+$(DEMO_INSTALLED): EXTRAS := demo
+$(INSTALLED): EXTRAS := demo,test
+$(STUDY_INSTALLED): EXTRAS := demo,test,bench
+$(DEMO_INSTALLED) $(INSTALLED) $(STUDY_INSTALLED): pyproject.toml
 	@if ! $(BIN)/python -c "$(FITS)" >/dev/null 2>&1; then \
 	  chosen=; \
 	  for python in $(PYTHONS); do \
@@ -85,5 +94,5 @@ $(INSTALLED): pyproject.toml
 	  echo "Making .venv with $$chosen ($$($$chosen --version))"; \
 	  $$chosen -m venv --clear .venv || exit 1; \
 	fi
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --editable ".[demo,test]"
-	@touch $(INSTALLED)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --editable ".[$(EXTRAS)]"
+	@touch $(DEMO_INSTALLED) $@

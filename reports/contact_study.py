@@ -14,14 +14,14 @@ from typing import Any
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
+
+from colonnade import figures
+from colonnade.dynamics.contact.law import ContactLaw
 from contact_model import convergence, damping, disturbed, drawings, space, speed
 from contact_model.free import prism_body
 from contact_model.observed import measure_observed
 from contact_model.page import page
 from contact_model.summary import summary
-
-from colonnade import figures
-from colonnade.dynamics.contact.law import ContactLaw
 
 HERE = Path(__file__).resolve().parent
 DOCUMENT = HERE.parent / "docs" / "contact.md"

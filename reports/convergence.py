@@ -16,8 +16,8 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import History
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
-from colonnade.dynamics.schemes import PAPERS_REFINEMENT, Scheme, rock_by_steps
 from colonnade.figures.style import blank_figure, styled
+from paper_schemes import PAPERS_REFINEMENT, Scheme, rock_by_steps
 
 HERE = Path(__file__).resolve().parent
 FIGURE = "convergence.svg"

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from colonnade.campaign import Campaign, load
 from colonnade.campaign import Test as OneTest
 from colonnade.dynamics.block import Block
@@ -21,8 +21,6 @@ from colonnade.laboratory.programme import write
 from colonnade.readers.registry import read
 from colonnade.signals.filters import default_lowpass
 from colonnade.stages import condition, ingest, restitution, rocking
-
-Array = NDArray[np.float64]
 
 DOCUMENT = Path(__file__).resolve().parents[1] / "docs" / "filter.md"
 FIGURE = "filter-bias.svg"
@@ -90,10 +88,10 @@ def plan(rate: float, true: float) -> Plan:
 def _through_the_chain(
     campaign: Campaign, test: OneTest, truth: tuple[Array, Array], rate: float, true: float, cutoff: float
 ) -> Bias:
-    recorded = ingest.ingest({MAIN: read(test.files[MAIN])}, ingest.instructions(campaign, test))
-    how = condition.instructions(campaign, test).model_copy(update={"lowpass": cutoff})
-    rocked = rocking.rocking(condition.condition(recorded, how), rocking.instructions(campaign, test))
-    identified = restitution.restitution(rocked, restitution.instructions(campaign, test))
+    recorded = ingest.ingest({MAIN: read(test.files[MAIN])}, ingest.IngestInputs.of(campaign, test))
+    how = condition.ConditionInputs.of(campaign, test).model_copy(update={"lowpass": cutoff})
+    rocked = rocking.rocking(condition.condition(recorded, how), rocking.RockingInputs.of(campaign, test))
+    identified = restitution.restitution(rocked, restitution.RestitutionInputs.of(campaign, test))
     time, angle = rocked["elapsed"].to_numpy(), rocked["rocking_angle"].to_numpy()
     instants, heights = true_peaks(*truth)
     off = {band: [] for band in BANDS}

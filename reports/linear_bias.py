@@ -9,14 +9,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from monte_carlo.integration import integrated_angle
-from monte_carlo.naive import naive_restitution
-from monte_carlo.truth import FreeRocking
 
 import colonnade
 from colonnade import figures
 from colonnade.dynamics.block import Block
 from colonnade.figures.style import blank_figure, styled
+from monte_carlo.integration import integrated_angle
+from monte_carlo.naive import naive_restitution
+from monte_carlo.truth import FreeRocking
 
 DOCUMENT = Path(__file__).resolve().parents[1] / "docs" / "restitution.md"
 FIGURE = "linear-bias.svg"

@@ -11,13 +11,15 @@ from typing import Any
 
 from colonnade import figures, run
 from colonnade.campaign import Campaign, load
+from colonnade.campaign.summary import Summary
 from colonnade.dynamics.block import Block
-from colonnade.identification.boundaries import MapPoint
+from colonnade.figures.stored import maps, record, restitution
 from colonnade.laboratory import paper_programme, prism_programme, write_campaign
 from colonnade.laboratory.ladder import KEPT_AWAY
-from colonnade.report import charts, restitution_charts, results
-from colonnade.report.agreement import of_summary as agreement_of
+from colonnade.report.agreement import agreement
 from colonnade.store.layout import Layout
+from colonnade.store.records.stored import read_test
+from colonnade.store.records.summary import map_points
 
 HERE = Path(__file__).resolve().parent
 PICTURE = HERE.parent / "docs" / "demo.png"
@@ -118,8 +120,7 @@ def demo_numbers(truth: dict[str, Any], summary: dict[str, Any]) -> dict[str, An
         restitution[specimen] = {"true": true["restitution"]} | {
             key: _rounded(found[key], 5) for key in ("value", "low", "high")
         }
-    agreement = agreement_of(summary["tests"])
-    return {"seed": truth["seed"], "restitution": restitution, "tests": tests, "agreement": agreement}
+    return {"seed": truth["seed"], "restitution": restitution, "tests": tests, "agreement": agreement(summary["tests"])}
 
 
 def demo_table(numbers: dict[str, Any], title: str, drawn: Mapping[str, str]) -> str:
@@ -161,29 +162,24 @@ def draw(campaign: Campaign, summary: dict[str, Any], folder: Path, name: str, p
     layout = Layout(campaign.folder)
     tests = [test for test in campaign.tests.values() if test.specimen == "prism"]
     stored = {
-        test.id: results.of_test(campaign, layout, test)
-        for test in tests
-        if test.kind in ("earthquake", "free-vibration")
+        test.id: read_test(campaign, layout, test) for test in tests if test.kind in ("earthquake", "free-vibration")
     }
-    panels = [charts.span_panel(test, stored[test.id], block) for test in tests if test.kind == "earthquake"]
+    panels = [record.span_panel(test, stored[test.id], block) for test in tests if test.kind == "earthquake"]
     described = " ".join(f"{panel.title}: the prism" for panel in panels)
     free = [test for test in tests if test.kind == "free-vibration"]
-    found = [restitution_charts.peak_series(test, stored[test.id], block) for test in free]
-    series = [each for each in found if each is not None]
-    points = [
-        MapPoint(name, record["frequency_ratio"], record["amplitude_ratio"], record["outcome"], record["order"])
-        for name, record in ((test.id, summary["tests"][test.id]) for test in tests if test.kind == "sine")
-    ]
+    series = [restitution.peak_series(test, stored[test.id], block) for test in free]
+    points = map_points(Summary.model_validate(summary).tests, "prism")
     title = "Measured and predicted rocking at three Spans"
     drawn = {
-        title: ("spans", charts.spans(f"{name}-spans", title, described, panels)),
-        "Peaks with fit": ("peaks", restitution_charts.peaks(f"{name}-peaks", series, block)),
-        "Measured map of the prism": ("map", charts.measured_map(f"{name}-map", points)),
+        title: ("spans", record.spans(f"{name}-spans", title, described, panels)),
+        "Peaks with fit": ("peaks", restitution.peaks(f"{name}-peaks", list(filter(None, series)), block)),
+        "Measured map of the prism": ("map", maps.tested(f"{name}-map", points)),
     }
-    for part, text in drawn.values():
-        (folder / f"{name}-{part}.svg").write_text(text, encoding="utf-8")
+    for part, drawing in drawn.values():
+        if drawing is not None:
+            (folder / f"{name}-{part}.svg").write_text(drawing.svg(), encoding="utf-8")
     if picture is not None:
-        figures.spans_side_by_side(panels).savefig(picture, dpi=150, metadata={"Software": None})
+        picture.write_bytes(figures.to_png(figures.spans_side_by_side(panels)))
     return {caption: f"{name}-{part}.svg" for caption, (part, _) in drawn.items()}
 
 

@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 from joblib import Parallel, delayed
+
+from colonnade import figures
 from monte_carlo.design import BEYOND, SPREAD, Draw, draw
 from monte_carlo.levels import judge, judge_bounds, judge_estimators, judge_kinds, judge_levels
 from monte_carlo.page import draw_levels, page
 from monte_carlo.trial import Trial, run, tried
-
-from colonnade import figures
 
 HERE = Path(__file__).resolve().parent
 NAME = "restitution-study"

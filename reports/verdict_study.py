@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from joblib import Parallel, delayed
-from spread_verdicts.judging import judge
-from spread_verdicts.page import draw_ranks, page
-from spread_verdicts.trial import Trial, run
 
 from colonnade import figures
 from colonnade.campaign.settings import EnsembleSettings
+from spread_verdicts.judging import judge
+from spread_verdicts.page import draw_ranks, page
+from spread_verdicts.trial import Trial, run
 
 HERE = Path(__file__).resolve().parent
 NAME = "verdict-study"

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import os
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 from hypothesis import settings
@@ -54,15 +52,6 @@ def shared_data() -> Path:
 
 
 REPORTS = Path(__file__).resolve().parents[1] / "reports"
-
-
-@pytest.fixture(scope="session")
-def rebuild() -> ModuleType:
-    """The program that writes the reference reports."""
-    specification = importlib.util.spec_from_file_location("rebuild", REPORTS / "rebuild.py")
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module
 
 
 @pytest.fixture(scope="session")

@@ -128,6 +128,9 @@ CALLS = {
         SOLID | SIDES,
     ),
     "Block.override": Call(BLOCK.override, {}, SIDES),
+    "Block.critical_angle_at": Call(BLOCK.critical_angle_at, {"angle": [-0.1, 0.1]}, {"angle": "ranked"}),
+    "Block.pole_distance_at": Call(BLOCK.pole_distance_at, {"angle": [-0.1, 0.1]}, {"angle": "ranked"}),
+    "Block.p_at": Call(BLOCK.p_at, {"angle": [-0.1, 0.1]}, {"angle": "ranked"}),
     "Block.side_p": Call(BLOCK.side_p, {"side": BLOCK.negative}, {"side": "object"}),
     "Motion": Call(
         colonnade.Motion,

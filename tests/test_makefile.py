@@ -81,3 +81,26 @@ def test_the_environment_is_only_touched_again_when_pyproject_changed(clone):
     os.utime(clone / "pyproject.toml", (later, later))
     make(clone, ".venv/installed")
     assert (clone / "calls").read_text().startswith("-m pip install")
+
+
+def test_the_demo_installs_only_what_it_needs(clone):
+    add_interpreter(clone, "python3.12", FITTING)
+    make(clone, ".venv/installed-demo")
+    assert (clone / "calls").read_text().splitlines()[-1].endswith("--editable .[demo]")
+    make(clone, ".venv/installed")
+    assert (clone / "calls").read_text().splitlines()[-1].endswith("--editable .[demo,test]")
+
+
+def test_what_the_tests_install_is_enough_for_the_demo(clone):
+    add_interpreter(clone, "python3.12", FITTING)
+    make(clone, ".venv/installed")
+    (clone / "calls").unlink()
+    make(clone, ".venv/installed-demo")
+    assert not (clone / "calls").exists()
+
+
+def test_python_keeps_its_bytecode_whatever_the_environment_says(clone):
+    add_interpreter(clone, "python3.12", f'echo "[$PYTHONDONTWRITEBYTECODE]" >> seen\n{FITTING}')
+    environment = {"PATH": str(clone.parent / "tools"), "HOME": str(clone), "PYTHONDONTWRITEBYTECODE": "1"}
+    subprocess.run(["make", ".venv/installed"], cwd=clone, env=environment, capture_output=True, check=True)
+    assert set((clone / "seen").read_text().split()) == {"[]"}

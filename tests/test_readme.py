@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+import rebuild
 from colonnade.laboratory.ladder import KEPT_AWAY
 
 PROJECT = Path(__file__).parents[1]
@@ -61,7 +62,7 @@ def test_every_command_runs_and_the_demo_is_near_its_truth(outputs):
     assert KEPT_AWAY in outputs["colonnade demo demo --short"]
 
 
-def test_its_demo_has_the_numbers_of_the_reference_report(outputs, folder, tmp_path, rebuild, as_reported):
+def test_its_demo_has_the_numbers_of_the_reference_report(outputs, folder, tmp_path, as_reported):
     rebuild.tell(folder / "demo" / "campaign.toml", tmp_path, "short")
     as_reported(tmp_path, "short")
 

@@ -11,16 +11,16 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from colonnade.dynamics.block import Block
-    from colonnade.dynamics.ensembles import Ensemble, ensemble
+    from colonnade.dynamics.ensembles.ensemble import Ensemble, ensemble
+    from colonnade.dynamics.ensembles.uncertainty import Uncertainty
     from colonnade.dynamics.history import History
     from colonnade.dynamics.maps.chart import StabilityMap, stability_map
     from colonnade.dynamics.motion import Motion
-    from colonnade.dynamics.reactions import Reactions, reactions
+    from colonnade.dynamics.plane.reactions import Reactions, reactions
     from colonnade.dynamics.restitution_law import RestitutionLaw
     from colonnade.dynamics.rock import rock
-    from colonnade.dynamics.uncertainty import Uncertainty
     from colonnade.errors import ColonnadeError
-    from colonnade.identification.angle import rocking_angle
+    from colonnade.identification.fusion.angle import rocking_angle
     from colonnade.identification.restitution.identify import identify_restitution
     from colonnade.identification.restitution.result import Restitution
     from colonnade.readers.motion import read_motion
@@ -53,20 +53,20 @@ __all__ = [
 _ROOMS = {
     "Block": "colonnade.dynamics.block",
     "ColonnadeError": "colonnade.errors",
-    "Ensemble": "colonnade.dynamics.ensembles",
+    "Ensemble": "colonnade.dynamics.ensembles.ensemble",
     "History": "colonnade.dynamics.history",
     "Motion": "colonnade.dynamics.motion",
-    "Reactions": "colonnade.dynamics.reactions",
+    "Reactions": "colonnade.dynamics.plane.reactions",
     "Restitution": "colonnade.identification.restitution.result",
     "RestitutionLaw": "colonnade.dynamics.restitution_law",
     "StabilityMap": "colonnade.dynamics.maps.chart",
-    "Uncertainty": "colonnade.dynamics.uncertainty",
-    "ensemble": "colonnade.dynamics.ensembles",
+    "Uncertainty": "colonnade.dynamics.ensembles.uncertainty",
+    "ensemble": "colonnade.dynamics.ensembles.ensemble",
     "identify_restitution": "colonnade.identification.restitution.identify",
-    "reactions": "colonnade.dynamics.reactions",
+    "reactions": "colonnade.dynamics.plane.reactions",
     "read_motion": "colonnade.readers.motion",
     "rock": "colonnade.dynamics.rock",
-    "rocking_angle": "colonnade.identification.angle",
+    "rocking_angle": "colonnade.identification.fusion.angle",
     "run": "colonnade.workflow.run",
     "stability_map": "colonnade.dynamics.maps.chart",
 }

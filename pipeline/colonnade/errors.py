@@ -1,5 +1,5 @@
 """
-What colonnade says when it cannot go on.
+Errors: what colonnade reports when it cannot continue.
 
 Every message is written for the person in the laboratory: what was found, what was expected, where, what to do.
 Each class takes the finished message as its one argument, so that it crosses process borders unchanged.
@@ -12,15 +12,15 @@ from collections.abc import Iterable
 
 
 class ColonnadeError(Exception):
-    """Something that the user can mend; its text is shown without a traceback."""
+    """A problem that the user can fix; its text is shown without a traceback."""
 
 
 class UnitError(ColonnadeError):
-    """A quantity or unit in text that cannot be understood."""
+    """A quantity or unit in text that cannot be parsed."""
 
 
 class CampaignError(ColonnadeError):
-    """The campaign file or the test log is not usable; one paragraph a problem."""
+    """The campaign file or the test log cannot be used; one paragraph per problem."""
 
 
 class ReadError(ColonnadeError):
@@ -76,5 +76,5 @@ def nearest(name: str, valid: Iterable[str]) -> str:
         return f" Did you mean {quoted(folded[close[0]])}?"
     if names:
         listed = ", ".join(map(quoted, names[:12]))
-        return f" There is: {listed}{'…' if len(names) > 12 else ''}."
+        return f" Choose one of: {listed}{'…' if len(names) > 12 else ''}."
     return ""

@@ -1,8 +1,8 @@
 """
-What colonnade says while it goes on: findings, each with how much it matters, and causes before what follows from them.
+Findings: what colonnade reports while it continues, each with its severity, causes before what follows from them.
 
-A finding is written for the person in the laboratory, as the errors are. It travels with the result that it is about:
-through a stage's warnings into the NetCDF file, the summary, the report and what the commands print.
+A finding is written for the person in the laboratory, like an error. It stays with the result that it is about:
+from a stage's warnings into the NetCDF file, the summary, the report and the output of the commands.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ class Severity(StrEnum):
     """How much a finding matters, the worst first."""
 
     SERIOUS = "serious"
-    """Something is wrong, and results of this test are wrong with it until it is put right."""
+    """Something is wrong, and the results of this test are wrong until it is corrected."""
     WARNING = "warning"
-    """Something is not as it should be; a result may be affected."""
+    """Something is not as expected; a result may be affected."""
     NOTE = "note"
-    """Good to know; the results hold."""
+    """Good to know; the results are valid."""
 
     @property
     def rank(self) -> int:
@@ -40,12 +40,12 @@ class Finding:
     text : str
         A sentence for people: what was found, where, what was expected, what to do.
     kind : str
-        In a few words what it is about, the same for all findings of one kind: they are counted by it.
+        What it is about, in a few words; findings are counted by it.
     severity : Severity
     follows : tuple of str
-        Kinds of findings that explain this one where the same test has them.
+        Kinds of findings that explain this one if the same test has them.
     stage : str
-        That found it; empty where that is not known yet.
+        That found it; empty if that is not known yet.
     about : str
         Of a finding in the campaign file, the table that it is in: ``specimens.prism``, ``setups.frame``.
     """
@@ -58,9 +58,9 @@ class Finding:
     about: str = ""
 
     @classmethod
-    def of(cls, told: Finding | str, kind: str = "other") -> Finding:
-        """Take text that nobody weighed as a warning, so that it is not passed over."""
-        return told if isinstance(told, Finding) else cls(told, kind)
+    def of(cls, text: Finding | str, kind: str = "other") -> Finding:
+        """Take text without a severity as a warning, so that it is not overlooked."""
+        return text if isinstance(text, Finding) else cls(text, kind)
 
     def __str__(self) -> str:
         """Give the sentence."""
@@ -68,7 +68,7 @@ class Finding:
 
 
 def serious(kind: str, text: str, *, follows: tuple[str, ...] = ()) -> Finding:
-    """Build a finding because of which results are wrong until it is put right."""
+    """Build a finding that makes results wrong until it is corrected."""
     return Finding(text, kind, Severity.SERIOUS, follows)
 
 
@@ -78,7 +78,7 @@ def warning(kind: str, text: str, *, follows: tuple[str, ...] = ()) -> Finding:
 
 
 def note(kind: str, text: str, *, follows: tuple[str, ...] = ()) -> Finding:
-    """Build a finding with which the results hold."""
+    """Build a finding that does not affect the results."""
     return Finding(text, kind, Severity.NOTE, follows)
 
 
@@ -86,18 +86,18 @@ MEASUREMENT = (
     *("specimen", "geometry", "gain", "unit", "sign"),
     *("swapped channels", "dead channel", "channel left out", "clock"),
 )
-"""Kinds of what is wrong with the measurement itself: where one is found, odd results follow from it."""
+"""Kinds of errors of the measurement itself: if one is found, odd results follow from it."""
 
 
 def in_order(findings: Iterable[Finding], known: Iterable[Finding] = ()) -> list[tuple[Finding, bool]]:
     """
-    Put the findings of one test in order: the worst first, each once, and behind its cause what follows from it.
+    Put the findings of one test in order: the worst first, each once, and after its cause what follows from it.
 
     Parameters
     ----------
     findings : iterable of Finding
     known : iterable of Finding, optional
-        Of the campaign file, that concern this test: they explain findings too, and are not listed.
+        From the campaign file, about this test: they also explain findings, but are not listed.
 
     Returns
     -------
@@ -127,12 +127,12 @@ def _explained(finding: Finding, others: Sequence[Finding]) -> bool:
 
 
 def at_stage(findings: Iterable[Finding | str], stage: str) -> list[Finding]:
-    """Say of findings at which stage they were found, where they do not say it."""
+    """Add the stage to findings that do not name one."""
     return [replace(each, stage=each.stage or stage) for each in map(Finding.of, findings)]
 
 
 def as_record(finding: Finding) -> dict[str, Any]:
-    """Give a finding as JSON holds it; what is empty is left out."""
+    """Give a finding as JSON, without empty fields."""
     return {name: value for name, value in asdict(finding).items() if value}
 
 
@@ -143,7 +143,7 @@ def to_text(findings: Iterable[Finding | str]) -> str:
 
 def from_text(text: str) -> list[Finding]:
     """
-    Read findings back; of what was written in another form, the text, as warnings.
+    Read findings back; text in another form becomes a warning.
 
     Examples
     --------

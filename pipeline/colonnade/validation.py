@@ -1,4 +1,4 @@
-"""Arguments of library calls: what is not a plain real number, array or object as expected is refused by its name."""
+"""Checks of the arguments of library calls; errors name the argument, what was found and what was expected."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from math import inf, isfinite
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from colonnade.arrays import Array
+
 Kind = TypeVar("Kind")
 
 _KINDS = {
@@ -158,7 +158,7 @@ def samples(
     try:
         array = np.asarray(values)
     except (ValueError, TypeError) as error:
-        raise ValueError(f"{name} is no array of numbers ({error}); one was expected") from None
+        raise ValueError(f"{name} is not an array of numbers ({error}); one was expected") from None
     if array.dtype.kind not in "iuf":
         held = _KINDS.get(array.dtype.kind, str(array.dtype))
         found = f"holds {held}" if array.ndim else f"is {described(values)}"
@@ -227,8 +227,8 @@ def described(value: Any) -> str:
             return f"an array of shape {np.shape(value)}"
         except ValueError:
             return "a ragged list"
-    told = str(value)
-    return told if len(told) <= LONGEST_SHOWN and "\n" not in told else f"a {type(value).__name__}"
+    written = str(value)
+    return written if len(written) <= LONGEST_SHOWN and "\n" not in written else f"a {type(value).__name__}"
 
 
 def _plain(value: Any) -> float | None:

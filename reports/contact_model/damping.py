@@ -10,11 +10,9 @@ from joblib import Parallel, delayed
 
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.calibration import calibrate
-from colonnade.dynamics.contact.elastic import meshed_body
-from colonnade.dynamics.contact.explicit import ExplicitRun, explicit_step, run_explicit
-from colonnade.dynamics.contact.reduction import rigid_on_nodes
-from colonnade.dynamics.contact.start import rotation_matrices, standing
-from colonnade.dynamics.contact.viscosity import BulkViscosity
+from colonnade.dynamics.contact.elastic.model import meshed_body
+from colonnade.dynamics.contact.elastic.reduction import rigid_on_nodes
+from colonnade.dynamics.contact.start import standing
 from contact_model.free import (
     GRAVITY,
     MASS,
@@ -28,6 +26,7 @@ from contact_model.free import (
     vibrate,
     with_modes,
 )
+from contact_model.unreduced import BulkViscosity, ExplicitRun, explicit_step, run_explicit
 
 STEPS = (1e-4, 1e-5, 1e-6)
 BODIES = ("5 × 5", *MESHES)
@@ -168,17 +167,7 @@ def measure_unreduced(
 def _explicit(mesh: str, body: Any, law: Any, step: float, duration: float) -> dict[str, Any]:
     """One impact of the unreduced model, from its peaks before and after."""
     start = standing(rigid_on_nodes(body), law, GRAVITY, theta0=RELEASE * PRISM.critical_angle)
-    run = run_explicit(
-        body,
-        law,
-        centre=start.position,
-        rotation=rotation_matrices(start.orientation[None])[0],
-        velocity=start.velocity,
-        spin=start.angular_velocity,
-        duration=duration,
-        gravity=GRAVITY,
-        step=step,
-    )
+    run = run_explicit(body, law, start, duration=duration, gravity=GRAVITY, step=step)
     largest = max(float(np.abs(part - part[0]).max()) for part in (run.kinetic, run.potential, run.strain))
     return {
         "mesh": mesh,

@@ -15,7 +15,7 @@ from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.calibration import free_restitution
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.layout import rigid_body
+from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
 from colonnade.dynamics.motion import Motion

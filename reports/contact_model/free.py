@@ -13,11 +13,11 @@ import numpy as np
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.calibration import free_restitution
-from colonnade.dynamics.contact.elastic import elastic_body
+from colonnade.dynamics.contact.elastic.model import elastic_body
+from colonnade.dynamics.contact.elastic.reduction import keep_modes, keep_modes_for_step
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import STATIC_PENETRATION, ContactLaw
-from colonnade.dynamics.contact.layout import rigid_body
-from colonnade.dynamics.contact.reduction import keep_modes, keep_modes_for_step
+from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import plane_block, simulate
 
 GRAVITY = 9.81

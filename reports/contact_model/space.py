@@ -10,8 +10,8 @@ from joblib import Parallel, delayed
 
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.calibration import calibrate, free_restitution
-from colonnade.dynamics.contact.ensembles import ContactPlan, gather, run_member
 from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.ensembles.contact import ContactPlan, gather, run_member
 from contact_model.free import GRAVITY, PRISM, TARGET, law_for, prism_body, timed, vibrate
 
 STEP = 1e-5

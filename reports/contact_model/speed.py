@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from colonnade.dynamics.contact.elastic import meshed_body
-from colonnade.dynamics.contact.explicit import run_explicit
-from colonnade.dynamics.contact.reduction import rigid_on_nodes
-from colonnade.dynamics.contact.start import rotation_matrices, standing
+from colonnade.dynamics.contact.elastic.model import meshed_body
+from colonnade.dynamics.contact.elastic.reduction import rigid_on_nodes
+from colonnade.dynamics.contact.start import standing
 from contact_model.free import GRAVITY, MASS, MESHES, PRISM, RELEASE, SIZES, law_for, prism_body, vibrate
+from contact_model.unreduced import run_explicit
 
 STEP = 1e-5
 PAPERS_SECONDS = 600.0
@@ -58,16 +58,7 @@ def _unreduced(mesh: str, repeats: int, steps: int = 400) -> dict[str, Any]:
 
     def seconds(duration: float) -> tuple[float, int, float]:
         began = time.process_time()
-        run = run_explicit(
-            body,
-            law,
-            centre=start.position,
-            rotation=rotation_matrices(start.orientation[None])[0],
-            velocity=start.velocity,
-            spin=start.angular_velocity,
-            duration=duration,
-            gravity=GRAVITY,
-        )
+        run = run_explicit(body, law, start, duration=duration, gravity=GRAVITY)
         return time.process_time() - began, len(run.time), run.step
 
     _, _, step = seconds(1e-6)

@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.signals.filters import default_lowpass, lowpass
 from monte_carlo.integration import integrated_angle
 from monte_carlo.truth import FreeRocking
-
-Array = NDArray[np.float64]
 
 LEVELS: dict[str, tuple[float, ...]] = {
     "restitution": (0.80, 0.85, 0.90, 0.95, 0.995),

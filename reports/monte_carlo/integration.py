@@ -10,11 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from monte_carlo.truth import FreeRocking
-
-Array = NDArray[np.float64]
 
 STEP = 0.005
 """Of 1/p: errors of 1e-11 of α."""

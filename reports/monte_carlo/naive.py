@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from colonnade.arrays import Array
 
 VISIBLE = 0.05
 """|θ| over the highest, from which an arc is read off a plot."""

@@ -15,10 +15,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import special
 
-Array = NDArray[np.float64]
+from colonnade.arrays import Array
 
 SMALLEST_ENERGY = 1e-18
 """Of that at release: what is left of it after later impacts is rest."""

@@ -6,17 +6,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import signal
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
+from colonnade.dynamics.ensembles.uncertainty import INPUTS, Uncertainty, draw_inputs, member_block, member_restitution
 from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
-from colonnade.dynamics.uncertainty import INPUTS, Uncertainty, draw_inputs, member_block, member_restitution
 from colonnade.readers.recording import RecordedChannel, Recording
-
-Array = NDArray[np.float64]
 
 KINDS = ("noise", "sine", "pulse", "free-vibration")
 """Motions, in turn: bands of random noise, sines, single sine pulses, and a release without any motion."""

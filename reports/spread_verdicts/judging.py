@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy import stats
 
-from colonnade.identification.verdict import WITHIN, is_within
+from colonnade.identification.response.rank import WITHIN, is_within
 from spread_verdicts.trial import Trial
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from colonnade.figures.style import blank_figure, styled
-from colonnade.identification.verdict import WITHIN
+from colonnade.identification.response.rank import WITHIN
 from spread_verdicts.design import DURATION, HEIGHTS, RATE, RESTITUTION_ERROR
 
 TEXT = """# Study of the verdict "within its own spread"

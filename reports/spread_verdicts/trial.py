@@ -12,14 +12,14 @@ import xarray as xr
 
 from colonnade import campaign as campaigns
 from colonnade.campaign import Campaign, Test
-from colonnade.dynamics.uncertainty import Uncertainty
+from colonnade.dynamics.ensembles.uncertainty import Uncertainty
 from colonnade.errors import StageError
 from colonnade.stages import condition as conditioning
 from colonnade.stages import ensemble as running
 from colonnade.stages import ingest as ingesting
 from colonnade.stages import restitution as identifying
 from colonnade.stages import rocking as rocking_stage
-from colonnade.stages.spread import spread
+from colonnade.stages.parts.horizon import horizons_and_ranks
 from spread_verdicts.design import RESTITUTION_ERROR, campaign_text, draw
 
 MODEL = "nonlinear"
@@ -73,16 +73,16 @@ def run(seed: int, number: int, wrong: float, members: int) -> Trial:
     )
     drawn = draw(seed, number, uncertainty, angle_gain=settings.angle_gain, angle_zero=settings.angle_zero)
     test = campaign.tests[f"{drawn.specimen}-{drawn.kind}"]
-    recorded = ingesting.ingest({"main": drawn.recording}, ingesting.instructions(campaign, test))
-    ready = conditioning.condition(recorded, conditioning.instructions(campaign, test))
-    rocked = rocking_stage.rocking(ready, rocking_stage.instructions(campaign, test))
+    recorded = ingesting.ingest({"main": drawn.recording}, ingesting.IngestInputs.of(campaign, test))
+    ready = conditioning.condition(recorded, conditioning.ConditionInputs.of(campaign, test))
+    rocked = rocking_stage.rocking(ready, rocking_stage.RockingInputs.of(campaign, test))
     e = drawn.restitution + wrong * (-1) ** (number // 4)
-    read = running.instructions(campaign, test, MODEL).model_copy(update={"members": members})
+    read = running.EnsembleInputs.of(campaign, test, MODEL).model_copy(update={"members": members})
     try:
         bands = running.ensemble(ready, rocked, _specimen(e), read, _identified(rocked, campaign, test))
     except StageError:
         return Trial(drawn.kind, drawn.outcome, np.nan, np.nan)
-    compared = spread(rocked, {MODEL: bands}, [MODEL], drawn.block)
+    compared = horizons_and_ranks(rocked, {MODEL: bands}, [MODEL], drawn.block)
     time = bands["elapsed"].to_numpy()
     predicted = (float(compared["horizon"][1][0]) - time[0]) / (time[-1] - time[0])
     return Trial(drawn.kind, drawn.outcome, float(compared["within_spread"][1][0]), float(predicted))
@@ -92,7 +92,7 @@ def _identified(rocked: xr.Dataset, campaign: Campaign, test: Test) -> xr.Datase
     """Identify a free vibration, for its zero offset: one that still rocks as its record ends has a wrong zero."""
     if test.kind != "free-vibration":
         return None
-    return identifying.restitution(rocked, identifying.instructions(campaign, test))
+    return identifying.restitution(rocked, identifying.RestitutionInputs.of(campaign, test))
 
 
 def _specimen(restitution: float) -> xr.Dataset:

@@ -12,8 +12,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from colonnade.dynamics import harmonic_nonlinear, linear, nonlinear, schemes
+import paper_schemes as schemes
 from colonnade.dynamics.block import Block
+from colonnade.dynamics.plane import linear, nonlinear
+from colonnade.dynamics.plane.harmonic_march import Sides, run
+from colonnade.dynamics.plane.harmonic_nonlinear import empty_series
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
@@ -171,11 +174,12 @@ class Heyoka:
 
 
 def _harmonic(omega, level, end, impacts):
-    sides = np.array(SIDES)
+    critical, p, restitution = SIDES
+    sides = Sides(critical, p, restitution, np.zeros(1), REST)
     edges = np.array([0.0, end / P, end / P])
-    forcing, constant, none = (omega * P, 0.0, level), np.empty((2, 0)), np.empty((0, 2))
+    forcing, none = (omega * P, 0.0, level), np.empty((0, 2))
     watch = (0.0, 1e-3, 1.0)
-    _, _, count = harmonic_nonlinear.run(forcing, edges, None, sides, constant, REST, watch, none, impacts)
+    _, _, count = run(forcing, edges, None, sides, watch, none, impacts, empty_series())
     return impacts[:count] * [P, 1 / P]
 
 

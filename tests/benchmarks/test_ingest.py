@@ -13,7 +13,7 @@ from nptdms import ChannelObject, TdmsFile, TdmsWriter
 
 from colonnade.campaign import load
 from colonnade.readers.registry import read
-from colonnade.stages.ingest import ingest, instructions
+from colonnade.stages.ingest import IngestInputs, ingest
 from colonnade.store import files
 
 MEGABYTES = 500
@@ -102,7 +102,7 @@ def test_ingest_beside_a_bare_read(
     channels = "".join(CHANNEL.format(number) for number in range(1, CHANNELS + 1))
     (tmp_path / "campaign.toml").write_text(HEAD + channels + TEST.format(name), encoding="utf-8")
     campaign = load(tmp_path)
-    told = instructions(campaign, campaign.tests["one"])
+    told = IngestInputs.of(campaign, campaign.tests["one"])
 
     times = [clocks()]
     expected = bare(tmp_path / name)

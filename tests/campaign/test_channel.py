@@ -79,10 +79,10 @@ def problems(**keys: object) -> dict[str, str]:
         ({}, "unit", "It is missing"),
         ({"unit": "V"}, "unit", 'add a gain in "mm/V"'),
         ({"unit": "V", "gain": "0.5 g/V"}, "gain", 'is not a length. A gain in "mm/V" was expected'),
-        ({"unit": "V", "gain": "0 mm/V"}, "gain", "leaves nothing of the recording"),
+        ({"unit": "V", "gain": "0 mm/V"}, "gain", "would erase the recording"),
         ({"unit": "V", "gain": "1e400 mm/V"}, "gain", "too large"),
-        ({"unit": "V", "gain": True}, "gain", "A gain in quotes was expected"),
-        ({"unit": 3}, "unit", "A unit in quotes was expected"),
+        ({"unit": "V", "gain": True}, "gain", "A gain in quotes, such as"),
+        ({"unit": 3}, "unit", "A unit in quotes, such as"),
         ({"unit": "mm", "offset": "3"}, "offset", "has no unit"),
         (
             {"unit": "V", "gain": "10 mm/V", "range": "2 g"},

@@ -11,9 +11,9 @@ import colonnade
 from colonnade import units
 from colonnade.campaign import load
 from colonnade.campaign.draft import draft
-from colonnade.campaign.places import key_lines
+from colonnade.campaign.syntax.places import key_lines
 from colonnade.errors import CampaignError, ReadError, UnitError
-from colonnade.readers.heading import take_apart
+from colonnade.readers.text.heading import take_apart
 from colonnade.workflow import run
 
 pipes = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes are POSIX's")

@@ -37,9 +37,9 @@ def test_without_the_table_there_are_none(contract, load_text):
 @pytest.mark.parametrize(
     ("entry", "told"),
     [
-        ('"../elcentro.dat"', "leads out of the campaign's folder"),
+        ('"../elcentro.dat"', "is outside the campaign's folder"),
         ("3", "A path from the folder of the campaign file was expected"),
-        ('{file = "a.txt", dt = "0.02 s"}', "There is no such key"),
+        ('{file = "a.txt", dt = "0.02 s"}', "Unknown key"),
         ('{file = "a.txt", interval = 0.02}', "has no unit"),
         ('{interval = "0.02 s"}', "It is missing"),
     ],

@@ -9,7 +9,7 @@ import pytest
 
 def test_keys_without_a_stage_are_told_once_with_the_first_place(contract, load_text):
     assert tuple(map(str, load_text(contract).warnings)) == (
-        'tests[span-2.0] has no file of recorder "daq2"; its channels are absent in this test.',
+        'tests[span-2.0] has no file of recorder "daq2"; its channels are missing in this test.',
     )
 
 
@@ -27,8 +27,11 @@ CHANNEL = {
 @pytest.mark.parametrize(
     ("keys", "told"),
     [
-        ({"quantity": '"velocity"', "unit": '"m/s"'}, 'quantity = "velocity" on the specimen is understood'),
-        ({"on": '"ground"'}, 'quantity = "displacement" on the ground is understood'),
+        (
+            {"quantity": '"velocity"', "unit": '"m/s"'},
+            'quantity = "velocity" on the specimen is valid but not',
+        ),
+        ({"on": '"ground"'}, 'quantity = "displacement" on the ground is valid but not'),
         ({"on": '"table"', "direction": "[1, 0, 1]"}, "a motion of the table that is along none of x, y and z"),
         ({"quantity": '"acceleration"', "unit": '"g"', "at": None}, "an accelerometer on the specimen without `at`"),
     ],
@@ -52,8 +55,8 @@ def test_a_deviating_measured_value_is_told_with_its_place(contract, load_text):
 
 def test_a_sine_without_frequency_and_a_campaign_without_tests_are_told(contract, load_text):
     sine = contract.replace('kind = "earthquake"', 'kind = "sine"')
-    assert any("sine test without frequency" in warning.text for warning in load_text(sine).warnings)
-    assert "There is no test yet." in map(str, load_text(contract[: contract.index("[[tests]]")]).warnings)
+    assert any("sine test without `frequency`" in warning.text for warning in load_text(sine).warnings)
+    assert "The campaign has no tests yet." in map(str, load_text(contract[: contract.index("[[tests]]")]).warnings)
 
 
 @pytest.mark.parametrize(
@@ -90,10 +93,10 @@ def _told(text, load_text, kind):
 @pytest.mark.parametrize(
     ("changed", "severity", "said"),
     [
-        (('height = "456 mm"', 'height = "456 m"'), "serious", "make 7.7 kg/m³; .* one of the lengths in mm"),
+        (('height = "456 mm"', 'height = "456 m"'), "serious", "give 7.7 kg/m³; .* one of the lengths in mm"),
         (('height = "456 mm"', 'height = "456 cm"'), None, ""),
-        (('mass = "26.10 kg"', 'mass = "0.1 kg"'), "warning", "make 30 kg/m³"),
-        (('mass = "26.10 kg"', 'mass = "100000 kg"'), "serious", "make 3e.07 kg/m³; .* look at the units"),
+        (('mass = "26.10 kg"', 'mass = "0.1 kg"'), "warning", "give 30 kg/m³"),
+        (('mass = "26.10 kg"', 'mass = "100000 kg"'), "serious", "give 3e.07 kg/m³; .* check the units"),
     ],
     ids=["m for mm", "a lighter material", "a foam", "too heavy"],
 )
@@ -128,10 +131,10 @@ def test_a_point_off_the_specimen_is_told(at, severity, contract, load_text):
     ("gain", "said"),
     [
         ("10 mm/V", ""),
-        ("1 m/V", "let it read up to 1e.04 mm, 16 times the 625 mm that this point of prism travels until it lies"),
+        ("1 m/V", "it reads up to 1e.04 mm, 16 times the 625 mm that this point of prism moves until it lies"),
         (
             "10 um/V",
-            "let it read up to 0.1 mm, 0.1% of the 82.4 mm that this point of prism travels until",
+            "it reads up to 0.1 mm, 0.1% of the 82.4 mm that this point of prism moves until",
         ),
     ],
 )

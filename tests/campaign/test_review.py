@@ -57,7 +57,7 @@ def test_every_decision_is_read_with_who_when_and_why(reviewed):
         f'[[correct]]\ntest = "free-01"\nchannel = "table"\nfactor = -1\n{SIGNED}'
     )
     first, second = campaign.review("free-01"), campaign.review("free-02")
-    assert first.told == (
+    assert first.sentences == (
         "2013-04-26, V. D.: channel top excluded: the video",
         "2013-04-26, V. D.: only 2 s to 60 s taken: the video",
         "2013-04-26, V. D.: channel table from 3.2 s to 3.4 s flagged as suspect: the video",
@@ -91,7 +91,7 @@ def test_several_corrections_multiply_and_several_trims_leave_what_they_share(re
         ),
         pytest.param(
             '[[correct]]\ntest = "free-01"\nchannel = "tabel"\nfactor = 2',
-            r'line 4: correct\[1\]\.channel: .*no channel of free-01.*Did you mean "table"',
+            r'line 4: correct\[1\]\.channel: .*Unknown channel .* of free-01.*Did you mean "table"',
             id="unknown-channel",
         ),
         pytest.param('[[correct]]\ntest = "free-01"\nchannel = "top"\nfactor = 0', "[Aa] factor of zero", id="zero"),
@@ -106,7 +106,7 @@ def test_several_corrections_multiply_and_several_trims_leave_what_they_share(re
         pytest.param('[[trim]]\ntest = "free-01"', r"trim\[1\]\.window: It is missing", id="no-window"),
         pytest.param(
             '[[exlude]]\ntest = "free-01"',
-            r'exlude: There is no such key\. Did you mean "exclude"',
+            r'exlude: Unknown key\. Did you mean "exclude"',
             id="unknown-action",
         ),
         pytest.param('[[exclude]]\ntest = "free-01"\nchanel = "top"', 'Did you mean "channel"', id="unknown-key"),
@@ -114,7 +114,7 @@ def test_several_corrections_multiply_and_several_trims_leave_what_they_share(re
         pytest.param(
             f'[[trim]]\ntest = "free-01"\nwindow = ["1 s", "2 s"]\n{SIGNED}'
             '[[trim]]\ntest = "free-01"\nwindow = ["3 s", "4 s"]',
-            "Nothing of free-01 is left",
+            "leave no samples of free-01",
             id="trims-without-common-part",
         ),
     ],

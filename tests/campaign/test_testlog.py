@@ -107,12 +107,12 @@ def test_a_log_gives_the_tests_whatever_wrote_it(name, tmp_path):
     ("row", "column", "cell", "told"),
     [
         (1, 1, "earthquakes", 'log.csv, row 3, column "kind": tests[2].kind: "earthquakes" was found. Did you mean'),
-        (0, 2, "prsm", 'log.csv, row 2, column "specimen": tests[free-01].specimen: "prsm" is no specimen'),
+        (0, 2, "prsm", 'log.csv, row 2, column "specimen": tests[free-01].specimen: Unknown specimen "prsm"'),
         (2, 10, "3.5", 'log.csv, row 4, column "frequency": tests[3].frequency: "3.5" has no unit.'),
         (1, 8, "much", 'log.csv, row 3, column "span": tests[2].span: "much" was found. A plain number'),
         (2, 0, "FREE-01", 'log.csv, row 4, column "id": tests[FREE-01].id'),
         (2, 0, "", 'log.csv, row 4, column "id": tests[3].id: It is missing.'),
-        (0, 5, "../b.csv", 'log.csv, row 2, column "file.daq2": tests[free-01].file.daq2: "../b.csv" leads out'),
+        (0, 5, "../b.csv", 'log.csv, row 2, column "file.daq2": tests[free-01].file.daq2: "../b.csv" is outside'),
         (0, 6, "14 s, 2 s", 'log.csv, row 2, column "window": tests[free-01].window'),
     ],
 )
@@ -127,8 +127,8 @@ def test_a_wrong_cell_is_told_by_row_and_column(row, column, cell, told, tmp_pat
 def test_a_column_of_the_laboratorys_own_is_warned_of_and_a_mistyped_key_refused(tmp_path):
     rows = [[*row, "Anna"] for row in ROWS]
     campaign = with_log(tmp_path, "log.csv", table(";", [[*HEADS, "Operator"], *rows]).encode())
-    assert 'log.csv: column "Operator" is not a key of a test and is not used.' in map(str, campaign.warnings)
-    with pytest.raises(CampaignError, match=r'log\.csv, row 1: there is no key "windw"\. Did you mean "window"\?'):
+    assert 'log.csv: column "Operator" is not a key of a test; it is ignored.' in map(str, campaign.warnings)
+    with pytest.raises(CampaignError, match=r'log\.csv, row 1: unknown key "windw"\. Did you mean "window"\?'):
         with_log(tmp_path, "log.csv", table(";", [[*HEADS, "windw"], *rows]).encode())
 
 
@@ -136,8 +136,8 @@ def test_a_column_of_the_laboratorys_own_is_warned_of_and_a_mistyped_key_refused
     ("content", "told"),
     [
         (b"", "log.csv is empty. A row of column heads was expected: id, kind"),
-        (b"id;id;kind\n1;2;sine\n", 'the column head "id" stands there twice'),
-        (b"id;kind\n1;sine;more\n", "there are more cells than the 2 heads"),
+        (b"id;id;kind\n1;2;sine\n", 'duplicate column head "id"'),
+        (b"id;kind\n1;sine;more\n", "more cells than the 2 column heads"),
         (b'id;kind\n"1;sine\n', "row 2"),
         (bytes(range(256)), "log.csv"),
     ],
@@ -180,7 +180,7 @@ def test_a_missing_log_names_the_nearest_file(tmp_path):
     text = (tmp_path / "campaign.toml").read_text(encoding="utf-8")
     (tmp_path / "campaign.toml").write_text(text.replace("log.csv", "logg.csv"), encoding="utf-8")
     with pytest.raises(
-        CampaignError, match=r'line 7: tests: There is no test log "logg\.csv" in .*Did you mean "log\.csv"'
+        CampaignError, match=r'line 7: tests: Test log "logg\.csv" not found in .*Did you mean "log\.csv"'
     ):
         load(tmp_path)
 

@@ -137,7 +137,7 @@ MISTAKES = {
     ),
     "mm for m": (
         _in_campaign((r'height = "456 mm"', 'height = "456 m"')),
-        r"serious \(specimen\): campaign file: .* make 7.7 kg/m³; .* one of the lengths in mm taken for m",
+        r"serious \(specimen\): campaign file: .* give 7.7 kg/m³; .* one of the lengths in mm read as m",
     ),
     "wrapped rows": (_wrap, r"quake[\s\S]*quake.csv: .*run on from row to row"),
     "wrong component": (

@@ -8,7 +8,7 @@ import pytest
 from colonnade import campaign as campaigns
 from colonnade.errors import CampaignError, ColonnadeError
 from colonnade.readers.registry import read
-from colonnade.stages.ingest import ingest, instructions
+from colonnade.stages.ingest import IngestInputs, ingest
 
 CAMPAIGN = """schema = 1
 campaign = "damaged"
@@ -110,7 +110,7 @@ def _raw_file_outcome(path, campaign):
     test = campaign.tests["free-01"]
     try:
         recording = read(path)
-        recorded = ingest({"main": recording}, instructions(campaign, test))
+        recorded = ingest({"main": recording}, IngestInputs.of(campaign, test))
     except ColonnadeError as error:
         return "refused" if len(str(error)) > 20 else "refused without a word"
     return "warned" if recorded.attrs["warnings"] else "read"

@@ -106,7 +106,7 @@ def _warnings(folder, test):
 def _checked(folder, test):
     """What `check` tells of one test."""
     campaign = load(folder / "campaign.toml")
-    found = check(replace(campaign, tests={test: campaign.tests[test]}))[test]
+    found = check(replace(campaign, tests={test: campaign.tests[test]})).tests[test]
     return [*found.problems, *map(str, found.findings)]
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.identification.response import response_order
+from colonnade.identification.response.order import response_order
 from colonnade.laboratory import paper_programme
 from colonnade.laboratory.programme import write
 from colonnade.laboratory.record import load_record

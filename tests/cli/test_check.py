@@ -135,7 +135,7 @@ def test_numbers_that_run_on_are_told_as_the_cause_of_a_missing_column(colonnade
     assert told.returncode == 1
     assert "free-01: would fail" in told.stdout
     said = " ".join(told.stdout.split())
-    assert "there is no column 8; it has 1 column." in said
+    assert "column 8 is missing; it has 1 column." in said
     assert "Its numbers, 8 in a row, run on from row to row and are read as one series of 2400" in said
     path.write_text(path.read_text().replace("column = 8", "column = 1"))
     assert colonnade("check").returncode == 0
@@ -147,6 +147,7 @@ def test_a_problem_names_the_serious_finding_that_it_follows_from(colonnade, cam
     path.write_text(text.replace('unit = "mm"\n', 'unit = "mm"\ngain = "0.001 mm/mm"\n'), encoding="utf-8")
     lines = colonnade("check").stdout.splitlines()
     (problem, *_) = (line for line in lines if line.startswith("  problem: "))
-    kind = re.match(r"  problem: probably because of what is serious below \(([^)]+)\): This free vibration", problem)
+    said = r"  problem: probably because of the serious findings below \(([^)]+)\): This free vibration"
+    kind = re.match(said, problem)
     assert kind, lines
     assert any(line.startswith(f"serious ({kind[1]}): ") for line in lines[lines.index(problem) :])

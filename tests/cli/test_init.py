@@ -64,7 +64,7 @@ def test_a_campaign_file_is_never_written_over(colonnade, campaign):
     before = (campaign / "campaign.toml").read_bytes()
     told = colonnade("init")
     assert (told.returncode, told.stdout) == (2, "")
-    assert "it is there already and is left as it is" in told.stderr
+    assert "it exists already and was not changed" in told.stderr
     assert (campaign / "campaign.toml").read_bytes() == before
 
 

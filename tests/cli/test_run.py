@@ -6,14 +6,9 @@ import json
 
 import pytest
 
-from colonnade.cli import progress, work
+from colonnade.cli import progress
 from colonnade.cli.findings import show_by_kind
 from colonnade.findings import in_order, note, serious, warning
-from colonnade.workflow import steps
-
-
-def test_the_stages_that_can_be_named_are_the_workflows():
-    assert work.STAGES == steps.STAGES
 
 
 def times(folder):

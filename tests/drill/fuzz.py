@@ -43,7 +43,7 @@ def main() -> None:
 
         format = formats().get(chosen.format)
     if format is None:
-        sys.exit(f'There is no format "{chosen.format}". There is: {", ".join(formats())}')
+        sys.exit(f'Unknown format "{chosen.format}". There is: {", ".join(formats())}')
     folder = chosen.folder or Path(tempfile.mkdtemp(prefix=f"fuzz-{chosen.format}-"))
     corpus = folder / "corpus"
     corpus.mkdir(parents=True, exist_ok=True)

@@ -19,11 +19,11 @@ from joblib.externals.loky.backend.context import set_start_method
 
 from colonnade.errors import ColonnadeError
 from colonnade.workflow import run
-from colonnade.workflow.spreading import on_processes
+from colonnade.workflow.execution.spreading import on_processes
 
 
 def workers_ready(workers: int) -> list[int]:
-    """Start the processes that `colonnade.workflow.processes` will find there."""
+    """Start the processes that `colonnade.workflow.execution.processes` will find there."""
     if workers == 1:
         return []
     list(on_processes(abs, range(2 * workers), workers))

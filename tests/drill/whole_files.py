@@ -38,8 +38,8 @@ def format_of(name: str) -> str:
 
 
 def _writers() -> dict[str, Callable[[Path], Path]]:
-    instruments, binary, excel = _room("conftest"), _room("test_binary_mutations"), _room("test_excel")
-    text, diadem = _room("test_delimited_mutations"), _room("test_diadem")
+    instruments, binary, excel = _room("conftest"), _room("test_binary_mutations"), _room("excel/test_workbook")
+    text, diadem = _room("text/test_delimited_mutations"), _room("diadem/test_file")
     time = np.arange(40) / 200
     columns = [
         instruments.Column("top", "mm", 10 * np.sin(40 * time)),
@@ -84,7 +84,7 @@ def _writers() -> dict[str, Callable[[Path], Path]]:
 
 
 def _room(name: str) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(f"readers_{name}", READERS / f"{name}.py")
+    spec = importlib.util.spec_from_file_location(f"readers_{name.replace('/', '_')}", READERS / f"{name}.py")
     if spec is None or spec.loader is None:
         raise ImportError(f"there is no {name}.py in {READERS}")
     module = importlib.util.module_from_spec(spec)

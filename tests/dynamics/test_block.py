@@ -48,6 +48,14 @@ def test_measured_block_takes_a_value_for_each_side_and_is_governed_by_the_small
     assert not block.is_symmetric
 
 
+def test_the_values_at_an_angle_are_those_of_the_side_it_is_on():
+    block = Block.measured(mass=80.0, pole_distance=(0.61, 0.62), critical_angle=(0.21, 0.19), inertia=(41.2, 42.0))
+    angle = np.array([[-0.1, 0.1], [0.0, np.nan]])
+    assert block.critical_angle_at(angle).tolist() == [[0.21, 0.19], [0.19, 0.19]]
+    assert block.pole_distance_at(angle).tolist() == [[0.61, 0.62], [0.62, 0.62]]
+    assert block.p_at(-0.1) == block.side_p(block.negative)
+
+
 def test_a_measured_value_overrides_the_one_from_dimensions_alone():
     block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
     assert block.override(critical_angle=0.18).critical_angle == 0.18

@@ -12,8 +12,8 @@ import pytest
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
-from colonnade.dynamics import linear, nonlinear
 from colonnade.dynamics.block import Block
+from colonnade.dynamics.plane import linear, nonlinear
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P, GRAVITY = PRISM.critical_angle, PRISM.p, PRISM.gravity

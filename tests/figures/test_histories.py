@@ -6,9 +6,10 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
+from colonnade.dynamics.models.registry import MODELS
 from colonnade.figures import Curve
 from colonnade.figures.histories import LARGEST_RATIO, SMALLEST_RATIO, Spread, draw_angle, limit_of, time_limits
-from colonnade.figures.style import MEASURED, MODELS, model_style
+from colonnade.figures.style import MEASURED, model_style
 
 TIME = np.linspace(0.0, 10.0, 2001)
 
@@ -25,15 +26,15 @@ def drawn(measured: Curve | None, predicted: dict[str, Curve], limit: float = 0.
 
 def test_measured_and_models_have_their_own_colours_and_dashes():
     axes = drawn(swing(0.4), {model: swing(0.3) for model in MODELS})
-    expected = [MEASURED["color"], *(style["color"] for style in MODELS.values())]
+    expected = [MEASURED["color"], *(model_style(model)["color"] for model in MODELS)]
     assert [to_hex(line.get_color()) for line in axes.lines] == expected
-    assert len({style["linestyle"] for style in MODELS.values()}) == len(MODELS)
+    assert len({model_style(model)["linestyle"] for model in MODELS}) == len(MODELS)
 
 
 def test_in_small_panels_only_the_models_lines_are_thinner():
     measured, linear = drawn(swing(0.4), {"linear": swing(0.3)}, thinness=0.5).lines
     assert measured.get_linewidth() == MEASURED["linewidth"]
-    assert linear.get_linewidth() == 0.5 * MODELS["linear"]["linewidth"]
+    assert linear.get_linewidth() == 0.5 * model_style("linear")["linewidth"]
 
 
 def test_the_widest_band_of_an_ensemble_is_shaded_below_the_lines():
@@ -43,7 +44,7 @@ def test_the_widest_band_of_an_ensemble_is_shaded_below_the_lines():
     axes = drawn(swing(0.3), {"nonlinear": swing(0.3)}, spreads={"nonlinear": spread})
     (band,) = axes.collections
     assert band.get_label() == "90% of runs"
-    assert to_hex(band.get_facecolor()[0]) == MODELS["nonlinear"]["color"]
+    assert to_hex(band.get_facecolor()[0]) == model_style("nonlinear")["color"]
     assert band.get_zorder() < min(line.get_zorder() for line in axes.lines)
     heights = band.get_paths()[0].vertices[:, 1]
     assert (heights.min(), heights.max()) == pytest.approx((-0.4, 0.4), abs=1e-3)
@@ -52,7 +53,7 @@ def test_the_widest_band_of_an_ensemble_is_shaded_below_the_lines():
 
 
 def test_a_model_without_a_style_is_refused():
-    with pytest.raises(ValueError, match="no line style for the model 'clay'"):
+    with pytest.raises(ValueError, match='Unknown model "clay"'):
         model_style("clay")
 
 

@@ -6,9 +6,10 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
+from colonnade.dynamics.models.registry import MODELS
 from colonnade.figures import Curve, Peak, Quantity, whole_record
 from colonnade.figures.histories import Spread
-from colonnade.figures.style import MODELS
+from colonnade.figures.style import model_style
 
 TIME = np.linspace(0.0, 10.0, 2001)
 
@@ -44,7 +45,7 @@ def test_a_free_vibration_without_misfit_is_one_panel():
 
 def test_the_misfit_has_its_models_colour():
     figure = whole(misfits={"linear": swing(0.1)})
-    assert to_hex(figure.axes[1].lines[0].get_color()) == MODELS["linear"]["color"]
+    assert to_hex(figure.axes[1].lines[0].get_color()) == model_style("linear")["color"]
 
 
 def test_a_misfit_without_any_value_has_no_panel():

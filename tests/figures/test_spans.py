@@ -6,7 +6,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from colonnade.figures import Curve, SpanPanel, spans_side_by_side
-from colonnade.figures.style import MODELS
+from colonnade.figures.style import model_style
 
 TIME = np.linspace(0.0, 10.0, 2001)
 
@@ -48,8 +48,8 @@ def test_each_model_has_a_row_on_the_measured():
     figure = spans_side_by_side(panels(1))
     linear, nonlinear, base = figure.axes
     assert [to_hex(axes.lines[1].get_color()) for axes in (linear, nonlinear)] == [
-        MODELS["linear"]["color"],
-        MODELS["nonlinear"]["color"],
+        model_style("linear")["color"],
+        model_style("nonlinear")["color"],
     ]
     assert len(base.lines) == 1
 

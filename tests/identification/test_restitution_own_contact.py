@@ -8,12 +8,12 @@ from scipy import stats
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.layout import rigid_body
+from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.motion import Motion
+from colonnade.identification.restitution.arcs.energy import released_energy
 from colonnade.identification.restitution.choice import MISFIT
-from colonnade.identification.restitution.energy import released_energy
-from colonnade.identification.restitution.history import UNLIKELY
+from colonnade.identification.restitution.estimators.history import UNLIKELY
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.identification.restitution.pooling import pool
 

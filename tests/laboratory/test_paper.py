@@ -70,7 +70,7 @@ def test_the_files_of_both_recorders_read_back(
             options = setup.recorders[recorder].file
             recording = read(path, options.format, options.options)
             assert recording.warnings == ()
-            for channel in setup.of_recorder(recorder).values():
+            for channel in (each for each in setup.channels.values() if each.recorder == recorder):
                 column = recording.channel(channel.column)
                 assert column.unit in (channel.unit, None)
                 np.testing.assert_allclose(np.diff(column.time), 1 / (500 if recorder == "main" else 400), atol=1e-9)

@@ -112,7 +112,7 @@ def test_every_raw_file_is_read_without_a_warning_with_its_own_clock(prism: Writ
         for recorder, recording in found.items():
             assert recording.warnings == ()
             rate = 500.0 if recorder == "main" else 400.0
-            for channel in setup.of_recorder(recorder).values():
+            for channel in (each for each in setup.channels.values() if each.recorder == recorder):
                 column = recording.channel(channel.column)
                 assert column.unit == channel.unit
                 np.testing.assert_allclose(np.diff(column.time), 1 / rate, atol=1e-9)

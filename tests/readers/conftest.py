@@ -192,7 +192,8 @@ def uff(path: Path, time: np.ndarray, columns: Sequence[Column], *, is_binary: b
 
 
 def mdf(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
-    asammdf = pytest.importorskip("asammdf")
+    import asammdf
+
     signals = [
         asammdf.Signal(column.values.astype("<f4"), time, name=column.name, unit=column.unit) for column in columns
     ]
@@ -202,7 +203,8 @@ def mdf(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
 
 
 def waveform(path: Path, time: np.ndarray, columns: Sequence[Column], kind: str = "MSEED") -> Path:
-    obspy = pytest.importorskip("obspy")
+    import obspy
+
     stream = obspy.Stream()
     for column in columns:
         header = {"station": "TABLE", "channel": column.name[:3].upper(), "delta": time[1] - time[0]}

@@ -12,13 +12,12 @@ import time
 from pathlib import Path
 
 import numpy as np
-from pydantic import BaseModel
 
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.registry import Format, Recognition
+from colonnade.readers.registry import Format, Options, Recognition
 
 
-class Deed(BaseModel):
+class Deed(Options):
     """What is done, and to which file."""
 
     deed: str = ""
@@ -129,4 +128,4 @@ DEEDS = {
     )
 }
 
-FORMAT = Format("hostile", "", (".hostile",), Deed, lambda path: Recognition(path.suffix == ".hostile", "asked"), read)
+FORMAT = Format("hostile", "", (".hostile",), lambda path: Recognition(path.suffix == ".hostile", "asked"), read, Deed)

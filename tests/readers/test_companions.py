@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import obspy
 import pytest
 
 from colonnade.errors import ReadError
@@ -52,7 +53,6 @@ KINDS = pytest.mark.parametrize("kind", ["CSS", "NNSA_KB_CORE"])
 @KINDS
 @pytest.mark.parametrize("folder", ["", "."])
 def test_samples_beside_their_header_are_read(tmp_path: Path, secret: Path, kind: str, folder: str) -> None:
-    pytest.importorskip("obspy")
     path = seismic_header(tmp_path / "r.wfdisc", kind, folder, "secret")
     assert read(path, "waveform", {"kind": kind}).channels[0].values.tolist() == SECRET.tolist()
     assert companions(path, "waveform", {"kind": kind}) == (secret,)
@@ -61,7 +61,6 @@ def test_samples_beside_their_header_are_read(tmp_path: Path, secret: Path, kind
 @KINDS
 @pytest.mark.parametrize("place", ["absolute folder", "absolute name", "above", "above by name", "below"])
 def test_samples_elsewhere_are_never_opened(tmp_path: Path, secret: Path, kind: str, place: str) -> None:
-    pytest.importorskip("obspy")
     (tmp_path / "raw" / "below").mkdir(parents=True)
     (tmp_path / "raw" / "below" / "secret").write_bytes(SECRET.tobytes())
     folder, name = {
@@ -80,7 +79,6 @@ def test_samples_elsewhere_are_never_opened(tmp_path: Path, secret: Path, kind: 
 
 
 def test_packed_samples_are_the_companion_where_they_are_taken(tmp_path: Path) -> None:
-    pytest.importorskip("obspy")
     path = seismic_header(tmp_path / "r.wfdisc", "CSS", "", "r.w")
     (tmp_path / "r.w.gz").write_bytes(gzip.compress(SECRET.tobytes()))
     assert read(path, "waveform", {"kind": "CSS"}).channels[0].values.tolist() == SECRET.tolist()
@@ -88,7 +86,6 @@ def test_packed_samples_are_the_companion_where_they_are_taken(tmp_path: Path) -
 
 
 def test_a_header_of_seismic_handler_has_its_samples_in_a_qbn(tmp_path: Path) -> None:
-    obspy = pytest.importorskip("obspy")
     trace = obspy.Trace(np.arange(50, dtype=np.float32), {"station": "TABLE", "channel": "BHZ", "delta": 0.01})
     trace.write(str(tmp_path / "r.QHD"), format="Q")
     path = tmp_path / "r.QHD"

@@ -15,10 +15,10 @@ import pytest
 import xlwt
 
 from colonnade.errors import ReadError
-from colonnade.readers.clock import even_times
-from colonnade.readers.diadem_tdm import described_in_tdm
+from colonnade.readers.binary.stored_numbers import beside
+from colonnade.readers.diadem.tdm import described_in_tdm
 from colonnade.readers.registry import formats, read
-from colonnade.readers.stored_numbers import beside
+from colonnade.readers.text.clock import even_times
 
 TIME = np.arange(60) * 0.01
 
@@ -122,12 +122,12 @@ LAST_CELL = struct.pack("<2H2H", 0x203, 14, 29, 1)
 @pytest.mark.parametrize(
     ("record", "changed", "told"),
     [
+        pytest.param(DIMENSIONS, struct.pack("<2H2I2H", 0x200, 14, 0, 1 << 31, 0, 2), "crashed on it", id="dimensions"),
         pytest.param(
-            DIMENSIONS, struct.pack("<2H2I2H", 0x200, 14, 0, 1 << 31, 0, 2), "row 2147483648", id="dimensions"
+            LAST_CELL, struct.pack("<2H2H", 0x203, 14, 29, 40_000), "60 filled cells", id="a cell of no sheet"
         ),
-        pytest.param(LAST_CELL, struct.pack("<2H2H", 0x203, 14, 29, 40_000), "column 40001", id="a cell of no sheet"),
         pytest.param(
-            LAST_CELL, struct.pack("<2H2H", 0x203, 14, 65_000, 200), "60 filled cells within", id="a stray cell"
+            LAST_CELL, struct.pack("<2H2H", 0x203, 14, 65_000, 200), "59 filled cells within", id="a stray cell"
         ),
     ],
 )

@@ -34,7 +34,7 @@ def test_another_digitisation(shared_data: Path) -> None:
 
 
 def test_the_unit_has_to_be_given_where_the_file_is_silent(shared_data: Path) -> None:
-    with pytest.raises(ReadError, match=r'does not tell the unit.*unit="g"'):
+    with pytest.raises(ReadError, match=r'does not give the unit.*unit="g"'):
         read_motion(shared_data / "motion" / "elcentro_chopra_xy.dat")
 
 

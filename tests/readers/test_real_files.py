@@ -66,19 +66,12 @@ REFUSED = {
 }
 
 
-@pytest.fixture
-def needed_packages(request: pytest.FixtureRequest) -> None:
-    if request.getfixturevalue("name").startswith("strongmotion/AOM"):
-        pytest.importorskip("obspy")
-
-
 def test_every_file_of_the_collection_is_accounted_for(shared_data: Path) -> None:
     there = {path.relative_to(shared_data).as_posix() for path in shared_data.rglob("*") if path.is_file()}
     assert there == READ.keys() | REFUSED.keys()
     assert len(READ) == 24
 
 
-@pytest.mark.usefixtures("needed_packages")
 @pytest.mark.parametrize("name", READ)
 def test_a_real_file_is_read_with_the_figures_known_of_it(shared_data: Path, name: str) -> None:
     known = READ[name]
@@ -138,7 +131,6 @@ def test_an_imc_file_begins_when_its_trigger_and_offset_say(shared_data: Path) -
 
 
 def test_a_k_net_record_has_the_peak_that_its_header_gives(shared_data: Path) -> None:
-    pytest.importorskip("obspy")
     recording = read(shared_data / "strongmotion" / "AOM0011801241951.EW")
     values = recording.channels[0].values
     assert np.abs(values - values.mean()).max() == pytest.approx(0.04078, abs=5e-6)  # 4.078 gal

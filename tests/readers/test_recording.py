@@ -39,8 +39,8 @@ def test_a_channel_is_found_with_and_without_its_unit(column: str, index: int) -
     [
         ("AC", r'free-01.csv: no column is called "AC"; it has 5 columns. Did you mean "ACC"\?'),
         ("LVDT 1", r'2 columns are called "LVDT 1": columns 2 and 3'),
-        (0, "there is no column 0; it has columns 1 to 5"),
-        (6, "there is no column 6"),
+        (0, "column 0 is missing; it has columns 1 to 5"),
+        (6, "column 6 is missing"),
     ],
 )
 def test_a_channel_that_is_not_there_is_explained(column: str | int, message: str) -> None:

@@ -5,20 +5,18 @@ from __future__ import annotations
 import struct
 import subprocess
 import sys
-import tomllib
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
-from pydantic import BaseModel, ConfigDict
 
 from colonnade.errors import ReadError
 from colonnade.readers import registry
-from colonnade.readers.delimited import FORMAT as DELIMITED
 from colonnade.readers.recording import Recording
-from colonnade.readers.registry import Format, Recognition, formats, read
+from colonnade.readers.registry import Format, Options, Recognition, formats, read
+from colonnade.readers.text.delimited import FORMAT as DELIMITED
 
 
 def test_delimited_text_is_always_known_and_asked_last() -> None:
@@ -57,21 +55,17 @@ def test_a_folder_is_no_raw_file(tmp_path: Path) -> None:
 
 
 def test_an_unknown_format_is_told_with_the_nearest_name(tmp_path: Path) -> None:
-    with pytest.raises(ReadError, match=r'There is no format "delimitted". Did you mean "delimited"'):
+    with pytest.raises(ReadError, match=r'Unknown format "delimitted". Did you mean "delimited"'):
         read(tmp_path / "record.csv", "delimitted")
-
-
-class NoOptions(BaseModel):
-    model_config = ConfigDict(extra="forbid")
 
 
 def stumbling(error: Exception, **told: Any) -> Format:
     """A format whose parser stumbles over every file."""
 
-    def read(path: Path, options: NoOptions) -> Recording:
+    def read(path: Path, options: Options) -> Recording:
         raise error
 
-    return Format("odd", "", (), NoOptions, lambda path: Recognition(True, "always"), read, in_process=True, **told)
+    return Format("odd", "", (), lambda path: Recognition(True, "always"), read, in_process=True, **told)
 
 
 @pytest.fixture
@@ -127,28 +121,6 @@ def test_a_recogniser_that_stumbles_leaves_the_others_their_turn(
     path.write_text("words\n")
     with pytest.raises(ReadError, match=r"odd: it could not be looked at \(error: unpack requires 8 bytes\)"):
         read(path)
-
-
-def test_a_missing_package_is_told_with_the_command_that_installs_it(
-    tmp_path: Path, only: Callable[[Format], None]
-) -> None:
-    format = stumbling(ImportError("no"), package="no_such_package_anywhere", extra="seismic")
-    only(format)
-    assert not format.is_installed
-    with pytest.raises(
-        ReadError, match=r'needs the package no_such_package_anywhere, .* pip install "colonnade\[seismic\]"'
-    ):
-        read(tmp_path / "r.bin")
-
-
-def test_every_extra_of_a_format_is_one_of_the_project() -> None:
-    project = Path(__file__).resolve().parents[2] / "pyproject.toml"
-    extras = tomllib.loads(project.read_text(encoding="utf-8"))["project"]["optional-dependencies"]
-    for format in formats().values():
-        assert bool(format.package) == bool(format.extra)
-        if format.extra:
-            assert any(needed.startswith(format.package) for needed in extras[format.extra])
-            assert format.extra in extras["formats"][0]
 
 
 def test_looking_at_a_file_loads_none_of_the_heavy_packages(tmp_path: Path) -> None:

@@ -20,6 +20,8 @@ from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import global_attributes
+from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.summary import write_summary
 
 SCRIPT = "<script>alert('title')</script>"
 MARKUP = '<img src=x onerror="alert(1)"> & 5 < 6'
@@ -103,17 +105,20 @@ def _tests() -> str:
 
 
 SETTINGS = {
-    "ingest": {"limits": {"spike_threshold": 8.0, "flat_duration": 0.5, "gap": 1.5, "jitter": 0.05}},
-    "condition": {"channels": {"top": {"on": "specimen"}}, "lowpass": 25.0, "base_lowpass": "auto", "filter_order": 4,
-                  "zero": "auto", "rest_duration": 0.5, "longest_offset": 1.0},
-    "restitution": {"lowest_amplitude": 0.02, "level": 0.95},
+    "ingest": {"settings": {"spike_threshold": 8.0, "flat_duration": 0.5, "gap": 1.5, "jitter": 0.05}},
+    "condition": {"channels": {"top": {"on": "specimen"}}, "zero": "auto",
+                  "settings": {"lowpass": 25.0, "base_lowpass": "auto", "filter_order": 4, "rest_duration": 0.5,
+                               "longest_offset": 1.0}},
+    "restitution": {"settings": {"lowest_amplitude": 0.02, "level": 0.95}},
     "predict": {"rest_angle": 1e-6},
 }  # fmt: skip
 
 
 def _attributes(stage: str, subject: str) -> dict[str, str]:
-    settings = SETTINGS.get(stage, {}) | ({"filter_order": 2} if subject == "span-3.0" else {})
-    return {"settings": json.dumps(settings)} | global_attributes(
+    inputs = json.loads(json.dumps(SETTINGS.get(stage, {})))
+    if stage == "condition" and subject == "span-3.0":
+        inputs["settings"]["filter_order"] = 2
+    return {"settings": json.dumps(inputs)} | global_attributes(
         campaign="prism-2013", title="Prism", facility=None, stage=stage, test=subject
     )
 
@@ -381,7 +386,7 @@ def _specimens(campaign: Campaign, layout: Layout) -> None:
                     "reason": "",
                 },
             ),
-            layout.specimen(name),
+            layout.stage(name, "specimen"),
             "specimen",
             name,
         )
@@ -402,4 +407,5 @@ def filled_campaign(tmp_path_factory: pytest.TempPathFactory) -> tuple[Campaign,
     (folder / "campaign.toml").write_text(CAMPAIGN + _tests(), encoding="utf-8")
     campaign, layout = load(folder), Layout(folder)
     _fill(campaign, layout)
+    write_summary(campaign, layout, Catalogue(layout))
     return campaign, layout

@@ -8,14 +8,14 @@ from colonnade import campaign as campaigns
 from colonnade.errors import StageError
 from colonnade.signals.quality import Flag
 from colonnade.stages import condition as conditioning
-from colonnade.stages.clocks import ClockInstructions
 from colonnade.stages.condition import condition
-from colonnade.stages.ingest import ingest, instructions
+from colonnade.stages.ingest import IngestInputs, ingest
+from colonnade.stages.parts.clocks import ChannelOnClock
 
 
 def _conditioned(campaign, test, recordings, **changes):
-    read = conditioning.instructions(campaign, test)
-    return condition(ingest(recordings, instructions(campaign, test)), read.model_copy(update=changes))
+    read = conditioning.ConditionInputs.of(campaign, test)
+    return condition(ingest(recordings, IngestInputs.of(campaign, test)), read.model_copy(update=changes))
 
 
 OFFSET = 0.02
@@ -40,21 +40,28 @@ def _two_recorders(first, second, *, noise=1e-3):
 FIRST, SECOND = np.arange(0, 9, 1 / 500), np.arange(0, 9, 1 / 400)
 
 
-def _with(read, **changes):
-    """The same instructions with other clocks."""
-    return read.model_copy(update={"clocks": read.clocks.model_copy(update=changes)})
+def _delayed(read, delays):
+    """The same inputs with other delays of the channels."""
+    changed = {name: read.channels[name].model_copy(update={"delay": delay}) for name, delay in delays.items()}
+    return read.model_copy(update={"channels": read.channels | changed})
+
+
+def _set(read, **changes):
+    """The same inputs with other settings."""
+    return read.model_copy(update={"settings": read.settings.model_copy(update=changes)})
 
 
 @pytest.fixture
 def linked(small_campaign):
-    """Instructions for the two recorders above."""
-    read = conditioning.instructions(small_campaign, small_campaign.tests["shake-01"])
+    """Inputs for the two recorders above."""
+    read = conditioning.ConditionInputs.of(small_campaign, small_campaign.tests["shake-01"])
     return read.model_copy(
         update={
-            "channels": {"first": ("acceleration", "table", "main"), "second": ("acceleration", "table", "daq2")},
-            "clocks": ClockInstructions(
-                delays={"first": 0.0, "second": 0.0}, links={"daq2": ("first", "second", 1.0)}, longest_offset=1.0
-            ),
+            "channels": {
+                name: ChannelOnClock(quantity="acceleration", on="table", recorder=recorder)
+                for name, recorder in (("first", "main"), ("second", "daq2"))
+            },
+            "links": {"daq2": ("first", "second", 1.0)},
         }
     )
 
@@ -62,7 +69,7 @@ def linked(small_campaign):
 @pytest.mark.parametrize(("of_first", "of_second"), [(0.0, 0.0), (0.0, 0.01), (0.004, 0.0), (0.004, 0.01)])
 def test_a_delay_and_a_clock_offset_are_each_taken_off_once(linked, of_first, of_second):
     recorded = _two_recorders(_shaking(FIRST - of_first), _shaking(SECOND - OFFSET - of_second))
-    result = condition(recorded, _with(linked, delays={"first": of_first, "second": of_second}))
+    result = condition(recorded, _delayed(linked, {"first": of_first, "second": of_second}))
     assert result["second"].attrs["clock_offset"] == pytest.approx(OFFSET + of_second, abs=2e-4)
     assert result["first"].attrs["clock_offset"] == of_first
     for name in ("first", "second"):
@@ -71,7 +78,7 @@ def test_a_delay_and_a_clock_offset_are_each_taken_off_once(linked, of_first, of
 
 def test_linked_channels_that_point_against_each_other_are_aligned(linked):
     recorded = _two_recorders(_shaking(FIRST), -_shaking(SECOND - OFFSET))
-    result = condition(recorded, _with(linked, links={"daq2": ("first", "second", -1.0)}))
+    result = condition(recorded, linked.model_copy(update={"links": {"daq2": ("first", "second", -1.0)}}))
     assert result["second"].attrs["clock_offset"] == pytest.approx(OFFSET, abs=2e-4)
     assert result["second"].attrs["clock_offset_standard_error"] < 1e-3
     assert result.attrs["warnings"] == []
@@ -102,8 +109,8 @@ on = "table"
     tests = tests.replace('"shake.csv"', '{main = "shake.csv", daq2 = "shake-2.csv"}')
     path.write_text(f"{channels}[[tests]]{tests}", encoding="utf-8")
     campaign = campaigns.load(path)
-    read = conditioning.instructions(campaign, campaign.tests["shake-01"])
-    assert read.clocks.links == {"daq2": ("table_acceleration", "second", sign)}
+    read = conditioning.ConditionInputs.of(campaign, campaign.tests["shake-01"])
+    assert read.links == {"daq2": ("table_acceleration", "second", sign)}
 
 
 def test_an_offset_that_a_steady_sine_leaves_open_is_warned_of(linked):
@@ -117,7 +124,7 @@ def test_an_offset_that_is_not_determined_has_no_standard_error(linked):
     result = condition(_two_recorders(np.zeros(FIRST.size), np.zeros(SECOND.size)), linked)
     assert result["second"].attrs["clock_offset"] == 0.0
     assert "clock_offset_standard_error" not in result["second"].attrs
-    assert any("taken to start with the main one" in warning.text for warning in result.attrs["warnings"])
+    assert any("assumed to start with the main one" in warning.text for warning in result.attrs["warnings"])
 
 
 def test_a_channel_of_another_quantity_links_recorders_but_is_not_conditioned(linked):
@@ -129,17 +136,17 @@ def test_a_channel_of_another_quantity_links_recorders_but_is_not_conditioned(li
     ):
         recorded[name] = (dimension, values)
         recorded[f"{name}_quality"] = (dimension, np.full(values.size, Flag.GOOD, dtype=np.int8))
-    channels = {name: ("other", None, recorder) for name, (_, _, recorder) in linked.channels.items()}
-    channels |= {"base": ("acceleration", "table", "main"), "late": ("acceleration", "table", "daq2")}
-    delays = dict.fromkeys(channels, 0.0)
-    result = condition(recorded, _with(linked.model_copy(update={"channels": channels}), delays=delays))
+    unused = {"quantity": "other", "on": None}
+    channels = {name: channel.model_copy(update=unused) for name, channel in linked.channels.items()}
+    channels |= {"base": linked.channels["first"], "late": linked.channels["second"]}
+    result = condition(recorded, linked.model_copy(update={"channels": channels}))
     assert set(result.data_vars) == {"base", "base_quality", "late", "late_quality"}
     assert result["late"].attrs["clock_offset"] == pytest.approx(OFFSET, abs=1e-3)
 
 
 def test_nothing_above_the_cut_off_is_folded_into_a_lower_sampling_rate(linked):
     recorded = _two_recorders(_shaking(FIRST) + 0.3 * np.sin(2 * np.pi * 195 * FIRST), _shaking(SECOND - OFFSET))
-    result = condition(recorded, linked.model_copy(update={"sampling_rate": 200.0}))
+    result = condition(recorded, _set(linked, sampling_rate=200.0))
     error = result["first"].to_numpy() - _shaking(result["elapsed"].to_numpy())
     assert np.sqrt(np.mean(error[50:-50] ** 2)) < 5e-3
 
@@ -175,7 +182,7 @@ def test_only_a_stretch_that_is_at_rest_is_advised(small_campaign, shaken):
     assert [found for found in advised.attrs["warnings"] if found.kind == "zero"] == []
     recordings["main"].channel("ACC").values[:] += 0.05 * np.sin(20 * time)
     result = _conditioned(small_campaign, small_campaign.tests["shake-01"], recordings)
-    assert "No stretch of the record is stiller" in " ".join(map(str, result.attrs["warnings"]))
+    assert "No stretch of the record is quieter" in " ".join(map(str, result.attrs["warnings"]))
 
 
 def test_missing_cells_stay_missing(small_campaign, free_vibration):
@@ -243,7 +250,7 @@ def test_a_record_that_ends_while_rocking_is_warned_of(small_campaign, free_vibr
     assert (told.kind, told.severity) == ("zero", "serious")
     assert "The zero of the rocking angle is uncertain by 0.0" in told.text
     assert "of the critical angle" in told.text
-    assert "Record until the specimen stands still" in told.text
+    assert "Record until the specimen is still" in told.text
 
 
 def test_spikes_are_bridged_before_the_filter_and_stay_suspect(small_campaign, free_vibration):
@@ -264,9 +271,8 @@ def test_the_noise_that_is_left_is_told(small_campaign, free_vibration):
 
 def test_a_delay_is_taken_off(small_campaign, shaken):
     test = small_campaign.tests["shake-01"]
-    clocks = conditioning.instructions(small_campaign, test).clocks
-    clocks = clocks.model_copy(update={"delays": clocks.delays | {"table_acceleration": 0.01}})
-    late = _conditioned(small_campaign, test, shaken[0], clocks=clocks)
+    delayed = _delayed(conditioning.ConditionInputs.of(small_campaign, test), {"table_acceleration": 0.01})
+    late = _conditioned(small_campaign, test, shaken[0], channels=delayed.channels)
     whole = _conditioned(small_campaign, test, shaken[0])
     onto = late["elapsed"].to_numpy()[100:-100]
     expected = np.interp(onto + 0.01, whole["elapsed"], whole["table_acceleration"])
@@ -274,8 +280,9 @@ def test_a_delay_is_taken_off(small_campaign, shaken):
 
 
 def test_a_cut_off_above_half_the_sampling_rate_is_refused_by_its_key(small_campaign, free_vibration):
+    test, settings = small_campaign.tests["free-01"], small_campaign.processing
     with pytest.raises(StageError, match=r"processing\.lowpass is 300 Hz; below 250 Hz.*channel top"):
-        _conditioned(small_campaign, small_campaign.tests["free-01"], free_vibration[0], lowpass=300.0)
+        _conditioned(small_campaign, test, free_vibration[0], settings=settings.model_copy(update={"lowpass": 300.0}))
 
 
 def test_a_channel_without_a_value_is_left_out_and_said(small_campaign, free_vibration):

@@ -7,7 +7,7 @@ import xarray as xr
 from colonnade.campaign.settings import ContactSettings
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.calibration import TOLERANCE, VELOCITY_RATIO, free_restitution
-from colonnade.dynamics.contact.layout import rigid_body
+from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.stages import contact as calibrating
@@ -17,7 +17,7 @@ STEP = 3e-5
 
 
 def calibrated(restitution, *, lowest_amplitude=0.02, **settings):
-    read = calibrating.Instructions(
+    read = calibrating.ContactInputs(
         block=PRISM,
         shape="prism",
         sizes=(),

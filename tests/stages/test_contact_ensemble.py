@@ -26,12 +26,17 @@ def shaken_in_space(small_campaign, shaken):
     """Channels and rocking of a shaken test, the law of contact of its specimen, and what the ensemble reads."""
     test = small_campaign.tests["shake-01"]
     settings = ContactSettings.model_validate({"step": "50 us", "damping_fraction": 0.3, "penetration": 1e-5})
-    space = calibrating.instructions(small_campaign, "prism", settings)
-    recorded = ingesting.ingest(shaken[0], ingesting.instructions(small_campaign, test))
-    ready = conditioning.condition(recorded, conditioning.instructions(small_campaign, test))
-    rocking = rocking_stage.rocking(ready, rocking_stage.instructions(small_campaign, test))
-    read = running.instructions(small_campaign, test).model_copy(update={"space": space, "runs": RUNS})
-    return ready, rocking, calibrating.contact(SPECIMEN, space), read
+    space = calibrating.ContactInputs.of(small_campaign, "prism", settings)
+    recorded = ingesting.ingest(shaken[0], ingesting.IngestInputs.of(small_campaign, test))
+    ready = conditioning.condition(recorded, conditioning.ConditionInputs.of(small_campaign, test))
+    rocking = rocking_stage.rocking(ready, rocking_stage.RockingInputs.of(small_campaign, test))
+    read = running.ContactEnsembleInputs.of(small_campaign, test).model_copy(update={"space": space})
+    return ready, rocking, calibrating.contact(SPECIMEN, space), _set(read, members=RUNS)
+
+
+def _set(read, **changes):
+    """The same inputs with other settings."""
+    return read.model_copy(update={"settings": read.settings.model_copy(update=changes)})
 
 
 def test_the_bands_lie_about_the_prediction_on_its_clock(shaken_in_space):
@@ -51,7 +56,7 @@ def test_the_bands_lie_about_the_prediction_on_its_clock(shaken_in_space):
 
 def test_inputs_have_the_deviations_of_their_ranges(shaken_in_space):
     conditioned, rocking, law, read = shaken_in_space
-    wide = read.model_copy(update={"friction_range": 0.3, "damping_range": 0.0, "out_of_plane_range": 0.002, "runs": 2})
+    wide = _set(read, friction=0.3, damping_fraction=0.0, out_of_plane=0.002, members=2)
     bands = running.contact_ensemble(conditioned, rocking, law, wide)
     assert bands["input"].to_numpy().tolist() == ["friction", "out_of_plane"]
     np.testing.assert_allclose(bands["input_deviation"], np.array([0.3, 0.002]) / np.sqrt(3.0))

@@ -6,10 +6,10 @@ import xarray as xr
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.layout import rigid_body
-from colonnade.report.results import Results
+from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.report.specimens_page import _contact
 from colonnade.stages.contact import IDENTIFIED, law_variables
+from colonnade.store.records.stored import Stored
 from colonnade.store.variables import VARIABLES
 
 CYLINDER = Block.cylinder(diameter=0.097, height=0.455, mass=26.30)
@@ -24,6 +24,6 @@ def test_mass_weight_and_radius_of_each_ring_are_stored_and_shown():
     np.testing.assert_allclose(stored["ring_radius"], 0.0485 * np.arange(1, 5) / 4)
     assert float(stored["node_mass"].sum()) == pytest.approx(26.30)
     assert float(stored["node_weight"].sum()) == pytest.approx(26.30 * CYLINDER.gravity)
-    shown = dict(_contact(Results({"contact": stored}, (), ())))
+    shown = dict(_contact(Stored({("contact", None): stored})))
     assert shown["body"] == "rigid, round base, 4 whole rings"
     assert shown["base nodes"].startswith("4 rings of radius 12.1 to 48.5 mm, ")

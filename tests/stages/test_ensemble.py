@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.uncertainty import INPUTS
-from colonnade.identification.verdict import FEWEST, is_within, rank
+from colonnade.dynamics.ensembles.uncertainty import INPUTS
+from colonnade.identification.response.rank import FEWEST, is_within, rank
 from colonnade.stages import compare as comparing
 from colonnade.stages import condition as conditioning
 from colonnade.stages import ensemble as running
@@ -27,12 +27,12 @@ def results(small_campaign, free_vibration, shaken):
     found = {}
     for name, recordings in (("free-01", free_vibration[0]), ("shake-01", shaken[0])):
         test = small_campaign.tests[name]
-        recorded = ingesting.ingest(recordings, ingesting.instructions(small_campaign, test))
-        ready = conditioning.condition(recorded, conditioning.instructions(small_campaign, test))
-        found[name] = (ready, rocking_stage.rocking(ready, rocking_stage.instructions(small_campaign, test)))
-    read = identifying.instructions(small_campaign, small_campaign.tests["free-01"])
+        recorded = ingesting.ingest(recordings, ingesting.IngestInputs.of(small_campaign, test))
+        ready = conditioning.condition(recorded, conditioning.ConditionInputs.of(small_campaign, test))
+        found[name] = (ready, rocking_stage.rocking(ready, rocking_stage.RockingInputs.of(small_campaign, test)))
+    read = identifying.RestitutionInputs.of(small_campaign, small_campaign.tests["free-01"])
     identified = identifying.restitution(found["free-01"][1], read)
-    pooled = pooling.specimen({"free-01": identified}, pooling.instructions(small_campaign, "prism"))
+    pooled = pooling.specimen({"free-01": identified}, pooling.SpecimenInputs.of(small_campaign, "prism"))
     return found, pooled
 
 
@@ -41,8 +41,13 @@ def ensemble(small_campaign, results):
     def run(name, model="linear", specimen=None, rocking=None, **changes):
         found, pooled = results
         conditioned, measured = found[name]
-        read = running.instructions(small_campaign, small_campaign.tests[name], model)
-        read = read.model_copy(update={"members": MEMBERS} | changes)
+        read = running.EnsembleInputs.of(small_campaign, small_campaign.tests[name], model)
+        settings = {"members": MEMBERS} | {key: value for key, value in changes.items() if key != "measurement"}
+        changed = {"settings": read.settings.model_copy(update=settings)}
+        if "measurement" in changes:
+            measurement = read.measurement.settings.model_copy(update=changes["measurement"])
+            changed["measurement"] = read.measurement.model_copy(update={"settings": measurement})
+        read = read.model_copy(update=changed)
         measured = measured if rocking is None else rocking
         return running.ensemble(conditioned, measured, pooled if specimen is None else specimen, read)
 
@@ -51,7 +56,7 @@ def ensemble(small_campaign, results):
 
 def test_the_bands_lie_about_the_prediction_on_its_clock(small_campaign, results, ensemble):
     (_, rocking), pooled = results[0]["shake-01"], results[1]
-    read = predicting.instructions(small_campaign, small_campaign.tests["shake-01"], "linear")
+    read = predicting.PredictInputs.of(small_campaign, small_campaign.tests["shake-01"], "linear")
     predicted = predicting.predict(rocking, pooled, read)
     bands = ensemble("shake-01")
     np.testing.assert_array_equal(bands["elapsed"], predicted["elapsed"])
@@ -105,8 +110,7 @@ def test_an_angle_that_no_run_has_is_outside(small_campaign, results, ensemble, 
     assert not is_within(float(compared["within_spread"]))
     # What the calibration of the transducers leaves open is no misfit of the model.
     known = ensemble("shake-01", rocking=other)
-    wide = running.instructions(small_campaign, small_campaign.tests["shake-01"], "linear").verdict
-    open_gain = ensemble("shake-01", rocking=other, verdict=wide.model_copy(update={"angle_gain": 0.06}))
+    open_gain = ensemble("shake-01", rocking=other, measurement={"angle_gain": 0.06})
     assert is_within(float(compare(small_campaign, results, open_gain, other)["within_spread"]))
     assert float(open_gain["measured_distance"]) < float(known["measured_distance"])
 
@@ -118,8 +122,7 @@ def test_the_horizon_is_where_the_band_gets_wider_than_the_setting(small_campaig
     assert bool((width.sel(elapsed=slice(None, horizon - 1e-9)) <= 0.2).all())
     assert float(width.sel(elapsed=horizon)) > 0.2
     assert float(compare(small_campaign, results, bands)["horizon"]) == horizon
-    read = running.instructions(small_campaign, small_campaign.tests["shake-01"], "linear").verdict
-    never = ensemble("shake-01", critical_angle=0.02, p=0.02, verdict=read.model_copy(update={"horizon": 9.0}))
+    never = ensemble("shake-01", critical_angle=0.02, p=0.02, measurement={"horizon": 9.0})
     assert float(never["horizon"]) == float(never["elapsed"][-1])
 
 
@@ -169,7 +172,7 @@ def compare(campaign, results, ensemble, rocking=None):
     found, pooled = results
     rocking = found["shake-01"][1] if rocking is None else rocking
     test = campaign.tests["shake-01"]
-    predicted = predicting.predict(rocking, pooled, predicting.instructions(campaign, test, "linear"))
+    predicted = predicting.predict(rocking, pooled, predicting.PredictInputs.of(campaign, test, "linear"))
     ensembles = {} if ensemble is None else {"linear": ensemble}
-    instructions = comparing.instructions(campaign, test)
-    return comparing.compare(rocking, {"linear": predicted}, instructions, ensembles).isel(model=0)
+    inputs = comparing.CompareInputs.of(campaign, test)
+    return comparing.compare(rocking, {"linear": predicted}, inputs, ensembles).isel(model=0)

@@ -7,7 +7,7 @@ import pytest
 from colonnade.errors import ReadError, StageError
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.signals.quality import Flag
-from colonnade.stages.ingest import ingest, instructions
+from colonnade.stages.ingest import IngestInputs, ingest
 from colonnade.store.description import describe
 
 
@@ -19,7 +19,7 @@ def _changed(recordings, name, change):
 
 def test_recorded_values_stay_and_si_values_stand_beside_them(small_campaign, free_vibration):
     recordings, time, _, _ = free_vibration
-    recorded = ingest(recordings, instructions(small_campaign, small_campaign.tests["free-01"]))
+    recorded = ingest(recordings, IngestInputs.of(small_campaign, small_campaign.tests["free-01"]))
     volts = recordings["main"].channel("LVDT 1").values
     np.testing.assert_array_equal(recorded["top_recorded"], volts)
     np.testing.assert_allclose(recorded["top"], volts * 0.012 + 0.003, rtol=1e-12)
@@ -36,7 +36,7 @@ def test_planted_faults_are_flagged_and_told_and_nothing_is_overwritten(small_ca
     values[900:905] = np.nan
     values[1000:1010] = 10.0
     faulty = _changed(recordings, "LVDT 1", lambda channel: replace(channel, values=values))
-    recorded = ingest(faulty, instructions(small_campaign, small_campaign.tests["free-01"]))
+    recorded = ingest(faulty, IngestInputs.of(small_campaign, small_campaign.tests["free-01"]))
     flags = recorded["top_quality"].to_numpy()
     assert flags[700] == Flag.FAIL
     assert (flags[900:905] == Flag.MISSING).all()
@@ -55,7 +55,7 @@ def test_planted_faults_are_flagged_and_told_and_nothing_is_overwritten(small_ca
 
 def test_the_window_of_a_test_is_cut_out(small_campaign, free_vibration):
     test = small_campaign.tests["free-01"].model_copy(update={"window": (2.0, 5.0)})
-    recorded = ingest(free_vibration[0], instructions(small_campaign, test))
+    recorded = ingest(free_vibration[0], IngestInputs.of(small_campaign, test))
     assert float(recorded["elapsed"][0]) == 2.0
     assert float(recorded["elapsed"][-1]) == 5.0
 
@@ -63,19 +63,19 @@ def test_the_window_of_a_test_is_cut_out(small_campaign, free_vibration):
 def test_a_window_beside_the_record_is_refused(small_campaign, free_vibration):
     test = small_campaign.tests["free-01"].model_copy(update={"window": (50.0, 60.0)})
     with pytest.raises(StageError, match="0 samples between 50 and 60 s"):
-        ingest(free_vibration[0], instructions(small_campaign, test))
+        ingest(free_vibration[0], IngestInputs.of(small_campaign, test))
 
 
 def test_a_missing_column_is_told_with_the_nearest(small_campaign, free_vibration):
     renamed = _changed(free_vibration[0], "LVDT 1", lambda channel: replace(channel, name="LVDT_1", heading="LVDT_1"))
     with pytest.raises(ReadError, match=r'no column is called "LVDT 1".*Did you mean'):
-        ingest(renamed, instructions(small_campaign, small_campaign.tests["free-01"]))
+        ingest(renamed, IngestInputs.of(small_campaign, small_campaign.tests["free-01"]))
 
 
 def test_a_file_without_a_clock_needs_a_sampling_rate(small_campaign, free_vibration):
     recording = free_vibration[0]["main"]
     clockless = {"main": replace(recording, channels=tuple(replace(each, time=None) for each in recording.channels))}
-    read = instructions(small_campaign, small_campaign.tests["free-01"])
+    read = IngestInputs.of(small_campaign, small_campaign.tests["free-01"])
     with pytest.raises(StageError, match="sampling_rate"):
         ingest(clockless, read)
     recorded = ingest(clockless, read.model_copy(update={"sampling_rates": {"main": 250.0}}))
@@ -84,13 +84,13 @@ def test_a_file_without_a_clock_needs_a_sampling_rate(small_campaign, free_vibra
 
 def test_a_unit_that_the_file_contradicts_is_warned_of(small_campaign, free_vibration):
     wrong = _changed(free_vibration[0], "LVDT 2", lambda channel: replace(channel, unit="V"))
-    recorded = ingest(wrong, instructions(small_campaign, small_campaign.tests["free-01"]))
+    recorded = ingest(wrong, IngestInputs.of(small_campaign, small_campaign.tests["free-01"]))
     assert any('says "V"' in warning.text and '"mm"' in warning.text for warning in recorded.attrs["warnings"])
 
 
 def test_channels_with_other_times_get_a_clock_of_their_own(small_campaign, free_vibration):
     later = _changed(free_vibration[0], "ACC", lambda channel: replace(channel, time=channel.time + 0.001))
-    recorded = ingest(later, instructions(small_campaign, small_campaign.tests["free-01"]))
+    recorded = ingest(later, IngestInputs.of(small_campaign, small_campaign.tests["free-01"]))
     assert recorded["table_acceleration"].dims == ("elapsed_table_acceleration",)
     assert recorded["top"].dims == ("elapsed",)
 
@@ -98,7 +98,7 @@ def test_channels_with_other_times_get_a_clock_of_their_own(small_campaign, free
 def test_channels_never_share_a_row_because_they_share_an_index(small_campaign, free_vibration):
     recordings, time, _, _ = free_vibration
     main = recordings["main"]
-    read = instructions(small_campaign, small_campaign.tests["free-01"])
+    read = IngestInputs.of(small_campaign, small_campaign.tests["free-01"])
     channel = read.channels["bottom"]
     # Four channels of as many samples, three of them with starts of their own, two with names of a recorder's clock.
     starts = {"LVDT 2": 0.0, "a": 0.5, "b": 0.25, "c": 0.125}
@@ -122,11 +122,11 @@ def test_channels_of_a_recorder_that_was_not_running_are_absent(small_campaign):
     setup = small_campaign.setups["frame"]
     channels = setup.channels | {"extra": setup.channels["bottom"].model_copy(update={"recorder": "daq2"})}
     changed = replace(small_campaign, setups={"frame": setup.model_copy(update={"channels": channels})})
-    assert "extra" not in instructions(changed, test).channels
+    assert "extra" not in IngestInputs.of(changed, test).channels
 
 
 def test_an_unnamed_recorder_is_told(small_campaign, free_vibration):
-    read = instructions(small_campaign, small_campaign.tests["free-01"])
+    read = IngestInputs.of(small_campaign, small_campaign.tests["free-01"])
     channels = read.channels | {"top": read.channels["top"].model_copy(update={"recorder": "daq2"})}
     with pytest.raises(StageError, match='daq2 = "…"'):
         ingest(free_vibration[0], read.model_copy(update={"channels": channels}))
@@ -136,7 +136,7 @@ def test_a_dead_accelerometer_on_the_specimen_is_flagged_beside_a_moving_table(s
     time = np.arange(0, 4, 0.002)
     values = {"ACC": np.sin(9 * time), "block": 1e-3 * np.sin(9 * time)}
     channels = tuple(RecordedChannel(name, "g", each, time) for name, each in values.items())
-    read = instructions(small_campaign, small_campaign.tests["shake-01"])
+    read = IngestInputs.of(small_campaign, small_campaign.tests["shake-01"])
     table = read.channels["table_acceleration"]
     block = table.model_copy(update={"column": "block", "on": "specimen"})
     both = {"table": table, "block": block, "across": block.model_copy(update={"direction": (0.0, 0.0, 1.0)})}
@@ -157,7 +157,7 @@ def test_rounded_times_are_kept_and_said_and_flag_no_sample(small_campaign, rate
     values = np.random.default_rng(0).normal(size=(3, time.size))
     names = ("LVDT 1", "LVDT 2", "ACC")
     channels = tuple(RecordedChannel(name, None, each, time) for name, each in zip(names, values, strict=True))
-    read = instructions(small_campaign, small_campaign.tests["shake-01"])
+    read = IngestInputs.of(small_campaign, small_campaign.tests["shake-01"])
     recorded = ingest({"main": Recording(Path("a.csv"), "delimited", channels)}, read)
     np.testing.assert_array_equal(recorded["elapsed"], time)
     assert (recorded["bottom_quality"] == Flag.GOOD).all()
@@ -170,5 +170,5 @@ def test_one_wild_time_stamp_costs_one_sample(small_campaign, free_vibration):
     recordings, _, _, _ = free_vibration
     for channel in recordings["main"].channels:
         channel.time[9] = 1e6
-    recorded = ingest(recordings, instructions(small_campaign, small_campaign.tests["free-01"]))
+    recorded = ingest(recordings, IngestInputs.of(small_campaign, small_campaign.tests["free-01"]))
     assert np.flatnonzero(recorded["top_quality"] != Flag.GOOD).tolist() == [9]

@@ -15,9 +15,9 @@ from colonnade.stages import rocking as rocking_stage
 def passed(small_campaign, free_vibration, monkeypatch):
     """What the identification is called with, of a free vibration, and the result of `rocking` that it is from."""
     test = small_campaign.tests["free-01"]
-    recorded = ingesting.ingest(free_vibration[0], ingesting.instructions(small_campaign, test))
-    ready = conditioning.condition(recorded, conditioning.instructions(small_campaign, test))
-    rocking = rocking_stage.rocking(ready, rocking_stage.instructions(small_campaign, test))
+    recorded = ingesting.ingest(free_vibration[0], ingesting.IngestInputs.of(small_campaign, test))
+    ready = conditioning.condition(recorded, conditioning.ConditionInputs.of(small_campaign, test))
+    rocking = rocking_stage.rocking(ready, rocking_stage.RockingInputs.of(small_campaign, test))
     calls, identify = [], stage.identify_restitution
 
     def recorded_call(*arguments, **known):
@@ -27,7 +27,7 @@ def passed(small_campaign, free_vibration, monkeypatch):
     monkeypatch.setattr(stage, "identify_restitution", recorded_call)
 
     def call(**changed):
-        read = stage.instructions(small_campaign, test).model_copy(update=changed)
+        read = stage.RestitutionInputs.of(small_campaign, test).model_copy(update=changed)
         stage.restitution(rocking, read)
         return calls[-1], ready, rocking
 

@@ -11,13 +11,13 @@ from colonnade.stages.rocking import rocking
 
 
 def conditioned(campaign, test, recordings):
-    recorded = ingesting.ingest(recordings, ingesting.instructions(campaign, test))
-    return conditioning.condition(recorded, conditioning.instructions(campaign, test))
+    recorded = ingesting.ingest(recordings, ingesting.IngestInputs.of(campaign, test))
+    return conditioning.condition(recorded, conditioning.ConditionInputs.of(campaign, test))
 
 
 def _rocking(campaign, name, recordings, **changes):
     test = campaign.tests[name]
-    read = _with_channels(rocking_stage.instructions(campaign, test), **changes)
+    read = _with_channels(rocking_stage.RockingInputs.of(campaign, test), **changes)
     return rocking(conditioned(campaign, test, recordings), read)
 
 
@@ -71,7 +71,7 @@ def test_ground_relative_transducers_have_the_tables_displacement_taken_off(smal
         {name: (("elapsed",), ready[name].to_numpy() + moved, ready[name].attrs) for name in ("top", "bottom")}
     )
     ground["table"] = ("elapsed", moved, ready["top"].attrs)
-    read = rocking_stage.instructions(small_campaign, test)
+    read = rocking_stage.RockingInputs.of(small_campaign, test)
     positions = {name: replace(each, on_ground=True) for name, each in read.transducers.positions.items()}
     own = _with_channels(read, positions=positions)
     with pytest.raises(StageError, match="relative to the ground"):
@@ -114,7 +114,7 @@ def test_a_single_shock_in_the_base_motion_is_told_with_its_time_and_size(small_
 def test_several_table_accelerometers_are_named_and_held_against_each_other(small_campaign, shaken):
     ready = conditioned(small_campaign, small_campaign.tests["shake-01"], shaken[0])
     other = ready["table_acceleration"]
-    read = rocking_stage.instructions(small_campaign, small_campaign.tests["shake-01"])
+    read = rocking_stage.RockingInputs.of(small_campaign, small_campaign.tests["shake-01"])
     both = _with_channels(read, accelerations=dict.fromkeys(("table_acceleration", "second"), (1.0, 0.0, 0.0)))
     for factor, severity, said in ((1.0, "note", "they agree to 0.0%"), (0.5, "warning", "differ: ")):
         two = ready.assign(second=other.copy(data=factor * other.to_numpy()).assign_attrs(channel="second"))

@@ -120,9 +120,9 @@ def measure(tmp_path):
             columns.append(RecordedChannel(name, None, (spoilt or {}).get(name, 1.0) * values, time))
         recordings = {"main": Recording(Path("kinds.csv"), "delimited", tuple(columns))}
         chosen = campaign.tests[test]
-        recorded = ingesting.ingest(recordings, ingesting.instructions(campaign, chosen))
-        conditioned = conditioning.condition(recorded, conditioning.instructions(campaign, chosen))
-        return rocking_stage.rocking(conditioned, rocking_stage.instructions(campaign, chosen))
+        recorded = ingesting.ingest(recordings, ingesting.IngestInputs.of(campaign, chosen))
+        conditioned = conditioning.condition(recorded, conditioning.ConditionInputs.of(campaign, chosen))
+        return rocking_stage.rocking(conditioned, rocking_stage.RockingInputs.of(campaign, chosen))
 
     return measured
 
@@ -209,7 +209,7 @@ def test_one_accelerometer_alone_gives_no_angle_and_costs_no_prediction(shaken, 
     (told,) = result.attrs["warnings"]
     assert told.severity == "warning"
     assert "Two along x at different heights were expected (channels high)" in told.text
-    assert "Predictions go on" in told.text
+    assert "Predictions continue" in told.text
 
 
 def test_slide_uplift_and_the_rest_are_written_where_they_are_separated(shaken, measure):

@@ -174,7 +174,9 @@ def complaints(path, checker: str) -> dict[int, list[str]]:
 def stored(request, tmp_path):
     stage, result = request.param, RESULTS[request.param]
     path = tmp_path / f"{stage}.nc"
-    attributes = global_attributes(campaign="prism", title="Prism", facility="Laboratory", stage=stage, test="free-01")
+    made_by = "rocking" if result is None else stage
+    told = {"campaign": "prism", "title": "Prism", "facility": "Laboratory", "test": "free-01"}
+    attributes = global_attributes(stage=made_by, **told)
     if result is None:
         files.write_failed(path, "The clock runs backwards.", attributes=attributes)
     else:

@@ -16,7 +16,6 @@ from colonnade.store.layout import Layout
         ("condition", "conditioned.nc"),
         ("rocking", "rocking.nc"),
         ("restitution", "restitution.nc"),
-        ("ensemble", "ensemble.nc"),
         ("compare", "compared.nc"),
     ],
 )
@@ -25,12 +24,16 @@ def test_each_stage_has_its_file_in_the_tests_folder(stage, name):
 
 
 def test_each_model_has_a_file():
-    assert Layout(Path("c")).stage("free-01", "predict", "linear").name == "predicted-linear.nc"
+    layout = Layout(Path("c"))
+    assert layout.stage("free-01", "predict", "linear").name == "predicted-linear.nc"
+    assert layout.stage("free-01", "ensemble", "linear").name == "ensemble-linear.nc"
+    assert layout.stage("prism", "contact") == Path("c/processed/contact/prism.nc")
+    assert layout.stage("prism", "responses", "linear") == Path("c/processed/maps/prism-linear-response.nc")
 
 
 def test_specimens_summary_and_report_lie_where_the_contract_says():
     layout = Layout(Path("c"))
-    assert layout.specimen("prism") == Path("c/processed/specimens/prism.nc")
+    assert layout.stage("prism", "specimen") == Path("c/processed/specimens/prism.nc")
     assert layout.summary_json == Path("c/processed/summary.json")
     assert layout.report == Path("c/report/index.html")
-    assert layout.map("prism", "linear") == Path("c/processed/maps/prism-linear.nc")
+    assert layout.stage("prism", "map", "linear") == Path("c/processed/maps/prism-linear.nc")

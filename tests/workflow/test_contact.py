@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.layout import rigid_body
+from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError
@@ -36,7 +36,7 @@ def in_space(small):
 def test_a_campaign_is_predicted_by_the_contact_model_beside_the_others(in_space):
     redone = in_space.redone()
     assert redone["prism", "contact"] == "never run"
-    law = files.read(in_space.layout.contact("prism"))
+    law = files.read(in_space.layout.stage("prism", "contact"))
     assert float(law["damping_fraction"]) == 0.3
     assert 0.9 < float(law["contact_restitution"]) < 1.0
 
@@ -58,7 +58,7 @@ def test_a_campaign_is_predicted_by_the_contact_model_beside_the_others(in_space
 
 def test_every_result_of_the_contact_model_tells_its_law_and_its_nodes(in_space):
     in_space.run()
-    law = files.read(in_space.layout.contact("prism"))
+    law = files.read(in_space.layout.stage("prism", "contact"))
     predicted = files.read(in_space.layout.stage("pulse-01", "predict", "contact"))
     body = rigid_body(BLOCK)
     for told in (law, predicted):
@@ -109,7 +109,7 @@ def test_a_specimen_without_a_law_fails_its_tests_with_what_to_do(in_space):
 
 def test_calibration_shows_other_bodies_and_stores_the_settings_own(in_space):
     own, coarse = calibrate(in_space.folder, meshes=("rigid", "coarse"), workers=1)
-    assert (own.mesh, own.path, own.reason) == ("rigid", in_space.layout.contact("prism"), "")
+    assert (own.mesh, own.path, own.reason) == ("rigid", in_space.layout.stage("prism", "contact"), "")
     assert own.restitution == float(files.read(own.path)["contact_restitution"])
     assert (coarse.mesh, coarse.path) == ("coarse", None)
     assert "1224 degrees of freedom" in coarse.body

@@ -66,10 +66,10 @@ def test_nothing_stays_behind_a_failure(small):
 def test_a_fault_of_colonnade_is_told_as_such_and_the_others_go_on(untouched, monkeypatch):
     real = rocking.rocking
 
-    def faulty(conditioned, instructions):
+    def faulty(conditioned, inputs):
         if conditioned.attrs["test"] == "pulse-01":
             raise ZeroDivisionError("division by zero")
-        return real(conditioned, instructions)
+        return real(conditioned, inputs)
 
     monkeypatch.setattr(rocking, "rocking", faulty)
     failed = failures(untouched.run())

@@ -170,7 +170,7 @@ def test_verifying_heals_results_that_were_altered(small):
     altered = [
         small.layout.stage("pulse-01", "ingest"),
         small.layout.stage("free-01", "compare"),
-        small.layout.specimen("prism"),
+        small.layout.stage("prism", "specimen"),
     ]
     for path in altered:
         alter(path)

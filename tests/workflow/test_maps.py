@@ -13,11 +13,12 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.chart import stability_map
+from colonnade.dynamics.maps.steady import steady_response
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.steady import steady_response
 from colonnade.errors import CampaignError, StoreError
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.store.results import ResultId
 from colonnade.workflow import run
 from colonnade.workflow.map_plans import Wanted, measured_points
 from colonnade.workflow.maps import as_map, make_maps
@@ -79,7 +80,7 @@ def test_a_map_takes_the_identified_restitution_and_is_that_of_the_library(small
     result = made(small)
     assert (result.restitution_source, result.action) == ("identified", "done")
     stored = as_map(files.read(result.path))
-    pooled = files.read(small.layout.specimen("prism"))
+    pooled = files.read(small.layout.stage("prism", "specimen"))
     e = tuple(float(value) for value in pooled["side_restitution"])
     expected = stability_map(
         BLOCK,
@@ -95,7 +96,7 @@ def test_a_map_takes_the_identified_restitution_and_is_that_of_the_library(small
 
 def test_several_processes_give_the_same_bit_for_bit(small):
     alone = content(small)
-    small.layout.map("prism", "linear").unlink()
+    small.layout.stage("prism", "map", "linear").unlink()
     assert content(small, workers=2) == alone
 
 
@@ -107,7 +108,7 @@ def test_several_models_have_a_map_each_and_a_picture_together(small):
     drawn = together.read_text(encoding="utf-8")
     for model in ("linear", "nonlinear"):
         assert f"{model}: lower limit" in drawn
-        assert small.layout.map("prism", model).exists()
+        assert small.layout.stage("prism", "map", model).exists()
     assert made(small).together is None
 
 
@@ -121,7 +122,7 @@ def test_the_shape_of_a_ramp_makes_another_map(small):
 def test_steady_responses_are_those_of_the_library_and_made_once(small):
     result = made(small, asking(responses=True))
     stored = as_response(files.read(result.responses))
-    e = tuple(float(value) for value in files.read(small.layout.specimen("prism"))["side_restitution"])
+    e = tuple(float(value) for value in files.read(small.layout.stage("prism", "specimen"))["side_restitution"])
     expected = steady_response(BLOCK, restitution=e, frequency_ratio=np.linspace(2.0, 5.0, 6),
                                amplitude_ratio=np.linspace(0.8, 2.0, 10))  # fmt: skip
     assert set(np.unique(expected.order)) >= {-2, 0, 1}
@@ -213,7 +214,7 @@ def test_what_cannot_be_mapped_is_told(small, wanted, specimens, found):
 
 
 def test_a_map_waits_for_no_run_but_says_that_one_is_under_way(small):
-    from colonnade.workflow.lock import only_run
+    from colonnade.workflow.execution.lock import only_run
 
     with only_run(small.layout), pytest.raises(StoreError, match="being run already"):
         made(small)
@@ -237,12 +238,12 @@ def test_a_map_that_is_killed_goes_on_where_it_was_and_leaves_nothing_behind(sma
     os.kill(process.pid, signal.SIGKILL)
     process.wait()
     process.stdout.close()
-    assert not small.layout.map("prism", "linear").exists()
+    assert not small.layout.stage("prism", "map", "linear").exists()
     wanted = Wanted(**(vars(FEW) | {"points": (60, 10)}))
     told = []
     result = made(small, wanted, progress=lambda *state: told.append(state))
     assert 3 <= told[0][0] < 60
     again = files.read(result.path).attrs["content"]
-    assert not small.layout.map_blocks("prism", "linear").exists()
+    assert not small.layout.blocks(ResultId("prism", "map", "linear")).exists()
     result.path.unlink()
     assert files.read(made(small, wanted).path).attrs["content"] == again

@@ -69,7 +69,7 @@ def test_a_restitution_that_was_identified_for_another_block_is_not_used(small):
 def test_what_is_stored_is_what_the_rule_gives(small):
     from colonnade.campaign import load
 
-    stored = files.read(small.layout.specimen("prism"))
+    stored = files.read(small.layout.stage("prism", "specimen"))
     again = restitution_taken(load(small.folder), small.layout, "prism")
     assert again.attrs.items() <= stored.attrs.items()
     assert all(again[name].equals(stored[name].astype(again[name].dtype)) for name in again.variables)

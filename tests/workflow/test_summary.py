@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import csv
-import io
 
 import pytest
 
-from colonnade.campaign.summary import Summary, Warned
+from colonnade.campaign.summary import Summary
 from colonnade.store import files
-from colonnade.workflow.summary import _table
 
 
 def test_the_summary_has_the_contracts_form(undisturbed):
@@ -56,17 +54,15 @@ def test_the_table_has_a_row_a_test_with_the_same_numbers(undisturbed):
     assert rows[3]["peak_ratio"] == ""
 
 
-@pytest.mark.parametrize("told", ["=HYPERLINK(1)", "+1+1", "-1+1", "@SUM(A1)", "\t=1", "\r=1"])
-def test_text_that_a_spreadsheet_would_calculate_is_quoted(undisturbed, told):
-    summary = Summary.model_validate_json(undisturbed.layout.summary_json.read_text(encoding="utf-8"))
-    test = summary.tests["pulse-01"].model_copy(
-        update={"warnings": (Warned(severity="note", kind="x", text=told),), "reason": told}
-    )
-    table = _table(summary.model_copy(update={"tests": {"pulse-01": test}}))
-    (row,) = csv.DictReader(io.StringIO(table, newline=""))
-    expected = f"'{told}".replace("\r", "\n")
-    assert (row["reason"], row["warnings"]) == (expected, f"note: {told}".replace("\r", "\n"))
-    assert float(row["peak_ratio"]) == test.peak_ratio
+def test_a_free_vibration_shows_peaks_and_whole_history(undisturbed):
+    found = undisturbed.summary()["tests"]["free-01"]["restitution"]
+    stored = files.read(undisturbed.layout.stage("free-01", "restitution"))
+    assert found["value"] == float(stored["restitution"])
+    assert set(found["whole_history"]) == {"linear", "nonlinear"}
+    linear = found["whole_history"]["linear"]  # the model that the raw files were made with
+    assert linear["value"] == float(stored["restitution_history"].sel(model="linear"))
+    assert linear["value"] == pytest.approx(0.93, abs=1e-3)
+    assert linear["low"] < linear["value"] < linear["high"]
 
 
 def test_warnings_of_stages_are_the_tests_warnings(small):

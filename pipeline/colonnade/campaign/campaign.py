@@ -6,17 +6,17 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field, WithJsonSchema
+from pydantic import Field
 
 from colonnade.campaign.channel import Channel
 from colonnade.campaign.decision import Review
-from colonnade.campaign.fields import Gravity, Text, shown
-from colonnade.campaign.identifier import Identifier
 from colonnade.campaign.motions import ReferenceMotion
 from colonnade.campaign.settings import Processing
 from colonnade.campaign.setup import Setup
 from colonnade.campaign.specimen import AnySpecimen, Specimen
-from colonnade.campaign.table import Table
+from colonnade.campaign.syntax.fields import Gravity, Text, schema_version
+from colonnade.campaign.syntax.identifier import Identifier
+from colonnade.campaign.syntax.table import Table
 from colonnade.campaign.test import Test
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
 from colonnade.findings import Finding
@@ -25,16 +25,10 @@ SCHEMA = 1
 """Version of the contract of campaign.toml."""
 
 
-def _version(value: object) -> int:
-    if value != SCHEMA or isinstance(value, bool) or not isinstance(value, int):
-        raise ValueError(f"{shown(value)} was found. This colonnade reads campaign files of schema {SCHEMA}.")
-    return value
-
-
 class CampaignFile(Table):
     """A campaign file as written; `tests` may also be the path of a test log, which is read before this."""
 
-    version: Annotated[int, BeforeValidator(_version), WithJsonSchema({"const": SCHEMA})] = Field(alias="schema")
+    version: Annotated[int, *schema_version(SCHEMA, "campaign files")] = Field(alias="schema")
     """Version of the campaign file's form: 1."""
     campaign: Identifier
     """Id of the campaign, such as "prism-2013"."""
@@ -43,13 +37,13 @@ class CampaignFile(Table):
     facility: Text | None = None
     """Laboratory and shake table."""
     gravity: Gravity = Field(default=STANDARD_GRAVITY, json_schema_extra={"unit": "m/s^2"})
-    """Gravity at the laboratory; 9.81 m/s² where it is not given."""
+    """Gravity at the laboratory; 9.81 m/s² if it is not given."""
     specimens: dict[Identifier, AnySpecimen] = Field(min_length=1)
     """Specimens, by id."""
     setups: dict[Identifier, Setup] = Field(min_length=1)
     """Setups, by id."""
     motions: dict[Text, ReferenceMotion] = Field(default={})
-    """Reference motions, by the names that tests give them: files that recorded table motions are held against."""
+    """Reference motions, by the names that tests give them: files that recorded table motions are compared with."""
     processing: Processing = Processing()
     """Settings of the processing, each with a default."""
     tests: tuple[Test, ...] = ()
@@ -128,10 +122,6 @@ class Campaign:
         """Warnings about a test's specimen or set-up."""
         tables = (f"specimens.{self.tests[test].specimen}", f"setups.{self.tests[test].setup}")
         return tuple(found for found in self.warnings if found.about in tables)
-
-    def tests_of(self, specimen: str) -> dict[str, Test]:
-        """Tests of one specimen, by id."""
-        return {name: test for name, test in self.tests.items() if test.specimen == specimen}
 
 
 def resolved(written: CampaignFile, path: Path, warnings: tuple[Finding, ...]) -> Campaign:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from math import hypot
 from typing import Annotated, Any, Self
@@ -9,10 +10,10 @@ from typing import Annotated, Any, Self
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
 from colonnade import units
-from colonnade.campaign.bounds import CONVERSION, outside
-from colonnade.campaign.fields import Column, Delay, Direction, Position, number, one_of, shown
-from colonnade.campaign.identifier import Identifier
-from colonnade.campaign.table import Table, problem, refuse
+from colonnade.campaign.syntax.bounds import CONVERSION, outside
+from colonnade.campaign.syntax.fields import Column, Delay, Direction, Position, number, one_of, shown
+from colonnade.campaign.syntax.identifier import Identifier
+from colonnade.campaign.syntax.table import Table, problem, refuse
 from colonnade.errors import UnitError
 
 MAIN = "main"
@@ -32,40 +33,38 @@ def _cosine(one: tuple[float, ...], other: tuple[float, ...]) -> float:
     return sum(here * there for here, there in zip(one, other, strict=True)) / (hypot(*one) * hypot(*other))
 
 
+def _readable(value: object, what: str, read: Callable[[str], object]) -> str:
+    """Take text that `read` takes; what was expected is said with an example."""
+    if not isinstance(value, str):
+        raise ValueError(f"{shown(value)} was found. {what} was expected.")
+    try:
+        read(value)
+    except UnitError as error:
+        raise ValueError(str(error)) from None
+    return value
+
+
+def _number_and_unit(text: str) -> float:
+    number, unit = units.parse(text)
+    units.normalise_unit(unit)
+    return number
+
+
 def _gain(value: object) -> str:
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         value = repr(number(value))
-    if not isinstance(value, str):
-        raise ValueError(f'{shown(value)} was found. A gain in quotes was expected, such as "10 mm/V".')
-    try:
-        factor, unit = units.parse(value)
-        units.normalise_unit(unit)
-    except UnitError as error:
-        raise ValueError(str(error)) from None
-    if factor == 0.0:
-        raise ValueError(f"{shown(value)} was found. A gain of zero leaves nothing of the recording.")
-    return value
+    gain = _readable(value, 'A gain in quotes, such as "10 mm/V",', _number_and_unit)
+    if _number_and_unit(gain) == 0.0:
+        raise ValueError(f"{shown(value)} was found. A gain of zero would erase the recording.")
+    return gain
 
 
 def _unit(value: object) -> str:
-    if not isinstance(value, str):
-        raise ValueError(f'{shown(value)} was found. A unit in quotes was expected, such as "V".')
-    try:
-        units.normalise_unit(value)
-    except UnitError as error:
-        raise ValueError(str(error)) from None
-    return value
+    return _readable(value, 'A unit in quotes, such as "V",', units.normalise_unit)
 
 
 def _quantity_text(value: object) -> str:
-    if not isinstance(value, str):
-        raise ValueError(f'{shown(value)} has no unit. A quantity in quotes was expected, such as "10 V".')
-    try:
-        _, unit = units.parse(value)
-        units.normalise_unit(unit)
-    except UnitError as error:
-        raise ValueError(str(error)) from None
-    return value
+    return _readable(value, 'A quantity with its unit in quotes, such as "10 V",', _number_and_unit)
 
 
 _QUANTITY_SCHEMA: dict[str, Any] = {"type": "string", "pattern": rf"^\s*{units.NUMBER_PATTERN}"}
@@ -90,7 +89,7 @@ class Channel(Table):
     recorder: Identifier = MAIN
     """Recorder that has the column."""
     time: Column | None = None
-    """Column of its own time, where it has one."""
+    """Column of its own time, if it has one."""
     quantity: Annotated[str, *one_of(*units.QUANTITY_DIMENSIONS)]
     """What it records: "displacement", "velocity", "acceleration", "angle", "angular_velocity", "force" or "other"."""
     unit: Unit | None = None
@@ -100,7 +99,7 @@ class Channel(Table):
     written_offset: QuantityText | None = Field(default=None, alias="offset")
     """Physical value of a recorded zero, such as "-0.13 mm"."""
     written_range: QuantityText | None = Field(default=None, alias="range")
-    """Largest magnitude: of the recorded value where its unit is the recorded one, else of the physical value."""
+    """Largest magnitude: of the recorded value if it has the recorded unit, else of the physical value."""
     on: Annotated[str, *one_of("specimen", "table", "ground")] | None = None
     """What it is fixed to or looks at: "specimen", "table" or "ground"."""
     at: Position | None = None
@@ -142,55 +141,56 @@ class Channel(Table):
         return self
 
     def _missing(self) -> dict[str, str]:
-        told: dict[str, str] = {}
+        missing: dict[str, str] = {}
         if self.quantity == "other":
-            return told
+            return missing
         if self.unit is None:
-            told["unit"] = 'It is missing. Expected: unit of the values in the file, such as "V" or "mm".'
+            missing["unit"] = 'It is missing. Expected: unit of the values in the file, such as "V" or "mm".'
         if self.quantity in _NEEDS_DIRECTION:
             if self.on is None:
-                told["on"] = 'It is missing. "specimen", "table" or "ground" was expected.'
+                missing["on"] = 'It is missing. "specimen", "table" or "ground" was expected.'
             if self.direction is None:
-                told["direction"] = (
+                missing["direction"] = (
                     "It is missing. The direction of a positive reading was expected, such as [1, 0, 0]."
                 )
         if self.quantity == "displacement" and self.on == "specimen":
             if self.at is None:
-                told["at"] = (
+                missing["at"] = (
                     "It is missing. The point that the transducer follows was expected, "
                     'such as ["43 mm", "0 mm", "440 mm"] from the centre of the base.'
                 )
             if self.relative_to is None:
-                told["relative_to"] = 'It is missing. "table" or "ground" was expected: where the transducer is fixed.'
-        return told | self._wrong_sight()
+                missing["relative_to"] = 'It is missing. "table" or "ground" was expected: what it is fixed to.'
+        return missing | self._wrong_sight()
 
     def _wrong_sight(self) -> dict[str, str]:
-        """Tell what is wrong with the line of sight or the wire."""
-        told: dict[str, str] = {}
+        """Say what is wrong with the line of sight or the wire."""
+        wrong: dict[str, str] = {}
         if self.sensing != "point" and not (self.quantity == "displacement" and self.on == "specimen"):
-            told["sensing"] = f'"{self.sensing}" is for a displacement of the specimen. Leave it out here.'
+            wrong["sensing"] = f'"{self.sensing}" is for a displacement of the specimen. Leave it out here.'
         for key, sensing in (("normal", "surface"), ("anchor", "wire")):
             if getattr(self, key) is not None and self.sensing != sensing:
-                told[key] = (
+                wrong[key] = (
                     f'It goes with sensing = "{sensing}", and sensing is "{self.sensing}" here. Correct one of them.'
                 )
         if self.sensing == "wire" and self.anchor is None:
-            told["anchor"] = 'It is missing. A "wire" needs its fixed end, such as ["500 mm", "0 mm", "440 mm"].'
-        if told or self.direction is None:
-            return told
+            wrong["anchor"] = 'It is missing. A "wire" needs its fixed end, such as ["500 mm", "0 mm", "440 mm"].'
+        return wrong or self._sees_nothing()
+
+    def _sees_nothing(self) -> dict[str, str]:
+        """Say of a line of sight or a wire in a direction in which it hardly measures."""
+        if self.direction is None:
+            return {}
         if self.normal is not None and abs(_cosine(self.normal, self.direction)) < LEAST_COSINE:
-            told["normal"] = (
-                "The line of sight runs along this face. A face that it hits was expected; compare direction."
-            )
-        if self.anchor is not None and self.at is not None:
-            wire = tuple(there - here for here, there in zip(self.at, self.anchor, strict=True))
-            if not any(wire):
-                told["anchor"] = "It is where `at` is, so that the wire has no length. Its fixed end was expected."
-            elif abs(_cosine(wire, self.direction)) < LEAST_COSINE:
-                told["anchor"] = (
-                    "The wire runs across `direction`. An anchor before or behind `at` along it was expected."
-                )
-        return told
+            return {"normal": "The line of sight runs along this face. A face that it hits was expected."}
+        if self.anchor is None or self.at is None:
+            return {}
+        wire = tuple(there - here for here, there in zip(self.at, self.anchor, strict=True))
+        if not any(wire):
+            return {"anchor": "It is the same point as `at`, so the wire has no length. Its fixed end was expected."}
+        if abs(_cosine(wire, self.direction)) < LEAST_COSINE:
+            return {"anchor": "The wire runs across `direction`. An anchor ahead of or behind `at` was expected."}
+        return {}
 
     @property
     def dimension(self) -> str | None:
@@ -227,7 +227,7 @@ class Channel(Table):
 
     @cached_property
     def range_recorded(self) -> float | None:
-        """Largest magnitude of the recorded value, in the recorded unit; None where `range` is a physical value."""
+        """Largest magnitude of the recorded value, in the recorded unit; None if `range` is a physical value."""
         if self.written_range is None:
             return None
         value, unit = units.parse(self.written_range)
@@ -241,7 +241,7 @@ class Channel(Table):
 
     @cached_property
     def full_scale(self) -> float | None:
-        """Largest magnitude of the physical value, SI; None where no range is given."""
+        """Largest magnitude of the physical value, SI; None if no range is given."""
         if self.written_range is None:
             return None
         if self.range_recorded is not None:

@@ -26,13 +26,13 @@ class Review(BaseModel):
     Attributes
     ----------
     excluded : str
-        Why the whole test is left out, with who and when; empty where it is not.
+        Why the whole test is left out, with who and when; empty if it is not.
     window : (float, float) or None
         The part of the file that is taken, s.
     flags : tuple of Flagged
     factors : dict of str to float
         What a channel's gain is multiplied by.
-    told : tuple of str
+    sentences : tuple of str
         One sentence an entry: when, who, what, why.
     """
 
@@ -42,7 +42,7 @@ class Review(BaseModel):
     window: tuple[float, float] | None = None
     flags: tuple[Flagged, ...] = ()
     factors: dict[str, float] = {}
-    told: tuple[str, ...] = ()
+    sentences: tuple[str, ...] = ()
 
     def within(self, window: tuple[float, float] | None) -> tuple[float, float] | None:
         """
@@ -71,10 +71,10 @@ def decided(entries: Sequence[tuple[str, Mapping[str, Any]]]) -> Review:
     excluded, window = "", None
     flags: list[Flagged] = []
     factors: dict[str, float] = {}
-    told: list[str] = []
+    sentences: list[str] = []
     for action, entry in entries:
         said = f"{entry['when']}, {entry['who']}: {_what(action, entry)}: {entry['why']}"
-        told.append(said)
+        sentences.append(said)
         channel = str(entry.get("channel") or "")
         if action == "exclude" and not channel:
             excluded = excluded or f"excluded by {entry['who']} on {entry['when']}: {entry['why']}"
@@ -88,7 +88,7 @@ def decided(entries: Sequence[tuple[str, Mapping[str, Any]]]) -> Review:
             window = Review(window=window).within(entry["window"])
         else:
             factors[channel] = factors.get(channel, 1.0) * entry["factor"]
-    return Review(excluded=excluded, window=window, flags=tuple(flags), factors=factors, told=tuple(told))
+    return Review(excluded=excluded, window=window, flags=tuple(flags), factors=factors, sentences=tuple(sentences))
 
 
 def _what(action: str, entry: Mapping[str, Any]) -> str:

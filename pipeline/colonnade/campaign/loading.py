@@ -1,4 +1,4 @@
-"""Reads campaign.toml and review.toml: text to tables, tables to models, and every problem told at once."""
+"""Reads campaign.toml and review.toml: text to tables, tables to models, and all problems reported at once."""
 
 from __future__ import annotations
 
@@ -9,14 +9,13 @@ from typing import Any
 from pydantic import ValidationError
 
 from colonnade.campaign.campaign import Campaign, CampaignFile, resolved
-from colonnade.campaign.document import parse, place_of, read_text
-from colonnade.campaign.fields import one_line
 from colonnade.campaign.notices import notices
-from colonnade.campaign.places import Place, Source, key_lines
-from colonnade.campaign.rawpath import inside
 from colonnade.campaign.references import dangling
 from colonnade.campaign.review import read_review
 from colonnade.campaign.specimen import SHAPES
+from colonnade.campaign.syntax.document import parse, place_of, read_text, refusal
+from colonnade.campaign.syntax.places import Place, Source, key_lines
+from colonnade.campaign.syntax.rawpath import inside
 from colonnade.campaign.testlog import Log, read_log
 from colonnade.errors import CampaignError
 from colonnade.readers.irregular import irregular
@@ -41,7 +40,7 @@ def load(path: Path | str) -> Campaign:
     Raises
     ------
     CampaignError
-        If the file, its test log or the review beside it cannot be used; its text has a paragraph for each problem.
+        If the file, its test log or its review cannot be used; its text has a paragraph for each problem.
     """
     path = _found(Path(path))
     text = read_text(path)
@@ -51,10 +50,9 @@ def load(path: Path | str) -> Campaign:
         document = document | {"tests": list(log.tests)}
         source = replace(source, log=log.name, rows=log.rows)
     written, problems = _validated(document, path.parent)
-    problems.sort(key=lambda each: source.order(each[0]))
-    told = [*log.problems, *(source.paragraph(place, message, document) for place, message in problems)]
-    if told or written is None:
-        raise CampaignError("\n".join(dict.fromkeys(map(one_line, told))))
+    paragraphs = [*log.problems, *source.paragraphs(problems, document)]
+    if paragraphs or written is None:
+        raise refusal(paragraphs)
     campaign = resolved(written, path, (*log.warnings, *notices(written)))
     return replace(campaign, reviews=read_review(path.parent, campaign.tests, campaign.setups))
 
@@ -63,18 +61,17 @@ def _found(path: Path) -> Path:
     try:
         if path.is_dir():
             path = path / FILE_NAME
-        path = path.parent.resolve() / path.name  # a campaign file that is a link belongs to the folder it stands in
+        path = path.parent.resolve() / path.name  # a campaign file that is a link belongs to the folder of the link
         if path.is_file():
             return path
         if kind := irregular(path):
             raise CampaignError(f"{path}: this is {kind}; a campaign file, or its folder, was expected.")
         others = sorted(other.name for other in path.parent.glob("*.toml"))
     except (OSError, RuntimeError, ValueError) as error:
-        raise CampaignError(f"{path}: this is no path that can be followed ({error}).") from None
-    hint = f" In that folder there is: {', '.join(others)}." if others else ""
+        raise CampaignError(f"{path}: invalid path ({error}).") from None
+    hint = f" That folder has: {', '.join(others)}." if others else ""
     raise CampaignError(
-        f"{path.name}: there is no such file in {path.parent}.{hint} "
-        f"The path of a {FILE_NAME}, or of the folder that holds it, was expected."
+        f"{path.name}: not found in {path.parent}.{hint} The path of a {FILE_NAME} or of its folder was expected."
     )
 
 

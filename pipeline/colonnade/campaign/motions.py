@@ -8,9 +8,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, ValidationInfo, WithJsonSchema, model_validator
 
-from colonnade.campaign.fields import Column, Duration
-from colonnade.campaign.rawpath import inside
-from colonnade.campaign.table import Table
+from colonnade.campaign.syntax.fields import Column, Duration
+from colonnade.campaign.syntax.rawpath import inside
+from colonnade.campaign.syntax.table import Table
 
 
 def _path(value: object, info: ValidationInfo) -> Path:
@@ -21,16 +21,16 @@ MotionPath = Annotated[Path, BeforeValidator(_path), WithJsonSchema({"type": "st
 
 
 class ReferenceMotion(Table):
-    """A base motion as published: a text file of which only the shape counts. A bare path is its `file`."""
+    """A base motion as published: a text file; only the shape of the motion counts. A bare path is its `file`."""
 
     file: MotionPath
     """Its file, from the folder of the campaign file."""
     interval: Duration | None = None
-    """Its sampling interval, such as "0.02 s", where the file does not tell it."""
+    """Its sampling interval, such as "0.02 s", if the file does not give it."""
     column: Column | None = None
-    """Name or number, from 1, of the column of accelerations, where there are several."""
+    """Name or number, from 1, of the column of accelerations, if there are several."""
     layout: Literal["columns", "running"] | None = None
-    """"columns" or "running" (numbers run on from row to row), where the file does not show which."""
+    """"columns" or "running" (numbers run on from row to row), if the file does not show which."""
 
     @model_validator(mode="before")
     @classmethod

@@ -1,4 +1,4 @@
-"""What a campaign file says that no stage uses yet, and what in it looks odd: told once a key, never refused."""
+"""What a campaign file says that no stage uses yet, and what in it looks odd: reported once per key, never refused."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def notices(campaign: CampaignFile) -> tuple[Finding, ...]:
 
 def _not_yet(what: str, places: list[str]) -> Finding:
     more = f" and {len(places) - 1} more" if len(places) > 1 else ""
-    return warning("not used", f"{what} is understood but not yet used ({places[0]}{more}).")
+    return warning("not used", f"{what} is valid but not used yet ({places[0]}{more}).")
 
 
 def _unused(campaign: CampaignFile) -> Iterator[tuple[str, str]]:
@@ -72,16 +72,16 @@ def _odd(campaign: CampaignFile) -> Iterator[Finding]:
             yield warning("specimen", f"specimens.{name}.{deviation}")
     for test in campaign.tests:
         if test.kind == "sine" and test.frequency is None:
-            text = f"tests[{test.id}] is a sine test without frequency; the table's recorded motion alone will tell it."
+            text = f"tests[{test.id}] is a sine test without `frequency`: the table's recorded motion will give it."
             yield note("no frequency", text)
         setup = campaign.setups[test.setup]
         yield from _off_side(test.setup, setup, test.specimen, campaign.specimens[test.specimen])
         for recorder in setup.recorders:
             if recorder not in test.files:
-                text = f'tests[{test.id}] has no file of recorder "{recorder}"; its channels are absent in this test.'
+                text = f'tests[{test.id}] has no file of recorder "{recorder}"; its channels are missing in this test.'
                 yield note("no file of a recorder", text)
     if not campaign.tests:
-        yield warning("no test", "There is no test yet.")
+        yield warning("no test", "The campaign has no tests yet.")
 
 
 def _off_side(setup_name: str, setup: Setup, specimen_name: str, specimen: AnySpecimen) -> Iterator[Finding]:

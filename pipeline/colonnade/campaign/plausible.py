@@ -1,4 +1,4 @@
-"""What of a campaign's specimens and channels cannot be right: densities, places off the specimen, ranges."""
+"""What in a campaign's specimens and channels cannot be right: densities, places off the specimen, ranges."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ BRACKET = 0.25
 """Of the specimen's largest size, by which a point may lie off it: transducers are fixed on brackets."""
 
 FAR_OFF = 1.0
-"""Of that size; a point further off than this is no bracket."""
+"""Of that size; a point further away is not on a bracket."""
 
 WIDEST_RANGE = 10.0
-"""Times the travel of a point until the specimen lies on its side; few transducers are so much too large."""
+"""Times the travel of a point until the specimen lies on its side; few transducers are that much too large."""
 
 NARROWEST_RANGE = 0.1
 """Of the travel of a point until the specimen overturns; a transducer that reads less does not see it rock."""
@@ -35,8 +35,8 @@ def implausible(campaign: CampaignFile) -> Iterator[Finding]:
         specimen = campaign.specimens[specimen_name]
         for name, channel in campaign.setups[setup].channels.items():
             if channel.on == "specimen" and channel.at is not None:
-                told = (f"setups.{setup}.channels.{name}", channel, specimen_name, specimen)
-                yield from (replace(found, about=f"setups.{setup}") for found in (*_place(*told), *_range(*told)))
+                about = (f"setups.{setup}.channels.{name}", channel, specimen_name, specimen)
+                yield from (replace(found, about=f"setups.{setup}") for found in (*_place(*about), *_range(*about)))
 
 
 def _density(name: str, specimen: AnySpecimen) -> Iterator[Finding]:
@@ -54,12 +54,12 @@ def _density(name: str, specimen: AnySpecimen) -> Iterator[Finding]:
         return
     unit, count = density.mistaken_lengths(found)
     lengths = {1: "one of the lengths", 2: "two of the lengths", 3: "the lengths"}
-    cause = f"were {lengths[count]} in {unit} taken for m?" if count else "look at the units of its lengths and mass."
+    cause = f"were {lengths[count]} in {unit} read as m?" if count else "check the units of its lengths and mass."
     sizes = ", ".join(f"{key} {value:.4g} m" for key, value in specimen.sizes().items())
-    told = warning if density.FOAM <= found <= density.HEAVIEST else serious
-    yield told(
+    weight = warning if density.FOAM <= found <= density.HEAVIEST else serious
+    yield weight(
         "specimen",
-        f"specimens.{name}: {sizes} and {specimen.mass:.4g} kg make {found:.2g} kg/m³; {density.LIGHTEST:g} to "
+        f"specimens.{name}: {sizes} and {specimen.mass:.4g} kg give {found:.2g} kg/m³; {density.LIGHTEST:g} to "
         f"{density.HEAVIEST:g} kg/m³ was expected: {cause}",
     )
 
@@ -81,11 +81,11 @@ def _place(place: str, channel: Channel, name: str, specimen: AnySpecimen) -> It
     largest = max(height, 2 * half_width)
     if off <= BRACKET * largest:
         return
-    told = serious if off > FAR_OFF * largest else warning
-    yield told(
+    weight = serious if off > FAR_OFF * largest else warning
+    yield weight(
         "geometry",
         f"{place}.at is {1e3 * off:.4g} mm off {name}, which is {1e3 * height:.4g} mm high and {2e3 * half_width:.4g} "
-        "mm wide; a point on it was expected, measured from the centre of the base. Look at its unit.",
+        "mm wide; a point on it was expected, measured from the centre of the base. Check the unit.",
     )
 
 
@@ -101,13 +101,12 @@ def _range(place: str, channel: Channel, name: str, specimen: AnySpecimen) -> It
     if reach > WIDEST_RANGE * max(lying, 0.1 * height):
         yield warning(
             "gain",
-            f"{place}: gain and range let it read up to {1e3 * reach:.4g} mm, {reach / lying:.2g} times the "
-            f"{1e3 * lying:.3g} mm that this point of {name} travels until it lies on its side. Are gain and unit "
-            "right?",
+            f"{place}: with its gain and range it reads up to {1e3 * reach:.4g} mm, {reach / lying:.2g} times the "
+            f"{1e3 * lying:.3g} mm that this point of {name} moves until it lies on its side. Check gain and unit.",
         )
     elif reach < NARROWEST_RANGE * rocking:
         yield warning(
             "gain",
-            f"{place}: gain and range let it read up to {1e3 * reach:.3g} mm, {reach / rocking:.1%} of the "
-            f"{1e3 * rocking:.3g} mm that this point of {name} travels until it overturns. Are gain and unit right?",
+            f"{place}: with its gain and range it reads up to {1e3 * reach:.3g} mm, {reach / rocking:.1%} of the "
+            f"{1e3 * rocking:.3g} mm that this point of {name} moves until it overturns. Check gain and unit.",
         )

@@ -1,4 +1,4 @@
-"""Names that have to exist and ids that have to differ: checked on the file as written, so that all is told at once."""
+"""Names that have to exist and ids that have to differ: checked on the file as written, to report all at once."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from colonnade.campaign.channel import MAIN
-from colonnade.campaign.fields import shown
-from colonnade.campaign.identifier import clashes
-from colonnade.campaign.places import Place
+from colonnade.campaign.syntax.fields import shown
+from colonnade.campaign.syntax.identifier import clashes
+from colonnade.campaign.syntax.places import Place
 from colonnade.errors import nearest
 
 Problem = tuple[Place, str]
@@ -21,7 +21,7 @@ def dangling(document: Mapping[str, Any]) -> Iterator[Problem]:
     Parameters
     ----------
     document : mapping
-        The campaign file as written; anything may have the wrong type, which is told elsewhere.
+        The campaign file as written; anything may have the wrong type, which is reported elsewhere.
 
     Yields
     ------
@@ -44,8 +44,8 @@ def _table(value: object) -> dict[str, Any]:
 
 def _clashing(place: Place, table: Mapping[str, Any], *, as_variables: bool = False) -> Iterator[Problem]:
     for _, name, earlier in clashes(table, as_variables=as_variables):
-        same = "once '.', '-' and '_' are taken for the same" if as_variables else "but for upper and lower case"
-        yield (*place, name), f'This id is the same as "{earlier}", {same}. Choose another.'
+        same = "case or in '.', '-' and '_'" if as_variables else "upper and lower case"
+        yield (*place, name), f'This id differs from "{earlier}" only in {same}. Choose another.'
 
 
 def _setup(place: Place, setup: Mapping[str, Any]) -> Iterator[Problem]:
@@ -56,7 +56,7 @@ def _setup(place: Place, setup: Mapping[str, Any]) -> Iterator[Problem]:
         recorder = _table(channel).get("recorder", MAIN)
         if isinstance(recorder, str) and recorder not in {MAIN, *recorders}:
             hint = nearest(recorder, [MAIN, *recorders])
-            yield (*place, "channels", name, "recorder"), f"{shown(recorder)} is no recorder of this setup.{hint}"
+            yield (*place, "channels", name, "recorder"), f"Unknown recorder {shown(recorder)} in this setup.{hint}"
     for name, recorder in recorders.items():
         named = _table(_table(recorder).get("clock")).get("align")
         if isinstance(named, list) and len(named) == 2:
@@ -69,7 +69,7 @@ def _aligned(place: Place, channel: object, owner: str, channels: Mapping[str, A
         return
     own = [name for name, each in channels.items() if _table(each).get("recorder", MAIN) == owner]
     if channel not in channels:
-        yield place, f"{shown(channel)} is no channel of this setup.{nearest(channel, own)}"
+        yield place, f"Unknown channel {shown(channel)} in this setup.{nearest(channel, own)}"
     elif channel not in own:
         yield place, f'{shown(channel)} is not a channel of recorder "{owner}".{nearest(channel, own)}'
 
@@ -80,14 +80,14 @@ def _tests(tests: list[Any], specimens: Mapping[str, Any], setups: Mapping[str, 
     ]
     for index, name, earlier in clashes(ids):
         same = (
-            "There is a test of this id already" if name == earlier else f'It is the same as "{earlier}" but for case'
+            "This id is used twice" if name == earlier else f'It differs from "{earlier}" only in upper and lower case'
         )
-        yield ("tests", index, "id"), f"{shown(name)}: {same}. Every test needs an id of its own."
+        yield ("tests", index, "id"), f"{shown(name)}: {same}. Give every test its own id."
     for index, test in enumerate(map(_table, tests)):
         for key, known in (("specimen", specimens), ("setup", setups)):
             called = test.get(key)
             if isinstance(called, str) and called not in known:
-                yield ("tests", index, key), f"{shown(called)} is no {key} of this campaign.{nearest(called, known)}"
+                yield ("tests", index, key), f"Unknown {key} {shown(called)}.{nearest(called, known)}"
         setup = _table(setups.get(test["setup"])) if isinstance(test.get("setup"), str) else {}
         if setup:
             recorders = [MAIN, *_table(setup.get("recorders"))]
@@ -96,13 +96,13 @@ def _tests(tests: list[Any], specimens: Mapping[str, Any], setups: Mapping[str, 
                     hint = nearest(recorder, recorders)
                     yield (
                         ("tests", index, "file", recorder),
-                        f'Setup "{test["setup"]}" has no recorder of this name.{hint}',
+                        f'Unknown recorder in setup "{test["setup"]}".{hint}',
                     )
 
 
 def _faces(tests: list[Any], specimens: Mapping[str, Any], setups: Mapping[str, Any]) -> Iterator[Problem]:
     """Find transducers that look at the face of a specimen that is not round, without its normal."""
-    told = set()
+    found = set()
     for test in map(_table, tests):
         setup_name, specimen_name = test.get("setup"), test.get("specimen")
         if not isinstance(setup_name, str) or not isinstance(specimen_name, str):
@@ -111,8 +111,8 @@ def _faces(tests: list[Any], specimens: Mapping[str, Any], setups: Mapping[str, 
             continue
         for name, channel in _table(_table(setups.get(setup_name)).get("channels")).items():
             place = ("setups", setup_name, "channels", name, "normal")
-            if _table(channel).get("sensing") == "surface" and "normal" not in channel and place not in told:
-                told.add(place)
+            if _table(channel).get("sensing") == "surface" and "normal" not in channel and place not in found:
+                found.add(place)
                 yield (
                     place,
                     f'It is missing. Specimen "{specimen_name}" is not round, so that a "surface" transducer needs the '

@@ -10,26 +10,20 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, ValidationError, WithJsonSchema
 
-from colonnade.campaign.bounds import FACTOR, outside
 from colonnade.campaign.decision import Review, decided
-from colonnade.campaign.document import parse, place_of, read_text
-from colonnade.campaign.fields import Interval, Text, number, one_line, one_of, shown, text
-from colonnade.campaign.places import Place, Source, key_lines
-from colonnade.campaign.rawpath import inside
 from colonnade.campaign.setup import Setup
-from colonnade.campaign.table import Table
+from colonnade.campaign.syntax.bounds import FACTOR, outside
+from colonnade.campaign.syntax.document import parse, place_of, read_text, refusal
+from colonnade.campaign.syntax.fields import Interval, Text, number, one_of, schema_version, shown, text
+from colonnade.campaign.syntax.places import Place, Source, key_lines
+from colonnade.campaign.syntax.rawpath import inside
+from colonnade.campaign.syntax.table import Table
 from colonnade.campaign.test import Test
 from colonnade.errors import CampaignError, nearest
 
 FILE_NAME = "review.toml"
 SCHEMA = 1
 """Version of the form of review.toml."""
-
-
-def _version(value: object) -> int:
-    if value != SCHEMA or isinstance(value, bool) or not isinstance(value, int):
-        raise ValueError(f"{shown(value)} was found. This colonnade reads review files of schema {SCHEMA}.")
-    return value
 
 
 def _tests(value: object) -> tuple[str, ...]:
@@ -51,7 +45,7 @@ def _day(value: object) -> str:
 def _factor(value: object) -> float:
     factor = number(value)
     if factor == 0.0:
-        raise ValueError("A factor of zero leaves nothing of the recording. To leave the channel out, [[exclude]] it.")
+        raise ValueError("A factor of zero would erase the recording. To leave the channel out, [[exclude]] it.")
     if expected := outside(factor, FACTOR):
         raise ValueError(f"{shown(value)} was found. {expected}")
     return factor
@@ -87,10 +81,10 @@ class Exclude(Entry):
 
 
 class Trim(Entry):
-    """Take a part of a test only."""
+    """Use only a part of a test."""
 
     window: Interval
-    """The part that is taken, in the file's own time, such as ["2 s", "14 s"]."""
+    """The part that is used, in the file's own time, such as ["2 s", "14 s"]."""
 
 
 class FlagStretch(Entry):
@@ -101,7 +95,7 @@ class FlagStretch(Entry):
     window: Interval
     """The stretch, in the file's own time, such as ["3.2 s", "3.4 s"]."""
     flag: Annotated[str, *one_of("suspect", "fail")] = Field(alias="as")
-    """"suspect" (told, still used) or "fail" (bridged)."""
+    """"suspect" (reported, still used) or "fail" (bridged)."""
 
 
 class Correct(Entry):
@@ -116,12 +110,12 @@ class Correct(Entry):
 class ReviewFile(Table):
     """A review.toml as written."""
 
-    version: Annotated[int, BeforeValidator(_version), WithJsonSchema({"const": SCHEMA})] = Field(alias="schema")
+    version: Annotated[int, *schema_version(SCHEMA, "review files")] = Field(alias="schema")
     """Version of the review file's form: 1."""
     exclude: tuple[Exclude, ...] = ()
     """Tests or channels that are left out."""
     trim: tuple[Trim, ...] = ()
-    """Tests of which a part is taken only."""
+    """Tests of which only a part is used."""
     flag: tuple[FlagStretch, ...] = ()
     """Stretches of a channel that are suspect or failed."""
     correct: tuple[Correct, ...] = ()
@@ -143,14 +137,14 @@ def read_review(folder: Path, tests: Mapping[str, Test], setups: Mapping[str, Se
     Parameters
     ----------
     folder : Path
-        Folder of the campaign file, where review.toml lies if there is one.
+        Folder of the campaign file, which may have a review.toml.
     tests, setups : mapping
         Of the campaign, by id.
 
     Returns
     -------
     reviews : dict of str to Review
-        Of the tests that have entries; empty where there is no review.
+        Of the tests that have entries; empty without a review.
 
     Raises
     ------
@@ -175,9 +169,7 @@ def read_review(folder: Path, tests: Mapping[str, Test], setups: Mapping[str, Se
     if not problems:
         problems += _empty_windows(review)
     if problems:
-        problems.sort(key=lambda each: source.order(each[0]))
-        told = [one_line(source.paragraph(place, message, document)) for place, message in problems]
-        raise CampaignError("\n".join(dict.fromkeys(told)))
+        raise refusal(source.paragraphs(problems, document))
     concerned = dict.fromkeys(name for _, entry in _entries(review) for name in entry.tests)
     return {name: decided(_of_test(review, name)) for name in concerned}
 
@@ -193,7 +185,7 @@ def _of_test(review: ReviewFile, test: str) -> list[tuple[str, dict[str, Any]]]:
 
 
 def _dangling(document: Mapping[str, Any], known: _Known) -> Iterator[tuple[Place, str]]:
-    """Find names that refer to nothing, in the file as written, so that all is told at once."""
+    """Find names that refer to nothing, in the file as written, so that all problems are reported at once."""
     for kind in ("exclude", "trim", "flag", "correct"):
         entries = document.get(kind)
         for index, entry in enumerate(entries if isinstance(entries, list) else []):
@@ -207,13 +199,13 @@ def _unknown_names(place: Place, entry: Mapping[str, Any], known: _Known) -> Ite
         if not isinstance(test, str):
             continue
         if test not in known.tests:
-            yield (*place, "test"), f"{shown(test)} is no test of this campaign.{nearest(test, known.tests)}"
+            yield (*place, "test"), f"Unknown test {shown(test)}.{nearest(test, known.tests)}"
             continue
         channel, setup = entry.get("channel"), known.tests[test].setup
         channels = known.setups[setup].channels
         if isinstance(channel, str) and channel not in channels:
             hint = nearest(channel, channels)
-            yield (*place, "channel"), f'{shown(channel)} is no channel of {test}\'s setup "{setup}".{hint}'
+            yield (*place, "channel"), f'Unknown channel {shown(channel)} in setup "{setup}" of {test}.{hint}'
 
 
 def _empty_windows(review: ReviewFile) -> Iterator[tuple[Place, str]]:
@@ -223,7 +215,7 @@ def _empty_windows(review: ReviewFile) -> Iterator[tuple[Place, str]]:
         for test in entry.tests:
             low, high = _common(kept.get(test), entry.window)
             if low >= high:
-                yield ("trim", index, "window"), f"Nothing of {test} is left by this and an earlier [[trim]] of it."
+                yield ("trim", index, "window"), f"This and an earlier [[trim]] leave no samples of {test}."
             kept[test] = (low, high)
 
 

@@ -42,7 +42,7 @@ def json_schema(name: str) -> dict[str, Any]:
         for kind in ("exclude", "trim", "flag", "correct"):
             schema["properties"][kind].pop("default", None)
         return {"$schema": DIALECT} | schema
-    raise CampaignError(f'There is no schema "{name}".{nearest(name, NAMES)}')
+    raise CampaignError(f'Unknown schema "{name}".{nearest(name, NAMES)}')
 
 
 def schema_text(name: str) -> str:

@@ -1,4 +1,9 @@
-"""Settings of the processing: every number that a stage takes from the campaign, with its default and what it does."""
+"""
+Settings of the processing: every number that a stage takes from the campaign, with its default and what it does.
+
+One model holds what one stage reads. A stage keeps that model in its inputs; of a `Processing` that is given for it,
+only the fields of the model are stored with the result and enter its key.
+"""
 
 from __future__ import annotations
 
@@ -8,40 +13,36 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
-from colonnade.campaign.bounds import STEP
-from colonnade.campaign.fields import Angle, Duration, number, one_of, quantity, shown
-from colonnade.campaign.table import Table
+from colonnade.campaign.syntax.bounds import STEP
+from colonnade.campaign.syntax.fields import Angle, Duration, number, one_of, quantity, shown
+from colonnade.campaign.syntax.table import Table
+from colonnade.dynamics.models.registry import MODELS, model_of
+from colonnade.errors import nearest
 
-DEFAULT_MODELS = ("linear", "nonlinear")
-"""Models that `predict` runs where the campaign does not say."""
-
-MODELS = (*DEFAULT_MODELS, "contact")
-"""Models that `predict` can run."""
+DEFAULT_MODELS = tuple(name for name, model in MODELS.items() if model.is_default)
+"""Models that `predict` runs unless the campaign names others."""
 
 MESHES = ("rigid", "coarse", "medium", "fine")
 """Bodies of the contact model: rigid on nodes or circles, or elastic on one of three meshes."""
 
 
 def _bounded(low: float, high: float) -> tuple[Any, Any]:
-    def bounded(value: object) -> float:
-        converted = number(value)
-        if not low < converted < high:
-            raise ValueError(f"{shown(value)} was found. A number between {low:g} and {high:g} was expected.")
-        return converted
-
-    return BeforeValidator(bounded), WithJsonSchema(
-        {"type": "number", "exclusiveMinimum": low, "exclusiveMaximum": high}
-    )
+    return _within(low, high, f"A number between {low:g} and {high:g} was expected.", exclusive=True)
 
 
 def _deviation(largest: float) -> tuple[Any, Any]:
-    def deviation(value: object) -> float:
+    return _within(0.0, largest, f"A number from 0 to {largest:g} was expected.")
+
+
+def _within(low: float, high: float, expected: str, *, exclusive: bool = False) -> tuple[Any, Any]:
+    def within(value: object) -> float:
         converted = number(value)
-        if not 0.0 <= converted <= largest:
-            raise ValueError(f"{shown(value)} was found. A number from 0 to {largest:g} was expected.")
+        if not low <= converted <= high or (exclusive and converted in (low, high)):
+            raise ValueError(f"{shown(value)} was found. {expected}")
         return converted
 
-    return BeforeValidator(deviation), WithJsonSchema({"type": "number", "minimum": 0.0, "maximum": largest})
+    least, most = ("exclusiveMinimum", "exclusiveMaximum") if exclusive else ("minimum", "maximum")
+    return BeforeValidator(within), WithJsonSchema({"type": "number", least: low, most: high})
 
 
 def _auto_or(single: tuple[Any, Any]) -> tuple[Any, Any]:
@@ -73,7 +74,7 @@ def _models(value: object) -> tuple[str, ...]:
         raise ValueError(f'{shown(value)} was found. A list of models was expected, such as ["linear"].')
     for name in names:
         if name not in MODELS:
-            raise ValueError(f"{shown(name)} is no model I know. There is: {', '.join(MODELS)}.")
+            raise ValueError(f"Unknown model {shown(name)}.{nearest(str(name), MODELS)}")
     return tuple(names)
 
 
@@ -89,8 +90,38 @@ def _setting(default: Any, unit: str = "") -> Any:
     return Field(default=default, json_schema_extra={"unit": unit} if unit else None)
 
 
+class QualitySettings(Table):
+    """Settings of the quality checks in `ingest`."""
+
+    spike_threshold: Annotated[float, *_bounded(1.0, 1000.0)] = _setting(8.0, "robust standard deviations")
+    """A sample that differs from its neighbours by more than this is flagged as a spike and bridged."""
+    flat_duration: Duration = _setting(0.5, "s")
+    """A value that stays exactly the same for longer than this is flagged as flat."""
+    gap: Annotated[float, *_bounded(1.0, 1000.0)] = _setting(1.5, "sampling intervals")
+    """A longer step of the clock is a gap."""
+    jitter: Annotated[float, *_bounded(0.0, 1.0)] = _setting(0.05, "sampling intervals")
+    """A clock whose steps differ by more than this is flagged."""
+
+
+class ConditionSettings(Table):
+    """Settings of `condition`: the common clock, the low-pass filters and the zero."""
+
+    sampling_rate: AutoFrequency = _setting("auto", "Hz")
+    """Rate of the common clock of all channels; "auto" uses that of the main recorder."""
+    lowpass: AutoFrequency = _setting("auto", "Hz")
+    """Cut-off of the zero-phase low-pass of channels on the specimen; "auto" chooses it from specimen and rate."""
+    base_lowpass: AutoFrequency = _setting("auto", "Hz")
+    """Cut-off of the zero-phase low-pass of channels on the table; "auto" chooses it from the rate."""
+    filter_order: Annotated[int, *_count(1, 10)] = _setting(4)
+    """Order of the Butterworth low-pass, before it is run forwards and backwards."""
+    rest_duration: Duration = _setting(0.5, "s")
+    """Shortest quiet stretch that counts as rest."""
+    longest_offset: Duration = _setting(1.0, "s")
+    """Largest delay between two recorders that is searched for."""
+
+
 class RestitutionSettings(Table):
-    """What the identification of the coefficient of restitution takes."""
+    """Settings of the identification of the coefficient of restitution."""
 
     lowest_amplitude: Annotated[float, *_bounded(1e-6, 1.0)] = _setting(0.02, "of α")
     """Peaks below this fraction of the critical angle are left out."""
@@ -99,25 +130,36 @@ class RestitutionSettings(Table):
 
 
 class ContactEnsembleSettings(Table):
-    """What the ensembles of the contact model take: how many runs, and in which ranges its inputs lie."""
+    """Settings of the contact model's ensembles: the number of runs, and the ranges of its inputs."""
 
     members: Annotated[int, *_count(0, 100_000)] = _setting(0)
-    """Runs of the contact model over what is not known of it, each as long as its prediction; 0 for none."""
+    """Runs of the contact model over its unknown inputs, each as long as its prediction; 0 for no ensemble."""
     friction: Annotated[float, *_deviation(1.0)] = _setting(0.2, "of the friction")
-    """Half of the range of friction, about that of the contact model; each value in it is as likely."""
+    """Half of the range of friction, about that of the contact model; all values in it are equally likely."""
     damping_fraction: Annotated[float, *_deviation(1.0)] = _setting(0.2, "of the damping fraction")
     """Half of the range of the contact's damping, about that of the contact model."""
     out_of_plane: Angle = _setting(1e-3, "rad")
     """Half of the range of the rotation about x at the start, about that of the contact model."""
 
 
-class EnsembleSettings(Table):
-    """What the ensembles beside the predictions take: how many runs, and how well their inputs are known."""
+class MeasurementSettings(Table):
+    """How well the measured rocking angle is known, and how uncertain a prediction may become."""
+
+    angle_gain: Annotated[float, *_deviation(0.5)] = _setting(0.005, "of the angle")
+    """Standard deviation of the calibration of the measured rocking angle."""
+    angle_zero: Annotated[float, *_deviation(0.5)] = _setting(5e-4, "of α")
+    """Standard deviation of the zero of the measured rocking angle; that of its drift between the rests, if larger."""
+    horizon: Annotated[float, *_bounded(0.0, 10.0)] = _setting(0.2, "of α")
+    """A history is predicted up to the first time at which the 95 % band of its runs is wider than this."""
+
+
+class PlaneEnsembleSettings(Table):
+    """Settings of the plane models' ensembles: the number of runs, and how well their inputs are known."""
 
     members: Annotated[int, *_count(0, 1_000_000)] = _setting(100)
-    """Runs of each model over what is not exactly known; 0 for none."""
+    """Runs of each model over its uncertain inputs; 0 for no ensemble."""
     restitution: Annotated[float, *_deviation(0.5)] = _setting(0.005)
-    """Standard deviation of e where no interval was identified; else it is that of the interval."""
+    """Standard deviation of e if no interval was identified; otherwise that of the interval is used."""
     critical_angle: Annotated[float, *_deviation(0.5)] = _setting(0.005, "of α")
     """Standard deviation of the critical angle."""
     p: Annotated[float, *_deviation(0.5)] = _setting(0.005, "of p")
@@ -127,27 +169,26 @@ class EnsembleSettings(Table):
     clock: Annotated[float, *_deviation(0.1)] = _setting(1e-5, "of the sampling interval")
     """Standard deviation of the recorder's clock rate."""
     filter: Annotated[float, *_deviation(0.5)] = _setting(0.1, "of the cut-off")
-    """Standard deviation of the low-pass of the table's acceleration: how much its choice matters."""
-    angle_gain: Annotated[float, *_deviation(0.5)] = _setting(0.005, "of the angle")
-    """Standard deviation of the calibration of the measured rocking angle."""
-    angle_zero: Annotated[float, *_deviation(0.5)] = _setting(5e-4, "of α")
-    """Standard deviation of the zero of the measured rocking angle; that of its drift between the rests, if larger."""
-    horizon: Annotated[float, *_bounded(0.0, 10.0)] = _setting(0.2, "of α")
-    """A history is predicted up to the first time at which the 95 % band of its runs is wider than this."""
+    """Standard deviation of the low-pass cut-off of the table's acceleration: how much its choice matters."""
+
+
+class EnsembleSettings(MeasurementSettings, PlaneEnsembleSettings):
+    """Settings of all ensembles."""
+
     contact: ContactEnsembleSettings = ContactEnsembleSettings()
-    """The ensembles of the contact model, where it is among the models."""
+    """The ensembles of the contact model, if it is among the models."""
 
 
 class ContactSettings(Table):
-    """What the contact model takes."""
+    """Settings of the contact model."""
 
     mesh: Annotated[str, *one_of(*MESHES)] = _setting("rigid")
     """Body of the contact model: "rigid" (a round base on whole circles), or elastic on a "coarse", "medium" or "fine"
     mesh."""
     step: Annotated[float, *quantity("time", above_zero=True, between=STEP, example="10 us")] = _setting(1e-5, "s")
-    """Step of the contact model; it has to be stable."""
+    """Time step of the contact model; it has to be stable."""
     damping_fraction: Annotated[Literal["auto"] | float, *_auto_or(_deviation(10.0))] = _setting("auto")
-    """Critical damping fraction of the contact; "auto" takes the one that gives the specimen's restitution."""
+    """Critical damping fraction of the contact; "auto" finds the one that gives the specimen's restitution."""
     penetration: Annotated[float, *_bounded(1e-10, 0.01)] = _setting(1e-6, "of the height of the centre of mass")
     """How deep the standing specimen sinks into its contact, which sets the contact's stiffness."""
     friction: Annotated[float, *_deviation(10.0)] = _setting(0.6)
@@ -157,49 +198,29 @@ class ContactSettings(Table):
     poisson_ratio: Annotated[float, *_bounded(-0.999, 0.4999)] = _setting(0.3)
     """Poisson's ratio of an elastic specimen."""
     out_of_plane: Angle = _setting(0.0, "rad")
-    """Rotation about x with which the contact model starts: a disturbance out of the plane."""
+    """Rotation about x at the start of the contact model: a disturbance out of the plane."""
 
 
 class PredictSettings(Table):
-    """What the predictions take."""
+    """Settings of the predictions."""
 
     models: Models = _setting(DEFAULT_MODELS)
     """Models of rocking that are run on the recorded base motion."""
     rest_angle: Annotated[float, *_bounded(1e-10, 0.1)] = _setting(1e-6, "of α")
-    """An arc after an impact that stays below this fraction of the critical angle is taken as rest."""
+    """An arc after an impact that stays below this fraction of the critical angle counts as rest."""
     ensemble: EnsembleSettings = EnsembleSettings()
-    """The ensembles beside the predictions."""
+    """The ensembles of the predictions."""
     contact: ContactSettings = ContactSettings()
-    """The contact model, where it is among the models."""
+    """The contact model, if it is among the models."""
 
     def members(self, model: str) -> int:
-        """Runs of a model's ensemble; 0 for none."""
-        return self.ensemble.contact.members if model == "contact" else self.ensemble.members
+        """Runs of a model's ensemble; 0 for no ensemble."""
+        return self.ensemble.contact.members if model_of(model).in_space else self.ensemble.members
 
 
-class Processing(Table):
+class Processing(QualitySettings, ConditionSettings):
     """Settings of all stages; SI."""
 
-    sampling_rate: AutoFrequency = _setting("auto", "Hz")
-    """Rate of the one clock that all channels are brought to; "auto" takes the main recorder's."""
-    lowpass: AutoFrequency = _setting("auto", "Hz")
-    """Cut-off of the zero-phase low-pass of channels on the specimen; "auto" takes it from specimen and rate."""
-    base_lowpass: AutoFrequency = _setting("auto", "Hz")
-    """Cut-off of the zero-phase low-pass of channels on the table; "auto" takes it from specimen and rate."""
-    filter_order: Annotated[int, *_count(1, 10)] = _setting(4)
-    """Order of the Butterworth low-pass, before it is run forwards and backwards."""
-    spike_threshold: Annotated[float, *_bounded(1.0, 1000.0)] = _setting(8.0, "robust standard deviations")
-    """A sample that stands out from its neighbours by more than this is flagged as a spike and bridged."""
-    flat_duration: Duration = _setting(0.5, "s")
-    """A value that stays exactly the same for longer than this is flagged as flat."""
-    gap: Annotated[float, *_bounded(1.0, 1000.0)] = _setting(1.5, "sampling intervals")
-    """A longer step of the clock is a gap."""
-    jitter: Annotated[float, *_bounded(0.0, 1.0)] = _setting(0.05, "sampling intervals")
-    """A clock whose steps differ by more than this is flagged."""
-    rest_duration: Duration = _setting(0.5, "s")
-    """Shortest quiet stretch that is taken as rest."""
-    longest_offset: Duration = _setting(1.0, "s")
-    """Largest delay between two recorders that is looked for."""
     restitution: RestitutionSettings = RestitutionSettings()
     """The identification of the coefficient of restitution."""
     predict: PredictSettings = PredictSettings()

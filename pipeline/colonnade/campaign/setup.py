@@ -10,9 +10,9 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from pydantic_core import InitErrorDetails
 
 from colonnade.campaign.channel import MAIN, Channel
-from colonnade.campaign.fields import Angle, Frequency, PositiveAngle, shown
-from colonnade.campaign.identifier import Identifier, identifier
-from colonnade.campaign.table import Table, problem, refuse
+from colonnade.campaign.syntax.fields import Angle, Frequency, PositiveAngle, shown
+from colonnade.campaign.syntax.identifier import Identifier, identifier
+from colonnade.campaign.syntax.table import Table, problem, refuse
 from colonnade.errors import nearest
 
 GENERAL_FORMAT = "delimited"
@@ -25,7 +25,7 @@ class FileOptions(BaseModel):
     Attributes
     ----------
     format : str or None
-        Name of its format; None where it is recognised from the file.
+        Name of its format; None if it is recognised from the file.
     options : dict
         Options of that format, as written and found valid.
     """
@@ -65,7 +65,7 @@ def _file_options(value: object) -> FileOptions:
     name = value.get("format")
     known = formats()
     if name is not None and (not isinstance(name, str) or name not in known):
-        raise refuse("file", [problem(f"{shown(name)} is no format I know.{nearest(str(name), known)}", "format")])
+        raise refuse("file", [problem(f"Unknown format {shown(name)}.{nearest(str(name), known)}", "format")])
     chosen = known[name or GENERAL_FORMAT]
     try:
         chosen.options.model_validate(options)
@@ -78,7 +78,7 @@ def _option_problem(error: Any, options: type[BaseModel], format_name: str) -> I
     place = error["loc"]
     if error["type"] == "extra_forbidden":
         return problem(
-            f'Format "{format_name}" has no such option.{nearest(str(place[-1]), options.model_fields)}', *place
+            f'Unknown option of format "{format_name}".{nearest(str(place[-1]), options.model_fields)}', *place
         )
     said = str(error["ctx"]["error"]) if error["type"] == "value_error" else error["msg"]
     return problem(f"{shown(error['input'])} was found: {said.rstrip('.')}.", *place)
@@ -90,7 +90,7 @@ def _clock(value: object) -> Literal["trigger"] | Align:
     named = value.get("align") if isinstance(value, Mapping) and set(value) == {"align"} else None
     if not (isinstance(named, list) and len(named) == 2 and all(isinstance(name, str) for name in named)):
         raise ValueError(
-            f'{shown(value)} was found. "trigger" was expected where the recorders start together, else '
+            f'{shown(value)} was found. Expected: "trigger" if the recorders start together, else '
             '{align = ["a channel of the main recorder", "its channel that measures the same"]}.'
         )
     return Align(channel=named[0], own_channel=named[1])
@@ -99,7 +99,9 @@ def _clock(value: object) -> Literal["trigger"] | Align:
 def _recorder_id(value: object) -> str:
     name = identifier(value)
     if name.casefold() == MAIN:
-        raise ValueError(f'"{name}" is the recorder of the setup\'s own `file`. Choose another id for a further one.')
+        raise ValueError(
+            f'"{name}" is the recorder of the setup\'s own `file`. Choose another id for an additional recorder.'
+        )
     return name
 
 
@@ -123,11 +125,11 @@ class Recorder(Table):
     """One data logger."""
 
     file: FileTable = FileOptions()
-    """How its raw files are read; every option is sniffed where it is not given."""
+    """How its raw files are read; every option that is not given is sniffed."""
     sampling_rate: Frequency | None = None
-    """Samples per second, such as "200 Hz", where the file has no time column."""
+    """Samples per second, such as "200 Hz", if the file has no time column."""
     clock: Clock = "trigger"
-    """"trigger" where it starts with the main recorder, else {align = ["main's channel", "its channel"]}."""
+    """"trigger" if it starts with the main recorder, else {align = ["main's channel", "its channel"]}."""
 
 
 class Setup(Table):
@@ -138,11 +140,11 @@ class Setup(Table):
     """
 
     file: FileTable = FileOptions()
-    """How the raw files are read; every option is sniffed where it is not given."""
+    """How the raw files are read; every option that is not given is sniffed."""
     sampling_rate: Frequency | None = None
-    """Samples per second, such as "200 Hz", where the file has no time column."""
+    """Samples per second, such as "200 Hz", if the file has no time column."""
     further_recorders: dict[RecorderId, Recorder] = Field(default={}, alias="recorders")
-    """Recorders beside the main one, by id."""
+    """Additional recorders, by id."""
     catch: PositiveAngle | None = None
     """Rotation at which the safety frame catches the specimen, such as "0.3 rad"."""
     table_tilt: Angle | None = None
@@ -156,7 +158,3 @@ class Setup(Table):
         return {MAIN: Recorder.model_construct(file=self.file, sampling_rate=self.sampling_rate, clock="trigger")} | (
             self.further_recorders
         )
-
-    def of_recorder(self, recorder: str) -> dict[str, Channel]:
-        """Channels of one recorder, by id."""
-        return {name: channel for name, channel in self.channels.items() if channel.recorder == recorder}

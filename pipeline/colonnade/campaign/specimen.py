@@ -8,8 +8,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from colonnade.campaign.bounds import FREQUENCY_PARAMETER, outside
-from colonnade.campaign.fields import (
+from colonnade.campaign.syntax.bounds import FREQUENCY_PARAMETER, outside
+from colonnade.campaign.syntax.fields import (
     Length,
     Mass,
     Scale,
@@ -19,18 +19,18 @@ from colonnade.campaign.fields import (
     SidedLength,
     SidedRestitution,
 )
-from colonnade.campaign.table import Table
+from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
 from colonnade.dynamics.density import UnlikelyBlockWarning
 
-# Of a campaign's specimens the notices tell it.
+# The notices report it for a campaign's specimens.
 warnings.filterwarnings("ignore", category=UnlikelyBlockWarning, module=r"colonnade\.campaign\.specimen")
 
 LARGEST_DEVIATION = 0.01
-"""A measured value further than this from the one of the dimensions is told, as a fraction of the latter."""
+"""A measured value further than this from the one of the dimensions is reported, as a fraction of the latter."""
 
 SLIP_TOLERANCE = 0.003
-"""A value this near to a known slip is told to be one; tables print three digits."""
+"""A value this near to a known slip is reported as one; tables print three digits."""
 
 OUTER_DIMENSIONS = ("width", "depth", "diameter", "base_diameter", "top_diameter", "height")
 """Keys of lengths that shapes have."""
@@ -39,7 +39,7 @@ _MEASURED = {"critical_angle": ("rad", 1.0), "pole_distance": ("mm", 1e3), "iner
 
 
 class Specimen(Table):
-    """What every specimen has; a measured value given beside dimensions overrides the one that follows from them."""
+    """What every specimen has; a measured value overrides the one that follows from the dimensions."""
 
     shape: str
     """Its shape: "prism", "cylinder", "cone" or "measured"."""
@@ -57,7 +57,7 @@ class Specimen(Table):
     """Coefficient of restitution, a plain number such as 0.976; without it the identified one is used."""
 
     def sizes(self) -> dict[str, float]:
-        """Outer dimensions by their keys, m; none where the specimen has no dimensions."""
+        """Outer dimensions by their keys, m; none if the specimen has no dimensions."""
         return {name: float(getattr(self, name)) for name in OUTER_DIMENSIONS if hasattr(self, name)}
 
     @model_validator(mode="after")
@@ -67,7 +67,7 @@ class Specimen(Table):
         except ArithmeticError:
             raise ValueError("These numbers are too large or too small for a block. Check the units.") from None
         except ValueError as error:
-            raise ValueError(f"These numbers make no block: {error}.") from None
+            raise ValueError(f"These numbers do not make a block: {error}.") from None
         if expected := outside(p, FREQUENCY_PARAMETER, "rad/s"):
             raise ValueError(
                 f"These numbers make a block whose frequency parameter is {p:.3g} rad/s. {expected} Check the units."
@@ -75,7 +75,7 @@ class Specimen(Table):
         return self
 
     def dimensions(self, gravity: float) -> Block | None:
-        """Block of the dimensions alone, or None where the specimen has none."""
+        """Block of the dimensions alone, or None if the specimen has none."""
         return None
 
     def block(self, gravity: float) -> Block:
@@ -95,7 +95,7 @@ class Specimen(Table):
         block = self.dimensions(gravity)
         if block is None:
             if self.critical_angle is None or self.pole_distance is None or self.inertia is None:
-                raise ValueError("critical_angle, pole_distance and inertia are needed where there are no dimensions")
+                raise ValueError("critical_angle, pole_distance and inertia are needed if no dimensions are given")
             return Block.measured(
                 mass=self.mass,
                 pole_distance=self.pole_distance,
@@ -128,7 +128,7 @@ class Specimen(Table):
                 "the height of the centre of mass, not its distance from the pole",
             ),
         }
-        told = []
+        sentences = []
         for name, (unit, factor) in _MEASURED.items():
             given: Sided | None = getattr(self, name)
             if given is None:
@@ -139,11 +139,11 @@ class Specimen(Table):
                     continue
                 slip, meaning = slips.get(name, (0.0, ""))
                 hint = f" It agrees with {meaning}." if abs(value - slip) < SLIP_TOLERANCE * expected else ""
-                told.append(
+                sentences.append(
                     f"{name} is given as {value * factor:.4g} {unit}, {100 * (value / expected - 1):+.1f} % off the "
-                    f"{expected * factor:.4g} {unit} of the dimensions; the given value is used.{hint}"
+                    f"{expected * factor:.4g} {unit} that follow from the dimensions; the given value is used.{hint}"
                 )
-        return told
+        return sentences
 
 
 class Prism(Specimen):
@@ -184,7 +184,7 @@ class Cone(Specimen):
     shape: Literal["cone"]
     """Its shape."""
     base_diameter: Length
-    """Diameter of the circle it stands on."""
+    """Diameter of the base circle."""
     top_diameter: Length
     """Diameter at the top."""
     height: Length

@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema
 
 from colonnade.campaign.channel import MAIN
-from colonnade.campaign.fields import (
+from colonnade.campaign.syntax.fields import (
     INTERVAL_SCHEMA,
     Frequency,
     Interval,
@@ -19,9 +19,9 @@ from colonnade.campaign.fields import (
     one_of,
     shown,
 )
-from colonnade.campaign.identifier import Identifier
-from colonnade.campaign.rawpath import inside
-from colonnade.campaign.table import Table, problem, refuse
+from colonnade.campaign.syntax.identifier import Identifier
+from colonnade.campaign.syntax.rawpath import inside
+from colonnade.campaign.syntax.table import Table, problem, refuse
 
 KINDS = ("free-vibration", "sine", "earthquake", "pulse", "noise", "tilt", "other")
 OUTCOMES = ("overturned", "not-overturned", "no-rocking", "rocking")
@@ -79,7 +79,7 @@ class Test(Table):
     """One test."""
 
     id: Identifier
-    """Its id, such as "free-01"; results lie in a folder of this name."""
+    """Its id, such as "free-01"; results are in a folder of this name."""
     kind: Annotated[str, *one_of(*KINDS)]
     """What was done: "free-vibration", "sine", "earthquake", "pulse", "noise", "tilt" or "other"."""
     specimen: str

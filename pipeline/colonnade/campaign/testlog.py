@@ -85,7 +85,7 @@ def read_log(path: Path) -> Log:
         if surplus:
             first = quoted(str(_plain(surplus[0])))
             problems.append(
-                f"{path.name}, row {index}: there are more cells than the {len(heads)} heads ({first}). "
+                f"{path.name}, row {index}: more cells than the {len(heads)} column heads ({first}). "
                 "Put a cell that holds the separator in quotes."
             )
         tests.append(_test(dict(zip(heads, row, strict=False)), decimal_comma))
@@ -101,13 +101,13 @@ def _cells(path: Path) -> tuple[list[list[Any]], bool]:
         raise ValueError(f"{path.name} is a workbook in Excel's binary form. Save it as .xlsx, or as CSV.")
     try:
         if path.stat().st_size > _LARGEST_BYTES:
-            raise ValueError(f"{path.name} is larger than a test log can be. Is it a raw file?")
+            raise ValueError(f"{path.name} is too large for a test log. Is it a raw file?")
         if path.suffix.lower() in EXCEL_SUFFIXES:
             return _workbook(path), True
         raw = path.read_bytes()
     except FileNotFoundError:
         there = [entry.name for entry in path.parent.iterdir()] if path.parent.is_dir() else []
-        raise ValueError(f'There is no test log "{path.name}" in {path.parent}.{nearest(path.name, there)}') from None
+        raise ValueError(f'Test log "{path.name}" not found in {path.parent}.{nearest(path.name, there)}') from None
     except OSError as error:
         raise ValueError(f"The test log {path.name} cannot be read ({error.strerror or error}).") from None
     text = _decoded(raw)
@@ -129,7 +129,7 @@ def _decoded(raw: bytes) -> str:
 
 
 def _workbook(path: Path) -> list[list[Any]]:
-    from colonnade.readers.excel import rows_of_first_sheet
+    from colonnade.readers.excel.workbook import rows_of_first_sheet
 
     try:
         rows = rows_of_first_sheet(path)
@@ -137,7 +137,7 @@ def _workbook(path: Path) -> list[list[Any]]:
         raise ValueError(str(error)) from None
     widest = max(map(len, rows), default=0)
     if widest > _MOST_COLUMNS:
-        raise ValueError(f"{path.name} has {widest} columns, more than a test log can have. Delete its stray cells.")
+        raise ValueError(f"{path.name} has {widest} columns, too many for a test log. Delete its stray cells.")
     return rows
 
 
@@ -146,17 +146,15 @@ def _judge(heads: Sequence[str], name: str, row: int) -> tuple[list[str], list[F
     warnings: list[Finding] = []
     keys = Test.purposes()
     for head in dict.fromkeys(head for head in heads if head and heads.count(head) > 1):
-        problems.append(
-            f"{name}, row {row}: the column head {quoted(head)} stands there twice. Each key may have one column."
-        )
+        problems.append(f"{name}, row {row}: duplicate column head {quoted(head)}. Each key may have only one column.")
     for head in dict.fromkeys(head for head in heads if head):
         if head in keys or head.startswith("file."):
             continue
         if get_close_matches(head.casefold(), keys, n=1, cutoff=0.75):
-            problems.append(f"{name}, row {row}: there is no key {quoted(head)}.{nearest(head, keys)}")
+            problems.append(f"{name}, row {row}: unknown key {quoted(head)}.{nearest(head, keys)}")
         else:
             warnings.append(
-                note("unused column", f"{name}: column {quoted(head)} is not a key of a test and is not used.")
+                note("unused column", f"{name}: column {quoted(head)} is not a key of a test; it is ignored.")
             )
     return problems, warnings
 

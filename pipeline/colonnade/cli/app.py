@@ -8,13 +8,9 @@ import colonnade
 from colonnade.cli.calibrate import calibrate
 from colonnade.cli.check import check
 from colonnade.cli.demo import demo
-from colonnade.cli.identify import identify
-from colonnade.cli.ingest import ingest
 from colonnade.cli.init import init
 from colonnade.cli.map import map_command
-from colonnade.cli.predict import predict
-from colonnade.cli.report import report
-from colonnade.cli.run import run
+from colonnade.cli.run import identify, ingest, predict, report, run
 from colonnade.cli.schema import schema
 from colonnade.cli.show import show
 
@@ -41,7 +37,7 @@ def app() -> None:
 
     Start with `colonnade demo`: it writes a virtual campaign and runs all of it. With recordings of your own,
     `colonnade init` drafts their campaign.toml. Most commands take a CAMPAIGN: a campaign.toml or its folder, by
-    default the one you stand in. Results and paths go to stdout, progress to stderr.
+    default the current folder. Results and paths go to stdout, progress to stderr.
     """
 
 

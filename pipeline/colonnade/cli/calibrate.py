@@ -7,23 +7,42 @@ from pathlib import Path
 import rich_click as click
 
 from colonnade.cli.console import say, show_json, show_table
-from colonnade.cli.options import campaign_argument, json_option, results_option, workers_option
+from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, results_option, workers_option
+
+HEADS = (
+    *("specimen", "mesh", "step", "CDF ξ", "ξ_eff", "stiffness"),
+    *("e", "source", "e wanted", "velocity ratio", "seconds"),
+)
 
 
-@click.command(epilog="Example: colonnade calibrate demo --specimen prism --mesh rigid --mesh coarse")
+@click.command(
+    epilog="Example: colonnade calibrate demo --specimen prism --mesh rigid --mesh coarse",
+    help=f"""
+    Find the contact damping that agrees with each specimen's restitution, for the contact model.
+
+    {CAMPAIGN} Identify its free vibrations first.
+
+    e is identified from the rocking angle of a free vibration of the model, as from a record. The mean velocity ratio
+    of its impacts is shown with it: a contact that bounces also loses energy between impacts, so the two differ. If e
+    cannot be identified, as after too few impacts, the mean velocity ratio is used: "source" shows which of the two.
+
+    Writes processed/contact/<SPECIMEN>.nc for the mesh and step of the settings (processing.predict.contact); others
+    are only shown.
+    """,
+)
 @campaign_argument
 @click.option("--specimen", multiple=True, metavar="ID", help="Only this specimen; may be given several times.")
 @click.option(
     "--mesh",
     multiple=True,
     type=click.Choice(("rigid", "coarse", "medium", "fine")),
-    help="Instead of the one in the settings; several may be given.",
+    help="Replaces the one in the settings; may be given several times.",
 )
 @click.option(
     "--step",
     multiple=True,
     metavar="TIME",
-    help='Instead of the one in the settings, such as "10 us"; several may be given.',
+    help='Replaces the one in the settings, such as "10 us"; may be given several times.',
 )
 @workers_option
 @results_option
@@ -37,78 +56,50 @@ def calibrate(
     results: Path | None,
     as_json: bool,
 ) -> int:
-    """
-    Find the contact damping that agrees with each specimen's restitution, for the contact model.
-
-    CAMPAIGN is a campaign.toml or its folder, by default the one you stand in; identify its free vibrations first.
-
-    e is identified from the rocking angle of a free vibration of the model, as from a record. The mean velocity ratio
-    of its impacts is shown with it: a contact that bounces also loses energy between impacts, so the two differ. If e
-    cannot be identified, as after too few impacts, the mean velocity ratio is used: "source" shows which of the two.
-
-    Writes processed/contact/<SPECIMEN>.nc for the mesh and step of the settings (processing.predict.contact); others
-    are only shown.
-    """
-    from colonnade import units
-    from colonnade.campaign.bounds import STEP, outside
-    from colonnade.errors import CampaignError, UnitError
+    """Calibrate, show the laws, and return the exit code."""
     from colonnade.workflow.calibration import calibrate as calibrated
 
-    try:
-        steps = [units.to_si(text, "time") for text in step]
-    except UnitError as error:
-        raise CampaignError(f"--step: {error}") from error
-    for text, value in zip(step, steps, strict=True):
-        if not value > 0.0:
-            raise CampaignError(f'--step: "{text}" was found. A time above zero was expected, such as "10 us".')
-        if expected := outside(value, STEP, "s"):
-            raise CampaignError(f'--step: "{text}" was found. {expected}')
+    steps = [_seconds(text) for text in step]
     made = calibrated(campaign, specimens=specimen, meshes=mesh, steps=steps, workers=workers, results=results)
     if as_json:
-        show_json(
-            [
-                {name: str(value) if isinstance(value, Path) else value for name, value in vars(each).items()}
-                for each in made
-            ]
+        show_json(made)
+        return int(any(each.restitution is None for each in made))
+    rows = [
+        (
+            each.specimen,
+            each.mesh,
+            f"{each.step * 1e6:.3g} µs",
+            _number(each.damping_fraction, ".3g"),
+            _number(each.effective_damping, ".3g"),
+            _number(each.stiffness, ".3g", " N/m³"),
+            _number(each.restitution, ".4f"),
+            each.source or "–",
+            _number(each.target, ".4f"),
+            _number(each.velocity_ratio, ".4f"),
+            f"{each.seconds:.1f}",
         )
-    else:
-        show_table(
-            (
-                "specimen",
-                "mesh",
-                "step",
-                "CDF ξ",
-                "ξ_eff",
-                "stiffness",
-                "e",
-                "source",
-                "e wanted",
-                "velocity ratio",
-                "seconds",
-            ),
-            [
-                (
-                    each.specimen,
-                    each.mesh,
-                    f"{each.step * 1e6:.3g} µs",
-                    _number(each.damping_fraction, ".3g"),
-                    _number(each.effective_damping, ".3g"),
-                    _number(each.stiffness, ".3g", " N/m³"),
-                    _number(each.restitution, ".4f"),
-                    each.source or "–",
-                    _number(each.target, ".4f"),
-                    _number(each.velocity_ratio, ".4f"),
-                    f"{each.seconds:.1f}",
-                )
-                for each in made
-            ],
-        )
-        for each in made:
-            if each.reason:
-                say(f"{each.specimen}, {each.mesh}: {each.reason}")
-            if each.path is not None:
-                say(f"law: {each.path}")
+        for each in made
+    ]
+    show_table(HEADS, rows)
+    for each in made:
+        if each.reason:
+            say(f"{each.specimen}, {each.mesh}: {each.reason}")
+        if each.path is not None:
+            say(f"law: {each.path}")
     return int(any(each.restitution is None for each in made))
+
+
+def _seconds(step: str) -> float:
+    """Read a step by the rules of the setting."""
+    from pydantic import ValidationError
+
+    from colonnade.campaign.settings import ContactSettings
+    from colonnade.errors import CampaignError
+
+    try:
+        return ContactSettings.model_validate({"step": step}).step
+    except ValidationError as error:
+        raise CampaignError(f"--step: {error.errors()[0]['msg']}") from None
 
 
 def _number(value: float | None, form: str, unit: str = "") -> str:

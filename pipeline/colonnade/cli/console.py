@@ -1,4 +1,4 @@
-"""What a command says: results on stdout as text, tables or JSON; progress and complaints on stderr."""
+"""Output of the commands: results on stdout as text, tables or JSON; progress and errors on stderr."""
 
 from __future__ import annotations
 
@@ -6,13 +6,14 @@ import json
 import os
 import sys
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 
 
 class _Output(Console):
-    """stdout. Where its reader goes away (`colonnade … | head`) the rest is dropped; the exit code stays the work's."""
+    """stdout. If its reader stops (`colonnade … | head`) the rest is dropped; the exit code is unchanged."""
 
     def on_broken_pipe(self) -> None:
         self.quiet = True
@@ -40,13 +41,17 @@ def complain(text: str) -> None:
 
 
 def show_json(value: object) -> None:
-    """Write a result for machines."""
-    say(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
+    """Write a result for machines; paths as text, records by the names of their fields."""
+    say(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False, default=_plain))
+
+
+def _plain(value: object) -> object:
+    return str(value) if isinstance(value, Path) else vars(value)
 
 
 def show_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """
-    Write rows under their heads, in columns; nothing where there are none.
+    Write rows under their heads, in columns; nothing if there are no rows.
 
     On a terminal long cells wrap inside their column; elsewhere each row is one line, whatever its length.
     """
@@ -64,6 +69,18 @@ def show_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
         console.print(table)
     for line in captured.get().splitlines():
         say(line.rstrip())
+
+
+def count(number: int, one: str, several: str = "") -> str:
+    """
+    Write how many of something there are.
+
+    Examples
+    --------
+    >>> count(1, "test"), count(2, "guess", "guesses")
+    ('1 test', '2 guesses')
+    """
+    return f"{number} {one}" if number == 1 else f"{number} {several or one + 's'}"
 
 
 def show_fields(fields: Iterable[tuple[str, str]]) -> None:
@@ -86,7 +103,7 @@ def shown(value: object) -> str:
 
 
 def close_output() -> None:
-    """Flush stdout, so that a reader that went away is met here and not in a traceback at exit."""
+    """Flush stdout, so that a closed pipe is handled here and not in a traceback at exit."""
     try:
         sys.stdout.flush()
     except BrokenPipeError:

@@ -1,4 +1,4 @@
-"""How findings are written on a terminal: the worst first, causes before what follows from them, by kind."""
+"""Findings on a terminal: by kind, the worst first, causes before what follows from them."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from colonnade.cli.console import say
 from colonnade.findings import Finding, Severity, in_order
 
 IN_FULL = 3
-"""Findings of one kind that are written in full; of the others only whom they are about."""
+"""Findings of one kind that are written in full; of the others only their subjects."""
 
 NAMED = 8
-"""Tests that are named behind them."""
+"""Tests that are named after them."""
 
 Findings = Mapping[str, Sequence[tuple[Finding, bool]]]
 """By subject, in order, each with whether it follows from one before it."""
@@ -44,22 +44,22 @@ def lines_of(findings: Iterable[Finding]) -> list[str]:
 
 
 def line_of(record: Mapping[str, Any]) -> str:
-    """Write a finding of the summary as a line; what another explains is said to follow from it."""
+    """Write a finding of the summary as a line, marked if it follows from another."""
     follows = " (follows from the above)" if record.get("explained") else ""
     return f"{record['severity']}{follows}: {record['text']}"
 
 
 def probable_cause(findings: Sequence[tuple[Finding, bool]], *, where: str) -> str:
-    """Say what else was found of a test that fails, as far as it is serious, and where on the screen that is."""
+    """Name the serious findings about a test that fails, and where on the screen they are."""
     kinds = dict.fromkeys(each.kind for each, explained in findings if each.severity == "serious" and not explained)
-    return f"probably because of what is serious {where} ({', '.join(kinds)}): " if kinds else ""
+    return f"probably because of the serious findings {where} ({', '.join(kinds)}): " if kinds else ""
 
 
 def show_by_kind(findings: Findings) -> None:
     """
-    Write findings by kind, the worst first: a few in full, of the others whom they are about.
+    Write findings by kind, the worst first: a few in full, of the others only their subjects.
 
-    What another finding explains is counted behind it and not written in full; of notes one is.
+    What another finding explains is only counted after it; of notes, one is written in full.
     """
     groups: dict[tuple[Severity, str], list[tuple[str, str]]] = {}
     behind: dict[str, list[str]] = {}
@@ -70,11 +70,11 @@ def show_by_kind(findings: Findings) -> None:
             else:
                 groups.setdefault((each.severity, each.kind), []).append((subject, each.text))
     for severity, kind in sorted(groups, key=lambda key: key[0].rank):
-        told = groups[severity, kind]
-        shown = told[: 1 if severity is Severity.NOTE else IN_FULL]
+        members = groups[severity, kind]
+        shown = members[: 1 if severity is Severity.NOTE else IN_FULL]
         for subject, text in shown:
             say(f"{severity} ({kind}): {subject}: {text}")
-        rest = [subject for subject, _ in told[len(shown) :]]
+        rest = [subject for subject, _ in members[len(shown) :]]
         if rest:
             say(f"  and {len(rest)} more of this kind: {_named(rest)}")
     for kind, subjects in behind.items():
@@ -84,8 +84,8 @@ def show_by_kind(findings: Findings) -> None:
 
 def _show_counts(groups: Mapping[tuple[Severity, str], Sequence[tuple[str, str]]]) -> None:
     counts = Counter[Severity]()
-    for (severity, _), told in groups.items():
-        counts[severity] += len(told)
+    for (severity, _), members in groups.items():
+        counts[severity] += len(members)
     if counts:
         plural = {Severity.SERIOUS: "serious findings", Severity.WARNING: "warnings", Severity.NOTE: "notes"}
         say(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
-from colonnade.cli.console import say, show_json, show_table
+from colonnade.cli.console import count, say, show_json, show_table
 from colonnade.cli.options import json_option
 from colonnade.cli.progress import looking
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from colonnade.campaign.draft import CampaignDraft
 
 MOST_SHOWN = 12
-"""Questions that are listed; all of them stand in the file."""
+"""Questions that are listed; the file has all of them."""
 
 
 @click.command(epilog="Example: colonnade init measurements")
@@ -24,11 +24,11 @@ MOST_SHOWN = 12
 @json_option
 def init(folder: Path, as_json: bool) -> int:
     """
-    Write a campaign.toml to start from, guessed from the raw files where it can be.
+    Write a campaign.toml to start from, guessed from the raw files.
 
-    DIR is the folder with the raw files, or one that holds folders of them; by default the one you stand in. Columns,
-    units, recorders and kinds of test are guessed, each guess with its reason behind it. What no file can tell is left
-    as "?" for you to fill in. A campaign.toml that is there is never written over.
+    DIR is the folder with the raw files, or one that holds folders of them; by default the current folder. Columns,
+    units, recorders and kinds of test are guessed, each guess with its reason after it. What no file shows is left
+    as "?" for you to fill in. An existing campaign.toml is never overwritten.
     """
     from colonnade.campaign.draft import draft
     from colonnade.store.files import write_text
@@ -39,11 +39,11 @@ def init(folder: Path, as_json: bool) -> int:
     if as_json:
         show_json(
             {
-                "campaign": str(drafted.path),
+                "campaign": drafted.path,
                 "tests": drafted.tests,
                 "setups": drafted.setups,
-                "open": [vars(question) for question in drafted.open],
-                "doubts": [vars(question) for question in drafted.doubts],
+                "open": drafted.open,
+                "doubts": drafted.doubts,
                 "refused": dict(drafted.refused),
             }
         )
@@ -54,7 +54,7 @@ def init(folder: Path, as_json: bool) -> int:
 
 def _tell(drafted: CampaignDraft) -> None:
     say(f"campaign: {drafted.path}")
-    say(f"{_count(drafted.tests, 'test')}, {_count(drafted.setups, 'set-up')}")
+    say(f"{count(drafted.tests, 'test')}, {count(drafted.setups, 'set-up')}")
     for name, reason in drafted.refused:
         say(f"  not in it: {name}: {reason}")
     if drafted.asks_first:
@@ -69,10 +69,6 @@ def _tell(drafted: CampaignDraft) -> None:
     if len(drafted.open) > MOST_SHOWN:
         say(f"… and {len(drafted.open) - MOST_SHOWN} more")
     if drafted.open:
-        say(f'To fill in: {_count(len(drafted.open), "value")} marked "?".')
-    say(f'To look at: {_count(len(drafted.doubts), "guess", "guesses")} marked "# ?".')
+        say(f'To fill in: {count(len(drafted.open), "value")} marked "?".')
+    say(f'To look at: {count(len(drafted.doubts), "guess", "guesses")} marked "# ?".')
     say(f"Then: colonnade check {shlex.quote(str(drafted.path.parent))}")
-
-
-def _count(number: int, one: str, several: str = "") -> str:
-    return f"{number} {one}" if number == 1 else f"{number} {several or one + 's'}"

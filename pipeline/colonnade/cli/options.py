@@ -11,10 +11,12 @@ import rich_click as click
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 campaign_argument = click.argument("campaign", type=click.Path(path_type=Path), default=Path(), metavar="[CAMPAIGN]")
-"""A campaign.toml or its folder; the folder one stands in by default."""
+"""The argument of most commands."""
+
+CAMPAIGN = "CAMPAIGN is a campaign.toml or its folder, by default the current folder."
+"""What their help says of it."""
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
-
 
 workers_option = click.option(
     "--workers", type=click.IntRange(min=1), metavar="N", help="Number of processes; one per core by default."
@@ -23,7 +25,7 @@ workers_option = click.option(
 scheduler_option = click.option(
     "--scheduler",
     metavar="ADDRESS",
-    help="Work on the Dask cluster of this running scheduler, such as tcp://10.0.0.1:8786, instead of this machine.",
+    help="Use the Dask cluster of this running scheduler, such as tcp://10.0.0.1:8786, instead of this machine.",
 )
 
 results_option = click.option(
@@ -32,7 +34,6 @@ results_option = click.option(
     metavar="DIR",
     help="Folder that holds processed/ and report/, such as one on another disk; by default that of campaign.toml.",
 )
-
 
 strict_option = click.option(
     "--strict", is_flag=True, help="Exit with 1 also if there is a serious finding or a warning; notes do not count."
@@ -47,7 +48,7 @@ def work_options(command: Command) -> Command:
         click.option(
             "--verify",
             is_flag=True,
-            help="Read raw files, results and pages even if size and time are unchanged; remake what was altered.",
+            help="Read raw files, results and pages even if size and time are unchanged; recompute what was altered.",
         ),
         results_option,
         scheduler_option,

@@ -15,34 +15,19 @@ if TYPE_CHECKING:
     from colonnade.workflow import StageRun
 
 EVERY = 10.0
-"""s, between two lines of progress where the output is no terminal."""
-
-
-@contextmanager
-def counting(what: str, total: int) -> Iterator[Callable[[], None]]:
-    """Show how many of `total` are done; the callable that is given counts one more."""
-    done = 0
-    with _shown(what) as show:
-        show(what, done, total)
-
-        def advance() -> None:
-            nonlocal done
-            done += 1
-            show(what, done, total)
-
-        yield advance
+"""s, between two lines of progress if the output is not a terminal."""
 
 
 @contextmanager
 def looking(what: str) -> Iterator[Callable[[int, int], None]]:
-    """Show work that finds out its own length; the callable takes how much is done, and of how much."""
+    """Show how far work is; the callable takes how much is done, and of how much."""
     with _shown(what) as show:
         yield lambda done, total: show(what, done, total)
 
 
 @contextmanager
 def following() -> Iterator[Callable[[StageRun, int, int], None]]:
-    """Show a run as it goes on; the callable that is given takes each stage that ended, and how many of all have."""
+    """Show a run as it goes on; the callable takes each stage that ended, how many have ended, and of how many."""
     with _shown("Looking for what is out of date") as show:
         yield lambda stage, done, total: show(f"{stage.subject} {stage.stage}", done, total)
 

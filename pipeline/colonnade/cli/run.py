@@ -1,49 +1,149 @@
-"""`colonnade run`: all stages and the report, only what is out of date."""
+"""`colonnade run` and the commands that run a part of it: run the workflow, report what it did and why."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from itertools import groupby
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.options import campaign_argument, work_options
-from colonnade.cli.work import STAGES, work
+from colonnade.cli.console import say, show_json, show_table
+from colonnade.cli.findings import all_records, probable_cause, show_by_kind
+from colonnade.cli.options import CAMPAIGN, campaign_argument, work_options
+from colonnade.cli.progress import following
+from colonnade.store.results import ASKED_FOR
+
+if TYPE_CHECKING:
+    from colonnade.workflow import RunResult, StageRun
 
 
-@click.command(epilog="Example: colonnade run demo --from predict --only span-2.0")
-@campaign_argument
-@click.option("--until", type=click.Choice(STAGES), metavar="STAGE", help="Stop after this stage.")
-@click.option("--from", "start_from", type=click.Choice(STAGES), metavar="STAGE", help="Redo it and what follows.")
-@work_options
-def run(
-    campaign: Path,
-    until: str | None,
-    start_from: str | None,
-    only: tuple[str, ...],
-    workers: int | None,
-    scheduler: str | None,
-    results: Path | None,
-    verify: bool,
-    strict: bool,
-    as_json: bool,
-) -> int:
-    """
+@click.command(
+    epilog="Example: colonnade run demo --from predict --only span-2.0",
+    help=f"""
     Run all stages and the report, only what is out of date.
 
-    CAMPAIGN is a campaign.toml or its folder, by default the one you stand in. Every result that was redone is listed
-    with the reason. A test that fails does not stop the others; the exit code is then 1.
+    {CAMPAIGN} Every result that was redone is listed with the reason. A test that fails does not stop the others; the
+    exit code is then 1.
 
     Stages are ingest, condition, rocking, restitution, predict, ensemble, compare and report.
-    """
-    return work(
-        campaign,
-        until=until,
-        start_from=start_from,
-        only=only,
-        workers=workers,
-        scheduler=scheduler,
-        results=results,
-        verify=verify,
-        strict=strict,
-        as_json=as_json,
+    """,
+)
+@campaign_argument
+@click.option("--until", type=click.Choice(ASKED_FOR), metavar="STAGE", help="Stop after this stage.")
+@click.option("--from", "start_from", type=click.Choice(ASKED_FOR), metavar="STAGE", help="Redo it and what follows.")
+@work_options
+def run(campaign: Path, *, as_json: bool, strict: bool, **choices: Any) -> int:
+    """Run a campaign, with the choices of `colonnade.workflow.run`, and show what was done; return the exit code."""
+    result = run_with_progress(campaign, **choices)
+    if as_json:
+        show_json(_record(result))
+    else:
+        show_result(result)
+    return int(result.failed or (strict and result.has_warnings))
+
+
+def _up_to(stage: str, name: str, what: str, writes: str, example: str) -> click.Command:
+    """Make the command that runs as far as one stage."""
+
+    def command(campaign: Path, **choices: Any) -> Any:
+        assert run.callback is not None
+        return run.callback(campaign, until=stage, **choices)
+
+    text = f"{what}\n\n{CAMPAIGN}\n\n{writes}"
+    made: click.Command = click.command(name, help=text, epilog=f"Example: {example}")(
+        campaign_argument(work_options(command))
     )
+    return made
+
+
+ingest = _up_to(
+    "ingest",
+    "ingest",
+    "Read the raw files into SI channels with quality flags.",
+    "Writes processed/tests/<ID>/recorded.nc.",
+    "colonnade ingest demo --only free-01",
+)
+
+identify = _up_to(
+    "restitution",
+    "identify",
+    "Identify the restitution: run up to each specimen's pooled e.",
+    "Writes up to processed/tests/<ID>/restitution.nc of each free vibration, and processed/specimens/<ID>.nc.",
+    "colonnade identify demo",
+)
+
+predict = _up_to(
+    "predict",
+    "predict",
+    "Run the models on the recorded base motion, after everything they need.",
+    "Writes up to processed/tests/<ID>/predicted-<MODEL>.nc.",
+    "colonnade predict demo --only span-2.5",
+)
+
+report = _up_to(
+    "report",
+    "report",
+    "Make the report, after everything it needs.",
+    "Writes report/index.html next to campaign.toml, with a page for each test and specimen, even if tests failed.",
+    "colonnade report demo",
+)
+
+
+def run_with_progress(campaign: Path, **choices: Any) -> RunResult:
+    """Run a campaign with a bar on stderr."""
+    from colonnade.workflow import run
+
+    with following() as progress:
+        return run(campaign, progress=progress, **choices)
+
+
+def show_result(result: RunResult) -> None:
+    """List what was redone and why, what was found, what failed, and where the results are."""
+    redone = [stage for stage in result.stages if stage.action == "done"]
+    show_table(("redone", "stages", "why", "seconds"), list(_grouped(redone)))
+    show_by_kind(result.findings)
+    failed = failed_rows(result)
+    show_table(("failed", "stage", "reason"), failed)
+    for notice in result.notices:
+        say(notice)
+    kept = sum(stage.action == "up-to-date" for stage in result.stages)
+    say(f"{len(redone)} redone, {kept} up to date, {len(failed)} failed")
+    say(f"summary: {result.summary}")
+    if result.report is not None:
+        if result.findings:
+            say(f"all findings: {result.report.parent / 'problems.html'}")
+        say(f"report: {result.report}")
+
+
+def failed_rows(result: RunResult) -> list[tuple[str, str, str]]:
+    """Test or specimen, stage and reason of all that failed, now or in an earlier run; its probable cause first."""
+    findings = result.findings
+    return [
+        (stage.subject, stage.stage, f"{probable_cause(findings.get(stage.told_of, []), where='above')}{stage.reason}")
+        for stage in result.stages
+        if stage.action == "failed"
+    ]
+
+
+def _grouped(stages: Iterable[StageRun]) -> Iterator[tuple[str, str, str, str]]:
+    """One row for the stages of a test that were redone for the same reason."""
+    ordered = sorted(stages, key=lambda stage: stage.subject)
+    for (subject, because), group in groupby(ordered, key=lambda stage: (stage.subject, stage.because)):
+        members = list(group)
+        seconds = sum(member.seconds for member in members)
+        yield subject, ", ".join(member.stage for member in members), because, f"{seconds:.1f}"
+
+
+def _record(result: RunResult) -> dict[str, Any]:
+    return {
+        "failed": result.failed,
+        "summary": result.summary,
+        "report": result.report,
+        "warnings": all_records(result.findings),
+        "notices": result.notices,
+        "stages": [
+            {name: value for name, value in vars(stage).items() if name != "findings"} for stage in result.stages
+        ],
+    }

@@ -14,7 +14,7 @@ def schema(contract: str) -> int:
     Write the JSON Schema of campaign.toml, of processed/summary.json or of review.toml.
 
     Editors that know TOML schemas complete and check a campaign.toml with it; loggers and scripts in any language can
-    hold what they write and read against it.
+    check what they write and read with it.
     """
     from colonnade.campaign.schema import json_schema
 

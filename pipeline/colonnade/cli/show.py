@@ -11,17 +11,19 @@ import rich_click as click
 from colonnade.cli.console import show_fields, show_json, show_table, shown
 from colonnade.cli.findings import line_of
 from colonnade.cli.options import json_option, results_option
-from colonnade.cli.records import KnownCampaign, Record, specimen_records, test_records
 
 if TYPE_CHECKING:
-    from colonnade.readers.registry import Format
+    from colonnade.campaign import Campaign
+    from colonnade.campaign.summary import Summary
+
+Record = dict[str, Any]
 
 campaign_and_id = click.argument("arguments", nargs=-1, metavar="[CAMPAIGN] [ID]")
 
 
 @click.group()
 def show() -> None:
-    """Show what is known: tests, specimens, settings, formats."""
+    """Show what is known: tests, specimens, settings and formats."""
 
 
 @show.command(epilog="Example: colonnade show tests demo span-2.0")
@@ -30,12 +32,16 @@ def show() -> None:
 @json_option
 def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> int:
     """
-    Show the tests, measured and predicted, as of the last run; with an ID all that is known of one.
+    Show the tests, measured and predicted, as of the last run; with an ID, all that is known of one.
 
-    One argument alone is taken as CAMPAIGN where there is such a file or folder, else as ID.
+    A single argument is taken as CAMPAIGN if such a file or folder exists, else as ID.
     """
+    from colonnade.store.records.summary import records_of_tests
+
     campaign, identifier = _campaign_and_id(arguments)
-    records = test_records(KnownCampaign.of(campaign, results))
+    records = {
+        name: each.model_dump(mode="json") for name, each in records_of_tests(*_known(campaign, results)).items()
+    }
     heads = ("test", "kind", "specimen", "status", "outcome", "|θ|/α", "predicted", "reason or warnings")
     return _show_records("test", records, identifier, heads, _test_cells, as_json=as_json)
 
@@ -48,10 +54,12 @@ def specimens(arguments: tuple[str, ...], results: Path | None, as_json: bool) -
     """
     Show the specimens: geometry, and restitution with its interval as of the last run; with an ID one of them.
 
-    One argument alone is taken as CAMPAIGN where there is such a file or folder, else as ID.
+    A single argument is taken as CAMPAIGN if such a file or folder exists, else as ID.
     """
+    from colonnade.store.records.summary import records_of_specimens
+
     campaign, identifier = _campaign_and_id(arguments)
-    records = specimen_records(KnownCampaign.of(campaign, results))
+    records = records_of_specimens(*_known(campaign, results))
     heads = ("specimen", "shape", "α rad", "R m", "I₀ kg m²", "p rad/s", "rigid-body e", "e", "source")
     return _show_records("specimen", records, identifier, heads, _specimen_cells, as_json=as_json)
 
@@ -78,7 +86,7 @@ def settings(campaign: Path | None, as_json: bool) -> int:
 @show.command(epilog="Example: colonnade show formats --json")
 @json_option
 def formats(as_json: bool) -> int:
-    """Show the raw formats that can be read, what has to be installed for them, and the options of each."""
+    """Show the raw formats that can be read, and the options of each."""
     from colonnade.readers.registry import formats as all_formats
 
     known = all_formats().values()
@@ -88,16 +96,14 @@ def formats(as_json: bool) -> int:
                 each.name: {
                     "summary": each.summary,
                     "suffixes": each.suffixes,
-                    "extra": each.extra or None,
-                    "installed": each.is_installed,
                     "options": each.options.model_json_schema().get("properties", {}),
                 }
                 for each in known
             }
         )
         return 0
-    cells = [(each.name, " ".join(each.suffixes), each.summary, _needed(each)) for each in known]
-    show_table(("format", "usual endings", "what it is", "needs"), cells)
+    cells = [(each.name, " ".join(each.suffixes), each.summary) for each in known]
+    show_table(("format", "usual endings", "what it is"), cells)
     options = [
         (each.name, name, field.description or "")
         for each in known
@@ -105,13 +111,6 @@ def formats(as_json: bool) -> int:
     ]
     show_table(("format", "option", "what it says"), options)
     return 0
-
-
-def _needed(format: Format) -> str:
-    """What a format needs beside colonnade itself, and whether it is there."""
-    if not format.extra:
-        return ""
-    return f"{format.package} (installed)" if format.is_installed else format.installation
 
 
 def _campaign_and_id(arguments: tuple[str, ...]) -> tuple[Path, str | None]:
@@ -122,6 +121,16 @@ def _campaign_and_id(arguments: tuple[str, ...]) -> tuple[Path, str | None]:
     if arguments and not Path(arguments[0]).exists():
         return Path(), arguments[0]
     return Path(*arguments), None
+
+
+def _known(path: Path, results: Path | None) -> tuple[Campaign, Summary | None]:
+    """Read a campaign and the summary of its last run, in the folder of results if one is given; nothing is run."""
+    from colonnade.campaign import load
+    from colonnade.store.layout import Layout
+    from colonnade.store.records.summary import read_summary
+
+    campaign = load(path)
+    return campaign, read_summary(Layout.of(campaign.folder, results))
 
 
 def _show_records(
@@ -175,10 +184,10 @@ def _specimen_cells(record: Record) -> tuple[str, ...]:
 
     restitution = record["restitution"]
     value, low, high = restitution["value"], restitution["low"], restitution["high"]
-    told = shown(value) if low is None else format_uncertain(value, (high - low) / 2)
+    e = shown(value) if low is None else format_uncertain(value, (high - low) / 2)
     columns = ("critical_angle", "pole_distance", "inertia", "p", "rigid_restitution")
     geometry = [shown(record[column]) for column in columns]
-    return (record["shape"], *geometry, told, restitution["source"] or restitution["reason"] or "")
+    return (record["shape"], *geometry, e, restitution["source"] or restitution["reason"] or "")
 
 
 def _flat(record: Mapping[str, Any], prefix: str = "") -> list[tuple[str, str]]:

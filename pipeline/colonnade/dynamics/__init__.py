@@ -1,0 +1,1 @@
+"""The block, the base motion and the models of rocking, on plain arrays."""

@@ -7,8 +7,12 @@ from dataclasses import dataclass, field, replace
 from math import atan2, cos, hypot, pi, sin, sqrt
 from typing import Literal
 
+import numpy as np
+from numpy.typing import ArrayLike
+
+from colonnade.arrays import Array
 from colonnade.dynamics.density import UnlikelyBlockWarning, cone_volume, mistaken_lengths, prism_volume
-from colonnade.validation import described, instance, number, sided
+from colonnade.validation import described, instance, number, samples, sided
 
 STANDARD_GRAVITY = 9.81
 """Default gravity of a campaign, m/s²; a laboratory's own value may be given."""
@@ -256,7 +260,7 @@ class Block:
     ) -> Block:
         """Return a block in which measured values, where given, replace the ones computed from dimensions."""
         sides = []
-        for index, side in enumerate((self.negative, self.positive)):
+        for index, side in enumerate(self.sides):
             given = {"critical_angle": critical_angle, "pole_distance": pole_distance, "inertia": inertia}
             changed = {
                 name: sided(name, value, "a positive number", above=0.0)[index]
@@ -267,9 +271,14 @@ class Block:
         return replace(self, negative=sides[0], positive=sides[1])
 
     @property
+    def sides(self) -> tuple[Side, Side]:
+        """`negative` and `positive`, in this order."""
+        return self.negative, self.positive
+
+    @property
     def governing(self) -> Side:
         """The side with the smaller critical angle."""
-        return min(self.negative, self.positive, key=lambda side: side.critical_angle)
+        return min(self.sides, key=lambda side: side.critical_angle)
 
     @property
     def is_symmetric(self) -> bool:
@@ -300,6 +309,23 @@ class Block:
         """Frequency parameter of one side, rad/s."""
         instance("side", side, Side)
         return sqrt(self.mass * self.gravity * side.pole_distance / side.inertia)
+
+    def critical_angle_at(self, angle: ArrayLike) -> Array:
+        """Critical angle α of the side that each angle is on, rad; an angle of 0 or NaN counts as θ > 0."""
+        return self._at(angle, *(side.critical_angle for side in self.sides))
+
+    def pole_distance_at(self, angle: ArrayLike) -> Array:
+        """Pole distance R of the side that each angle is on, m; as `critical_angle_at`."""
+        return self._at(angle, *(side.pole_distance for side in self.sides))
+
+    def p_at(self, angle: ArrayLike) -> Array:
+        """Frequency parameter p of the side that each angle is on, rad/s; as `critical_angle_at`."""
+        return self._at(angle, *(self.side_p(side) for side in self.sides))
+
+    @staticmethod
+    def _at(angle: ArrayLike, negative: float, positive: float) -> Array:
+        plain = samples("angle", angle, dimensions=(0, 1, 2), fewest=0, finite=False)
+        return np.where(plain < 0, negative, positive)
 
     @property
     def restitution(self) -> float:

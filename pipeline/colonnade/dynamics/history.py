@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
+from colonnade.dynamics.models.registry import DEFAULT, MODELS
 
-Array = NDArray[np.float64]
 Outcome = Literal["no-rocking", "rocking", "overturned"]
 
 NO_ROCKING_RATIO = 1e-3
@@ -31,8 +31,8 @@ class History:
         s; rad/s just before each impact, and e times that just after it.
     overturning_time : float
         s, when |θ| passed α for good; NaN where the block stands in the end.
-    model : {"linear", "nonlinear"}
-        The equation that it solves.
+    model : str
+        Whose equation it solves.
     """
 
     block: Block
@@ -43,7 +43,7 @@ class History:
     impact_velocities: Array
     rebound_velocities: Array
     overturning_time: float
-    model: str = "linear"
+    model: str = DEFAULT
 
     @property
     def amplitude(self) -> Array:
@@ -58,11 +58,10 @@ class History:
         0 at rest, 1 where the block stands still on the critical angle; that of the model's own equation:
         [(ω/p)² + α² − (α − |θ|)²] / α², or [(ω/p)²/2 + cos(α − |θ|) − cos α] / (1 − cos α).
         """
-        sides = (self.block.negative, self.block.positive)
-        negative = (self.angle < 0) | ((self.angle == 0) & (self.angular_velocity < 0))
-        critical = np.where(negative, *(side.critical_angle for side in sides))
-        speed = self.angular_velocity / np.where(negative, *(self.block.side_p(side) for side in sides))
-        if self.model == "linear":
+        side = np.where(self.angle == 0, self.angular_velocity, self.angle)
+        critical = self.block.critical_angle_at(side)
+        speed = self.angular_velocity / self.block.p_at(side)
+        if MODELS[self.model].is_linearised:
             return np.asarray((speed**2 + critical**2 - (critical - np.abs(self.angle)) ** 2) / critical**2)
         rise = np.cos(critical - np.abs(self.angle)) - np.cos(critical)
         return np.asarray((speed**2 / 2 + rise) / (1 - np.cos(critical)))
@@ -93,8 +92,7 @@ class History:
 
 def amplitude(angle: Array, block: Block) -> Array:
     """Return |θ|/α, shape of `angle`, with the critical angle of the side that each sample is on."""
-    critical = np.where(angle < 0, block.negative.critical_angle, block.positive.critical_angle)
-    return np.asarray(np.abs(angle) / critical, dtype=np.float64)
+    return np.asarray(np.abs(angle) / block.critical_angle_at(angle), dtype=np.float64)
 
 
 def capped(time: Array, angle: Array, overturning_time: float, block: Block) -> Array:

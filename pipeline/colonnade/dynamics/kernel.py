@@ -1,27 +1,116 @@
-"""The one way in which numerical kernels are compiled."""
+"""The one way in which numerical kernels are compiled, and the folder in which their machine code is kept."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import hashlib
+import os
+import re
+import shutil
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+from threading import Lock
 from typing import Any, TypeVar, cast
 
 import numba
+from numba.misc import appdirs
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+
+PACKAGE = Path(__file__).parents[1]
+FOLDER = "colonnade-kernels-"
+"""What the name of a cache folder begins with; the hash of the kernels' sources follows."""
+
+KEPT = 30 * 86400.0
+"""s since a folder was last used, after which it is removed."""
+
+_SETTINGS: Any = numba.config
+_APPDIRS: Any = appdirs
+_OPTIONS: Any = {"nogil": True, "error_model": "numpy"}
+_MARK = b"\n@kernel"
+_IMPORT = re.compile(rb"^from " + PACKAGE.name.encode() + rb"\.([\w.]+) import ", re.MULTILINE)
+_DECORATING = Lock()
 
 
 def kernel(function: Function) -> Function:
     """
-    Compile a function of scalars and arrays, keeping the machine code between runs where a folder can be written.
+    Compile a function of scalars and arrays, keeping the machine code between runs if a folder can be written.
 
     Notes
     -----
-    A kernel touches no Python object, so it lets other threads run.
-    A cached kernel goes stale when a kernel that it calls changes in *another* file, so all kernels of one call chain
-    live in one file. Where no cache folder is writable (a read-only installation without a home), numba refuses to
-    decorate; the kernel is then compiled anew in each process.
+    A kernel touches no Python object, so it lets other threads run. Without a writable folder (a read-only installation
+    without a home) it is compiled again in each process.
+
+    numba sees when a kernel's own file changes, but not when a kernel that it calls changes in another file. So the
+    machine code is kept in a folder named by the hash of all sources that kernels are made of.
     """
-    try:
-        return cast(Function, numba.njit(cache=True, nogil=True, error_model="numpy")(function))
-    except RuntimeError:
-        return cast(Function, numba.njit(nogil=True, error_model="numpy")(function))
+    folder = _cache_folder()
+    if folder is None:
+        return cast(Function, numba.njit(**_OPTIONS)(function))
+    with _DECORATING:
+        # numba reads its setting when a function is decorated; kernels of other packages keep theirs.
+        theirs, _SETTINGS.CACHE_DIR = _SETTINGS.CACHE_DIR, str(folder)
+        try:
+            return cast(Function, numba.njit(cache=True, **_OPTIONS)(function))
+        except RuntimeError:  # no source file, as in a frozen program
+            return cast(Function, numba.njit(**_OPTIONS)(function))
+        finally:
+            _SETTINGS.CACHE_DIR = theirs
+
+
+@cache
+def _cache_folder() -> Path | None:
+    """Return the folder of these sources in the first place that can be written; None if there is none."""
+    name = FOLDER + _hash_of_sources()
+    for place in _places():
+        folder = place / name
+        with suppress(OSError):
+            is_new = not folder.is_dir()
+            folder.mkdir(parents=True, exist_ok=True)
+            tempfile.TemporaryFile(dir=folder).close()
+            with suppress(OSError):  # somebody else's folder may be written, but not dated
+                os.utime(folder)
+            if is_new:
+                _remove_unused(place)
+            return folder
+    return None
+
+
+def _places() -> Iterator[Path]:
+    """Give the user's choice, then the package itself, then the user's cache."""
+    if _SETTINGS.CACHE_DIR:
+        yield Path(_SETTINGS.CACHE_DIR)
+    yield Path(__file__).parent / "__pycache__"
+    home = Path(_APPDIRS.user_cache_dir("colonnade", False))
+    if home.is_absolute():  # not so without a home
+        yield home
+
+
+def _hash_of_sources() -> str:
+    """Hash the modules with kernels and those from which they import, whose constants are compiled in."""
+    sources = {}
+    for folder, inner, files in os.walk(PACKAGE):
+        inner[:] = [name for name in inner if name != "__pycache__"]
+        for name in files:
+            if name.endswith(".py"):
+                with Path(folder, name).open("rb", buffering=0) as file:
+                    sources[os.path.relpath(file.name, PACKAGE).replace(os.sep, "/")] = file.read()
+    with_kernels = {name for name, text in sources.items() if _MARK in text}
+    imported = {
+        module.decode().replace(".", "/") + ".py" for name in with_kernels for module in _IMPORT.findall(sources[name])
+    }
+    digest = hashlib.sha256()
+    for name in sorted(with_kernels | imported & sources.keys()):
+        digest.update(f"{name} {len(sources[name])}\n".encode() + sources[name])
+    return digest.hexdigest()[:16]
+
+
+def _remove_unused(place: Path) -> None:
+    """Remove the folders of other sources that no process has opened for long; another process may do so too."""
+    for folder in place.glob(FOLDER + "*"):
+        with suppress(OSError):
+            if time.time() - folder.stat().st_mtime > KEPT:
+                shutil.rmtree(folder, ignore_errors=True)

@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-
-Array = NDArray[np.float64]
 
 
 def pole_position(block: Block) -> float:

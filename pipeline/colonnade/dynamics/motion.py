@@ -5,12 +5,11 @@ from __future__ import annotations
 from math import ceil
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.validation import number, samples
-
-Array = NDArray[np.float64]
 
 MOST_SAMPLES = 10_000_000
 """Of a motion that is made for a duration: an hour of a small block; more asks for a wrong unit, or does not end."""

@@ -6,11 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from colonnade.arrays import Array
 from colonnade.validation import described, number, samples
-
-Array = NDArray[np.float64]
 
 POINTS = 1025
 """Of a table made from a function."""
@@ -105,3 +104,10 @@ class RestitutionLaw:
         """Give e at |ω| (rad/s), shape of `speed`."""
         speeds = samples("speed", speed, dimensions=(0, 1, 2, 3), fewest=0)
         return np.asarray(np.interp(speeds, self.speeds, self.values), dtype=np.float64)
+
+
+def restitution_table(restitution: tuple[float, float] | RestitutionLaw) -> tuple[Array, Array]:
+    """Give e as the kernels take it: speeds, shape (m,), and e there on the one side and then on the other, (2 m,)."""
+    if isinstance(restitution, RestitutionLaw):
+        return restitution.speeds, np.tile(restitution.values, 2)
+    return np.zeros(1), np.array(restitution)

@@ -5,17 +5,17 @@ from __future__ import annotations
 from colonnade.figures.bands import bands_over_time
 from colonnade.figures.curve import Curve, envelope
 from colonnade.figures.histories import Spread
-from colonnade.figures.measured_map import measured_map
-from colonnade.figures.peaks import PeakSeries, peak_decay
+from colonnade.figures.maps.measured_map import measured_map
+from colonnade.figures.maps.response_orders import response_orders
+from colonnade.figures.maps.stability_map import stability_map
+from colonnade.figures.output import to_png, to_svg
 from colonnade.figures.record import Peak, Quantity, whole_record
-from colonnade.figures.response_orders import response_orders
-from colonnade.figures.restitution_estimators import EstimateGroup, EstimateRow, estimators_side_by_side
-from colonnade.figures.restitution_history import fitted_history
-from colonnade.figures.restitution_impacts import ImpactSeries, Level, impact_restitution
-from colonnade.figures.restitution_region import Region, joint_region
+from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
+from colonnade.figures.restitution.history import fitted_history
+from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
+from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
+from colonnade.figures.restitution.region import Region, joint_region
 from colonnade.figures.spans import SpanPanel, spans_side_by_side
-from colonnade.figures.stability_map import stability_map
-from colonnade.figures.svg import to_svg
 
 __all__ = [
     "Curve",
@@ -40,6 +40,7 @@ __all__ = [
     "response_orders",
     "spans_side_by_side",
     "stability_map",
+    "to_png",
     "to_svg",
     "whole_record",
 ]

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from colonnade.arrays import Array
 
 INTERVALS = 600
 """Time intervals of an envelope: finer than a screen or a printer shows across a figure's width."""

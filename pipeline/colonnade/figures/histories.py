@@ -7,12 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from colonnade.figures.curve import INTERVALS, Curve, envelope
 from colonnade.figures.style import LIMIT, MEASURED, LineStyle, model_style
-
-Array = NDArray[np.float64]
 
 SMALLEST_RATIO = 0.02
 """No θ/α axis is narrower than ± this, so that the noise of a block at rest does not look like rocking."""

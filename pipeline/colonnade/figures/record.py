@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from colonnade.figures.curve import Array, Curve, envelope
+from colonnade.arrays import Array
+from colonnade.figures.curve import Curve, envelope
 from colonnade.figures.histories import Spread, draw_angle, draw_limit, largest_of, limit_of, time_limits
 from colonnade.figures.panels import legend_above, stacked_panels
 from colonnade.figures.style import BASE, MEASURED, model_style, styled

@@ -11,6 +11,8 @@ from typing import Any, TypedDict
 import matplotlib
 from matplotlib.figure import Figure
 
+from colonnade.dynamics.models.registry import model_of
+
 STYLE_FILE = Path(__file__).with_name("colonnade.mplstyle")
 
 WIDTH = 7.2
@@ -30,12 +32,12 @@ BASE: LineStyle = {"color": "#5b6675", "linestyle": "-", "linewidth": 0.8}
 FIT: LineStyle = {"color": "#8a3fa8", "linestyle": "-", "linewidth": 1.2}
 LIMIT: LineStyle = {"color": "#8a919c", "linestyle": (0, (1.0, 2.5)), "linewidth": 1.0}
 
-MODELS: dict[str, LineStyle] = {
-    "linear": {"color": "#d1490f", "linestyle": (0, (5.0, 1.6)), "linewidth": 1.1},
-    "nonlinear": {"color": "#0b6bb0", "linestyle": (0, (7.0, 1.6, 1.6, 1.6)), "linewidth": 1.1},
-    "contact": {"color": "#0a8a5f", "linestyle": (0, (2.2, 1.4)), "linewidth": 1.2},
+DASHES: dict[str, tuple[float, tuple[float, ...]]] = {
+    "dashed": (0, (5.0, 1.6)),
+    "dash-dotted": (0, (7.0, 1.6, 1.6, 1.6)),
+    "short-dashed": (0, (2.2, 1.4)),
 }
-"""Distinct by dash on a grey print, and by colour to colour-blind readers (after Okabe and Ito)."""
+"""Dashes of the models by the names that the registry of models uses: distinct on a grey print."""
 
 
 def model_style(model: str, thinness: float = 1.0) -> LineStyle:
@@ -45,12 +47,10 @@ def model_style(model: str, thinness: float = 1.0) -> LineStyle:
     Raises
     ------
     ValueError
-        If the model has none yet.
+        If there is no such model.
     """
-    if model not in MODELS:
-        raise ValueError(f"no line style for the model {model!r}; there is one for {', '.join(MODELS)}")
-    style = MODELS[model]
-    return {**style, "linewidth": thinness * style["linewidth"]}
+    line = model_of(model).line
+    return {"color": line.color, "linestyle": DASHES[line.dash], "linewidth": thinness * line.width}
 
 
 @contextmanager

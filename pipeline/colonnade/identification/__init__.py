@@ -1,0 +1,1 @@
+"""What the recordings say of the specimen, on plain arrays."""

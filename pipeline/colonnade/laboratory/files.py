@@ -8,11 +8,9 @@ from pathlib import Path
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from colonnade.errors import StoreError
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

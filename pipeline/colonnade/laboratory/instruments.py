@@ -6,14 +6,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from colonnade import units
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
 from colonnade.laboratory.table import TableMotion
 
-Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
 
 VOLTS = 10.0

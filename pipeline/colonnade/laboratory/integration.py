@@ -15,13 +15,12 @@ from math import cos, nextafter, sin, tan
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block, Side
 
-Array = NDArray[np.float64]
 Acceleration = Callable[[float], float]
 Curve = Callable[[Any], Array]
 

@@ -13,9 +13,9 @@ from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.campaign_file import FILE_NAME, campaign_text, refuse_foreign
 from colonnade.laboratory.experiment import Plan, Specimen
 from colonnade.laboratory.files import put
-from colonnade.laboratory.performance import perform_all, write_truth
 from colonnade.laboratory.record import load_record
 from colonnade.laboratory.rig import prism_setups
+from colonnade.laboratory.runs import run_tests, write_truth
 from colonnade.laboratory.trials import LENGTH_SCALE, Placed, earthquakes, free_vibrations, sine
 from colonnade.store.own_files import own_files
 
@@ -43,7 +43,7 @@ class WrittenCampaign:
     path : Path
         Its campaign.toml.
     truth_path : Path
-        Its truth.json; the true angle of each test lies beside it.
+        Its truth.json; the true angle of each test is next to it.
     truth : dict
         What truth.json holds: by specimen `restitution` and more, by test `outcome`, `peak_ratio` and more.
     """
@@ -96,12 +96,12 @@ def write_campaign(
 
 
 def write(plan: Plan, folder: Path | str, *, seed: int = 0, workers: int | None = 1) -> WrittenCampaign:
-    """Perform a plan: write its raw files, its truth and its campaign file; see `write_campaign`."""
+    """Run a plan: write its raw files, its truth and its campaign file; see `write_campaign`."""
     folder = Path(folder)
     refuse_foreign(folder)
     for name in ("raw", "truth"):
         own_files(folder / name)
-    records = perform_all(plan, folder, seed, workers)
+    records = run_tests(plan, folder, seed, workers)
     truth = write_truth(plan, records, folder, seed)
     put(folder / FILE_NAME, campaign_text(plan).encode())
     return WrittenCampaign(folder / FILE_NAME, folder / "truth" / "truth.json", truth)

@@ -8,11 +8,10 @@ from functools import partial
 from math import cos, pi, sin
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from colonnade.arrays import Array
 from colonnade.dynamics.motion import Motion
-
-Array = NDArray[np.float64]
 
 PIECES_PER_CYCLE = 8
 """A sine is cut so finely that its acceleration has at most one extremum in a piece."""

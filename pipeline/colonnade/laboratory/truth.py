@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from math import pi
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.laboratory.integration import Integration
 from colonnade.laboratory.table import TableMotion, still
-
-Array = NDArray[np.float64]
 
 NO_ROCKING_RATIO = 1e-3
 """A block whose largest |θ|/α stays at or below this has not rocked."""
@@ -45,8 +44,7 @@ class Truth:
     @property
     def amplitude(self) -> Array:
         """|θ|/α, shape (n,), with the critical angle of the side that each sample is on."""
-        critical = np.where(self.angle < 0, self.block.negative.critical_angle, self.block.positive.critical_angle)
-        return np.asarray(np.abs(self.angle) / critical)
+        return np.asarray(np.abs(self.angle) / self.block.critical_angle_at(self.angle))
 
     @property
     def outcome(self) -> str:

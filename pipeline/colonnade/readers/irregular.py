@@ -1,4 +1,4 @@
-"""What a path leads to where that is no file: opened, a pipe or a device would be waited for, or never end."""
+"""What a path leads to if not to a file: a pipe or a device, once opened, may never answer or never end."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def irregular(path: Path) -> str:
     Returns
     -------
     kind : str
-        Such as "a named pipe"; empty for a file, and where nothing is found: who opens that says why.
+        Such as "a named pipe"; empty for a file, and if nothing is found: opening that says why.
     """
     try:
         mode = path.stat().st_mode

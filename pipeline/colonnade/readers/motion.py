@@ -7,19 +7,16 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from colonnade import units
+from colonnade.arrays import Array
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import ReadError, UnitError
 from colonnade.readers import registry
-from colonnade.readers.announced import announced
-from colonnade.readers.clock import rising_share
-from colonnade.readers.delimited_header import DelimitedOptions, read_header
 from colonnade.readers.recording import RecordedChannel, Recording
+from colonnade.readers.text.clock import rising_share
+from colonnade.readers.text.delimited_header import DelimitedOptions, read_header
 from colonnade.validation import described, number, text, whole
-
-Array = NDArray[np.float64]
 
 MOST_COLUMNS = 1_000_000
 
@@ -45,11 +42,11 @@ def read_motion(
         accelerations, a single column of accelerations, or numbers that run on from row to row below lines of text
         (as `8F10.5`).
     unit : str, optional
-        Of the acceleration, such as "g" or "cm/s^2"; needed where the file does not tell it.
+        Of the acceleration, such as "g" or "cm/s^2"; needed if the file does not give it.
     dt : float, optional
-        Sampling interval, s; needed where the file has neither times nor tells it.
+        Sampling interval, s; needed if the file has neither times nor an interval.
     column : str or int, optional
-        Name or number, from 1, of the column of accelerations, where there are several.
+        Name or number, from 1, of the column of accelerations, if there are several.
     layout : str, optional
         For text: "columns" where each column is a channel, "running" where numbers run on from row to row; needed
         where the file does not show it.
@@ -79,21 +76,21 @@ def read_motion(
         for told in recording.warnings:
             warnings.warn(f"{path.name}: {told}", stacklevel=2)
         return _motion(recording, channel.values, unit or channel.unit, dt or step)
-    above = announced(read_header(path, DelimitedOptions()).above)
-    return _motion(recording, channel.values, unit or channel.unit or above.unit, dt or step or above.step)
+    claims = read_header(path, DelimitedOptions()).claims
+    return _motion(recording, channel.values, unit or channel.unit or claims.unit, dt or step or claims.step)
 
 
 def _motion(recording: Recording, values: Array, unit: str | None, step: float | None) -> Motion:
-    """Make a motion of accelerations of which unit and step are known; say what is missing where they are not."""
+    """Make a motion of accelerations in a known unit and step; say which of these is missing."""
     name = recording.path.name
     if unit is None:
         raise ReadError(
-            f"{name}: the file does not tell the unit of its acceleration. Give it, for example "
+            f"{name}: the file does not give the unit of its acceleration. Give it, for example "
             f'read_motion("{name}", unit="g"), or "m/s^2".'
         )
     if step is None or not step > 0:
         raise ReadError(
-            f"{name}: the file has no column of times and does not tell its sampling interval. "
+            f"{name}: the file has no column of times and does not give its sampling interval. "
             f'Give it in seconds, for example read_motion("{name}", dt=0.02).'
         )
     if not np.isfinite(values).all():
@@ -120,7 +117,7 @@ def _checked(path: Any, unit: Any, dt: Any, column: Any, layout: Any) -> Path:
 
 
 def _column(recording: Recording, column: str | int | None) -> tuple[RecordedChannel, float | None]:
-    """Find the column of accelerations and the step of the times beside it."""
+    """Find the column of accelerations and the step of its times."""
     rising = [channel for channel in recording.channels if rising_share(channel.values) == 1.0]
     others = [channel for channel in recording.channels if not any(channel is clock for clock in rising)]
     if column is not None:

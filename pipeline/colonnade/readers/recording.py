@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
+from pydantic import AfterValidator
 
+from colonnade.arrays import Array
 from colonnade.errors import ReadError, nearest
-
-Array = NDArray[np.float64]
 
 TIME_UNITS = {
     **dict.fromkeys(("s", "sec", "sec.", "secs", "second", "seconds", "sek", "sek.", "sekunde", "sekunden"), 1.0),
@@ -22,6 +22,16 @@ TIME_UNITS = {
     **dict.fromkeys(("h", "hr", "hour", "hours", "stunden"), 3600.0),
 }
 """Spellings of units of time, casefolded, in s."""
+
+
+def _time_unit(unit: str) -> str:
+    if unit.casefold() not in TIME_UNITS:
+        raise ValueError('a unit of time was expected: "s", "ms", "us", "min" or "h"')
+    return unit
+
+
+TimeUnit = Annotated[str, AfterValidator(_time_unit)]
+"""An option that names a unit of time."""
 
 
 @dataclass(frozen=True)
@@ -34,11 +44,11 @@ class RecordedChannel:
     name : str
         Its name, without the unit: `LVDT 1`.
     unit : str or None
-        As written in the file; None where it says nothing.
+        As written in the file, if it says so.
     values : ndarray, shape (n,)
-        In that unit; NaN where the file holds no number.
+        In that unit; NaN without a number in the file.
     time : ndarray, shape (n,), or None
-        Seconds from the file's own zero; NaN where the file holds no time; None where it has no clock.
+        Seconds from the file's own zero; NaN without a time in the file; None if it has no clock.
     heading : str
         The head of the column as written, `LVDT 1 [mm]`; the name where nothing else is known.
     is_clock : bool
@@ -71,7 +81,7 @@ class Window:
     low, high : float
         s, from the file's own zero.
     sampling_rate_hz : float or None
-        Where the file has no clock: samples are then counted from its first.
+        If the file has no clock: samples are then counted from its first.
     """
 
     low: float
@@ -93,13 +103,13 @@ class Recording:
     channels : tuple of RecordedChannel
         In the order of the file.
     start : datetime or None
-        Date and time of the first sample, where the file tells it.
+        Date and time of the first sample, if the file gives it.
     notes : tuple of str
         What was sniffed, each with its evidence.
     warnings : tuple of str
         What was not as it should be: cells without a number, damaged lines; each with its line in the file.
     hint : str
-        Said with a column that is not there, where the reader knows why it may be missed.
+        Said of a column that is missing, if the reader knows why it may be looked for.
     left_out : tuple of (str, str)
         Names of channels that are in the file and are not read, each with the reason.
     """
@@ -160,7 +170,7 @@ class Recording:
     def _numbered(self, number: int) -> RecordedChannel:
         if not 1 <= number <= len(self.channels):
             raise ReadError(
-                f"{self.path.name}: there is no column {number}; it has {_numbers(len(self.channels))}. "
+                f"{self.path.name}: column {number} is missing; it has {_numbers(len(self.channels))}. "
                 f"Columns are counted from 1.{self._hinted()}"
             )
         return self.channels[number - 1]
@@ -175,8 +185,8 @@ class Recording:
         Parameters
         ----------
         column, time_column : str or int
-            As for `channel`. Where the reader has not recognised the time column as a clock, its values are taken
-            as times in its unit, or in seconds where it has none.
+            As for `channel`. If the reader has not recognised the time column as a clock, its values are taken
+            as times in its unit, or in seconds if it has none.
 
         Raises
         ------

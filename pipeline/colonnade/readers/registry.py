@@ -7,11 +7,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError
 
 from colonnade.errors import ReadError, nearest, quoted
 from colonnade.readers.bounded import process as bounded
@@ -25,13 +24,13 @@ LONG_FILE = 100_000_000
 """Bytes from which on a file is not read further than it is needed."""
 
 # Known without an installed package too. It takes almost any text, so every other format is asked before it.
-MOST_GENERAL = EntryPoint(name="delimited", value="colonnade.readers.delimited:FORMAT", group=GROUP)
+MOST_GENERAL = EntryPoint(name="delimited", value="colonnade.readers.text.delimited:FORMAT", group=GROUP)
 
 
 @dataclass(frozen=True)
 class Recognition:
     """
-    Whether a file looks like a format's, with the reason, which is shown where no format takes it.
+    Whether a file looks like a format's, with the reason, which is shown if no format takes it.
 
     Attributes
     ----------
@@ -46,6 +45,12 @@ class Recognition:
     is_known: bool = False
 
 
+class Options(BaseModel):
+    """What can be said about a file of a format; nothing has to be, and nothing can unless a format adds to it."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
 @dataclass(frozen=True)
 class Format:
     """
@@ -58,22 +63,19 @@ class Format:
     summary : str
         One line for `show formats`.
     suffixes : tuple of str
-        Usual file name endings, such as `.csv`; they are told, never relied on.
-    options : type of BaseModel
-        What can be said about a file of this format; all of it optional.
+        Usual file name endings, such as `.csv`; they are shown, never relied on.
     recognise : callable
         Path -> Recognition, from the head of the file.
     read : callable
         (Path, options) -> Recording; raises ReadError.
-    package, extra : str
-        The import package without which `read` cannot work, and the extra of colonnade that installs it; empty where
-        nothing more is needed. `recognise` works without it.
+    options : type of Options
+        What can be said about a file of this format; all of it optional.
     read_window : callable or None
         (Path, options, Window) -> Recording that holds at least the window, in memory for little more than that.
     modules : tuple of str
         What `read` imports only then; the bounded process imports it once for all files.
     companions : callable or None
-        (Path, options) -> names of the other files, all beside it, that a file of this format is in; raises ReadError.
+        (Path, options) -> names of the other files that hold a part of it, all in its folder; raises ReadError.
     in_process : bool
         Whether `read` runs in this process: text, taken apart by code of our own. All else is read in the bounded one.
     """
@@ -81,25 +83,13 @@ class Format:
     name: str
     summary: str
     suffixes: tuple[str, ...]
-    options: type[BaseModel]
     recognise: Callable[[Path], Recognition]
     read: Callable[[Path, Any], Recording]
-    package: str = ""
-    extra: str = ""
+    options: type[Options] = Options
     read_window: Callable[[Path, Any, Window], Recording] | None = None
     modules: tuple[str, ...] = ()
     companions: Callable[[Path, Any], tuple[str, ...]] | None = None
     in_process: bool = False
-
-    @property
-    def is_installed(self) -> bool:
-        """Whether all is there that `read` needs."""
-        return not self.package or find_spec(self.package) is not None
-
-    @property
-    def installation(self) -> str:
-        """The command that installs what `read` needs."""
-        return f'pip install "colonnade[{self.extra}]"'
 
 
 @cache
@@ -132,12 +122,12 @@ def read(
     window : Window, optional
         What is wanted; of a file longer than `LONG_FILE` the rest may be left out.
     within : Path, optional
-        Folder of which files may be read, that of the campaign; the file's own by default.
+        Folder whose files may be read, that of the campaign; the file's own by default.
 
     Raises
     ------
     ReadError
-        If the file is not there, nobody recognises it (with each format's reason), the format or an option does not
+        If the file is missing, no format recognises it (with each format's reason), the format or an option does not
         exist, or the content cannot be read.
     """
     path = Path(path)
@@ -145,11 +135,6 @@ def read(
         raise ReadError(f"{path.name}: this is {kind}; a raw file was expected.")
     chosen, evidence = _named(format) if format is not None else _recognised(path)
     checked = check_options(chosen, options or {}, where=path.name)
-    if not chosen.is_installed:
-        raise ReadError(
-            f'{path.name}: format "{chosen.name}" needs the package {chosen.package}, which is not installed here. '
-            f"Install it: {chosen.installation}"
-        )
     if chosen.in_process:
         recording = _guarded(chosen, path, checked, window)
     else:
@@ -170,7 +155,7 @@ def companions(
     Returns
     -------
     others : tuple of Path
-        All beside it; one that is missing, or a link to elsewhere, too.
+        All in its folder; one that is missing, or a link to elsewhere, too.
 
     Raises
     ------
@@ -184,7 +169,7 @@ def companions(
         chosen = next((each for each in several if each.name == format), None)
     else:
         chosen = next((each for each in several if _recognition(each, path).yes), None)
-    if chosen is None or not chosen.is_installed:
+    if chosen is None:
         return ()
     return bounded.companions(_asked(chosen, path, check_options(chosen, options or {}, where=path.name), within))
 
@@ -210,7 +195,7 @@ def check_options(format: Format, options: Mapping[str, Any], where: str) -> Bas
     Raises
     ------
     ReadError
-        If one does not exist or has the wrong form; every one is told, starting with `where`.
+        If one does not exist or has the wrong form; every one is reported, starting with `where`.
     """
     try:
         return format.options.model_validate(dict(options))
@@ -266,7 +251,7 @@ def _told(error: Exception) -> str:
 
 def _named(name: str) -> tuple[Format, None]:
     if name not in formats():
-        raise ReadError(f'There is no format "{name}".{nearest(name, formats())}')
+        raise ReadError(f'Unknown format "{name}".{nearest(name, formats())}')
     return formats()[name], None
 
 
@@ -295,7 +280,7 @@ def _is_empty(path: Path) -> bool:
     try:
         return path.is_file() and path.stat().st_size == 0
     except OSError:
-        return False  # told by the first format that opens it
+        return False  # the first format that opens it says why
 
 
 def _recognition(format: Format, path: Path) -> Recognition:

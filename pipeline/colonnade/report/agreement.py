@@ -2,74 +2,65 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from math import isfinite, nan
+from collections.abc import Mapping
+from math import nan
 from statistics import median
-from typing import Any, NamedTuple
+from typing import Any
 
-from colonnade.identification.verdict import is_within
-from colonnade.report import wording
+from colonnade.identification.response.rank import is_within
+from colonnade.store.records.wording import agree, count, number
 
 
-class Score(NamedTuple):
+def agreement(tests: Mapping[str, Mapping[str, Any]]) -> list[str]:
     """
-    One test by one model.
+    Say how far each model agrees with tests.
 
-    Attributes
+    Parameters
     ----------
-    test : str
-    agrees : bool or None
-        Whether the predicted outcome is the measured or observed one; None if either is not known.
-    nrmse : float
-        NaN if not known.
-    within : bool or None
-        Whether the misfit is within the model's own spread; None if that was not computed.
-    """
+    tests : mapping of str to mapping
+        Records as summary.json has them, by test; of each `outcome`, `observed_outcome` and `predicted` are read.
 
-    test: str
-    agrees: bool | None
-    nrmse: float
-    within: bool | None
-
-
-def sentences(model: str, scores: Sequence[Score]) -> str:
-    """
-    Say how far a model agrees, empty if there is no test to say it of.
+    Returns
+    -------
+    said : list of str
+        A sentence or more for each model that predicts the outcome of a test whose outcome is known.
 
     Examples
     --------
-    >>> sentences("linear", [Score("a", True, 0.02, True), Score("b", True, 0.05, False), Score("c", None, 0.1, None)])
-    'The linear model predicts the outcome of 2 of 2 tests. Its misfit (nrmse) is 0.05 at the median and 0.1 at most, \
-in c. 1 of 2 misfits is within its own spread.'
+    >>> predicted = {"linear": {"outcome": "rocking", "nrmse": 0.02, "within_spread": 0.9}}
+    >>> agreement({"a": {"outcome": "rocking", "predicted": predicted}})
+    ['The linear model predicts the outcome of 1 of 1 test. Its misfit (nrmse) is 0.02 at the median and 0.02 at most, \
+in a. 1 of 1 misfit is within its own spread.']
     """
-    known = [score for score in scores if score.agrees is not None]
-    misfits = sorted((score.nrmse, score.test) for score in scores if isfinite(score.nrmse))
-    judged = [score.within for score in scores if score.within is not None]
+    models = dict.fromkeys(model for test in tests.values() for model in test["predicted"])
+    said = (
+        _said(model, {name: test for name, test in tests.items() if model in test["predicted"]}) for model in models
+    )
+    return [text for text in said if text]
+
+
+def _said(model: str, tests: Mapping[str, Mapping[str, Any]]) -> str:
+    """Say how far a model agrees with the tests that it predicts, empty if no outcome can be compared."""
+    predicted = {name: test["predicted"][model] for name, test in tests.items()}
+    agrees = [
+        agree(test["outcome"] or test.get("observed_outcome") or "", predicted[name]["outcome"] or "")
+        for name, test in tests.items()
+    ]
+    known = [each for each in agrees if each is not None]
     if not known:
         return ""
-    right = sum(score.agrees is True for score in known)
-    told = [f"The {model} model predicts the outcome of {right} of {wording.count(len(known), 'test')}."]
+    parts = [f"The {model} model predicts the outcome of {known.count(True)} of {count(len(known), 'test')}."]
+    misfits = sorted((each["nrmse"], name) for name, each in predicted.items() if each["nrmse"] is not None)
     if misfits:
         middle, (largest, test) = median(misfit for misfit, _ in misfits), misfits[-1]
-        told.append(
-            f"Its misfit (nrmse) is {wording.number(middle, 2)} at the median "
-            f"and {wording.number(largest, 2)} at most, in {test}."
+        parts.append(
+            f"Its misfit (nrmse) is {number(middle, 2)} at the median and {number(largest, 2)} at most, in {test}."
         )
+    ranks = (each["within_spread"] for each in predicted.values())
+    judged = [within for rank in ranks if (within := is_within(nan if rank is None else rank)) is not None]
     if judged:
         verb = "is" if judged.count(True) == 1 else "are"
-        told.append(f"{judged.count(True)} of {wording.count(len(judged), 'misfit')} {verb} within its own spread.")
+        parts.append(f"{judged.count(True)} of {count(len(judged), 'misfit')} {verb} within its own spread.")
     else:
-        told.append("Its own spread was not computed.")
-    return " ".join(told)
-
-
-def of_summary(tests: Mapping[str, Mapping[str, Any]]) -> list[str]:
-    """Say the same of tests as summary.json has them, a sentence or more a model."""
-    scores: dict[str, list[Score]] = {}
-    for name, test in tests.items():
-        measured = test["outcome"] or test.get("observed_outcome") or ""
-        for model, found in test["predicted"].items():
-            nrmse, rank = (nan if found[key] is None else found[key] for key in ("nrmse", "within_spread"))
-            score = Score(name, wording.agree(measured, found["outcome"] or ""), nrmse, is_within(rank))
-            scores.setdefault(model, []).append(score)
-    return [told for model, found in scores.items() if (told := sentences(model, found))]
+        parts.append("Its own spread was not computed.")
+    return " ".join(parts)

@@ -7,35 +7,28 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from colonnade.campaign import Campaign, Test
+from colonnade.campaign import Campaign
 from colonnade.campaign.settings import settings
-from colonnade.identification.base_motion import LEAST_MOTION
+from colonnade.figures.stored import record
+from colonnade.identification.response.base_motion import LEAST_MOTION
+from colonnade.identification.response.rank import WITHIN
 from colonnade.identification.restitution.choice import RULE
-from colonnade.identification.verdict import WITHIN
+from colonnade.identification.restitution.estimators.registry import ESTIMATORS
 from colonnade.interruption import expect_none
-from colonnade.report import (
-    channels,
-    charts,
-    methods,
-    overview,
-    pages,
-    problems,
-    results,
-    rows,
-    specimens_page,
-    tests_page,
-    wording,
-)
+from colonnade.report import channels, methods, overview, pages, problems, specimens_page, tests_page
+from colonnade.report.agreement import agreement
 from colonnade.report.channels import ChannelRow
 from colonnade.report.methods import Used
 from colonnade.report.overview import SpanTest
 from colonnade.report.references import REFERENCES
-from colonnade.report.results import NOTHING, Results
 from colonnade.report.rows import TestRow
-from colonnade.report.specimens_page import FreeVibration
+from colonnade.report.specimens_page import FreeVibration, SpecimenPage
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
+from colonnade.store.records.stored import Stored, read_specimen, read_test
+from colonnade.store.records.summary import read_summary, records_of_tests
+from colonnade.store.records.wording import quantity
 
 _HEAD = 1000
 """Characters of a page within which it says what it was made from."""
@@ -51,17 +44,17 @@ class Gathered:
     free_vibrations: defaultdict[str, list[FreeVibration]] = field(default_factory=lambda: defaultdict(list))
     used: Used = field(default_factory=Used)
 
-    def add(self, campaign: Campaign, test: Test, found: Results, row: TestRow) -> None:
+    def add(self, campaign: Campaign, row: TestRow, stored: Stored) -> None:
         """Keep of a test what the other pages show."""
+        test, block = row.test, campaign.block(row.test.specimen)
         self.rows.append(row)
-        self.channels[test.id] = channels.of_test(found)
-        self.used.gather(test.id, found)
-        if test.span is not None and any("rocking_angle" in dataset for dataset in found.datasets.values()):
-            panel = charts.span_panel(test, found, campaign.block(test.specimen))
-            self.spans.append(SpanTest(test, row, panel, charts.seen(test, found)))
-        if "restitution" in found.datasets:
-            vibration = specimens_page.free_vibration(test, found, campaign.block(test.specimen))
-            self.free_vibrations[test.specimen].append(vibration)
+        self.channels[test.id] = channels.of_test(stored)
+        self.used.gather(test.id, stored)
+        if test.span is not None and any("rocking_angle" in dataset for dataset in stored.datasets.values()):
+            panel = record.span_panel(test, stored, block)
+            self.spans.append(SpanTest(row, panel, record.seen(row.record, stored)))
+        if stored.has("restitution"):
+            self.free_vibrations[test.specimen].append(specimens_page.free_vibration(row, stored, block))
 
 
 def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *, code: str = "") -> Path:
@@ -108,7 +101,7 @@ def render(
     renderer = pages.Renderer(
         campaign=campaign,
         models=campaign.processing.predict.models,
-        gravity=wording.quantity(campaign.gravity, "m/s²", 5),
+        gravity=quantity(campaign.gravity, "m/s²", 5),
         version=methods.software()[0][1],
     )
     gathered = Gathered()
@@ -116,8 +109,8 @@ def render(
     groups, maps = overview.by_specimen(campaign, gathered.rows), overview.measured_maps(campaign, gathered.rows)
     specimens = []
     for name in campaign.specimens:
-        pooled = results.of_specimen(campaign, layout, name)
-        gathered.used.versions |= dict.fromkeys(pooled.versions)
+        pooled = read_specimen(campaign, layout, name)
+        gathered.used.versions |= pooled.versions
         specimens.append(specimens_page.of_specimen(campaign, name, pooled, gathered.free_vibrations[name]))
         yield (
             pages.of_specimen(name),
@@ -132,22 +125,29 @@ def render(
     shown = {
         "tests": gathered.rows,
         "specimens": specimens,
-        "warnings": problems.warning_groups(gathered.rows, specimens),
+        "warnings": _warnings(gathered.rows, specimens),
         "groups": groups,
         "maps": maps,
         "spans": overview.span_groups(gathered.spans),
-        "agreement": overview.agreement(gathered.rows, campaign.processing.predict.models),
+        "agreement": agreement({row.id: row.record.model_dump() for row in gathered.rows}),
         "channels": gathered.channels,
         "used": gathered.used,
         "settings": list(settings(campaign.processing)),
         "references": REFERENCES,
         "software": methods.software(),
         "rule": RULE,
+        "estimators": ESTIMATORS.values(),
         "within": f"{WITHIN:.0%}",
         "least_motion": LEAST_MOTION,
     }
     for template, address in pages.WHOLE.items():
         yield address, renderer.page(template, address, **shown)
+
+
+def _warnings(tests: list[TestRow], specimens: list[SpecimenPage]) -> list[problems.WarningGroup]:
+    given = [(row.id, found) for row in tests for found in row.record.warnings]
+    given += [(f"specimen {specimen.id}", found) for specimen in specimens for found in specimen.warnings]
+    return problems.warning_groups(given)
 
 
 def _tests(
@@ -158,31 +158,32 @@ def _tests(
     code: str,
     gathered: Gathered,
 ) -> Iterator[tuple[str, str | None]]:
-    """Render the page of each test whose page does not say that it was made from the same."""
+    """Render the page of each test, unless its page says that it was made from the same."""
     ids = [None, *campaign.tests, None]
     elsewhere = campaign.wherever_it_lies()
+    records = records_of_tests(campaign, read_summary(layout))
     for before, test, after in zip(ids, campaign.tests.values(), ids[2:], strict=False):
-        found = NOTHING if test.id in outdated else results.of_test(campaign, layout, test)
-        row = rows.of_test(campaign, test, found)
-        gathered.add(campaign, test, found, row)
+        stored = read_test(campaign, layout, test, is_outdated=test.id in outdated)
+        row = TestRow.of(campaign, test, records[test.id], stored)
+        gathered.add(campaign, row, stored)
         address = pages.of_test(test.id)
-        made_from = _made_from(elsewhere, test.id, found, code, (before, after)) if code else ""
+        made_from = _made_from(elsewhere, row, stored, code, (before, after)) if code else ""
         if made_from and made_from in _head(layout.report.parent / address):
             yield address, None
             continue
-        page = tests_page.of_test(campaign, test, found, row)
+        page = tests_page.of_test(campaign, row, stored)
         yield address, renderer.page("test", address, test=page, before=before, after=after, made_from=made_from)
 
 
 def _made_from(
-    campaign: Campaign, name: str, found: Results, code: str, neighbours: tuple[str | None, str | None]
+    campaign: Campaign, row: TestRow, stored: Stored, code: str, neighbours: tuple[str | None, str | None]
 ) -> str:
     """Hash of all that the page of a test shows; paths of the campaign are those from its folder."""
-    test = campaign.tests[name]
+    test = campaign.tests[row.id]
     around = (campaign.title, campaign.gravity, tuple(campaign.specimens), campaign.processing.predict.models)
     own = (test, campaign.specimens[test.specimen], campaign.review(test.id))
-    told = found.keys, found.failures, found.warnings, found.raw_files
-    return hash_of([code, repr((told, around, own, neighbours))])
+    found = stored.keys, row.failures, row.record, stored.raw_files
+    return hash_of([code, repr((found, around, own, neighbours))])
 
 
 def _head(page: Path) -> str:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
-from colonnade.report import wording
-from colonnade.report.results import Results, Samples
+from colonnade.store.records.stored import Samples, Stored
+from colonnade.store.records.wording import NOTHING, number, quantity, share
 
 UNITS = {
     "displacement": "mm",
@@ -29,7 +29,7 @@ FLAGS = {2: "not evaluated", 3: "suspect", 4: "failed", 9: "missing"}
 
 @dataclass(frozen=True)
 class ChannelRow:
-    """One channel of one test; text for the page, `is_good` where nothing speaks against it."""
+    """One channel of one test; text for the page."""
 
     name: str
     column: str
@@ -44,18 +44,13 @@ class ChannelRow:
     clock: str
     residual: str
 
-    @property
-    def is_good(self) -> bool:
-        """Whether no sample is flagged and no check spoke against the channel."""
-        return self.quality == "good" and self.flagged == wording.NOTHING
 
-
-def of_test(results: Results) -> tuple[ChannelRow, ...]:
+def of_test(stored: Stored) -> tuple[ChannelRow, ...]:
     """Put every channel of a test into words."""
-    to_noise, to_reading = (results.of("rocking", f"residual_to_{what}", "transducer") for what in ("noise", "reading"))
+    to_noise, to_reading = (stored.by("transducer", "rocking", f"residual_to_{what}") for what in ("noise", "reading"))
     return tuple(
-        _channel(name, given, results.samples.get(name), to_noise.get(name), to_reading.get(name))
-        for name, given in results.channels.items()
+        _channel(name, given, stored.samples.get(name), to_noise.get(name), to_reading.get(name))
+        for name, given in stored.channels.items()
     )
 
 
@@ -66,51 +61,45 @@ def _channel(
     residual_to_noise: float | None,
     residual_to_reading: float | None,
 ) -> ChannelRow:
-    quantity = str(given.get("quantity", ""))
-    unit = UNITS.get(quantity)
+    kind = str(given.get("quantity", ""))
+    unit = UNITS.get(kind)
 
     def value(key: str, digits: int) -> str:
         amount = _number(given, key)
-        if amount is None:
-            return wording.NOTHING
-        return wording.quantity(amount, unit, digits) if unit else wording.number(amount, digits)
+        return quantity(amount, unit, digits) if unit else number(amount, digits)
 
-    cutoff = _number(given, "cutoff_hz")
     column, recorded_unit = str(given.get("column", "")), str(given.get("recorded_unit", ""))
     return ChannelRow(
         name=name,
         column=f"{column} ({recorded_unit})" if recorded_unit and recorded_unit not in column else column,
-        quantity=quantity.replace("_", " "),
-        recorded="" if samples is None else f"{samples.count} at {wording.quantity(samples.rate, 'Hz', 4)}",
-        flagged=wording.NOTHING if samples is None else _flagged(samples),
+        quantity=kind.replace("_", " "),
+        recorded="" if samples is None else f"{samples.count} at {quantity(samples.rate, 'Hz', 4)}",
+        flagged=NOTHING if samples is None else _flagged(samples),
         quality=str(given.get("quality_report", "")) or "good",
         zero=value("zero", 4),
-        zero_window=str(given.get("zero_window", "")) or wording.NOTHING,
+        zero_window=str(given.get("zero_window", "")) or NOTHING,
         noise=value("noise", 2),
-        cutoff=wording.NOTHING if cutoff is None else wording.quantity(cutoff, "Hz"),
+        cutoff=quantity(_number(given, "cutoff_hz"), "Hz"),
         clock=_clock(given),
         residual=_residual(residual_to_noise, residual_to_reading),
     )
 
 
 def _flagged(samples: Samples) -> str:
-    told = [
-        f"{wording.share(number, samples.count)} {FLAGS.get(flag, f'flag {flag}')}"
-        for flag, number in samples.flagged.items()
-    ]
-    return ", ".join(told) or wording.NOTHING
+    parts = (f"{share(flagged, samples.count)} {FLAGS.get(flag, flag)}" for flag, flagged in samples.flagged.items())
+    return ", ".join(parts) or NOTHING
 
 
 def _residual(to_noise: float | None, to_reading: float | None) -> str:
-    """Write what the fitted motion leaves of a transducer's reading, over its noise and over the reading."""
+    """Write the residual of a transducer's reading after the fit of the motion, over its noise and over the reading."""
     if to_noise is None or not isfinite(to_noise):
-        return wording.NOTHING
+        return NOTHING
     if to_noise < _NOTHING_LEFT:
-        return "none to spare"
-    text = f"{wording.number(to_noise, 2)} × noise"
+        return "no redundancy"
+    text = f"{number(to_noise, 2)} × noise"
     if to_reading is None or not isfinite(to_reading):
         return text
-    return f"{text}, {wording.number(100 * to_reading, 2)} % of the reading"
+    return f"{text}, {number(100 * to_reading, 2)} % of the reading"
 
 
 def _clock(given: Mapping[str, Any]) -> str:
@@ -121,7 +110,7 @@ def _clock(given: Mapping[str, Any]) -> str:
         parts.append(f"{1e3 * offset:.2f} ms" + _error(given, "clock_offset_standard_error", 1e3, 2, "ms"))
     if drift:
         parts.append(f"{1e6 * drift:.1f} ppm" + _error(given, "clock_drift_standard_error", 1e6, 1, "ppm"))
-    return ", ".join(parts) or wording.NOTHING
+    return ", ".join(parts) or NOTHING
 
 
 def _error(given: Mapping[str, Any], key: str, factor: float, digits: int, unit: str) -> str:

@@ -6,12 +6,12 @@ import importlib.metadata
 import platform
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from math import isfinite
+from math import isfinite, nan
 from typing import Any
 
 from colonnade import __version__
-from colonnade.report import wording
-from colonnade.report.results import Results
+from colonnade.store.records import wording
+from colonnade.store.records.stored import Stored
 
 LIBRARIES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "pandas", "matplotlib")
 """Libraries whose versions are told."""
@@ -21,40 +21,40 @@ _LONGEST = 6
 _ANY_ENSEMBLE = "any ensemble"
 
 _STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
-    "spike threshold": ("ingest", "spike_threshold", "{:g} robust standard deviations"),
-    "flat duration": ("ingest", "flat_duration", "{:g} s"),
-    "gap": ("ingest", "gap", "{:g} sampling intervals"),
-    "jitter": ("ingest", "jitter", "{:g} of a sampling interval"),
-    "filter order": ("condition", "filter_order", "{:d}"),
-    "low-pass rule": ("condition", "lowpass", "{:g} Hz"),
-    "base low-pass rule": ("condition", "base_lowpass", "{:g} Hz"),
+    "spike threshold": ("ingest", "settings.spike_threshold", "{:g} robust standard deviations"),
+    "flat duration": ("ingest", "settings.flat_duration", "{:g} s"),
+    "gap": ("ingest", "settings.gap", "{:g} sampling intervals"),
+    "jitter": ("ingest", "settings.jitter", "{:g} of a sampling interval"),
+    "filter order": ("condition", "settings.filter_order", "{:d}"),
+    "low-pass rule": ("condition", "settings.lowpass", "{:g} Hz"),
+    "base low-pass rule": ("condition", "settings.base_lowpass", "{:g} Hz"),
     "zero": ("condition", "zero", "{}"),
-    "rest duration": ("condition", "rest_duration", "{:g} s"),
-    "longest offset": ("condition", "longest_offset", "{:g} s"),
-    "lowest amplitude": ("restitution", "lowest_amplitude", "{:g} α"),
-    "level": ("restitution", "level", "{:.0%}"),
+    "rest duration": ("condition", "settings.rest_duration", "{:g} s"),
+    "longest offset": ("condition", "settings.longest_offset", "{:g} s"),
+    "lowest amplitude": ("restitution", "settings.lowest_amplitude", "{:g} α"),
+    "level": ("restitution", "settings.level", "{:.0%}"),
     "rest angle": ("predict", "rest_angle", "{:g} α"),
-    "mesh": ("predict", "mesh", "{}"),
-    "contact step": ("predict", "step", lambda step: wording.quantity(step, "µs")),
-    "friction": ("predict", "friction", "{:g}"),
-    "damping fraction": ("predict", "damping_fraction", "{:g}"),
-    "initial rotation": ("predict", "out_of_plane", "{:g} rad"),
-    "runs": ("ensemble", "members", "{:d}"),
-    "deviation of e": ("ensemble", "restitution", "{:g}"),
-    "deviation of α": ("ensemble", "critical_angle", "{:.1%}"),
-    "deviation of p": ("ensemble", "p", "{:.1%}"),
-    "deviation of gain": ("ensemble", "gain", "{:.1%}"),
-    "deviation of clock": ("ensemble", "clock", "{:g}"),
-    "deviation of filter": ("ensemble", "filter", "{:.0%}"),
-    "horizon": (_ANY_ENSEMBLE, "horizon", "{:g} α"),
-    "deviation of zero": (_ANY_ENSEMBLE, "angle_zero", "{:g} α"),
-    "deviation of angle gain": (_ANY_ENSEMBLE, "angle_gain", "{:.1%}"),
-    "runs in space": ("ensemble contact", "runs", "{:d}"),
-    "range of friction": ("ensemble contact", "friction_range", "± {:.0%}"),
-    "range of damping": ("ensemble contact", "damping_range", "± {:.0%}"),
-    "range of rotation": ("ensemble contact", "out_of_plane_range", "± {:g} rad"),
+    "mesh": ("predict", "space.settings.mesh", "{}"),
+    "contact step": ("predict", "space.settings.step", lambda step: wording.quantity(step, "µs")),
+    "friction": ("predict", "space.settings.friction", "{:g}"),
+    "damping fraction": ("predict", "space.settings.damping_fraction", "{:g}"),
+    "initial rotation": ("predict", "space.settings.out_of_plane", "{:g} rad"),
+    "runs": ("ensemble", "settings.members", "{:d}"),
+    "deviation of e": ("ensemble", "settings.restitution", "{:g}"),
+    "deviation of α": ("ensemble", "settings.critical_angle", "{:.1%}"),
+    "deviation of p": ("ensemble", "settings.p", "{:.1%}"),
+    "deviation of gain": ("ensemble", "settings.gain", "{:.1%}"),
+    "deviation of clock": ("ensemble", "settings.clock", "{:g}"),
+    "deviation of filter": ("ensemble", "settings.filter", "{:.0%}"),
+    "horizon": (_ANY_ENSEMBLE, "measurement.settings.horizon", "{:g} α"),
+    "deviation of zero": (_ANY_ENSEMBLE, "measurement.settings.angle_zero", "{:g} α"),
+    "deviation of angle gain": (_ANY_ENSEMBLE, "measurement.settings.angle_gain", "{:.1%}"),
+    "runs in space": ("ensemble contact", "settings.members", "{:d}"),
+    "range of friction": ("ensemble contact", "settings.friction", "± {:.0%}"),
+    "range of damping": ("ensemble contact", "settings.damping_fraction", "± {:.0%}"),
+    "range of rotation": ("ensemble contact", "settings.out_of_plane", "± {:g} rad"),
 }
-"""Settings by the name that the text uses: stage, key, and how the value is written."""
+"""Settings by the name that the text uses: stage, path in its inputs, and how the value is written."""
 
 
 @dataclass
@@ -64,34 +64,29 @@ class Used:
     values: dict[str, dict[str, dict[str, None]]] = field(default_factory=dict)
     versions: dict[str, None] = field(default_factory=dict)
 
-    def gather(self, test: str, results: Results) -> None:
+    def gather(self, test: str, stored: Stored) -> None:
         """Take note of what a test's results were made with."""
-        for name, (stage, key, form) in _STORED.items():
-            for stored_stage, settings in results.settings.items():
-                # The contact model's ensemble varies other things than those of the plane models.
-                own = stored_stage if stored_stage == "ensemble contact" else stored_stage.split()[0]
-                is_one = own == stage or (stage == _ANY_ENSEMBLE and stored_stage.startswith("ensemble"))
-                value = _within(settings, key) if is_one else None
-                if value is not None:
-                    self._note(name, _written(value, form), test)
-        for given in results.channels.values():
-            cutoff = given.get("cutoff_hz")
-            if cutoff is not None and isfinite(float(cutoff)):
-                place = "specimen" if _is_on_specimen(results, given) else "table"
-                self._note(f"cut-off on the {place}", wording.quantity(float(cutoff), "Hz"), test)
-        for dataset in results.datasets.values():
-            source = dataset.attrs.get("restitution_source")
-            if source:
-                self._note("source of e", str(source), test)
-        method = results.text("restitution", "method")
-        if method:
-            self._note("method of e", method, test)
-        if results.text("rocking", "separation"):
-            self._note("separation", results.text("rocking", "separation"), test)
-        self.versions |= dict.fromkeys(results.versions)
+        for (stage, model), inputs in stored.settings.items():
+            # The contact model's ensemble varies other things than those of the plane models.
+            own = {"ensemble contact"} if (stage, model) == ("ensemble", "contact") else {stage}
+            own |= {_ANY_ENSEMBLE} if stage == "ensemble" else set()
+            for name, (read_by, path, form) in _STORED.items():
+                value = _at(inputs, path) if read_by in own else None
+                self._note(name, "" if value is None else _written(value, form), test)
+        on_specimen = [name for name, each in _channels(stored).items() if each.get("on") == "specimen"]
+        for given in stored.channels.values():
+            place = "specimen" if given.get("channel") in on_specimen else "table"
+            cutoff = float(given.get("cutoff_hz", nan))
+            self._note(f"cut-off on the {place}", wording.quantity(cutoff, "Hz") if isfinite(cutoff) else "", test)
+        for stage, model in stored.datasets:
+            self._note("source of e", stored.text(stage, "restitution_source", model), test)
+        self._note("method of e", stored.text("restitution", "method"), test)
+        self._note("separation", stored.text("rocking", "separation"), test)
+        self.versions |= stored.versions
 
     def _note(self, name: str, value: str, test: str) -> None:
-        self.values.setdefault(name, {}).setdefault(value, {})[test] = None
+        if value:
+            self.values.setdefault(name, {}).setdefault(value, {})[test] = None
 
     def text(self, name: str) -> str:
         """
@@ -119,15 +114,12 @@ def software() -> list[tuple[str, str]]:
     return [("colonnade", __version__), ("Python", platform.python_version()), *known]
 
 
-def _within(settings: Mapping[str, Any], key: str) -> Any:
-    """Return a setting of this name, wherever a stage keeps it; None where it has none."""
-    if key in settings:
-        return settings[key]
-    for inner in settings.values():
-        found = _within(inner, key) if isinstance(inner, dict) else None
-        if found is not None:
-            return found
-    return None
+def _at(inputs: Mapping[str, Any], path: str) -> Any:
+    """Return what is at a dotted path of a stage's inputs; None if it has no such entry."""
+    value: Any = inputs
+    for key in path.split("."):
+        value = value.get(key) if isinstance(value, Mapping) else None
+    return value
 
 
 def _written(value: Any, form: str | Callable[[float], str]) -> str:
@@ -138,8 +130,6 @@ def _written(value: Any, form: str | Callable[[float], str]) -> str:
     return form.format(value) if isinstance(form, str) else form(value)
 
 
-def _is_on_specimen(results: Results, given: Mapping[str, Any]) -> bool:
-    channels = results.settings.get("condition", {}).get("channels", {})
-    entry = channels.get(given.get("channel"))
-    place = entry.get("on") if isinstance(entry, dict) else entry[1] if isinstance(entry, list) else None
-    return place == "specimen"
+def _channels(stored: Stored) -> Mapping[str, Mapping[str, Any]]:
+    channels: Mapping[str, Mapping[str, Any]] = stored.settings.get(("condition", None), {}).get("channels", {})
+    return channels

@@ -4,32 +4,24 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass
-from math import isfinite
 from typing import NamedTuple
 
-from markupsafe import Markup
-
-from colonnade.campaign import Campaign, Test
-from colonnade.dynamics.history import Outcome
-from colonnade.figures import SpanPanel
-from colonnade.identification.boundaries import Boundaries, Bracket, MapPoint, bracket_boundaries
-from colonnade.report import charts, wording
-from colonnade.report.agreement import sentences
+from colonnade.campaign import Campaign
+from colonnade.figures.output import Picture
+from colonnade.figures.spans import SpanPanel
+from colonnade.figures.stored import maps, record
+from colonnade.identification.response.boundaries import Boundaries, Bracket, bracket_boundaries
 from colonnade.report.pages import KINDS
 from colonnade.report.rows import TestRow
-
-OUTCOMES: tuple[Outcome, ...] = ("no-rocking", "rocking", "overturned")
-"""Those that a map shows; what was only seen not to overturn may have rocked or not."""
+from colonnade.store.records.summary import map_points
+from colonnade.store.records.wording import NOTHING, number, quantity
 
 
 class SineGroup(NamedTuple):
     """Sine tests of one frequency, by rising amplitude."""
 
     frequency: str
-    frequency_ratio: str
-    tests: tuple[tuple[str, TestRow], ...]
-    """A of each as text, and its row."""
+    tests: tuple[TestRow, ...]
 
 
 class KindGroup(NamedTuple):
@@ -39,166 +31,106 @@ class KindGroup(NamedTuple):
     tests: tuple[TestRow, ...]
 
 
-class BoundaryRow(NamedTuple):
-    """Between which A the boundaries lie at one Ω, and what is out of order or missing; text for the page."""
-
-    frequency_ratio: str
-    rocking: str
-    overturning: str
-    notes: str
-
-
-@dataclass(frozen=True)
-class MeasuredMap:
-    """The sine tests of a specimen over Ω and A, and the boundaries that they bracket."""
-
-    specimen: str
-    chart: Markup
-    boundaries: tuple[BoundaryRow, ...]
-
-
-@dataclass(frozen=True)
-class SpecimenGroup:
-    """
-    All tests of one specimen.
-
-    Attributes
-    ----------
-    specimen : str
-    kinds : tuple of KindGroup
-        All tests but those of `sines`.
-    sines : tuple of SineGroup
-        By rising frequency.
-    steps : int
-        Largest number of sine tests of one frequency.
-    """
+class SpecimenGroup(NamedTuple):
+    """All tests of one specimen: sine tests of known Ω and A by rising frequency, all others by kind."""
 
     specimen: str
     kinds: tuple[KindGroup, ...]
     sines: tuple[SineGroup, ...]
-    steps: int
+
+    @property
+    def steps(self) -> int:
+        """Largest number of sine tests of one frequency."""
+        return max((len(group.tests) for group in self.sines), default=0)
 
 
-@dataclass(frozen=True)
-class SpanGroup:
-    """Earthquake tests of one specimen and motion, by rising Span."""
+class MeasuredMap(NamedTuple):
+    """The sine tests of a specimen over Ω and A, and the boundaries that they bracket: Ω, two brackets, notes."""
 
-    title: str
-    tests: tuple[TestRow, ...]
-    spans: tuple[str, ...]
-    chart: Markup
+    specimen: str
+    picture: Picture
+    boundaries: tuple[tuple[str, str, str, str], ...]
 
 
 class SpanTest(NamedTuple):
-    """An earthquake test with a Span: what the figure of all Spans and the table below it show."""
+    """An earthquake test with a Span: what the figure of all Spans and its table show."""
 
-    test: Test
     row: TestRow
     panel: SpanPanel
     description: str
 
 
-def by_specimen(campaign: Campaign, tests: Sequence[TestRow]) -> tuple[SpecimenGroup, ...]:
+class SpanGroup(NamedTuple):
+    """Earthquake tests of one specimen and motion, by rising Span."""
+
+    title: str
+    tests: tuple[SpanTest, ...]
+    picture: Picture
+
+
+def by_specimen(campaign: Campaign, tests: Sequence[TestRow]) -> list[SpecimenGroup]:
     """Group tests; specimens without any are left out."""
     groups = []
     for specimen in campaign.specimens:
-        own = [test for test in tests if test.specimen == specimen]
-        sines = [test for test in own if isfinite(test.frequency) and isfinite(test.amplitude_ratio)]
-        placed = {test.id for test in sines}
-        kinds = []
-        for kind, title in KINDS.items():
-            members = tuple(test for test in own if test.kind == kind and test.id not in placed)
-            if members:
-                kinds.append(KindGroup(f"{title} of unknown amplitude" if kind == "sine" else title, members))
-        ladder = _ladder(sines)
+        own = [row for row in tests if row.test.specimen == specimen]
+        sines = [row for row in own if row.frequency is not None and row.record.amplitude_ratio is not None]
         if own:
-            groups.append(
-                SpecimenGroup(specimen, tuple(kinds), ladder, max((len(group.tests) for group in ladder), default=0))
-            )
-    return tuple(groups)
+            groups.append(SpecimenGroup(specimen, _kinds([row for row in own if row not in sines]), _ladder(sines)))
+    return groups
+
+
+def _kinds(tests: Sequence[TestRow]) -> tuple[KindGroup, ...]:
+    by_kind = {kind: tuple(row for row in tests if row.test.kind == kind) for kind in KINDS}
+    return tuple(
+        KindGroup(f"{KINDS[kind]} of unknown amplitude" if kind == "sine" else KINDS[kind], members)
+        for kind, members in by_kind.items()
+        if members
+    )
 
 
 def _ladder(sines: Sequence[TestRow]) -> tuple[SineGroup, ...]:
     by_frequency: dict[str, list[TestRow]] = defaultdict(list)
-    for test in sorted(sines, key=lambda test: (test.frequency, test.amplitude_ratio, test.id)):
-        by_frequency[wording.quantity(test.frequency, "Hz")].append(test)
-    return tuple(
-        SineGroup(
-            frequency,
-            wording.number(members[0].frequency_ratio, 4),
-            tuple((wording.number(test.amplitude_ratio), test) for test in members),
-        )
-        for frequency, members in by_frequency.items()
-    )
+    for row in sorted(sines, key=lambda row: (row.frequency or 0.0, row.record.amplitude_ratio or 0.0, row.id)):
+        by_frequency[quantity(row.frequency, "Hz")].append(row)
+    return tuple(SineGroup(frequency, tuple(members)) for frequency, members in by_frequency.items())
 
 
-def measured_maps(campaign: Campaign, tests: Sequence[TestRow]) -> tuple[MeasuredMap, ...]:
+def measured_maps(campaign: Campaign, tests: Sequence[TestRow]) -> list[MeasuredMap]:
     """Draw a map for each specimen that has a sine test of known Ω, A and outcome."""
-    maps = []
-    for specimen in campaign.specimens:
-        points = [
-            MapPoint(test.id, test.frequency_ratio, test.amplitude_ratio, outcome, test.order_number)
-            for test in tests
-            if test.specimen == specimen
-            and isfinite(test.frequency_ratio)
-            and isfinite(test.amplitude_ratio)
-            and (outcome := _map_outcome(test)) is not None
-        ]
-        if points:
-            boundaries = tuple(_boundary_row(each) for each in bracket_boundaries(points))
-            maps.append(MeasuredMap(specimen, charts.measured_map(f"map-{specimen}", points), boundaries))
-    return tuple(maps)
+    records = {row.id: row.record for row in tests}
+    found = {specimen: map_points(records, specimen) for specimen in campaign.specimens}
+    return [
+        MeasuredMap(specimen, maps.tested(f"map-{specimen}", points), tuple(map(_boundary, bracket_boundaries(points))))
+        for specimen, points in found.items()
+        if points
+    ]
 
 
-def _map_outcome(test: TestRow) -> Outcome | None:
-    for outcome in OUTCOMES:
-        if outcome == (test.outcome or test.observed):
-            return outcome
-    return None
-
-
-def _boundary_row(boundaries: Boundaries) -> BoundaryRow:
-    return BoundaryRow(
-        wording.number(boundaries.frequency_ratio, 4),
-        _bracket(boundaries.rocking),
-        _bracket(boundaries.overturning),
-        "; ".join(boundaries.notes),
-    )
+def _boundary(found: Boundaries) -> tuple[str, str, str, str]:
+    ratio = number(found.frequency_ratio, 4)
+    return ratio, _bracket(found.rocking), _bracket(found.overturning), "; ".join(found.notes) or NOTHING
 
 
 def _bracket(bracket: Bracket) -> str:
-    if bracket.below is not None and bracket.above is not None:
-        return f"{wording.number(bracket.below, 4)} – {wording.number(bracket.above, 4)}"
-    if bracket.below is not None:
-        return f"above {wording.number(bracket.below, 4)}"
-    return wording.NOTHING if bracket.above is None else f"below {wording.number(bracket.above, 4)}"
+    below, above = number(bracket.below, 4), number(bracket.above, 4)
+    if bracket.above is None:
+        return NOTHING if bracket.below is None else f"above {below}"
+    return f"below {above}" if bracket.below is None else f"{below} – {above}"
 
 
-def span_groups(drawn: Sequence[SpanTest]) -> tuple[SpanGroup, ...]:
+def span_groups(drawn: Sequence[SpanTest]) -> list[SpanGroup]:
     """Draw the earthquake tests that have an angle, those of one specimen and motion side by side."""
-
-    together_by: dict[tuple[str, str, float], list[SpanTest]] = defaultdict(list)
+    together: dict[tuple[str, str, float], list[SpanTest]] = defaultdict(list)
     for entry in drawn:
-        together_by[entry.test.specimen, entry.test.motion or "", entry.test.time_scale or 1.0].append(entry)
+        test = entry.row.test
+        together[test.specimen, test.motion or "", test.time_scale or 1.0].append(entry)
     groups = []
-    for number, ((specimen, motion, scale), members) in enumerate(together_by.items(), start=1):
-        together = sorted(members, key=lambda entry: (entry.test.span or 0.0, entry.test.id))
-        if len(together) < 2:
+    for count, ((specimen, motion, scale), members) in enumerate(together.items(), start=1):
+        if len(members) < 2:
             continue
+        members.sort(key=lambda entry: (entry.row.test.span or 0.0, entry.row.id))
         title = f"{motion or 'Base motion'}, {specimen}" + (f", time scale {scale:.4g}" if scale != 1.0 else "")
-        described = " ".join(f"{entry.panel.title}: {entry.description}" for entry in together)
-        groups.append(
-            SpanGroup(
-                title,
-                tuple(entry.row for entry in together),
-                tuple(entry.panel.title for entry in together),
-                charts.spans(f"spans-{number}", title, described, [entry.panel for entry in together]),
-            )
-        )
-    return tuple(groups)
-
-
-def agreement(tests: Sequence[TestRow], models: Sequence[str]) -> tuple[str, ...]:
-    """Say of each model how far it agrees with the tests."""
-    told = (sentences(model, [test.models[model].score for test in tests]) for model in models)
-    return tuple(filter(None, told))
+        described = " ".join(f"{entry.panel.title}: {entry.description}" for entry in members)
+        picture = record.spans(f"spans-{count}", title, described, [entry.panel for entry in members])
+        groups.append(SpanGroup(title, tuple(members), picture))
+    return groups

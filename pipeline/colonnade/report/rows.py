@@ -1,122 +1,80 @@
-"""What a table says of one test: finished text, values with units, dashes for what is not known."""
+"""One test in the tables of all tests: its entry in the campaign file and its record."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import nan
 
 from colonnade.campaign import Campaign, Test
-from colonnade.identification.verdict import is_within
-from colonnade.report import wording
-from colonnade.report.agreement import Score
-from colonnade.report.results import Message, Results
-
-
-@dataclass(frozen=True)
-class ModelRow:
-    """A model and the measurement: outcome, peak ratio and nrmse as text, and how far it agrees."""
-
-    outcome: str
-    agrees: bool | None
-    peak_ratio: str
-    nrmse: str
-    score: Score
+from colonnade.campaign.summary import PredictionSummary, TestSummary
+from colonnade.store.records.stored import Failure, Stored
+from colonnade.store.records.wording import agree
 
 
 @dataclass(frozen=True)
 class TestRow:
     """
-    One test in the tables of all tests.
+    One test.
 
     Attributes
     ----------
-    frequency, frequency_ratio, amplitude_ratio : float
-        Of a sine test: Hz, Ω and A; NaN where not known. All else is text for the page.
-    order_number : int, str or None
-        Order of a sine test's response as the map takes it; `order` is its text.
+    test : Test
+    record : TestSummary
+    models : tuple of str
+        Those of the campaign.
+    failures : tuple of Failure
+        In the order of the stages.
+    reviewed : bool
+        Whether the manual review has an entry for it.
     excluded : str
-        By whom and why the manual review leaves the test out, empty where it does not.
+        By whom and why the manual review leaves it out, empty if it does not.
     """
 
     __test__ = False  # pytest takes a class of this name for a test
 
-    id: str
-    kind: str
-    specimen: str
-    status: str
-    failures: tuple[Message, ...]
-    warnings: tuple[Message, ...]
-    outcome: str
-    observed: str
-    peak_ratio: str
-    peak_ground_acceleration: str
-    models: dict[str, ModelRow]
-    frequency: float
-    frequency_ratio: float
-    amplitude_ratio: float
-    order: str
-    order_number: int | str | None
+    test: Test
+    record: TestSummary
+    models: tuple[str, ...]
+    failures: tuple[Failure, ...]
     reviewed: bool
     excluded: str
 
+    @classmethod
+    def of(cls, campaign: Campaign, test: Test, record: TestSummary, stored: Stored) -> TestRow:
+        """Lay the record of a test next to what is stored; a failure that no result holds is the record's."""
+        failures = stored.failures or ([Failure("", record.reason or "")] if record.status == "failed" else [])
+        review = campaign.review(test.id)
+        models = campaign.processing.predict.models
+        return cls(test, record, models, tuple(failures), bool(review.sentences), review.excluded)
+
+    @property
+    def id(self) -> str:
+        """Its id."""
+        return self.test.id
+
+    @property
+    def outcome(self) -> str:
+        """The measured outcome, else the observed one, empty if neither is known."""
+        return self.record.outcome or self.record.observed_outcome or ""
+
+    @property
+    def frequency(self) -> float | None:
+        """Of a sine test, Hz; as meant if that is given, so that tests meant alike are together."""
+        return self.test.frequency or self.record.frequency
+
     @property
     def has_results(self) -> bool:
-        """Whether a measured or predicted outcome is there."""
-        return bool(self.outcome or any(row.outcome for row in self.models.values()))
+        """Whether a measured or predicted outcome is known."""
+        return bool(self.record.outcome or any(self.predicted(model).outcome for model in self.models))
 
     @property
-    def differing(self) -> tuple[str, ...]:
+    def differing(self) -> list[str]:
         """Models whose outcome is not the measured (or observed) one."""
-        return tuple(model for model, row in self.models.items() if row.agrees is False)
+        return [model for model in self.models if self.agrees(model) is False]
 
+    def predicted(self, model: str) -> PredictionSummary:
+        """Return what a model predicts, empty if it has not run."""
+        return self.record.predicted.get(model, PredictionSummary())
 
-def of_test(campaign: Campaign, test: Test, results: Results) -> TestRow:
-    """Put a test's results into words."""
-    measured = results.text("rocking", "outcome")
-    order = results.text("compare", "response_order")
-    frequency, frequency_ratio, amplitude_ratio = _excitation(test, results)
-    return TestRow(
-        id=test.id,
-        kind=test.kind,
-        specimen=test.specimen,
-        status=results.status,
-        failures=results.failures,
-        warnings=results.warnings,
-        outcome=measured,
-        observed=test.observed_outcome or "",
-        peak_ratio=wording.number(results.measured_peak(test).ratio),
-        peak_ground_acceleration=wording.acceleration(results.value("rocking", "peak_ground_acceleration")),
-        models={
-            model: _model(test.id, results, model, measured or test.observed_outcome or "")
-            for model in campaign.processing.predict.models
-        },
-        frequency=frequency,
-        frequency_ratio=frequency_ratio,
-        amplitude_ratio=amplitude_ratio,
-        order=wording.order(order),
-        order_number=int(order) if order.isdigit() else order or None,
-        reviewed=bool(campaign.review(test.id).told),
-        excluded=campaign.review(test.id).excluded,
-    )
-
-
-def _model(test: str, results: Results, model: str, measured: str) -> ModelRow:
-    stage = f"predict {model}"
-    outcome = results.text(stage, "outcome")
-
-    def compared(name: str) -> float:
-        return float(results.of("compare", name, "model").get(model, nan))
-
-    agrees, nrmse = wording.agree(measured, outcome), compared("nrmse")
-    score = Score(test, agrees, nrmse, is_within(compared("within_spread")))
-    ratio = wording.number(results.value(stage, "peak_ratio"))
-    return ModelRow(outcome, agrees, ratio, wording.number(nrmse, 2), score)
-
-
-def _excitation(test: Test, results: Results) -> tuple[float, float, float]:
-    """Frequency (Hz), Ω and A of a sine test; the frequency as meant, so that tests meant alike stand together."""
-    if test.kind != "sine":
-        return nan, nan, nan
-    found = [results.value("compare", name) for name in ("forcing_frequency", "frequency_ratio", "amplitude_ratio")]
-    frequency, frequency_ratio, amplitude_ratio = (nan if value is None else value for value in found)
-    return test.frequency or frequency, frequency_ratio, amplitude_ratio
+    def agrees(self, model: str) -> bool | None:
+        """Return whether a model's outcome is the measured (or observed) one, None if either is not known."""
+        return agree(self.outcome, self.predicted(model).outcome or "")

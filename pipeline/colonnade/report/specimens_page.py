@@ -7,20 +7,25 @@ from dataclasses import dataclass
 from math import isfinite, tan
 from typing import NamedTuple
 
-import numpy as np
-from markupsafe import Markup
-from numpy.typing import NDArray
-
-from colonnade.campaign import Campaign, Test
+from colonnade.arrays import Array
+from colonnade.campaign import Campaign
 from colonnade.campaign.specimen import Specimen
+from colonnade.campaign.summary import Warned
 from colonnade.dynamics.block import Block, pair
 from colonnade.dynamics.similitude import at_prototype
-from colonnade.figures import EstimateGroup, EstimateRow, ImpactSeries, PeakSeries
-from colonnade.report import restitution, restitution_charts, wording
+from colonnade.figures.output import Picture
+from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow
+from colonnade.figures.restitution.impacts import ImpactSeries
+from colonnade.figures.restitution.peaks import PeakSeries
+from colonnade.figures.stored import restitution as pictures
+from colonnade.findings import in_order
+from colonnade.report import restitution
 from colonnade.report.restitution import EstimateText
-from colonnade.report.results import Message, Results
+from colonnade.report.rows import TestRow
+from colonnade.store.records.stored import Failure, Stored
+from colonnade.store.records.wording import NOTHING, interval, number, quantity
 
-Array = NDArray[np.float64]
+BOUNDS = ("restitution_low", "restitution_high", "level")
 
 SOURCES = {
     "given": "given in the campaign file",
@@ -58,8 +63,8 @@ class FreeVibration(NamedTuple):
 
     test: str
     e: str
-    estimates: tuple[EstimateText, ...]
-    departures: tuple[str, ...]
+    estimates: list[EstimateText]
+    departures: list[str]
     reason: str
     rows: Sequence[EstimateRow]
     peaks: PeakSeries | None
@@ -69,144 +74,130 @@ class FreeVibration(NamedTuple):
 @dataclass(frozen=True)
 class SpecimenPage:
     """
-    Everything that the page of a specimen shows.
+    What the page of a specimen shows; text, tables and pictures.
 
-    `e` is the value that predictions take, with its interval; `contact` the law of the contact model, name and value.
+    `e` is the value that predictions use, with its interval; `contact` the law of the contact model, name and value.
     """
 
     id: str
     shape: str
     scale: str
-    properties: tuple[Property, ...]
-    deviations: tuple[str, ...]
+    properties: list[Property]
+    deviations: list[str]
     e: str
     source: str
     rigid: str
     ratio: str
     method: str
     reason: str
-    contact: tuple[tuple[str, str], ...]
-    warnings: tuple[Message, ...]
-    failures: tuple[Message, ...]
     between: str
-    free_vibrations: tuple[FreeVibration, ...]
-    estimators: Markup | None
-    chart: Markup | None
-    impacts: Markup | None
+    contact: list[tuple[str, str]]
+    warnings: list[Warned]
+    failures: list[Failure]
+    free_vibrations: Sequence[FreeVibration]
+    pictures: dict[str, Picture | None]
 
 
-def free_vibration(test: Test, results: Results, block: Block) -> FreeVibration:
+def free_vibration(row: TestRow, stored: Stored, block: Block) -> FreeVibration:
     """Gather of one free vibration what the page of its specimen shows."""
     return FreeVibration(
-        test.id,
-        restitution.value_of(results, restitution.STAGE),
-        restitution.estimates_of(results),
-        restitution.departures_of(results),
-        results.text(restitution.STAGE, "reason"),
-        restitution.estimate_rows(results),
-        restitution_charts.peak_series(test, results, block),
-        restitution_charts.impact_series(test, results),
+        row.id,
+        restitution.value_of(stored, row.record.restitution),
+        restitution.estimates_of(stored),
+        stored.texts(pictures.STAGE, "departures"),
+        stored.text(pictures.STAGE, "reason"),
+        pictures.estimate_rows(stored),
+        pictures.peak_series(row.test, stored, block),
+        pictures.impact_series(row.test, stored),
     )
 
 
 def of_specimen(
-    campaign: Campaign,
-    name: str,
-    pooled: Results,
-    free_vibrations: Sequence[FreeVibration],
+    campaign: Campaign, name: str, pooled: Stored, free_vibrations: Sequence[FreeVibration]
 ) -> SpecimenPage:
     """Put a specimen into words; `free_vibrations` are those of its tests."""
     specimen, block = campaign.specimens[name], campaign.block(name)
-    value = pooled.value("specimen", "restitution")
-    known = value is not None and isfinite(value)
+    value, low, high, level = (pooled.value("specimen", each) for each in ("restitution", *BOUNDS))
+    unknown = "failed" if pooled.failures else "not yet known"
     return SpecimenPage(
         id=name,
         shape=specimen.shape,
         scale="" if specimen.scale is None else f"1:{specimen.scale:g}",
         properties=_properties(specimen, block, campaign.gravity),
-        deviations=tuple(specimen.deviations(campaign.gravity)),
-        e=restitution.value_of(pooled, "specimen"),
-        source=SOURCES.get(
-            pooled.text("specimen", "restitution_source"), "failed" if pooled.failures else "not yet known"
-        ),
-        rigid=wording.number(block.restitution, 4),
-        ratio=wording.number(value / block.restitution, 4) if known and value is not None else wording.NOTHING,
+        deviations=list(specimen.deviations(campaign.gravity)),
+        e=interval(value, low, high, level),
+        source=SOURCES.get(pooled.text("specimen", "restitution_source"), unknown),
+        rigid=number(block.restitution, 4),
+        ratio=number(value / block.restitution, 4),
         method=pooled.text("specimen", "method"),
         reason=pooled.text("specimen", "reason"),
-        contact=_contact(pooled),
-        warnings=pooled.warnings,
-        failures=pooled.failures,
-        free_vibrations=tuple(free_vibrations),
         between=_between(pooled),
-        **_drawn(name, pooled, free_vibrations, block),
+        contact=_contact(pooled),
+        warnings=[Warned.of(found, explained=explained) for found, explained in in_order(pooled.findings)],
+        failures=pooled.failures,
+        free_vibrations=free_vibrations,
+        pictures=_pictures(name, pooled, free_vibrations, block),
     )
 
 
-def _between(pooled: Results) -> str:
-    """Write the scatter of e between tests, beside the error within one."""
+def _between(pooled: Stored) -> str:
+    """Write the scatter of e between tests, with the error within one."""
     between = pooled.value("specimen", "between_test_scatter")
-    if between is None or not isfinite(between):
+    within = number(pooled.median("specimen", "test_restitution_standard_error"), 2)
+    if not isfinite(between):
         return ""
-    within = pooled.middle("specimen", "test_restitution_standard_error")
-    return f"{between:.2g} (standard deviation of e); standard error within a test {wording.number(within, 2)}"
+    return f"{between:.2g} (standard deviation of e); standard error within a test {within}"
 
 
-def _contact(pooled: Results) -> tuple[tuple[str, str], ...]:
+def _contact(pooled: Stored) -> list[tuple[str, str]]:
     """Write the law of contact that gives the specimen's e, and what it acts on."""
-    if "contact_stiffness" not in pooled.datasets.get("contact", ()):
-        return ()
+    if not pooled.has("contact", "contact_stiffness"):
+        return []
 
-    def value(name: str) -> float | None:
+    def value(name: str) -> float:
         return pooled.value("contact", name)
 
-    nodes = pooled.datasets["contact"]
-    masses, weights, radii = (nodes[name].to_numpy() for name in ("node_mass", "node_weight", "ring_radius"))
+    masses, weights, radii = (pooled.array("contact", name) for name in ("node_mass", "node_weight", "ring_radius"))
     rings = f"{masses.size} rings of radius {_range(1e3 * radii, 'mm')}, " if radii.any() else f"{masses.size}, "
-    return (
+    return [
         ("body", pooled.text("contact", "body")),
-        ("critical damping fraction ξ at a node", wording.number(value("damping_fraction"), 4)),
-        ("damping fraction ξ_eff of the whole body", wording.number(value("effective_damping"), 4)),
-        (
-            "stiffness",
-            f"{wording.number(1e-9 * (value('contact_stiffness') or 0.0))} N/mm³: N a mm² of base and mm of depth",
-        ),
-        ("friction µ", wording.number(value("friction"))),
+        ("critical damping fraction ξ at a node", number(value("damping_fraction"), 4)),
+        ("damping fraction ξ_eff of the whole body", number(value("effective_damping"), 4)),
+        ("stiffness", f"{number(1e-9 * value('contact_stiffness'))} N/mm³: N per mm² of base and mm of depth"),
+        ("friction µ", number(value("friction"))),
         ("base nodes", f"{rings}{_range(masses, 'kg')} and {_range(weights, 'N')} each"),
         (
             _CONTACT_SOURCES[pooled.text("contact", "contact_restitution_source")],
-            f"{wording.number(value('contact_restitution'), 4)}; {wording.number(value('restitution'), 4)} was wanted",
+            f"{number(value('contact_restitution'), 4)}; target {number(value('restitution'), 4)}",
         ),
-        ("mean velocity ratio of the same impacts", wording.number(value("contact_velocity_ratio"), 4)),
-        ("step", wording.quantity(value("contact_step"), "µs")),
-        ("energy that is missing after it", f"{100 * (value('energy_residual') or 0.0):.2g} % of the largest"),
-    )
+        ("mean velocity ratio of the same impacts", number(value("contact_velocity_ratio"), 4)),
+        ("step", quantity(value("contact_step"), "µs")),
+        ("energy that is missing after it", f"{100 * value('energy_residual'):.2g} % of the largest"),
+    ]
 
 
 def _range(values: Array, unit: str) -> str:
-    low, high = (wording.number(float(value)) for value in (values.min(), values.max()))
+    low, high = (number(float(value)) for value in (values.min(), values.max()))
     return f"{low} {unit}" if low == high else f"{low} to {high} {unit}"
 
 
-def _drawn(
-    name: str, pooled: Results, free_vibrations: Sequence[FreeVibration], block: Block
-) -> dict[str, Markup | None]:
+def _pictures(
+    name: str, pooled: Stored, free_vibrations: Sequence[FreeVibration], block: Block
+) -> dict[str, Picture | None]:
     groups = [EstimateGroup(each.test, each.rows) for each in free_vibrations]
-    together = restitution_charts.pooled_row(pooled)
-    if together is not None:
-        groups.append(EstimateGroup("all together", [together]))
+    level, rigid = pictures.level_of(pooled, "specimen", "e pooled"), block.restitution
+    if isfinite(level.low):
+        groups.append(EstimateGroup("all together", [EstimateRow("pooled", *level[:3], recommended=True)]))
     peaks = [each.peaks for each in free_vibrations if each.peaks is not None]
     impacts = [each.impacts for each in free_vibrations if each.impacts is not None]
-    rigid = block.restitution
     return {
-        "estimators": restitution_charts.estimators(f"estimators-{name}", groups, rigid),
-        "chart": restitution_charts.peaks(f"peaks-{name}", peaks, block) if peaks else None,
-        "impacts": restitution_charts.impacts(f"impacts-{name}", impacts, pooled, "specimen", rigid)
-        if impacts
-        else None,
+        "estimators": pictures.estimators(f"estimators-{name}", groups, rigid),
+        "peaks": pictures.peaks(f"peaks-{name}", peaks, block),
+        "impacts": pictures.impacts(f"impacts-{name}", impacts, level, rigid),
     }
 
 
-def _properties(specimen: Specimen, block: Block, gravity: float) -> tuple[Property, ...]:
+def _properties(specimen: Specimen, block: Block, gravity: float) -> list[Property]:
     derived, side = specimen.dimensions(gravity), block.governing
     scale = specimen.scale
     rows = [_property("mass m", "kg", "mass", specimen.mass, None, specimen.mass, scale)]
@@ -214,24 +205,24 @@ def _properties(specimen: Specimen, block: Block, gravity: float) -> tuple[Prope
         length = getattr(specimen, name, None)
         if length is not None:
             rows.append(_property(name.replace("_", " "), "mm", "length", length, None, length, scale))
-    for label, unit, quantity, name in (
+    for label, unit, dimension, name in (
         ("critical angle α", "rad", "angle", "critical_angle"),
         ("pole distance R", "mm", "length", "pole_distance"),
         ("inertia about the pole I₀", "kg m²", "inertia", "inertia"),
     ):
         given = getattr(specimen, name)
         from_dimensions = None if derived is None else float(getattr(derived, name))
-        rows.append(_property(label, unit, quantity, given, from_dimensions, float(getattr(side, name)), scale))
-    for label, unit, quantity, value in _DERIVED:
+        rows.append(_property(label, unit, dimension, given, from_dimensions, float(getattr(side, name)), scale))
+    for label, unit, dimension, value in _DERIVED:
         other = None if derived is None else value(derived)
-        rows.append(_property(label, unit, quantity, None, other, value(block), scale))
-    return tuple(rows)
+        rows.append(_property(label, unit, dimension, None, other, value(block), scale))
+    return rows
 
 
 def _property(
     name: str,
     unit: str,
-    quantity: str,
+    dimension: str,
     given: float | tuple[float, float] | None,
     derived: float | None,
     used: float,
@@ -240,20 +231,16 @@ def _property(
     sides = [] if given is None else list(dict.fromkeys(pair(given)))
     return Property(
         name,
-        " and ".join(_written(side, unit) for side in sides) or wording.NOTHING,
+        " and ".join(_written(side, unit) for side in sides) or NOTHING,
         _written(derived, unit),
         _written(used, unit),
-        wording.NOTHING if scale is None else _written(at_prototype(quantity, used, scale), unit),
+        NOTHING if scale is None else _written(at_prototype(dimension, used, scale), unit),
     )
 
 
 def _written(value: float | None, unit: str) -> str:
     if value is None:
-        return wording.NOTHING
-    if unit == "mm" and value >= 2.0:
-        return wording.quantity(value, "m", 4)
-    return wording.quantity(value, unit, 4) if unit not in ("", "kg", "kg m²") else _plain(value, unit)
-
-
-def _plain(value: float, unit: str) -> str:
-    return f"{wording.number(value, 4)} {unit}".rstrip()
+        return NOTHING
+    if unit in ("", "kg", "kg m²"):
+        return f"{number(value, 4)} {unit}".rstrip()
+    return quantity(value, "m" if unit == "mm" and value >= 2.0 else unit, 4)

@@ -1,0 +1,1 @@
+"""Records as plain arrays: clocks, filters, quality, metrics."""

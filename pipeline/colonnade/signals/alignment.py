@@ -5,16 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import signal
 from scipy.interpolate import CubicSpline
 
+from colonnade.arrays import Array
 from colonnade.signals.clock import resample, uniform_clock
 from colonnade.signals.clock_rate import ClockRate, find_rate
 from colonnade.signals.filters import lowpass, second_derivative
 from colonnade.signals.record import Record
-
-Array = NDArray[np.float64]
 
 WEAKEST_CORRELATION = 0.7
 """Two records that agree less than this are not of the same motion, or there was none."""

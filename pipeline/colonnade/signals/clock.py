@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-Array = NDArray[np.float64]
+from colonnade.arrays import Array
 
 LONGEST_BRIDGE = 5
 """Intervals; over a longer gap values are not interpolated but missing."""

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-Array = NDArray[np.float64]
+from colonnade.arrays import Array
 
 STRETCHES = 8
 """Parts of the motion, of equal information, in each of which the delay is found."""

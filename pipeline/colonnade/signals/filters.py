@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
-Array = NDArray[np.float64]
+from colonnade.arrays import Array
 
 SMALL_AMPLITUDE = 0.02
 """|θ|/α whose rocking frequency, the highest of interest, sets the default cut-off."""

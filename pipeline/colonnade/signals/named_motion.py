@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from colonnade.arrays import Array
 from colonnade.findings import Finding, warning
 from colonnade.signals.filters import lowpass
-
-Array = NDArray[np.float64]
 
 MOST_POWER = 0.9
 """Share of a motion's power below the frequency up to which it is compared."""

@@ -9,11 +9,8 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from colonnade.arrays import Array, Mask
 from colonnade.findings import Finding, Severity
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-
 
 ENOUGH = 100_000
 """Samples from which a median is known well enough."""

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from colonnade.signals.clock import LONGEST_BRIDGE, resample, uniform_clock
 from colonnade.signals.filters import lowpass, noise_below
 from colonnade.signals.quality import Flag
 from colonnade.signals.timing import read_clock
 
-Array = NDArray[np.float64]
 Flags = NDArray[np.int8]
 
 EMPTIEST = 100

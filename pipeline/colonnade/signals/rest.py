@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from colonnade.arrays import Array
 
 QUIET = 4.0
 """A stretch is quiet where its standard deviation and its drift stay below this many times the noise."""

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from colonnade.arrays import Array
 
 STANDS_OUT = 3.0
 """Times the largest value elsewhere from which on a peak is a shock."""

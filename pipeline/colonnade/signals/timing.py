@@ -8,10 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from colonnade.signals.clock import sampling_interval
 from colonnade.signals.quality import Flag, Verdict, blocks, counted, first_at
-
-Array = NDArray[np.float64]
 
 ROUNDING = 0.75
 """Of the last digit; times that lie closer to an even clock than this were rounded (or cut off) from it."""

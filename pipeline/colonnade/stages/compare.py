@@ -6,22 +6,20 @@ from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
-from pydantic import BaseModel, ConfigDict
 
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import amplitude
 from colonnade.findings import MEASUREMENT, Finding, serious
 from colonnade.signals.metrics import nrmse
-from colonnade.stages.peak import find_peak
-from colonnade.stages.sine import Sine, sine
-from colonnade.stages.spread import spread
+from colonnade.stages.parts.horizon import horizons_and_ranks
+from colonnade.stages.parts.inputs import Inputs
+from colonnade.stages.parts.peak import find_peak
+from colonnade.stages.parts.sine import Sine, sine
 
 
-class Instructions(BaseModel):
-    """What this stage reads of the campaign: block, kind, the outcome that was seen, of a sine its frequency (Hz)."""
-
-    model_config = ConfigDict(frozen=True)
+class CompareInputs(Inputs):
+    """What `compare` reads of the campaign: block, kind, the outcome that was seen, of a sine its frequency (Hz)."""
 
     block: Block
     observed_outcome: str | None
@@ -29,26 +27,26 @@ class Instructions(BaseModel):
     is_sine: bool = False
     frequency: float | None = None
 
-
-def instructions(campaign: Campaign, test: Test) -> Instructions:
-    """Gather what `compare` reads for one test."""
-    return Instructions(
-        block=campaign.specimens[test.specimen].block(campaign.gravity),
-        observed_outcome=test.observed_outcome,
-        free_vibration=test.kind == "free-vibration",
-        is_sine=test.kind == "sine",
-        frequency=test.frequency,
-    )
+    @classmethod
+    def of(cls, campaign: Campaign, test: Test) -> CompareInputs:
+        """Gather what `compare` reads for one test."""
+        return cls(
+            block=campaign.specimens[test.specimen].block(campaign.gravity),
+            observed_outcome=test.observed_outcome,
+            free_vibration=test.kind == "free-vibration",
+            is_sine=test.kind == "sine",
+            frequency=test.frequency,
+        )
 
 
 def compare(
     rocking: xr.Dataset,
     predicted: Mapping[str, xr.Dataset],
-    instructions: Instructions,
+    inputs: CompareInputs,
     ensembles: Mapping[str, xr.Dataset] | None = None,
 ) -> xr.Dataset:
     """
-    Lay measured over predicted, in numbers.
+    Compare measured and predicted in numbers.
 
     Parameters
     ----------
@@ -56,7 +54,7 @@ def compare(
         Result of `rocking`.
     predicted : mapping of str to xr.Dataset
         Results of `predict` by model, on the same clock.
-    instructions : Instructions
+    inputs : CompareInputs
     ensembles : mapping of str to xr.Dataset, optional
         Results of `ensemble` by model.
 
@@ -64,24 +62,24 @@ def compare(
     -------
     compared : xr.Dataset
         On the dimension `model`: `nrmse`, RMS(predicted − measured)/α until either first passes α, `compared_until`
-        (s), `predicted_peak_ratio`, `peak_ratio_error` and `predicted_outcome`. NaN where nothing was measured. The
+        (s), `predicted_peak_ratio`, `peak_ratio_error` and `predicted_outcome`. NaN if nothing was measured. The
         measured angle counts over the time that is predicted, about the true zero (`zero_offset`): its
         `measured_peak_ratio` and `measured_peak_time` (s); of a free vibration the largest before that is the
-        `release_ratio`. Of a sine test also what `sine` adds; with ensembles what `spread` adds.
+        `release_ratio`. Of a sine test also what `sine` adds; with ensembles what `horizons_and_ranks` adds.
     """
     models = sorted(predicted)
     offset = float(predicted[models[0]]["zero_offset"]) if models else 0.0
     if "rocking_angle" in rocking:
         rocking = rocking.assign(rocking_angle=rocking["rocking_angle"] - offset)
-    peak = find_peak(rocking, predicted, instructions.block, free_vibration=instructions.free_vibration)
-    rows = [_row(rocking, predicted[model], instructions.block) for model in models]
+    peak = find_peak(rocking, predicted, inputs.block, free_vibration=inputs.free_vibration)
+    rows = [_row(rocking, predicted[model], inputs.block) for model in models]
     ratios = np.array([float(predicted[model]["peak_ratio"]) for model in models])
     warnings: list[Finding] = []
-    measured, observed = rocking.attrs["outcome"], instructions.observed_outcome
+    measured, observed = rocking.attrs["outcome"], inputs.observed_outcome
     if measured and observed and not _agree(measured, observed):
-        text = f"The transducers say {measured}, the test log says {observed}: look at the record."
+        text = f"The transducers show {measured}, the test log says {observed}: check the record."
         warnings.append(serious("outcome", text, follows=MEASUREMENT))
-    steady = sine(rocking, predicted, instructions.block, instructions.frequency) if instructions.is_sine else Sine()
+    steady = sine(rocking, predicted, inputs.block, inputs.frequency) if inputs.is_sine else Sine()
     return xr.Dataset(
         {
             "nrmse": ("model", np.array([row[0] for row in rows])),
@@ -98,7 +96,7 @@ def compare(
             "zero_offset": ((), offset),
         }
         | steady.variables
-        | spread(rocking, ensembles or {}, models, instructions.block),
+        | horizons_and_ranks(rocking, ensembles or {}, models, inputs.block),
         coords={"model": ("model", np.array(models, dtype=object))},
         attrs={
             "outcome_measured": measured or observed or "",

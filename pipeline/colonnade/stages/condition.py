@@ -6,98 +6,89 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict
 
-from colonnade.campaign import Campaign, Test
+from colonnade.arrays import Array
+from colonnade.campaign import Campaign, Channel, Test
+from colonnade.campaign.settings import ConditionSettings
 from colonnade.errors import StageError
 from colonnade.findings import Finding
 from colonnade.signals.alignment import Offset
 from colonnade.signals.filters import default_lowpass
 from colonnade.signals.record import on_clock, smoothed
-from colonnade.stages.clocks import TOGETHER, ClockInstructions, common_clock, links, own_records, recorder_offsets
-from colonnade.stages.plausibility import PlausibilityInstructions, doubts, zero_effects
-from colonnade.stages.plausibility import instructions as plausibility_instructions
-from colonnade.stages.zeroing import rest_window, zeroed
+from colonnade.stages.parts.clocks import (
+    TOGETHER,
+    ChannelOnClock,
+    common_clock,
+    find_links,
+    own_records,
+    recorder_offsets,
+)
+from colonnade.stages.parts.inputs import Inputs
+from colonnade.stages.parts.plausibility import PlausibilityInputs, doubts, zero_effects
+from colonnade.stages.parts.zeroing import rest_window, zeroed
 from colonnade.store.description import variable_name
 
-Array = NDArray[np.float64]
 
-
-class Instructions(BaseModel):
+class ConditionInputs(Inputs):
     """
-    What this stage reads of the campaign.
+    What `condition` reads of the campaign.
 
     Attributes
     ----------
-    channels : dict of str to (quantity, on, recorder)
+    channels : dict of str to ChannelOnClock
         By channel id.
-    clocks : ClockInstructions
-        Delays of channels and recorders.
-    sampling_rate, lowpass, base_lowpass : float or "auto"
-        Hz.
+    links : dict
+        Channels that link recorders to the main one, by recorder.
+    settings : ConditionSettings
     p : float
         Of the specimen, rad/s.
     zero : str or (float, float)
         "auto", "start", "end", "none" or a stretch, s.
-    resting : dict of str to float
-        By channel id, what accelerometers on the upright specimen show at rest: gravity's part along them, m/s².
-    plausibility : PlausibilityInstructions
-        What the conditioned channels are held against.
+    plausibility : PlausibilityInputs
+        What the conditioned channels are compared with.
     """
 
-    model_config = ConfigDict(frozen=True)
-
-    channels: dict[str, tuple[str, str | None, str]]
-    clocks: ClockInstructions
-    sampling_rate: float | str
-    lowpass: float | str
-    base_lowpass: float | str
-    filter_order: int
+    channels: dict[str, ChannelOnClock]
+    links: dict[str, tuple[str, str, float]]
+    settings: ConditionSettings
     p: float
     kind: str
     zero: str | tuple[float, float]
-    rest_duration: float
-    resting: dict[str, float]
-    plausibility: PlausibilityInstructions
+    plausibility: PlausibilityInputs
+
+    @classmethod
+    def of(cls, campaign: Campaign, test: Test) -> ConditionInputs:
+        """Gather what `condition` reads for one test."""
+        setup, channels = campaign.setups[test.setup], campaign.channels(test)
+        return cls(
+            channels={
+                name: ChannelOnClock(
+                    quantity=channel.quantity,
+                    on=channel.on,
+                    recorder=channel.recorder,
+                    delay=channel.delay,
+                    resting=_resting(channel, campaign.gravity),
+                )
+                for name, channel in channels.items()
+            },
+            links=find_links(setup.recorders, channels),
+            settings=campaign.processing,
+            p=campaign.specimens[test.specimen].block(campaign.gravity).p,
+            kind=test.kind,
+            zero=test.zero,
+            plausibility=PlausibilityInputs.of(campaign, test),
+        )
 
 
-def instructions(campaign: Campaign, test: Test) -> Instructions:
-    """Gather what `condition` reads for one test."""
-    setup, settings, channels = campaign.setups[test.setup], campaign.processing, campaign.channels(test)
-    return Instructions(
-        channels={name: (channel.quantity, channel.on, channel.recorder) for name, channel in channels.items()},
-        clocks=ClockInstructions(
-            delays={name: channel.delay for name, channel in channels.items()},
-            links=links(setup.recorders, channels),
-            longest_offset=settings.longest_offset,
-        ),
-        sampling_rate=settings.sampling_rate,
-        lowpass=settings.lowpass,
-        base_lowpass=settings.base_lowpass,
-        filter_order=settings.filter_order,
-        p=campaign.specimens[test.specimen].block(campaign.gravity).p,
-        kind=test.kind,
-        zero=test.zero,
-        rest_duration=settings.rest_duration,
-        resting={
-            name: campaign.gravity * channel.direction[2]
-            for name, channel in channels.items()
-            if channel.quantity == "acceleration" and channel.on == "specimen" and channel.direction
-        },
-        plausibility=plausibility_instructions(campaign, test),
-    )
-
-
-def condition(recorded: xr.Dataset, instructions: Instructions) -> xr.Dataset:
+def condition(recorded: xr.Dataset, inputs: ConditionInputs) -> xr.Dataset:
     """
-    Bring all channels to one clock and to what they mean.
+    Bring all channels to one clock, filter them and set their zero.
 
     Parameters
     ----------
     recorded : xr.Dataset
         Result of `ingest`.
-    instructions : Instructions
+    inputs : ConditionInputs
 
     Returns
     -------
@@ -118,74 +109,76 @@ def condition(recorded: xr.Dataset, instructions: Instructions) -> xr.Dataset:
         If no channel has a good sample, or the channels share no time.
     """
     warnings: list[Finding] = []
-    records = own_records(recorded, instructions.clocks, warnings)
-    quantities = {name: quantity for name, (quantity, _, _) in instructions.channels.items()}
-    recorders = {name: recorder for name, (_, _, recorder) in instructions.channels.items()}
-    known = recorder_offsets(records, quantities, instructions.clocks, warnings)
-    records = {name: record for name, record in records.items() if quantities[name] != "other"}
+    channels = inputs.channels
+    records = own_records(recorded, channels, warnings)
+    known = recorder_offsets(records, channels, inputs.links, inputs.settings.longest_offset, warnings)
+    records = {name: record for name, record in records.items() if channels[name].quantity != "other"}
     if not records:
         raise StageError("No channel of this test has a usable sample; see the warnings of its ingest.")
-    offsets = {name: known.get(recorders[name], TOGETHER) for name in records}
-    clock = common_clock(records, offsets, recorders, instructions.clocks.delays, instructions.sampling_rate)
+    offsets = {name: known.get(channels[name].recorder, TOGETHER) for name in records}
+    clock = common_clock(records, offsets, channels, inputs.settings.sampling_rate)
 
     values, flags, attributes = {}, {}, {}
     for name, record in records.items():
-        cutoff = _cutoff(name, float(clock[1] - clock[0]), record.interval, instructions)
-        smooth, noise = smoothed(record, cutoff, instructions.filter_order)
+        cutoff = _cutoff(name, float(clock[1] - clock[0]), record.interval, inputs)
+        smooth, noise = smoothed(record, cutoff, inputs.settings.filter_order)
         values[name], flags[name] = on_clock(record, smooth, clock + offsets[name].at(clock))
         attributes[name] = recorded[variable_name(name)].attrs | {
             "cutoff_hz": cutoff,
             "noise": noise,
-            **_clock_attributes(offsets[name], instructions.clocks.delays[name]),
+            **_clock_attributes(offsets[name], channels[name].delay),
         }
         attributes[name].pop("quality_report", None)
 
-    effects = zero_effects(instructions.plausibility)
+    effects = zero_effects(inputs.plausibility)
     window = rest_window(
         clock,
         values,
         attributes,
-        instructions.channels,
-        zero=instructions.zero,
-        free_vibration=instructions.kind == "free-vibration",
-        duration=instructions.rest_duration,
-        effects={
-            name: effects[variable_name(name)] for name in instructions.channels if variable_name(name) in effects
-        },
+        channels,
+        zero=inputs.zero,
+        free_vibration=inputs.kind == "free-vibration",
+        duration=inputs.settings.rest_duration,
+        effects={name: effects[variable_name(name)] for name in channels if variable_name(name) in effects},
         warnings=warnings,
     )
     variables: dict[str, Any] = {}
     for name in records:
         true: Array | None = values[name]
-        if window is not None and quantities[name] != "force":
-            resting = instructions.resting.get(name, 0.0)
-            true = zeroed(clock, values[name], name, attributes[name], window, resting, warnings)
+        if window is not None and channels[name].quantity != "force":
+            true = zeroed(clock, values[name], name, attributes[name], window, channels[name].resting, warnings)
         if true is not None:
             variables[variable_name(name)] = ("elapsed", true, attributes[name])
             variables[f"{variable_name(name)}_quality"] = ("elapsed", flags[name])
     conditioned = xr.Dataset(variables, coords={"elapsed": ("elapsed", clock)})
-    return conditioned.assign_attrs(warnings=warnings + doubts(conditioned, instructions.plausibility))
+    return conditioned.assign_attrs(warnings=warnings + doubts(conditioned, inputs.plausibility))
+
+
+def _resting(channel: Channel, gravity: float) -> float:
+    """What a channel shows at rest on the upright specimen, SI."""
+    senses_gravity = channel.quantity == "acceleration" and channel.on == "specimen" and channel.direction is not None
+    return gravity * channel.direction[2] if senses_gravity and channel.direction else 0.0
 
 
 def _clock_attributes(offset: Offset, delay: float) -> dict[str, float]:
-    """What was taken off a channel's times, and how well it is known."""
-    told = {"clock_offset": offset.seconds + delay}
+    """What was subtracted from a channel's times, and how well it is known."""
+    known = {"clock_offset": offset.seconds + delay}
     if offset.rival is None and np.isfinite(offset.standard_error):
-        told["clock_offset_standard_error"] = offset.standard_error
+        known["clock_offset_standard_error"] = offset.standard_error
     if offset.drift is not None:
-        told |= {
+        known |= {
             "clock_offset_at": offset.drift.middle,
             "clock_rate_ppm": 1e6 * offset.drift.rate,
             "clock_rate_standard_error_ppm": 1e6 * offset.drift.standard_error,
         }
-    return told
+    return known
 
 
-def _cutoff(name: str, interval: float, own_interval: float, instructions: Instructions) -> float:
-    rate, on = 1 / max(interval, own_interval), instructions.channels[name][1]
-    wanted = instructions.lowpass if on == "specimen" else instructions.base_lowpass
+def _cutoff(name: str, interval: float, own_interval: float, inputs: ConditionInputs) -> float:
+    rate, on = 1 / max(interval, own_interval), inputs.channels[name].on
+    wanted = inputs.settings.lowpass if on == "specimen" else inputs.settings.base_lowpass
     if isinstance(wanted, str):
-        return default_lowpass(instructions.p, rate) if on == "specimen" else 0.2 * rate
+        return default_lowpass(inputs.p, rate) if on == "specimen" else 0.2 * rate
     if wanted >= 0.5 * rate:
         key = "lowpass" if on == "specimen" else "base_lowpass"
         raise StageError(

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from pydantic import BaseModel, ConfigDict
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import ContactSettings
@@ -19,6 +18,7 @@ from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.errors import StageError
 from colonnade.findings import warning
 from colonnade.identification.restitution.identify import identify_restitution
+from colonnade.stages.parts.inputs import Inputs
 
 IDENTIFIED = "identified"
 """What a restitution is that was identified from a rocking angle."""
@@ -27,14 +27,12 @@ DAMPED = 0.4
 """Critical damping fraction, the paper's, for which the modes of an elastic specimen are chosen."""
 
 
-class Instructions(BaseModel):
+class ContactInputs(Inputs):
     """
-    What this stage reads of the campaign: the specimen in space, and the settings of the contact model.
+    What `contact` reads of the campaign: the specimen in space, and the settings of the contact model.
 
     `lowest_amplitude` is that of the identification, |θ|/α.
     """
-
-    model_config = ConfigDict(frozen=True)
 
     block: Block
     shape: str
@@ -42,20 +40,20 @@ class Instructions(BaseModel):
     settings: ContactSettings
     lowest_amplitude: float
 
+    @classmethod
+    def of(cls, campaign: Campaign, specimen: str, settings: ContactSettings | None = None) -> ContactInputs:
+        """Gather what `contact` reads for one specimen; `settings` instead of the campaign's own."""
+        entry = campaign.specimens[specimen]
+        return cls(
+            block=entry.block(campaign.gravity),
+            shape=entry.shape,
+            sizes=tuple(sorted(entry.sizes().items())),
+            settings=settings or campaign.processing.predict.contact,
+            lowest_amplitude=campaign.processing.restitution.lowest_amplitude,
+        )
 
-def instructions(campaign: Campaign, specimen: str, settings: ContactSettings | None = None) -> Instructions:
-    """Gather what `contact` reads for one specimen; `settings` instead of the campaign's own."""
-    entry = campaign.specimens[specimen]
-    return Instructions(
-        block=entry.block(campaign.gravity),
-        shape=entry.shape,
-        sizes=tuple(sorted(entry.sizes().items())),
-        settings=settings or campaign.processing.predict.contact,
-        lowest_amplitude=campaign.processing.restitution.lowest_amplitude,
-    )
 
-
-def contact(specimen: xr.Dataset, instructions: Instructions) -> xr.Dataset:
+def contact(specimen: xr.Dataset, inputs: ContactInputs) -> xr.Dataset:
     """
     Calibrate the contact of a specimen.
 
@@ -63,7 +61,7 @@ def contact(specimen: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     ----------
     specimen : xr.Dataset
         Result of `specimen`: the restitution that predictions take.
-    instructions : Instructions
+    inputs : ContactInputs
 
     Returns
     -------
@@ -78,27 +76,25 @@ def contact(specimen: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     StageError
         If the specimen cannot be meshed, or the step is too long for the contact.
     """
-    settings = instructions.settings
+    settings = inputs.settings
     given = settings.damping_fraction != "auto"
-    body = body_of(instructions)
-    law = _law(body, instructions, float(settings.damping_fraction) if given else 0.0)
+    body = body_of(inputs)
+    law = _law(body, inputs, float(settings.damping_fraction) if given else 0.0)
     target = float(specimen["restitution"])
     try:
         found = calibrate(
             body,
             law,
             target,
-            gravity=instructions.block.gravity,
+            gravity=inputs.block.gravity,
             step=settings.step,
             fractions=(law.damping_fraction,) if given else None,
             vary_stiffness=not given,
-            identify=partial(identified, lowest_amplitude=instructions.lowest_amplitude),
+            identify=partial(identified, lowest_amplitude=inputs.lowest_amplitude),
         )
     except ValueError as error:
         raise StageError(f"processing.predict.contact: {error}") from error
-    return _described(found, "" if given else found.reason).assign(
-        law_variables(body, found.law, instructions.block.gravity)
-    )
+    return _described(found, "" if given else found.reason).assign(law_variables(body, found.law, inputs.block.gravity))
 
 
 def identified(history: ContactHistory, *, lowest_amplitude: float) -> tuple[float, str]:
@@ -116,7 +112,7 @@ def identified(history: ContactHistory, *, lowest_amplitude: float) -> tuple[flo
 
 def law_variables(body: ContactBody, law: ContactLaw, gravity: float) -> dict[str, Any]:
     """
-    Tell what a body touches the table with.
+    Describe what a body touches the table with.
 
     Parameters
     ----------
@@ -152,7 +148,7 @@ def law_of(calibrated: xr.Dataset) -> ContactLaw:
 
 
 @lru_cache(maxsize=4)
-def body_of(instructions: Instructions) -> ContactBody:
+def body_of(inputs: ContactInputs) -> ContactBody:
     """
     Build the body of the contact model; meshing takes its time, so the last few are kept.
 
@@ -161,22 +157,22 @@ def body_of(instructions: Instructions) -> ContactBody:
     StageError
         If a body without dimensions is to be meshed.
     """
-    settings, sizes = instructions.settings, dict(instructions.sizes)
+    settings, sizes = inputs.settings, dict(inputs.sizes)
     if settings.mesh == "rigid":
-        from colonnade.dynamics.contact.layout import rigid_body
+        from colonnade.dynamics.contact.nodes import rigid_body
 
-        return rigid_body(instructions.block)
+        return rigid_body(inputs.block)
     if not sizes:
         raise StageError(
             f'processing.predict.contact.mesh is "{settings.mesh}", but this specimen is of shape '
-            f'"{instructions.shape}" and has no dimensions to be meshed. mesh = "rigid" was expected.'
+            f'"{inputs.shape}" and has no dimensions to mesh. mesh = "rigid" was expected.'
         )
-    from colonnade.dynamics.contact.elastic import elastic_body
-    from colonnade.dynamics.contact.reduction import keep_modes_for_step
+    from colonnade.dynamics.contact.elastic.model import elastic_body
+    from colonnade.dynamics.contact.elastic.reduction import keep_modes_for_step
 
     body = elastic_body(
         sizes,
-        instructions.block.mass,
+        inputs.block.mass,
         mesh=settings.mesh,
         modulus=settings.modulus,
         poisson_ratio=settings.poisson_ratio,
@@ -184,18 +180,18 @@ def body_of(instructions: Instructions) -> ContactBody:
     # The modes that stay are those that a step follows whatever the damping that calibration comes to.
     fraction = DAMPED if settings.damping_fraction == "auto" else float(settings.damping_fraction)
     try:
-        return keep_modes_for_step(body, _law(body, instructions, fraction), settings.step)
+        return keep_modes_for_step(body, _law(body, inputs, fraction), settings.step)
     except ValueError as error:
         raise StageError(f"processing.predict.contact.step: {error}") from error
 
 
-def _law(body: ContactBody, instructions: Instructions, fraction: float) -> ContactLaw:
+def _law(body: ContactBody, inputs: ContactInputs, fraction: float) -> ContactLaw:
     return ContactLaw.stiff(
         body,
-        instructions.block.gravity,
+        inputs.block.gravity,
         damping_fraction=fraction,
-        friction=instructions.settings.friction,
-        penetration=instructions.settings.penetration,
+        friction=inputs.settings.friction,
+        penetration=inputs.settings.penetration,
     )
 
 

@@ -4,64 +4,52 @@ from __future__ import annotations
 
 import numpy as np
 import xarray as xr
-from pydantic import BaseModel, ConfigDict
 
 from colonnade.campaign import Campaign, Test
-from colonnade.dynamics.contact.ensembles import INPUTS, ContactPlan, Range, gather, run_member
-from colonnade.dynamics.ensembles import stride_of
+from colonnade.campaign.settings import ContactEnsembleSettings
+from colonnade.dynamics.ensembles.contact import INPUTS, ContactPlan, Range, gather, run_member
+from colonnade.dynamics.models.contact import CONTACT
 from colonnade.errors import StageError
-from colonnade.stages import contact as contact_stage
-from colonnade.stages import predict, verdict
-from colonnade.stages.beginning import begin
-from colonnade.stages.ensemble import described
+from colonnade.stages.contact import ContactInputs, body_of, law_of
+from colonnade.stages.parts.beginning import begin
+from colonnade.stages.parts.inputs import Inputs
+from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors, rank_measured
+from colonnade.stages.predict import PredictInputs
 
 
-class Instructions(BaseModel):
+class ContactEnsembleInputs(Inputs):
     """
-    What this stage reads of the campaign.
+    What `contact_ensemble` reads of the campaign for one test.
 
     Attributes
     ----------
-    prediction : predict.Instructions
-    space : contact_stage.Instructions
-    runs : int
-    friction_range, damping_range : float
-        Half of the range, over the value that it lies about.
-    out_of_plane_range : float
-        Half of the range, rad.
-    verdict : verdict.Instructions
+    prediction : PredictInputs
+    settings : ContactEnsembleSettings
+        Half ranges of the inputs.
+    measurement : MeasurementInputs
     """
 
-    model_config = ConfigDict(frozen=True)
+    prediction: PredictInputs
+    space: ContactInputs
+    settings: ContactEnsembleSettings
+    measurement: MeasurementInputs
 
-    prediction: predict.Instructions
-    space: contact_stage.Instructions
-    runs: int
-    friction_range: float
-    damping_range: float
-    out_of_plane_range: float
-    verdict: verdict.Instructions
-
-
-def instructions(campaign: Campaign, test: Test) -> Instructions:
-    """Gather what `contact_ensemble` reads for one test."""
-    settings = campaign.processing.predict.ensemble.contact
-    return Instructions(
-        prediction=predict.instructions(campaign, test, "contact"),
-        space=contact_stage.instructions(campaign, test.specimen),
-        runs=settings.members,
-        friction_range=settings.friction,
-        damping_range=settings.damping_fraction,
-        out_of_plane_range=abs(settings.out_of_plane),
-        verdict=verdict.instructions(campaign, test),
-    )
+    @classmethod
+    def of(cls, campaign: Campaign, test: Test) -> ContactEnsembleInputs:
+        """Gather what `contact_ensemble` reads for one test."""
+        return cls(
+            prediction=PredictInputs.of(campaign, test, CONTACT.name),
+            space=ContactInputs.of(campaign, test.specimen),
+            settings=campaign.processing.predict.ensemble.contact,
+            measurement=MeasurementInputs.of(campaign, test),
+        )
 
 
 def contact_ensemble(
     conditioned: xr.Dataset,
     rocking: xr.Dataset,
     contact: xr.Dataset,
-    instructions: Instructions,
+    inputs: ContactEnsembleInputs,
     identified: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """
@@ -73,7 +61,7 @@ def contact_ensemble(
         Result of `condition`: cut-offs of the channels on the specimen.
     rocking, contact : xr.Dataset
         As of `predict`.
-    instructions : Instructions
+    inputs : ContactEnsembleInputs
     identified : xr.Dataset, optional
         As of `predict`.
 
@@ -87,20 +75,20 @@ def contact_ensemble(
     StageError
         As `predict`.
     """
-    beginning = begin(rocking, instructions.prediction, identified)
-    settings, law = instructions.space.settings, contact_stage.law_of(contact)
+    beginning = begin(rocking, inputs.prediction, identified)
+    space, ranges, law = inputs.space, inputs.settings, law_of(contact)
     plan = ContactPlan(
-        contact_stage.body_of(instructions.space),
+        body_of(space),
         law,
-        friction=_about(law.friction, instructions.friction_range * law.friction),
-        damping_fraction=_about(law.damping_fraction, instructions.damping_range * law.damping_fraction),
-        out_of_plane=_about(settings.out_of_plane, instructions.out_of_plane_range),
+        friction=_about(law.friction, ranges.friction * law.friction),
+        damping_fraction=_about(law.damping_fraction, ranges.damping_fraction * law.damping_fraction),
+        out_of_plane=_about(space.settings.out_of_plane, abs(ranges.out_of_plane)),
         motion=beginning.motion,
         theta0=beginning.theta0,
         omega0=beginning.omega0,
-        gravity=instructions.space.block.gravity,
-        step=settings.step,
-        count=instructions.runs,
+        gravity=space.block.gravity,
+        step=space.settings.step,
+        count=ranges.members,
     )
     try:
         found = gather(plan, [run_member(plan, member) for member in range(plan.count)])
@@ -108,12 +96,11 @@ def contact_ensemble(
         raise StageError(f"processing.predict.contact: {error}") from error
     middles = dict(zip(INPUTS, (law.friction, law.damping_fraction, 1.0), strict=True))
     deviations = {name: np.ptp(getattr(plan, name)) / np.sqrt(12.0) / (middles[name] or 1.0) for name in INPUTS}
-    time = rocking["elapsed"].to_numpy()[beginning.first :: stride_of(beginning.motion)]
-    bands = described(found, time, deviations)
-    start = beginning.theta0 if instructions.prediction.free_vibration else None
-    errors = verdict.measurement(conditioned, rocking, start, instructions.verdict)
-    held = verdict.held(rocking, beginning, found, np.zeros(plan.count), errors, instructions.verdict)
-    return bands.assign(held).assign_attrs(model="contact", members=plan.count, warnings=[])
+    start = beginning.theta0 if inputs.prediction.free_vibration else None
+    errors = measurement_errors(conditioned, rocking, start, inputs.measurement)
+    ranked = rank_measured(rocking, beginning, found, np.zeros(plan.count), errors, inputs.measurement)
+    bands = describe_bands(rocking, beginning, found, deviations)
+    return bands.assign(ranked).assign_attrs(model=CONTACT.name, members=plan.count, warnings=[])
 
 
 def _about(middle: float, half: float) -> Range:

@@ -6,64 +6,65 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict
 
+from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.channel import ALONG
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import History
+from colonnade.dynamics.models.registry import model_of
 from colonnade.dynamics.rock import rock
 from colonnade.errors import StageError
 from colonnade.findings import Finding, serious
-from colonnade.stages import contact as contact_stage
-from colonnade.stages.beginning import Beginning, begin
-from colonnade.stages.transducers import transducers
+from colonnade.stages.contact import ContactInputs, body_of, law_of, law_variables
+from colonnade.stages.parts.beginning import Beginning, BeginningInputs, begin
+from colonnade.stages.parts.transducers import transducers
 
 if TYPE_CHECKING:
     from colonnade.dynamics.contact.history import ContactHistory
 
-Array = NDArray[np.float64]
 
-
-class Instructions(BaseModel):
+class PredictInputs(BeginningInputs):
     """
-    What this stage reads of the campaign: block, model, its rest rule, whether the base is at rest, and how it tilts.
+    What `predict` reads of the campaign for one test and model.
 
-    `tilt` is the table's rotation about +y, rad: with it gravity pulls towards +x. `has_vertical` says that the set-up
-    has an accelerometer of the table along z; `space` is what the contact model needs beside, None for the others.
+    Attributes
+    ----------
+    model : str
+    rest_angle : float
+        Largest arc after an impact that counts as rest, of α.
+    space : ContactInputs or None
+        What the contact model also needs; None for the others.
     """
 
-    model_config = ConfigDict(frozen=True)
-
-    block: Block
     model: str
     rest_angle: float
-    free_vibration: bool
-    tilt: float = 0.0
-    has_vertical: bool = False
-    space: contact_stage.Instructions | None = None
+    space: ContactInputs | None = None
 
+    @property
+    def is_in_space(self) -> bool:
+        """Whether the model also moves across the plane."""
+        return self.space is not None
 
-def instructions(campaign: Campaign, test: Test, model: str) -> Instructions:
-    """Gather what `predict` reads for one test and model."""
-    return Instructions(
-        block=campaign.specimens[test.specimen].block(campaign.gravity),
-        model=model,
-        rest_angle=campaign.processing.predict.rest_angle,
-        free_vibration=test.kind == "free-vibration",
-        tilt=campaign.setups[test.setup].table_tilt or 0.0,
-        has_vertical=any(
-            abs(direction[2]) >= ALONG for direction in transducers(campaign.channels(test)).accelerations.values()
-        ),
-        space=contact_stage.instructions(campaign, test.specimen) if model == "contact" else None,
-    )
+    @classmethod
+    def of(cls, campaign: Campaign, test: Test, model: str) -> PredictInputs:
+        """Gather what `predict` reads for one test and model."""
+        return cls(
+            block=campaign.specimens[test.specimen].block(campaign.gravity),
+            model=model,
+            rest_angle=campaign.processing.predict.rest_angle,
+            free_vibration=test.kind == "free-vibration",
+            tilt=campaign.setups[test.setup].table_tilt or 0.0,
+            has_vertical=any(
+                abs(direction[2]) >= ALONG for direction in transducers(campaign.channels(test)).accelerations.values()
+            ),
+            space=ContactInputs.of(campaign, test.specimen) if model_of(model).in_space else None,
+        )
 
 
 def predict(
     rocking: xr.Dataset,
     specimen: xr.Dataset,
-    instructions: Instructions,
+    inputs: PredictInputs,
     contact: xr.Dataset | None = None,
     identified: xr.Dataset | None = None,
 ) -> xr.Dataset:
@@ -77,7 +78,7 @@ def predict(
         angle that it starts from.
     specimen : xr.Dataset
         Result of `specimen`: `restitution`.
-    instructions : Instructions
+    inputs : PredictInputs
     contact : xr.Dataset, optional
         Result of `contact`, of the contact model: its law.
     identified : xr.Dataset, optional
@@ -97,26 +98,26 @@ def predict(
     StageError
         If there is no base motion, or a free vibration shows no arc to start from.
     """
-    beginning = begin(rocking, instructions, identified)
+    beginning = begin(rocking, inputs, identified)
     time = rocking["elapsed"].to_numpy()
-    if contact is not None and instructions.space is not None:
-        moved = _in_space(beginning, contact, instructions.space)
-        described = _described(moved, time, beginning, specimen, instructions)
+    if contact is not None and inputs.space is not None:
+        moved = _in_space(beginning, contact, inputs.space)
+        described = _described(moved, time, beginning, specimen, inputs)
         return described.assign(
             _space_variables(moved, beginning.first)
-            | contact_stage.law_variables(moved.body, moved.law, moved.block.gravity)
+            | law_variables(moved.body, moved.law, moved.block.gravity)
             | {"energy_residual": ((), moved.energies.relative_residual)}
         ).assign_attrs(body=moved.body.description, warnings=[*beginning.warnings, *_of_engine(moved)])
     history = rock(
-        instructions.block,
+        inputs.block,
         beginning.motion,
         restitution=sides(specimen),
-        model=instructions.model,
+        model=inputs.model,
         theta0=beginning.theta0,
         omega0=beginning.omega0,
-        rest_angle=instructions.rest_angle,
+        rest_angle=inputs.rest_angle,
     )
-    return _described(history, time, beginning, specimen, instructions)
+    return _described(history, time, beginning, specimen, inputs)
 
 
 def _of_engine(moved: ContactHistory) -> list[Finding]:
@@ -129,16 +130,16 @@ def sides(specimen: xr.Dataset) -> tuple[float, float]:
     return negative, positive
 
 
-def _in_space(beginning: Beginning, contact: xr.Dataset, instructions: contact_stage.Instructions) -> ContactHistory:
+def _in_space(beginning: Beginning, contact: xr.Dataset, inputs: ContactInputs) -> ContactHistory:
     from colonnade.dynamics.contact.simulate import simulate
 
-    settings = instructions.settings
+    settings = inputs.settings
     try:
         return simulate(
-            contact_stage.body_of(instructions),
+            body_of(inputs),
             beginning.motion,
-            law=contact_stage.law_of(contact),
-            gravity=instructions.block.gravity,
+            law=law_of(contact),
+            gravity=inputs.block.gravity,
             step=settings.step,
             theta0=beginning.theta0,
             omega0=beginning.omega0,
@@ -165,7 +166,7 @@ def _described(
     time: Array,
     beginning: Beginning,
     specimen: xr.Dataset,
-    instructions: Instructions,
+    inputs: PredictInputs,
 ) -> xr.Dataset:
     first = beginning.first
     angle = np.concatenate((np.full(first, np.nan), history.angle))
@@ -186,7 +187,7 @@ def _described(
         coords={"elapsed": ("elapsed", time)},
         attrs={
             "outcome": history.outcome,
-            "model": instructions.model,
+            "model": inputs.model,
             "restitution_source": specimen.attrs["restitution_source"],
             "driven_by": beginning.driven_by,
             "warnings": beginning.warnings,

@@ -7,41 +7,41 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from pydantic import BaseModel, ConfigDict
 
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.settings import RestitutionSettings
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.rock import MODELS
 from colonnade.errors import StageError
 from colonnade.findings import MEASUREMENT, Finding, warning
-from colonnade.identification.restitution.choice import METHODS, disagreement
+from colonnade.identification.restitution.choice import disagreement
+from colonnade.identification.restitution.estimators.history import LinearHistory, NonlinearHistory
+from colonnade.identification.restitution.fitting.noise import ORDER
 from colonnade.identification.restitution.identify import identify_restitution
-from colonnade.identification.restitution.noise import ORDER
 from colonnade.identification.restitution.result import Estimate, Restitution
+from colonnade.stages.parts.inputs import Inputs
+
+HISTORIES = (LinearHistory, NonlinearHistory)
+"""Estimators that give e for each model."""
 
 
-class Instructions(BaseModel):
-    """What this stage reads of the campaign: the block, how e is identified, and the order of the low-pass."""
-
-    model_config = ConfigDict(frozen=True)
+class RestitutionInputs(Inputs):
+    """What `restitution` reads of the campaign: the block, how e is identified, and the order of the low-pass."""
 
     block: Block
-    level: float
-    lowest_amplitude: float
+    settings: RestitutionSettings
     filter_order: int = ORDER
 
+    @classmethod
+    def of(cls, campaign: Campaign, test: Test) -> RestitutionInputs:
+        """Gather what `restitution` reads for one free vibration."""
+        return cls(
+            block=campaign.specimens[test.specimen].block(campaign.gravity),
+            settings=campaign.processing.restitution,
+            filter_order=campaign.processing.filter_order,
+        )
 
-def instructions(campaign: Campaign, test: Test) -> Instructions:
-    """Gather what `restitution` reads for one free vibration."""
-    return Instructions(
-        block=campaign.specimens[test.specimen].block(campaign.gravity),
-        level=campaign.processing.restitution.level,
-        lowest_amplitude=campaign.processing.restitution.lowest_amplitude,
-        filter_order=campaign.processing.filter_order,
-    )
 
-
-def restitution(rocking: xr.Dataset, instructions: Instructions) -> xr.Dataset:
+def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
     """
     Identify e from one free vibration.
 
@@ -49,7 +49,7 @@ def restitution(rocking: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     ----------
     rocking : xr.Dataset
         Result of `rocking`.
-    instructions : Instructions
+    inputs : RestitutionInputs
 
     Returns
     -------
@@ -65,15 +65,11 @@ def restitution(rocking: xr.Dataset, instructions: Instructions) -> xr.Dataset:
         If no transducer was on the specimen.
     """
     expect_angle(rocking)
-    result = _identified(rocking, instructions)
-    freed = _identified(rocking, instructions, free=("critical_angle",))
+    result = _identified(rocking, inputs)
+    freed = _identified(rocking, inputs, free=("critical_angle",))
     warnings = _warnings(result)
-    histories = {
-        estimate.name.removeprefix("history-"): estimate
-        for estimate in result.estimates
-        if estimate.name.startswith("history-")
-    }
-    by_model = [histories[model] for model in MODELS]
+    by_name = {estimate.name: estimate for estimate in result.estimates}
+    by_model = [by_name[history.name] for history in HISTORIES]
     return xr.Dataset(
         {
             **{name: ((), _number(value)) for name, value in _scalars(result).items()},
@@ -86,7 +82,7 @@ def restitution(rocking: xr.Dataset, instructions: Instructions) -> xr.Dataset:
             "restitution_history_residual": ("model", np.array([_number(each.residual) for each in by_model])),
         },
         coords={
-            "model": ("model", np.array(MODELS, dtype=object)),
+            "model": ("model", np.array([history.model for history in HISTORIES], dtype=object)),
             "estimator": ("estimator", np.array([each.name for each in result.estimates], dtype=object)),
         },
         attrs={
@@ -97,7 +93,7 @@ def restitution(rocking: xr.Dataset, instructions: Instructions) -> xr.Dataset:
             "estimate_reasons": [each.reason for each in result.estimates],
             "history_model": "" if result.history is None else result.history.model,
             "departures": [found.sentence for found in result.departures],
-            "history_method": METHODS["history-nonlinear"],
+            "history_method": NonlinearHistory.method,
             "history_reason": " ".join(dict.fromkeys(each.reason for each in by_model if each.reason)),
             "warnings": warnings,
         },
@@ -121,16 +117,16 @@ def expect_angle(rocking: xr.Dataset) -> None:
 
 
 def _warnings(result: Restitution) -> list[Finding]:
-    """What speaks against the value, or why it is missing."""
-    told = [
+    """Doubts about the value, or why it is missing."""
+    doubts = [
         ("no restitution", f"No restitution from this test: {result.reason}" if result.reason else ""),
         ("two values of e", disagreement(result)),
         *((found.name, found.sentence) for found in result.departures),
     ]
-    return [warning(kind, text, follows=MEASUREMENT) for kind, text in told if text]
+    return [warning(kind, text, follows=MEASUREMENT) for kind, text in doubts if text]
 
 
-def _identified(rocking: xr.Dataset, instructions: Instructions, *, free: tuple[str, ...] = ()) -> Restitution:
+def _identified(rocking: xr.Dataset, inputs: RestitutionInputs, *, free: tuple[str, ...] = ()) -> Restitution:
     beside: dict[str, Any] = {
         name: rocking[variable].to_numpy()
         for name, variable in (("out_of_plane", "out_of_plane_angle"), ("slide", "slide"), ("uplift", "uplift"))
@@ -139,12 +135,12 @@ def _identified(rocking: xr.Dataset, instructions: Instructions, *, free: tuple[
     return identify_restitution(
         rocking["elapsed"].to_numpy(),
         rocking["rocking_angle"].to_numpy(),
-        instructions.block,
-        level=instructions.level,
-        lowest_amplitude=instructions.lowest_amplitude,
+        inputs.block,
+        level=inputs.settings.level,
+        lowest_amplitude=inputs.settings.lowest_amplitude,
         noise=float(np.nanmedian(rocking["rocking_angle_standard_error"])),
         # A filter of another order is not the one that the fit knows: it finds the nearest one itself.
-        lowpass=rocking["rocking_angle"].attrs.get("cutoff_hz") if instructions.filter_order == ORDER else None,
+        lowpass=rocking["rocking_angle"].attrs.get("cutoff_hz") if inputs.filter_order == ORDER else None,
         free=free,
         base_acceleration=rocking["base_acceleration"].to_numpy() if "base_acceleration" in rocking else None,
         **beside,

@@ -7,29 +7,27 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict
 
+from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline
 from colonnade.errors import StageError
 from colonnade.findings import Finding, warning
-from colonnade.identification.course import course
-from colonnade.identification.motion import SpecimenMotion, specimen_motion
-from colonnade.identification.readings import Circumstances, Table
-from colonnade.identification.separation import UnseenRotationError
+from colonnade.identification.fusion.motion import SpecimenMotion, specimen_motion
+from colonnade.identification.fusion.readings import Circumstances, TableReadings
+from colonnade.identification.fusion.separation import UnseenRotationError
+from colonnade.identification.response.features import angle_features
 from colonnade.signals.quality import Flag
 from colonnade.signals.shock import single_shock
-from colonnade.stages.conditioned import LEAST_NOISE, axes, base_motion, group
-from colonnade.stages.transducers import Transducers, outline, transducers
+from colonnade.stages.parts.conditioned import LEAST_NOISE, axes, base_motion, group
+from colonnade.stages.parts.inputs import Inputs
+from colonnade.stages.parts.transducers import Transducers, outline, transducers
 
-Array = NDArray[np.float64]
 
-
-class Instructions(BaseModel):
+class RockingInputs(Inputs):
     """
-    What this stage reads of the campaign.
+    What `rocking` reads of the campaign.
 
     Attributes
     ----------
@@ -41,8 +39,6 @@ class Instructions(BaseModel):
         Angle of the safety frame, rad.
     """
 
-    model_config = ConfigDict(frozen=True)
-
     block: Block
     outline: Outline
     transducers: Transducers
@@ -50,23 +46,23 @@ class Instructions(BaseModel):
     free_vibration: bool
     rest_duration: float
 
+    @classmethod
+    def of(cls, campaign: Campaign, test: Test) -> RockingInputs:
+        """Gather what `rocking` reads for one test."""
+        setup = campaign.setups[test.setup]
+        specimen = campaign.specimens[test.specimen]
+        block = specimen.block(campaign.gravity)
+        return cls(
+            block=block,
+            outline=outline(specimen, block),
+            transducers=transducers(campaign.channels(test)),
+            catch=setup.catch,
+            free_vibration=test.kind == "free-vibration",
+            rest_duration=campaign.processing.rest_duration,
+        )
 
-def instructions(campaign: Campaign, test: Test) -> Instructions:
-    """Gather what `rocking` reads for one test."""
-    setup = campaign.setups[test.setup]
-    specimen = campaign.specimens[test.specimen]
-    block = specimen.block(campaign.gravity)
-    return Instructions(
-        block=block,
-        outline=outline(specimen, block),
-        transducers=transducers(campaign.channels(test)),
-        catch=setup.catch,
-        free_vibration=test.kind == "free-vibration",
-        rest_duration=campaign.processing.rest_duration,
-    )
 
-
-def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
+def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
     """
     Turn conditioned channels into the motion of the specimen and of its base.
 
@@ -74,7 +70,7 @@ def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     ----------
     conditioned : xr.Dataset
         Result of `condition`: channels in SI on the clock `elapsed`.
-    instructions : Instructions
+    inputs : RockingInputs
 
     Returns
     -------
@@ -93,16 +89,16 @@ def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
     """
     warnings: list[Finding] = []
     time = conditioned["elapsed"].to_numpy()
-    base = base_motion(conditioned, instructions.transducers, warnings)
-    used = [name for name in instructions.transducers.on_specimen if name in conditioned]
+    base = base_motion(conditioned, inputs.transducers, warnings)
+    used = [name for name in inputs.transducers.on_specimen if name in conditioned]
     motion, separation = None, "no transducer on the specimen"
     try:
-        motion = _motion(conditioned, instructions, used, base, warnings) if used else None
+        motion = _motion(conditioned, inputs, used, base, warnings) if used else None
     except UnseenRotationError as error:
         separation = f"{error} (channels {', '.join(used)})."
         if "base_acceleration" not in base:
             raise StageError(separation) from error
-        text = f"No rocking angle is measured: {separation} Predictions go on with the base motion."
+        text = f"No rocking angle is measured: {separation} Predictions continue with the base motion."
         warnings.append(warning("no rocking angle", text, follows=("channel left out", "dead channel")))
     if motion is None and "base_acceleration" not in base:
         raise StageError(
@@ -112,20 +108,20 @@ def rocking(conditioned: xr.Dataset, instructions: Instructions) -> xr.Dataset:
 
     variables: dict[str, Any] = {name: ("elapsed", values) for name, values in base.items()}
     acceleration = base.get("base_acceleration")
-    if acceleration is not None and not instructions.free_vibration:
+    if acceleration is not None and not inputs.free_vibration:
         warnings += _shock(acceleration, time)
     peak_acceleration = np.nan if acceleration is None else float(np.nanmax(np.abs(acceleration)))
     variables["peak_ground_acceleration"] = ((), peak_acceleration)
     attributes = {"outcome": "", "separation": separation, "warnings": warnings}
     if motion is not None:
-        variables |= _motion_variables(time, motion, instructions, attributes)
+        variables |= _motion_variables(time, motion, inputs, attributes)
         variables["rocking_angle"] += ({"cutoff_hz": cutoff},) if (cutoff := _cutoff(conditioned, motion, used)) else ()
         variables |= _quality(conditioned, motion, used)
     return xr.Dataset(variables, coords={"elapsed": ("elapsed", time)}, attrs=attributes)
 
 
 def _shock(acceleration: Array, time: Array) -> list[Finding]:
-    """Tell of a single shock in the base motion, which would be its peak and drive a prediction."""
+    """Report a single shock in the base motion, which would be its peak and drive a prediction."""
     shock = single_shock(acceleration, float(time[1] - time[0]))
     if shock is None:
         return []
@@ -134,7 +130,7 @@ def _shock(acceleration: Array, time: Array) -> list[Finding]:
             "single shock",
             f"The base acceleration has a single shock of {shock.peak:.3g} m/s² at {time[0] + shock.time:.4g} s, "
             f"{1e3 * shock.duration:.2g} ms long; elsewhere it stays below {shock.elsewhere:.3g} m/s². It is the peak "
-            "ground acceleration, and drives the prediction. If it is a blow and no motion of the table, [[flag]] that "
+            "ground acceleration and drives the prediction. If it is a blow, not a motion of the table, [[flag]] that "
             "window of the channel as failed in review.toml.",
             follows=("gain", "unit"),
         )
@@ -143,51 +139,49 @@ def _shock(acceleration: Array, time: Array) -> list[Finding]:
 
 def _motion(
     conditioned: xr.Dataset,
-    instructions: Instructions,
+    inputs: RockingInputs,
     used: list[str],
     base: Mapping[str, Array],
     warnings: list[Finding],
 ) -> SpecimenMotion:
-    known = instructions.transducers
+    known = inputs.transducers
     missing = sorted(set(known.on_specimen) - set(used))
     if missing:
-        text = f"The angle is from {', '.join(used)} alone; {', '.join(missing)} could not be used."
+        text = f"The angle is only from {', '.join(used)}; {', '.join(missing)} could not be used."
         warnings.append(warning("fewer transducers", text, follows=("channel left out", "dead channel")))
     on_ground = [name for name in used if name in known.positions and known.positions[name].on_ground]
-    if on_ground and "base_displacement" not in base and not instructions.free_vibration:
+    if on_ground and "base_displacement" not in base and not inputs.free_vibration:
         raise StageError(
-            f"channel {conditioned[on_ground[0]].attrs['channel']} measures relative to the ground, and none gives "
-            "the table's displacement along x; one was expected, so that it can be taken off. Add it to the "
-            'set-up (on = "table", quantity = "displacement"), or say relative_to = "table" if that is so.'
+            f"channel {conditioned[on_ground[0]].attrs['channel']} measures relative to the ground, but no channel "
+            "gives the table's displacement along x, which has to be subtracted. Add it to the set-up "
+            '(on = "table", quantity = "displacement"), or write relative_to = "table" if that is so.'
         )
-    time, gravity = conditioned["elapsed"].to_numpy(), instructions.block.gravity
-    resting = instructions.free_vibration or "base_acceleration" in base
-    table = Table(axes(base, "displacement", time), axes(base, "acceleration", time) if resting else None)
-    circumstances = Circumstances(
-        float(time[1] - time[0]), instructions.rest_duration, ends_at_rest=instructions.free_vibration
-    )
+    time, gravity = conditioned["elapsed"].to_numpy(), inputs.block.gravity
+    resting = inputs.free_vibration or "base_acceleration" in base
+    table = TableReadings(axes(base, "displacement", time), axes(base, "acceleration", time) if resting else None)
+    circumstances = Circumstances(float(time[1] - time[0]), inputs.rest_duration, ends_at_rest=inputs.free_vibration)
     return specimen_motion(
         group(conditioned, known.positions, gravity),
         group(conditioned, known.gyroscopes, gravity),
         group(conditioned, known.accelerometers, gravity),
         table,
-        instructions.block,
-        instructions.outline,
+        inputs.block,
+        inputs.outline,
         circumstances,
     )
 
 
 def _motion_variables(
-    time: Array, motion: SpecimenMotion, instructions: Instructions, attributes: dict[str, Any]
+    time: Array, motion: SpecimenMotion, inputs: RockingInputs, attributes: dict[str, Any]
 ) -> dict[str, Any]:
     median = {name: float(np.nanmedian(errors)) for name, errors in motion.standard_error.items()}
-    found = course(
+    found = angle_features(
         time,
         motion.angle,
         median["rocking_angle"],
-        instructions.block,
-        rest_duration=instructions.rest_duration,
-        catch=instructions.catch,
+        inputs.block,
+        rest_duration=inputs.rest_duration,
+        catch=inputs.catch,
     )
     attributes |= {"outcome": found.verdict.outcome, "separation": motion.separation}
     variables: dict[str, Any] = {f"{name}_standard_error": ((), error) for name, error in median.items()}
@@ -207,14 +201,14 @@ def _motion_variables(
 
 
 def _cutoff(conditioned: xr.Dataset, motion: SpecimenMotion, used: list[str]) -> float | None:
-    """Low-pass that the angle went through, Hz: that of its transducers, where it is one and nothing smoothed more."""
+    """Low-pass of the angle, Hz: that of its transducers, if they share one and nothing else smoothed it."""
     entered = [name for name, counts in zip(used, motion.entered, strict=True) if counts]
     cutoffs = {float(conditioned[name].attrs.get("cutoff_hz", np.nan)) for name in entered}
     return None if motion.is_integrated or len(cutoffs) != 1 or not np.isfinite(min(cutoffs)) else cutoffs.pop()
 
 
 def _quality(conditioned: xr.Dataset, motion: SpecimenMotion, used: list[str]) -> dict[str, Any]:
-    """Flags of the angle: the worst of its transducers, suspect where one is missing and the others do; residuals."""
+    """Flags of the angle: the worst of its transducers, suspect if one is missing but others are there; residuals."""
     entered = [name for name, counts in zip(used, motion.entered, strict=True) if counts]
     flags = np.max([conditioned[f"{name}_quality"].to_numpy() for name in entered], axis=0).astype(np.int8)
     others = np.isfinite(motion.angle) & (flags == Flag.MISSING)

@@ -7,33 +7,29 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict
 
+from colonnade.arrays import Array
 from colonnade.campaign import Campaign
 from colonnade.dynamics.block import Block, Sided, pair
 from colonnade.findings import Finding, note, warning
 from colonnade.identification.restitution.pooling import pool
+from colonnade.stages.parts.inputs import Inputs
 
-Array = NDArray[np.float64]
 
-
-class Instructions(BaseModel):
-    """What this stage reads of the campaign: the block, the restitution given in the file, the interval's level."""
-
-    model_config = ConfigDict(frozen=True)
+class SpecimenInputs(Inputs):
+    """What `specimen` reads of the campaign: the block, the restitution given in the file, the interval's level."""
 
     block: Block
     given: Sided | None
     level: float
 
-
-def instructions(campaign: Campaign, specimen: str) -> Instructions:
-    """Gather what `specimen` reads for one specimen."""
-    entry = campaign.specimens[specimen]
-    return Instructions(
-        block=entry.block(campaign.gravity), given=entry.restitution, level=campaign.processing.restitution.level
-    )
+    @classmethod
+    def of(cls, campaign: Campaign, specimen: str) -> SpecimenInputs:
+        """Gather what `specimen` reads for one specimen."""
+        entry = campaign.specimens[specimen]
+        return cls(
+            block=entry.block(campaign.gravity), given=entry.restitution, level=campaign.processing.restitution.level
+        )
 
 
 @dataclass(frozen=True)
@@ -47,7 +43,7 @@ class _Identified:
     refused: tuple[str, ...] = ()
 
 
-def specimen(identified: Mapping[str, xr.Dataset], instructions: Instructions) -> xr.Dataset:
+def specimen(identified: Mapping[str, xr.Dataset], inputs: SpecimenInputs) -> xr.Dataset:
     """
     Pool the restitution of a specimen's free vibrations.
 
@@ -55,7 +51,7 @@ def specimen(identified: Mapping[str, xr.Dataset], instructions: Instructions) -
     ----------
     identified : mapping of str to xr.Dataset
         Results of `restitution` by test id; those that were refused carry NaN.
-    instructions : Instructions
+    inputs : SpecimenInputs
 
     Returns
     -------
@@ -73,19 +69,19 @@ def specimen(identified: Mapping[str, xr.Dataset], instructions: Instructions) -
             identified[tests[0]].attrs["method"] if tests else "",
             tuple(refused),
         ),
-        instructions,
+        inputs,
     )
 
 
-def taken(stored: xr.Dataset | None, instructions: Instructions) -> xr.Dataset:
+def taken(stored: xr.Dataset | None, inputs: SpecimenInputs) -> xr.Dataset:
     """
-    Give e by the same rule for the campaign as it is now, whatever it was when a stored result was made.
+    Give e by the same rule for the current campaign, even if a stored result was made from an earlier one.
 
     Parameters
     ----------
     stored : xr.Dataset or None
         An earlier result of `specimen`; what it holds of the free vibrations counts if it is of the same block.
-    instructions : Instructions
+    inputs : SpecimenInputs
 
     Returns
     -------
@@ -93,7 +89,7 @@ def taken(stored: xr.Dataset | None, instructions: Instructions) -> xr.Dataset:
         As of `specimen`.
     """
     found = _Identified(refused=("the free vibrations have not been identified",))
-    if stored is not None and "test_method" in stored.attrs and _is_of(stored, instructions.block):
+    if stored is not None and "test_method" in stored.attrs and _is_of(stored, inputs.block):
         found = _Identified(
             tuple(str(name) for name in stored["test_id"].to_numpy()),
             stored["test_restitution"].to_numpy(),
@@ -101,7 +97,7 @@ def taken(stored: xr.Dataset | None, instructions: Instructions) -> xr.Dataset:
             str(stored.attrs["test_method"]),
             tuple(stored.attrs["refused"]),
         )
-    return _taken(found, instructions)
+    return _taken(found, inputs)
 
 
 def _is_of(stored: xr.Dataset, block: Block) -> bool:
@@ -113,15 +109,15 @@ def _properties(block: Block) -> dict[str, float]:
     return {name: getattr(block, name) for name in names} | {"rigid_restitution": block.restitution}
 
 
-def _taken(found: _Identified, instructions: Instructions) -> xr.Dataset:
+def _taken(found: _Identified, inputs: SpecimenInputs) -> xr.Dataset:
     """The rule: e as given, else as identified, else of the rigid body."""
-    block = instructions.block
+    block = inputs.block
     low = high = between = np.nan
     method = reason = ""
-    if instructions.given is not None:
-        value, source, method = pair(instructions.given), "given", "given in the campaign file"
+    if inputs.given is not None:
+        value, source, method = pair(inputs.given), "given", "given in the campaign file"
     elif found.tests:
-        pooled = pool(found.values, found.errors, level=instructions.level)
+        pooled = pool(found.values, found.errors, level=inputs.level)
         value, source = pair(pooled.value), "identified"
         low, high, between = pooled.low, pooled.high, pooled.between
         count = f"{len(found.tests)} free vibration{'s' if len(found.tests) > 1 else ''}"
@@ -137,7 +133,7 @@ def _taken(found: _Identified, instructions: Instructions) -> xr.Dataset:
             "restitution_low": ((), low),
             "restitution_high": ((), high),
             "between_test_scatter": ((), between),
-            "level": ((), instructions.level),
+            "level": ((), inputs.level),
             **{name: ((), each) for name, each in _properties(block).items()},
             "test_restitution": ("test", found.values),
             "test_restitution_standard_error": ("test", found.errors),
@@ -155,7 +151,7 @@ def _taken(found: _Identified, instructions: Instructions) -> xr.Dataset:
 
 
 def _warnings(source: str, value: tuple[float, float], found: _Identified) -> list[Finding]:
-    """Say that predictions take the e of a rigid body, and warn where free vibrations were to give it."""
+    """Note that predictions use the e of a rigid body; a warning if free vibrations should have given it."""
     if source != "rigid-body":
         return []
     weight = warning if found.refused else note
@@ -163,7 +159,7 @@ def _warnings(source: str, value: tuple[float, float], found: _Identified) -> li
     return [
         weight(
             "rigid-body e",
-            f"Predictions use the rigid body's e, {value[0]:.4g}, as {why}. Give `restitution` in the campaign file if "
-            "it is known.",
+            f"Predictions use the rigid body's e, {value[0]:.4g}, because {why}. Give `restitution` in the campaign "
+            "file if it is known.",
         )
     ]

@@ -25,7 +25,7 @@ from xarray.backends import NetCDF4DataStore
 from colonnade.errors import StoreError
 from colonnade.store.attributes import restored, storable
 from colonnade.store.description import describe
-from colonnade.store.long_arrays import add_attribute, write_file
+from colonnade.store.long_arrays import write_file
 from colonnade.store.own_files import own_files
 from colonnade.store.provenance import content_hash, coverage, is_long
 
@@ -262,8 +262,7 @@ def _put_long(path: Path, dataset: xr.Dataset) -> str:
     def write_to(partial: Path) -> str:
         with ThreadPoolExecutor(1) as beside:
             content = beside.submit(content_hash, dataset)
-            write_file(partial, prepared)
-        add_attribute(partial, "content", content.result())
+            write_file(partial, prepared, content)
         return content.result()
 
     return _in_one_step(path, write_to)

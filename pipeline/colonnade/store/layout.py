@@ -7,17 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from colonnade.errors import StoreError
-
-FILE_NAMES = {
-    "ingest": "recorded",
-    "condition": "conditioned",
-    "rocking": "rocking",
-    "restitution": "restitution",
-    "predict": "predicted",
-    "ensemble": "ensemble",
-    "compare": "compared",
-}
-"""Stage -> stem of the file that it writes for a test."""
+from colonnade.store.results import STAGES, ResultId
 
 
 @dataclass(frozen=True)
@@ -72,49 +62,6 @@ class Layout:
         return self.processed / "tests"
 
     @property
-    def specimens(self) -> Path:
-        """Folder of the specimens' files."""
-        return self.processed / "specimens"
-
-    @property
-    def contacts(self) -> Path:
-        """Folder of the specimens' laws of contact."""
-        return self.processed / "contact"
-
-    @property
-    def maps(self) -> Path:
-        """Folder of stability maps."""
-        return self.processed / "maps"
-
-    def map(self, specimen_id: str, model: str) -> Path:
-        """File of a specimen's stability map by one model."""
-        return self.maps / f"{specimen_id}-{model}.nc"
-
-    def map_figure(self, specimen_id: str, model: str) -> Path:
-        """Picture of a stability map, beside its file."""
-        return self.map(specimen_id, model).with_suffix(".svg")
-
-    def maps_figure(self, specimen_id: str, models: Sequence[str]) -> Path:
-        """Picture of several models' limits together."""
-        return self.maps / f"{specimen_id}-{'+'.join(models)}.svg"
-
-    def response(self, specimen_id: str, model: str) -> Path:
-        """File of a specimen's steady responses by one model."""
-        return self.maps / f"{specimen_id}-{model}-response.nc"
-
-    def response_figure(self, specimen_id: str, model: str) -> Path:
-        """Picture of the steady responses, beside their file."""
-        return self.response(specimen_id, model).with_suffix(".svg")
-
-    def map_blocks(self, specimen_id: str, model: str) -> Path:
-        """Folder of the finished blocks of a map that is under way."""
-        return self.maps / f".{specimen_id}-{model}"
-
-    def response_blocks(self, specimen_id: str, model: str) -> Path:
-        """Folder of the finished blocks of steady responses that are under way."""
-        return self.maps / f".{specimen_id}-{model}-response"
-
-    @property
     def report(self) -> Path:
         """The report's page."""
         return self.home / "report" / "index.html"
@@ -154,11 +101,6 @@ class Layout:
         """Who holds the lock."""
         return self.processed / ".lock-holder.json"
 
-    def results_there(self) -> list[Path]:
-        """Results of tests and specimens that are there, in the order of their paths."""
-        folders = (self.tests.glob("*/*.nc"), self.specimens.glob("*.nc"), self.contacts.glob("*.nc"))
-        return sorted(path for found in folders for path in found)
-
     def test(self, test_id: str) -> Path:
         """Folder of a test's results."""
         return self.tests / test_id
@@ -167,19 +109,32 @@ class Layout:
         """Traceback of an internal error in a test."""
         return self.test(test_id) / "error.log"
 
-    def specimen(self, specimen_id: str) -> Path:
-        """File of a specimen's pooled restitution."""
-        return self.specimens / f"{specimen_id}.nc"
-
-    def contact(self, specimen_id: str) -> Path:
-        """File of the contact law with which a specimen has its restitution."""
-        return self.contacts / f"{specimen_id}.nc"
-
     def specimen_error_log(self, specimen_id: str) -> Path:
         """Traceback of an internal error in pooling a specimen."""
-        return self.specimens / f"{specimen_id}.error.log"
+        return self.processed / "specimens" / f"{specimen_id}.error.log"
 
-    def stage(self, test_id: str, stage: str, model: str | None = None) -> Path:
-        """File that a stage writes for a test; `model` where the stage has one file a model."""
-        stem = FILE_NAMES[stage]
-        return self.test(test_id) / (f"{stem}-{model}.nc" if model else f"{stem}.nc")
+    def path(self, result: ResultId) -> Path:
+        """File of a result."""
+        return self.processed / result.file
+
+    def stage(self, subject: str, stage: str, model: str | None = None) -> Path:
+        """File of the result of a stage for a test or a specimen; `model` if the stage has one file for each model."""
+        return self.path(ResultId(subject, stage, model))
+
+    def figure(self, result: ResultId) -> Path:
+        """Picture of a map or of steady responses, next to its file."""
+        return self.path(result).with_suffix(".svg")
+
+    def together(self, specimen: str, models: Sequence[str]) -> Path:
+        """Picture of the limits of several models' maps."""
+        return self.figure(ResultId(specimen, "map", "+".join(models)))
+
+    def blocks(self, result: ResultId) -> Path:
+        """Folder of the finished blocks of a result that is under way."""
+        path = self.path(result)
+        return path.with_name(f".{path.stem}")
+
+    def results_there(self) -> list[Path]:
+        """Results of a run that are there, in the order of their paths; maps are not made by a run."""
+        made = {stage.file.format(subject="*", model="*") for stage in STAGES.values() if stage.goes_with != "report"}
+        return sorted({path for pattern in made for path in self.processed.glob(f"{pattern}.nc")})

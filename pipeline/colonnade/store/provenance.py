@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 import colonnade
 from colonnade.signals.parallel import side_by_side
+from colonnade.store.results import STAGES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -22,24 +23,6 @@ LONG = 500_000
 """Numbers of a long array; zlib would take ten times as long for a noisy record as reading it."""
 
 KEYWORDS = "rocking, free-standing column, shake table, coefficient of restitution"
-
-_SUMMARIES = {
-    "ingest": "Channels of a shake-table test as recorded and in SI, with quality flags.",
-    "condition": "Channels of a shake-table test on one uniform clock, de-spiked, low-pass filtered, zeroed at rest.",
-    "rocking": "Rocking angle of a free-standing specimen and motion of its base, from the conditioned transducers.",
-    "restitution": "Peaks of a free vibration and the coefficient of restitution identified from them.",
-    "specimen": "Properties of a specimen and the coefficient of restitution of all its free vibrations together.",
-    "predict": "Rocking angle of a model on the recorded base motion.",
-    "ensemble": "Bands of a model on the recorded base motion, over what is not exactly known.",
-    "compare": "Measured against predicted rocking, in numbers.",
-    "map": "Outcomes of a rocking block over frequency and amplitude of its base motion, and the limits between them.",
-}
-_SOURCES = {
-    "ingest": "recordings of a shake-table test",
-    "predict": "numerical model of a rocking block on a recorded base motion",
-    "ensemble": "numerical model of a rocking block on a recorded base motion, many times",
-    "map": "numerical model of a rocking block",
-}
 
 # What may differ between two results that are otherwise the same: it is not part of their content.
 _CIRCUMSTANCES = frozenset(
@@ -87,13 +70,13 @@ def global_attributes(
     attributes = {
         "Conventions": CONVENTIONS,
         "title": f"{title}: {subject}, {stage}",
-        "summary": _SUMMARIES.get(stage, f"Result of the stage {stage}."),
+        "summary": STAGES[stage].summary,
         "keywords": KEYWORDS,
         "id": "/".join((campaign, subject, stage)),
         "institution": facility,
         "project": campaign,
         "processing_level": stage,
-        "source": _SOURCES.get(stage, "recordings of a shake-table test, processed"),
+        "source": STAGES[stage].source,
         "history": f"{instant} colonnade {colonnade.__version__} {stage}",
         "date_created": instant,
         "colonnade_version": colonnade.__version__,

@@ -7,7 +7,7 @@ from math import isfinite
 
 from colonnade.errors import UnitError, quoted
 from colonnade.units.dimensions import DIMENSIONS, article, expected, words
-from colonnade.units.registry import Unit, resolve
+from colonnade.units.registry import Unit, collected, resolve
 
 NUMBER_PATTERN = r"[+\-−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-−]?[0-9]+)?"
 _QUANTITY = re.compile(rf"({NUMBER_PATTERN})\s*(.*)", re.DOTALL)
@@ -22,7 +22,7 @@ def parse(text: str) -> tuple[float, str]:
     -------
     value : float
     unit : str
-        Empty where there is none.
+        Empty if there is none.
 
     Raises
     ------
@@ -44,7 +44,7 @@ def parse(text: str) -> tuple[float, str]:
         )
     value = float(match[1].replace("−", "-"))
     if not isfinite(value):
-        raise UnitError(f"{quoted(text)} is too large a number.")
+        raise UnitError(f"{quoted(text)} is too large.")
     return value, match[2]
 
 
@@ -99,7 +99,7 @@ def factor_to_si(unit: str, dimension: str) -> float:
 
 def gain_to_si(gain: str, recorded_unit: str, dimension: str) -> float:
     """
-    Give the SI value of one recorded unit, as it stands in the file, behind a transducer's gain.
+    Give the SI value of one recorded unit, as in the file, after a transducer's gain.
 
     Parameters
     ----------
@@ -132,13 +132,8 @@ def gain_to_si(gain: str, recorded_unit: str, dimension: str) -> float:
         )
     factor = value * per_unit.factor * recorded.factor
     if not isfinite(factor):
-        raise UnitError(f"{quoted(gain)} is too large a number.")
+        raise UnitError(f"{quoted(gain)} is too large.")
     return factor
-
-
-def offset_to_si(text: str, dimension: str) -> float:
-    """Convert an offset, which is a quantity of the physical dimension, to SI; see `to_si`."""
-    return to_si(text, dimension)
 
 
 def si_factor(unit: str) -> tuple[float, str]:
@@ -225,10 +220,7 @@ def _times(value: float, factor: float) -> float:
 
 
 def _product(one: Unit, other: Unit) -> tuple[tuple[str, int], ...]:
-    powers = dict(one.dimension)
-    for name, power in other.dimension:
-        powers[name] = powers.get(name, 0) + power
-    return tuple(sorted((name, power) for name, power in powers.items() if power))
+    return tuple(sorted(collected((*one.dimension, *other.dimension)).items()))
 
 
 def _told(unit: Unit) -> str:

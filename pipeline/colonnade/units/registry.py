@@ -8,6 +8,7 @@ here, so that rad/s and Hz are not taken for each other.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from math import isfinite
@@ -98,10 +99,7 @@ def resolve(text: str, dimension: str | None = None) -> Unit:
     """
     if len(text) > LONGEST:
         raise _unknown(text, text, dimension)
-    powers: dict[str, int] = {}
-    for name, power in _factors(text, dimension):
-        powers[name] = powers.get(name, 0) + power
-    powers = {name: power for name, power in powers.items() if power}
+    powers = collected(_factors(text, dimension))
     registry = _registry()
     try:
         quantity: Any = registry.Quantity(1.0, registry.UnitsContainer(powers)).to_root_units()
@@ -111,10 +109,22 @@ def resolve(text: str, dimension: str | None = None) -> Unit:
     if not (isfinite(factor) and factor > 0.0) or any(abs(power) > LARGEST_POWER for power in powers.values()):
         raise _unknown(text, text, dimension)
     base = sorted((str(registry.get_symbol(name)), round(power)) for name, power in quantity.unit_items())
+    return Unit(factor, tuple(base), _spelled(powers))
+
+
+def collected(factors: Iterable[tuple[str, int]]) -> dict[str, int]:
+    """Add the exponents of each symbol; what cancels is left out."""
+    powers: dict[str, int] = {}
+    for name, power in factors:
+        powers[name] = powers.get(name, 0) + power
+    return {name: power for name, power in powers.items() if power}
+
+
+def _spelled(powers: Mapping[str, int]) -> str:
+    """Write a unit as usual: factors above, then each below after a slash."""
     above = [_power(name, power) for name, power in powers.items() if power > 0]
     below = [_power(name, -power) for name, power in powers.items() if power < 0]
-    symbol = " ".join(above) if above or not below else "1"
-    return Unit(factor, tuple(base), "/".join([symbol, *below]))
+    return "/".join([" ".join(above) if above or not below else "1", *below])
 
 
 def _power(name: str, power: int) -> str:
@@ -176,10 +186,10 @@ def _registry() -> pint.UnitRegistry[Any]:
 
 
 def _unknown(name: str, text: str, dimension: str | None) -> UnitError:
-    # A single letter is near to everything short, so it is no hint for a longer name.
+    # A single letter is near to everything short, so it is not a hint for a longer name.
     hint = "" if len(name) > LONGEST else nearest(name, [unit for unit in COMMON if len(unit) > 1 or len(name) == 1])
     within = "" if name == text else f" in {quoted(text)}"
     return UnitError(
-        f"{quoted(name)}{within} is not a unit I know.{hint if 'Did you mean' in hint else ''} "
+        f"Unknown unit {quoted(name)}{within}.{hint if 'Did you mean' in hint else ''} "
         + (expected(dimension) if dimension else 'A unit such as "mm", "V" or "m/s^2" was expected.')
     )

@@ -16,10 +16,10 @@ from colonnade.errors import CampaignError, ColonnadeError, nearest
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow.chain import advance
+from colonnade.workflow.execution.lock import expect_run, only_run
+from colonnade.workflow.execution.spreading import spread
 from colonnade.workflow.freshness import stored_attributes
-from colonnade.workflow.lock import expect_run, only_run
 from colonnade.workflow.pooling import pool
-from colonnade.workflow.spreading import spread
 from colonnade.workflow.steps import contact_step
 
 if TYPE_CHECKING:
@@ -131,7 +131,7 @@ def calibrate(
     with only_run(layout) as run:
         for name in chosen:
             is_given = loaded.specimens[name].restitution is not None
-            if not is_given and stored_attributes(layout.specimen(name)).get("status") != "done":
+            if not is_given and stored_attributes(layout.stage(name, "specimen")).get("status") != "done":
                 raise CampaignError(f"{name}: its restitution is not known yet. Run `colonnade identify` first.")
         unpooled = {each.subject: each.reason for each in pool(loaded, layout, stored_attributes) if each.reason}
         for name in chosen:
@@ -152,7 +152,7 @@ def _calibrated(numbered: tuple[int, _Task]) -> tuple[int, Calibrated]:
     started = time.perf_counter()
     path = None
     if task.settings == campaign.processing.predict.contact:
-        path = layout.contact(task.specimen)
+        path = layout.stage(task.specimen, "contact")
         step = contact_step(campaign, layout, task.specimen)
         with files.only_while(partial(expect_run, layout, task.run)):
             done = advance(campaign, layout, task.specimen, step, redo_from=None, raw={})
@@ -161,8 +161,8 @@ def _calibrated(numbered: tuple[int, _Task]) -> tuple[int, Calibrated]:
         from colonnade.stages import contact
 
         try:
-            pooled = files.read(layout.specimen(task.specimen))
-            result = contact.contact(pooled, contact.instructions(campaign, task.specimen, task.settings))
+            pooled = files.read(layout.stage(task.specimen, "specimen"))
+            result = contact.contact(pooled, contact.ContactInputs.of(campaign, task.specimen, task.settings))
             reason = ""
         except ColonnadeError as error:
             result, reason = None, str(error)

@@ -17,10 +17,11 @@ from colonnade.interruption import expect_none
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import global_attributes
+from colonnade.store.results import ASKED_FOR
+from colonnade.workflow.execution.lock import expect_run
 from colonnade.workflow.freshness import Look, RawFile, ingredients, key_of, stored_attributes, why_stale
-from colonnade.workflow.lock import expect_run
 from colonnade.workflow.results import Action, StageRun
-from colonnade.workflow.steps import STAGES, Step, measuring_steps, predicting_steps
+from colonnade.workflow.steps import Step, measuring_steps, predicting_steps
 
 Phase = Literal["measuring", "predicting"]
 
@@ -77,7 +78,7 @@ class Chain:
     def steps(self) -> list[Step]:
         """Return the steps up to `until`."""
         build = measuring_steps if self.phase == "measuring" else predicting_steps
-        last = STAGES.index(self.until)
+        last = ASKED_FOR.index(self.until)
         return [
             step for step in build(self.campaign, self.layout, self.campaign.tests[self.test]) if step.order <= last
         ]
@@ -223,7 +224,7 @@ def _state(step: Step, redo_from: str | None, raw: Mapping[str, RawFile], look: 
     made_from = ingredients(step.instructions.model_dump_json(), upstream)
     key = key_of(step.stage, made_from)
     stored = look(step.path)
-    if redo_from is not None and step.order >= STAGES.index(redo_from):
+    if redo_from is not None and step.order >= ASKED_FOR.index(redo_from):
         because = "asked for"
     else:
         because = "" if stored.get("key") == key else why_stale(stored, made_from, from_raw=step.is_from_raw)

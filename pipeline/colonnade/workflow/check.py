@@ -1,4 +1,4 @@
-"""Check: what a run would refuse or warn of, found by doing the measuring part of it in memory; nothing is written."""
+"""Check: what a run would refuse or warn of, found by doing its measuring part in memory; nothing is written."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from pathlib import Path
 
 from colonnade.campaign import Campaign, Test
 from colonnade.errors import ReadError, StageError
-from colonnade.findings import Finding, Severity, at_stage, note
+from colonnade.findings import Finding, Severity, at_stage, in_order, note
 from colonnade.interruption import expect_none
 from colonnade.readers.recording import Recording
-from colonnade.workflow.steps import models_of
+from colonnade.store.results import models_of
+from colonnade.workflow.copies import digests_of_equal_sizes, with_copies
 
 
 @dataclass
@@ -43,40 +44,73 @@ class Checked:
         return "doubtful" if is_doubtful else "good"
 
 
+@dataclass(frozen=True)
+class CampaignCheck:
+    """
+    What is to be said of a campaign.
+
+    Attributes
+    ----------
+    campaign : Campaign
+        With a warning of raw files that are copies.
+    tests : dict of str to Checked
+    """
+
+    campaign: Campaign
+    tests: dict[str, Checked]
+
+    @property
+    def fails(self) -> bool:
+        """Whether a test would fail."""
+        return any(each.problems for each in self.tests.values())
+
+    @property
+    def has_warnings(self) -> bool:
+        """Whether there is a finding that is more than a note."""
+        findings = [*self.campaign.warnings, *(found for each in self.tests.values() for found in each.findings)]
+        return any(found.severity is not Severity.NOTE for found in findings)
+
+    @property
+    def findings(self) -> dict[str, list[tuple[Finding, bool]]]:
+        """What was found, by test or "campaign file", each put in order by `in_order`."""
+        ordered = {"campaign file": in_order(self.campaign.warnings)}
+        return ordered | {name: in_order(each.findings, each.concerning) for name, each in self.tests.items()}
+
+
 Reading = Callable[[Path, str, str], Recording]
 
 
-def check(campaign: Campaign, advance: Callable[[], None] = lambda: None) -> dict[str, Checked]:
+def check(campaign: Campaign, progress: Callable[[int, int], None] = lambda done, total: None) -> CampaignCheck:
     """
     Read every raw file of a campaign and take each test as far as its prediction would begin.
 
     Parameters
     ----------
     campaign : Campaign
-    advance : callable, optional
-        Called after each test.
+    progress : callable, optional
+        Called with the number of tests that are done, and of all.
 
     Returns
     -------
-    checked : dict of str to Checked
-        By test.
+    checked : CampaignCheck
     """
     from colonnade.readers.registry import read
 
-    @lru_cache(maxsize=2)  # tests that share a file stand beside each other in most campaigns
+    @lru_cache(maxsize=2)  # tests that share a file follow each other in most campaigns
     def reading(path: Path, setup: str, recorder: str) -> Recording:
         file = campaign.setups[setup].recorders[recorder].file
         return read(path, file.format, file.options, within=campaign.folder)
 
-    found = {}
+    campaign = with_copies(campaign, digests_of_equal_sizes(campaign))
+    found: dict[str, Checked] = {}
     for name, test in campaign.tests.items():
+        progress(len(found), len(campaign.tests))
         expect_none()
         if excluded := campaign.review(name).excluded:
             found[name] = Checked(findings=[note("excluded", f"{excluded} (review.toml).")])
         else:
             found[name] = _checked(campaign, test, reading)
-        advance()
-    return found
+    return CampaignCheck(campaign, found)
 
 
 def _checked(campaign: Campaign, test: Test, reading: Reading) -> Checked:
@@ -119,16 +153,16 @@ def _measure(campaign: Campaign, test: Test, recordings: dict[str, Recording], f
         As the stages do.
     """
     from colonnade.stages import condition, ingest, predict, restitution, rocking
-    from colonnade.stages.beginning import begin
+    from colonnade.stages.parts.beginning import begin
 
-    recorded = ingest.ingest(recordings, ingest.instructions(campaign, test))
+    recorded = ingest.ingest(recordings, ingest.IngestInputs.of(campaign, test))
     findings += at_stage(recorded.attrs["warnings"], "ingest")
-    conditioned = condition.condition(recorded, condition.instructions(campaign, test))
+    conditioned = condition.condition(recorded, condition.ConditionInputs.of(campaign, test))
     findings += at_stage(conditioned.attrs["warnings"], "condition")
-    measured = rocking.rocking(conditioned, rocking.instructions(campaign, test))
+    measured = rocking.rocking(conditioned, rocking.RockingInputs.of(campaign, test))
     findings += at_stage(measured.attrs["warnings"], "rocking")
     if test.kind == "free-vibration":
         restitution.expect_angle(measured)
     for model in models_of(campaign, test)[:1]:  # the base motion and the start are the same for all
-        beginning = begin(measured, predict.instructions(campaign, test, model))
+        beginning = begin(measured, predict.PredictInputs.of(campaign, test, model))
         findings += at_stage(beginning.warnings, "predict")

@@ -5,19 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite, nan
-from typing import TYPE_CHECKING, cast, get_args
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from colonnade.campaign import Campaign
-from colonnade.campaign.bounds import MAP_RATIO, MOST_CYCLES, MOST_POINTS, outside
-from colonnade.campaign.summary import Summary
+from colonnade.campaign.syntax.bounds import MAP_RATIO, MOST_CYCLES, MOST_POINTS, outside
 from colonnade.dynamics.block import Sided
-from colonnade.dynamics.history import Outcome
-from colonnade.errors import CampaignError, nearest
-from colonnade.identification.boundaries import MapPoint
+from colonnade.errors import CampaignError, StoreError, nearest
+from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.store.records.summary import map_points, read_summary
 from colonnade.workflow.pooling import restitution_taken
 from colonnade.workflow.steps import CONTACT
 
@@ -74,16 +73,10 @@ class Wanted:
 def measured_points(layout: Layout, specimen: str) -> list[MapPoint]:
     """Sine tests of a specimen whose Ω, A and outcome the last run knows; none where there was no run."""
     try:
-        summary = Summary.model_validate_json(layout.summary_json.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        summary = read_summary(layout)
+    except StoreError:
         return []
-    points = []
-    for name, test in summary.tests.items():
-        outcome = test.outcome or test.observed_outcome
-        ratios = (_known(test.frequency_ratio), _known(test.amplitude_ratio))
-        if test.specimen == specimen and all(map(isfinite, ratios)) and outcome in get_args(Outcome):
-            points.append(MapPoint(name, *ratios, cast(Outcome, outcome), test.order))
-    return points
+    return [] if summary is None else map_points(summary.tests, specimen)
 
 
 def plan_of(
@@ -172,13 +165,13 @@ def _space(campaign: Campaign, layout: Layout, specimen: str) -> InSpace:
     from colonnade.dynamics.maps.space import InSpace
     from colonnade.stages import contact
 
-    path = layout.contact(specimen)
+    path = layout.stage(specimen, "contact")
     law = files.read(path) if path.is_file() else None
     if law is None or law.attrs["status"] != "done":
         raise CampaignError(
             f"{specimen}: its law of contact is not known yet. Run `colonnade calibrate` first, which finds it."
         )
-    read = contact.instructions(campaign, specimen)
+    read = contact.ContactInputs.of(campaign, specimen)
     return InSpace(contact.body_of(read), contact.law_of(law), read.settings.step)
 
 
@@ -212,7 +205,3 @@ def _recorded(campaign: Campaign, layout: Layout, test: str) -> tuple[Motion, fl
         )
     time = base["elapsed"].to_numpy()
     return Motion(base["base_acceleration"].to_numpy(), float(time[1] - time[0])), frequency
-
-
-def _known(value: float | None) -> float:
-    return nan if value is None else value

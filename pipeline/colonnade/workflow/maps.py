@@ -15,13 +15,14 @@ from numpy.typing import NDArray
 
 from colonnade.campaign import Campaign, load
 from colonnade.errors import CampaignError, nearest
-from colonnade.identification.boundaries import MapPoint, Misfit, bracket_boundaries, limit_misfit
+from colonnade.identification.response.boundaries import MapPoint, Misfit, bracket_boundaries, limit_misfit
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import global_attributes, hash_of
-from colonnade.workflow.blocks import Counted, Spread, blocks_of, forget, in_blocks
+from colonnade.store.results import ResultId
+from colonnade.workflow.execution.blocks import Counted, Spread, blocks_of, forget, in_blocks
+from colonnade.workflow.execution.lock import only_run
 from colonnade.workflow.freshness import source_hash, stored_attributes
-from colonnade.workflow.lock import only_run
 from colonnade.workflow.map_plans import Wanted, measured_points, plan_of, restitution_of
 from colonnade.workflow.responses import make_responses
 
@@ -126,7 +127,7 @@ def make_maps(
 def _of_specimen(campaign: Campaign, layout: Layout, specimen: str, wanted: Wanted, spread: Spread) -> list[MapMade]:
     """Make the maps of one specimen, one a model, and of several models a picture together."""
     models = list(dict.fromkeys(wanted.models))
-    together = layout.maps_figure(specimen, models) if len(models) > 1 else None
+    together = layout.together(specimen, models) if len(models) > 1 else None
     points = measured_points(layout, specimen)
     made = [_make(campaign, layout, specimen, wanted, model, points, together, spread) for model in models]
     if together is not None:
@@ -148,10 +149,11 @@ def _make(
     restitution, source = restitution_of(campaign, layout, specimen)
     plan = plan_of(campaign, layout, specimen, wanted, model, restitution, points)
     key = hash_of({"code": source_hash(), "plan": _record(plan)})
-    path, figure = layout.map(specimen, model), layout.map_figure(specimen, model)
+    of = ResultId(specimen, "map", model)
+    path, figure = layout.path(of), layout.figure(of)
     is_new = stored_attributes(path).get("key") != key
     if is_new:
-        blocks = layout.map_blocks(specimen, model)
+        blocks = layout.blocks(of)
         chart = _chart(plan, blocks, key, spread)
         attributes: dict[str, Any] = dict(
             global_attributes(
@@ -168,7 +170,8 @@ def _make(
     _draw([files.read(path)], points, figure, specimen)
     responses = responses_figure = None
     if wanted.responses:
-        responses, responses_figure = layout.response(specimen, model), layout.response_figure(specimen, model)
+        steady = ResultId(specimen, "responses", model)
+        responses, responses_figure = layout.path(steady), layout.figure(steady)
         is_new |= make_responses(campaign, layout, specimen, plan, points, source, spread)
     boundaries, stored = bracket_boundaries(points), as_map(files.read(path))
     lower, upper = (limit_misfit(boundaries, stored.frequency_ratio, limit) for limit in (stored.lower, stored.upper))

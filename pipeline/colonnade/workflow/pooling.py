@@ -41,12 +41,12 @@ def restitution_taken(campaign: Campaign, layout: Layout, specimen: str) -> xr.D
     pooled : xr.Dataset
         As of `stages.specimen`; nothing is written.
     """
-    from colonnade.stages.specimen import instructions, taken
+    from colonnade.stages.specimen import SpecimenInputs, taken
 
     try:
-        stored = files.read(layout.specimen(specimen))
+        stored = files.read(layout.stage(specimen, "specimen"))
     except StoreError:
         stored = None
     if stored is not None and stored.attrs["status"] != "done":
         stored = None
-    return taken(stored, instructions(campaign, specimen))
+    return taken(stored, SpecimenInputs.of(campaign, specimen))

@@ -11,18 +11,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.campaign import Campaign
-from colonnade.identification.boundaries import MapPoint
+from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import global_attributes, hash_of
-from colonnade.workflow.blocks import Spread, blocks_of, forget
+from colonnade.store.results import ResultId
+from colonnade.workflow.execution.blocks import Spread, blocks_of, forget
 from colonnade.workflow.freshness import source_hash, stored_attributes
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from colonnade.dynamics.maps.plan import MapPlan
-    from colonnade.dynamics.steady import SteadyResponse
+    from colonnade.dynamics.maps.steady import SteadyResponse
 
 SETTLING = 400
 """Cycles at full amplitude before a response is looked at."""
@@ -66,17 +67,18 @@ def make_responses(
     axes = [plan.frequency_ratio.tolist(), plan.amplitude_ratio.tolist()]
     known = {"block": repr(plan.block), "axes": axes, "settings": settings}
     key = hash_of({"code": source_hash(), "responses": known})
-    path = layout.response(specimen, plan.model)
+    of = ResultId(specimen, "responses", plan.model)
+    path = layout.path(of)
     is_new = stored_attributes(path).get("key") != key
     if is_new:
-        blocks = layout.response_blocks(specimen, plan.model)
+        blocks = layout.blocks(of)
         parts = spread(partial(_columns, plan), blocks_of(plan.frequency_ratio.size), blocks, key)
         attributes: dict[str, Any] = dict(
             global_attributes(
                 campaign=campaign.campaign,
                 title=campaign.title,
                 facility=campaign.facility,
-                stage="map",
+                stage="responses",
                 specimen=specimen,
             )
         )
@@ -89,7 +91,7 @@ def make_responses(
 
 def as_response(stored: xr.Dataset) -> SteadyResponse:
     """Return stored responses as the library gives them."""
-    from colonnade.dynamics.steady import SteadyResponse
+    from colonnade.dynamics.maps.steady import SteadyResponse
 
     return SteadyResponse(
         stored["frequency_ratio"].to_numpy(),
@@ -111,7 +113,7 @@ def _settings(plan: MapPlan) -> dict[str, Any]:
 
 def _columns(plan: MapPlan, indices: range) -> dict[str, NDArray[Any]]:
     """Work of a block: the responses at some Ω, as arrays."""
-    from colonnade.dynamics.steady import steady_response
+    from colonnade.dynamics.maps.steady import steady_response
 
     response = steady_response(
         plan.block,
@@ -148,7 +150,7 @@ def _draw(response: SteadyResponse, plan: MapPlan, points: Sequence[MapPoint], l
 
     settings = _settings(plan)
     files.write_text(
-        layout.response_figure(specimen, plan.model),
+        layout.figure(ResultId(specimen, "responses", plan.model)),
         figures.to_svg(
             figures.response_orders(response, points, settings),
             identity=f"response-{specimen}-{plan.model}",

@@ -10,18 +10,19 @@ from colonnade.campaign import Campaign, load
 from colonnade.errors import CampaignError, nearest
 from colonnade.interruption import expect_none
 from colonnade.store.layout import Layout
+from colonnade.store.results import ASKED_FOR, models_of
 from colonnade.workflow.arguments import check_run
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.chain import Chain, Phase, advance, clear_behind, is_fresh
-from colonnade.workflow.cluster import Tell
 from colonnade.workflow.copies import with_copies
+from colonnade.workflow.execution.cluster import Tell
+from colonnade.workflow.execution.lock import only_run
+from colonnade.workflow.execution.processes import execute
 from colonnade.workflow.freshness import RawIndex, remove_altered, report_key, source_hash
-from colonnade.workflow.lock import only_run
 from colonnade.workflow.pages import WrittenPages
 from colonnade.workflow.pooling import pool
-from colonnade.workflow.processes import execute
 from colonnade.workflow.results import RunResult, StageRun
-from colonnade.workflow.steps import CONTACT, STAGES, contact_step, models_of
+from colonnade.workflow.steps import CONTACT, contact_step
 from colonnade.workflow.summary import write_summary
 
 Progress = Callable[[StageRun, int, int], None]
@@ -49,7 +50,7 @@ def run(
     campaign : Path or str
         A campaign.toml or its folder.
     until, start_from : str, optional
-        Last stage; stage from which on results are made again whatever their state. One of `STAGES`.
+        Last stage; stage from which on results are made again whatever their state. One of `ASKED_FOR`.
     only : str or sequence of str, optional
         Ids of the tests to run; default all. Free vibrations of their specimens are run with them, as far as their e.
     workers : int, optional
@@ -89,7 +90,7 @@ def run(
     )
     loaded = load(Path(campaign))
     last, first = _known_stage("until", until) or "report", _known_stage("start_from", start_from)
-    if first is not None and STAGES.index(first) > STAGES.index(last):
+    if first is not None and ASKED_FOR.index(first) > ASKED_FOR.index(last):
         raise CampaignError(f"from {first} until {last}: the stage to stop at comes before the one to start from.")
     tests = _chosen(loaded, (only,) if isinstance(only, str) else only)
     layout, places = Layout.of(loaded.folder, results), (workers, scheduler)
@@ -128,23 +129,23 @@ def run(
             return _walked(chains(names, phase), catalogue, places, progress, notices.append)
 
         runs = list(walked(tests, "measuring"))
-        if STAGES.index(last) >= STAGES.index("predict"):
+        if ASKED_FOR.index(last) >= ASKED_FOR.index("predict"):
             asked = set(tests)
             runs += walked([name for name in _free_vibrations(loaded, tests) if name not in asked], "measuring")
-        if STAGES.index(last) >= STAGES.index("restitution"):
+        if ASKED_FOR.index(last) >= ASKED_FOR.index("restitution"):
             runs += pool(loaded, layout, catalogue.attributes, redo_from=first)
-        if STAGES.index(last) >= STAGES.index("predict"):
+        if ASKED_FOR.index(last) >= ASKED_FOR.index("predict"):
             unpooled = _reasons(runs, of_specimens=True)
             runs += _calibrate(
                 loaded, layout, [name for name in tests if loaded.tests[name].specimen not in unpooled], first
             )
         failed = _reasons(runs, of_specimens=False)
         unknown = _reasons(runs, of_specimens=True)
-        if STAGES.index(last) >= STAGES.index("predict"):
+        if ASKED_FOR.index(last) >= ASKED_FOR.index("predict"):
             ready = []
             for name in tests:
                 if (specimen := loaded.tests[name].specimen) in unknown:
-                    clear_behind(loaded, layout, name, STAGES.index("restitution"))
+                    clear_behind(loaded, layout, name, ASKED_FOR.index("restitution"))
                     failed.setdefault(name, f"specimen {specimen}: {unknown[specimen]}")
                 elif name not in failed:
                     ready.append(name)
@@ -178,8 +179,8 @@ def _report(campaign: Campaign, layout: Layout, catalogue: Catalogue, outdated: 
 
 
 def _known_stage(name: str, stage: str | None) -> str | None:
-    if stage is not None and stage not in STAGES:
-        raise CampaignError(f'{name}: there is no stage "{stage}".{nearest(stage, STAGES)}')
+    if stage is not None and stage not in ASKED_FOR:
+        raise CampaignError(f'{name}: there is no stage "{stage}".{nearest(stage, ASKED_FOR)}')
     return stage
 
 

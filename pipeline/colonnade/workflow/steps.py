@@ -10,21 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 from colonnade.campaign import Campaign, Test
 from colonnade.store.layout import Layout
+from colonnade.store.results import ResultId, models_of
 
 if TYPE_CHECKING:
     import xarray as xr
-
-STAGES = ("ingest", "condition", "rocking", "restitution", "predict", "ensemble", "compare", "report")
-"""In the order of the data's way."""
 
 _ENSEMBLE = "ensemble "
 """What the name of an ensemble begins with among the results that `compare` reads."""
 
 CONTACT = "contact"
 """The model that needs a law of contact."""
-
-WITHOUT_PREDICTION = ("tilt", "other")
-"""Kinds of test that have no base motion to predict from."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +53,7 @@ class Step:
     @property
     def order(self) -> int:
         """Place of its stage in `STAGES`; a specimen's own come with the stages of its tests that they serve."""
-        return STAGES.index({"specimen": "restitution", "contact": "predict"}.get(self.stage, self.stage))
+        return ResultId("", self.stage).order
 
     @property
     def is_of_specimen(self) -> bool:
@@ -78,20 +73,24 @@ def measuring_steps(campaign: Campaign, layout: Layout, test: Test) -> list[Step
     recorded, conditioned, angle = (layout.stage(test.id, stage) for stage in ("ingest", "condition", "rocking"))
     steps = [
         Step(
-            "ingest", recorded, dict(test.files), ingest.instructions(campaign, test), partial(_ingest, campaign.folder)
+            "ingest",
+            recorded,
+            dict(test.files),
+            ingest.IngestInputs.of(campaign, test),
+            partial(_ingest, campaign.folder),
         ),
         Step(
             "condition",
             conditioned,
             {"recorded": recorded},
-            condition.instructions(campaign, test),
+            condition.ConditionInputs.of(campaign, test),
             lambda upstream, read: condition.condition(upstream["recorded"], read),
         ),
         Step(
             "rocking",
             angle,
             {"conditioned": conditioned},
-            rocking.instructions(campaign, test),
+            rocking.RockingInputs.of(campaign, test),
             lambda upstream, read: rocking.rocking(upstream["conditioned"], read),
         ),
     ]
@@ -101,7 +100,7 @@ def measuring_steps(campaign: Campaign, layout: Layout, test: Test) -> list[Step
                 "restitution",
                 layout.stage(test.id, "restitution"),
                 {"rocking": angle},
-                restitution.instructions(campaign, test),
+                restitution.RestitutionInputs.of(campaign, test),
                 lambda upstream, read: restitution.restitution(upstream["rocking"], read),
             )
         )
@@ -112,8 +111,8 @@ def specimen_step(campaign: Campaign, layout: Layout, specimen_id: str, identifi
     """Step that pools the free vibrations of a specimen, given their results by test."""
     from colonnade.stages import specimen
 
-    path = layout.specimen(specimen_id)
-    read = specimen.instructions(campaign, specimen_id)
+    path = layout.stage(specimen_id, "specimen")
+    read = specimen.SpecimenInputs.of(campaign, specimen_id)
     return Step("specimen", path, dict(identified), read, specimen.specimen)
 
 
@@ -123,23 +122,18 @@ def contact_step(campaign: Campaign, layout: Layout, specimen_id: str) -> Step:
 
     return Step(
         CONTACT,
-        layout.contact(specimen_id),
-        {"specimen": layout.specimen(specimen_id)},
-        contact.instructions(campaign, specimen_id),
+        layout.stage(specimen_id, "contact"),
+        {"specimen": layout.stage(specimen_id, "specimen")},
+        contact.ContactInputs.of(campaign, specimen_id),
         lambda upstream, read: contact.contact(upstream["specimen"], read),
     )
-
-
-def models_of(campaign: Campaign, test: Test) -> tuple[str, ...]:
-    """Models that a test is predicted by."""
-    return () if test.kind in WITHOUT_PREDICTION else campaign.processing.predict.models
 
 
 def predicting_steps(campaign: Campaign, layout: Layout, test: Test) -> list[Step]:
     """Steps from what was measured to how far predictions agree."""
     from colonnade.stages import compare, predict
 
-    rocking, specimen = layout.stage(test.id, "rocking"), layout.specimen(test.specimen)
+    rocking, specimen = layout.stage(test.id, "rocking"), layout.stage(test.specimen, "specimen")
     models = models_of(campaign, test)
     predicted = {model: layout.stage(test.id, "predict", model) for model in models}
     steps = [
@@ -148,8 +142,8 @@ def predicting_steps(campaign: Campaign, layout: Layout, test: Test) -> list[Ste
             path,
             {"rocking": rocking, "specimen": specimen}
             | _identified(layout, test)
-            | ({CONTACT: layout.contact(test.specimen)} if model == CONTACT else {}),
-            predict.instructions(campaign, test, model),
+            | ({CONTACT: layout.stage(test.specimen, "contact")} if model == CONTACT else {}),
+            predict.PredictInputs.of(campaign, test, model),
             lambda upstream, read: predict.predict(
                 upstream["rocking"], upstream["specimen"], read, upstream.get(CONTACT), upstream.get("restitution")
             ),
@@ -167,7 +161,7 @@ def predicting_steps(campaign: Campaign, layout: Layout, test: Test) -> list[Ste
             "compare",
             layout.stage(test.id, "compare"),
             {"rocking": rocking, **predicted, **{f"{_ENSEMBLE}{model}": path for model, path in spread.items()}},
-            compare.instructions(campaign, test),
+            compare.CompareInputs.of(campaign, test),
             _compare,
         )
     )
@@ -186,10 +180,10 @@ def _ensemble(campaign: Campaign, layout: Layout, test: Test, model: str) -> Ste
             {
                 "conditioned": layout.stage(test.id, "condition"),
                 "rocking": rocking,
-                CONTACT: layout.contact(test.specimen),
+                CONTACT: layout.stage(test.specimen, "contact"),
             }
             | _identified(layout, test),
-            contact_ensemble.instructions(campaign, test),
+            contact_ensemble.ContactEnsembleInputs.of(campaign, test),
             lambda upstream, read: contact_ensemble.contact_ensemble(
                 upstream["conditioned"], upstream["rocking"], upstream[CONTACT], read, upstream.get("restitution")
             ),
@@ -201,10 +195,10 @@ def _ensemble(campaign: Campaign, layout: Layout, test: Test, model: str) -> Ste
         {
             "conditioned": layout.stage(test.id, "condition"),
             "rocking": rocking,
-            "specimen": layout.specimen(test.specimen),
+            "specimen": layout.stage(test.specimen, "specimen"),
         }
         | _identified(layout, test),
-        ensemble.instructions(campaign, test, model),
+        ensemble.EnsembleInputs.of(campaign, test, model),
         lambda upstream, read: ensemble.ensemble(
             upstream["conditioned"], upstream["rocking"], upstream["specimen"], read, upstream.get("restitution")
         ),

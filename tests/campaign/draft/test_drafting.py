@@ -77,7 +77,7 @@ def test_a_voltage_asks_for_its_gain_and_a_file_without_clock_for_its_rate(folde
         pytest.param("dead [mm]", np.full(TIME.size, 2.5), "it never changes", id="dead"),
         pytest.param("Nr", np.arange(1.0, TIME.size + 1), "a running number", id="index"),
         pytest.param("Output To Table [V]", SINE, "a command to the table", id="command"),
-        pytest.param("Voltage_27 [V]", SINE, "does not tell what it measures", id="unknown"),
+        pytest.param("Voltage_27 [V]", SINE, "does not show what it measures", id="unknown"),
     ],
 )
 def test_what_is_no_measurement_is_left_out_with_the_reason(folder, heading, values, reason):
@@ -223,7 +223,7 @@ def test_a_link_out_of_the_folder_is_not_followed(folder, tmp_path_factory):
     folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
     (folder.path / "free.csv").replace(outside)
     (folder.path / "free.csv").symlink_to(outside)
-    with pytest.raises(CampaignError, match=r"no file in it is a recording.*(?s:.*)leads out"):
+    with pytest.raises(CampaignError, match=r"no recording found.*(?s:.*)is outside"):
         draft(folder.path)
 
 

@@ -123,7 +123,7 @@ def test_a_file_in_which_nothing_moves_is_left_out(folder):
     assert "none of its columns measures anything" in reason
     assert '"top [mm]": it never changes' in reason
     (folder.path / "free-01.csv").unlink()
-    with pytest.raises(CampaignError, match="no file in it has a column that measures anything"):
+    with pytest.raises(CampaignError, match="no file has a column that measures anything"):
         draft(folder.path)
 
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade.campaign.draft.naming import unique
-from colonnade.campaign.identifier import clashes, identifier
+from colonnade.campaign.syntax.identifier import clashes, identifier
 
 
 @given(st.lists(st.text(), max_size=8))

@@ -6,7 +6,7 @@ import pytest
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.calibration import TOLERANCE, calibrate, free_restitution
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.layout import rigid_body
+from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)

@@ -6,7 +6,7 @@ import pytest
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.history import EnergyBalance, impacts_of, tilt
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.layout import rigid_body
+from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock

@@ -13,7 +13,7 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.layout import rigid_body
+from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
 from colonnade.dynamics.motion import Motion

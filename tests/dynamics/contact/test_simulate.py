@@ -8,7 +8,7 @@ import pytest
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.layout import rigid_body
+from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
 from colonnade.dynamics.motion import Motion
@@ -141,7 +141,7 @@ def test_a_mode_rings_at_its_frequency_and_fades_as_damped():
     modes = np.zeros((4, 3, 1))
     modes[:, 2, 0] = 0.1
     soft = ContactBody(**{**vars(body), "modes": modes, "frequencies": np.array([2000.0]),
-                          "modal_damping": np.array([0.02]), "modal_gravity": np.zeros((1, 3))})  # fmt: skip
+                          "modal_damping": np.array([0.02])})  # fmt: skip
     law = ContactLaw.stiff(body, GRAVITY, damping_fraction=0.1)
     start = Start(np.array([0.0, 0.0, soft.height + 1e-6]), np.array([0.0, 0.0, -0.05]))
     history = simulate(soft, Motion(np.zeros(401), 1e-5), law=law, step=1e-6, start=start)
@@ -183,7 +183,7 @@ def test_arguments_out_of_range_are_refused(arguments, message):
     [
         ({"model": "contact", "restitution": 0.9}, "no restitution of its own to be given"),
         ({"model": "linear", "out_of_plane": 0.01}, 'are for the model "contact"; the model is "linear"'),
-        ({"model": "contract"}, 'There is no model "contract"'),
+        ({"model": "contract"}, 'Unknown model "contract"'),
     ],
     ids=["restitution", "out of plane", "unknown model"],
 )

@@ -8,7 +8,7 @@ import pytest
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact import simulate as simulation
 from colonnade.dynamics.contact.law import ContactLaw
-from colonnade.dynamics.contact.layout import rigid_body
+from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.stability import highest_frequency, longest_step
 from colonnade.dynamics.motion import Motion
 

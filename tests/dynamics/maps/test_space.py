@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.harmonic_run import Harmonic
 from colonnade.dynamics.maps.space import SAMPLES_A_CYCLE, sampled
+from colonnade.dynamics.plane.harmonic import Harmonic
 
 
 @pytest.mark.parametrize("ramp_shape", ["linear", "cosine"])

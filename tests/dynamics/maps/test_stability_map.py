@@ -11,11 +11,11 @@ import pytest
 
 import colonnade
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.harmonic_run import Harmonic, harmonic_outcomes
 from colonnade.dynamics.maps.chart import assemble, stability_map
 from colonnade.dynamics.maps.column import _fraction, _intervals, map_column
 from colonnade.dynamics.maps.plan import plan_map
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_outcomes
 from colonnade.dynamics.restitution_law import RestitutionLaw
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
@@ -225,7 +225,7 @@ def test_the_library_offers_the_map():
         ({"ramp_shape": "line"}, 'no ramp of the shape "line"'),
         ({"phase": math.inf}, "phase is inf"),
         ({"width": 1e-5}, "edge is 0.0001 and width 1e-05"),
-        ({"model": "contact"}, 'no model "contact"'),
+        ({"model": "contact"}, 'Unknown plane model "contact"'),
         ({"motion_frequency": 3.0}, "come together"),
         ({"motion": Motion([0.0, 0.0], 0.1), "motion_frequency": 3.0}, "no acceleration at all"),
         ({"threads": 0}, "threads is 0"),

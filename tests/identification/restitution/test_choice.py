@@ -6,8 +6,9 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.choice import choose
-from colonnade.identification.restitution.decay import Decay
-from colonnade.identification.restitution.each_impact import EachImpact
+from colonnade.identification.restitution.estimators.history_scatter import ScatteredFit
+from colonnade.identification.restitution.estimators.peaks import PeakFit
+from colonnade.identification.restitution.fitting.free_decay import Decay
 from colonnade.identification.restitution.result import Estimate
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
@@ -17,20 +18,24 @@ WHOLE = Estimate("history-scatter", 0.95, 0.9498, 0.9502, 1e-4, 0.95, "")
 
 
 def history(estimate=WHOLE, probability=0.4):
-    return EachImpact(estimate, DECAY, probability)
+    return ScatteredFit(estimate, None, DECAY, probability)
+
+
+def chosen_of(history, peaks):
+    return choose([history, PeakFit(peaks)])
 
 
 def test_a_consistent_whole_history_is_recommended():
-    assert choose(history(), PEAKS) == (WHOLE, "")
+    assert chosen_of(history(), PEAKS) == (WHOLE, "")
 
 
 def test_an_inconsistent_one_gives_way_to_the_peaks():
-    assert choose(history(probability=1e-4), replace(PEAKS, standard_error=5e-4))[0].name == "peaks"
-    assert choose(history(replace(WHOLE, value=0.9), 1e-4), PEAKS)[0].name == "peaks"
+    assert chosen_of(history(probability=1e-4), replace(PEAKS, standard_error=5e-4))[0].name == "peaks"
+    assert chosen_of(history(replace(WHOLE, value=0.9), 1e-4), PEAKS)[0].name == "peaks"
 
 
 def test_an_inconsistent_one_that_agrees_with_poor_peaks_is_widened():
-    chosen, _ = choose(history(probability=1e-4), replace(PEAKS, standard_error=0.004))
+    chosen, _ = chosen_of(history(probability=1e-4), replace(PEAKS, standard_error=0.004))
     assert chosen.name == "history-scatter"
     assert chosen.standard_error > 0.02 * (1 - 0.95)
     assert chosen.low < WHOLE.low
@@ -45,15 +50,15 @@ def test_an_inconsistent_one_that_agrees_with_poor_peaks_is_widened():
     ids=["no decay", "too uncertain"],
 )
 def test_what_gives_no_value_has_a_reason(whole, words):
-    chosen, reason = choose(history(whole), PEAKS)
+    chosen, reason = chosen_of(history(whole), PEAKS)
     assert chosen is None
     assert words in reason
 
 
 def test_neither_history_nor_peaks_is_a_refusal_with_both_reasons():
     without = Estimate("peaks", None, None, None, None, 0.95, "", "3 peaks are too few.")
-    refused = EachImpact(replace(without, name="history-scatter", reason="No arcs."))
-    chosen, reason = choose(refused, without)
+    refused = ScatteredFit(replace(without, name="history-scatter", reason="No arcs."))
+    chosen, reason = chosen_of(refused, without)
     assert chosen is None
     assert "3 peaks are too few." in reason
     assert "No arcs." in reason

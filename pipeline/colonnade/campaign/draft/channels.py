@@ -15,7 +15,7 @@ from colonnade.campaign.draft.survey import Column
 from colonnade.campaign.draft.vocabulary import AXES, plain, words
 
 MOST_UNKNOWN = 12
-"""Columns of which nothing is known are asked about one by one up to this many."""
+"""Unknown columns are asked about one by one up to this many."""
 
 _FIRST_POINT = (
     "the point that it follows, [x, y, z] from the centre of the specimen's base: "
@@ -56,7 +56,7 @@ class DraftChannel:
 
 @dataclass(frozen=True)
 class DraftChannels:
-    """Channels of a setup, and the columns that are none of them: recorder, heading and reason."""
+    """Channels of a setup, and the columns that are not channels: recorder, heading and reason."""
 
     channels: tuple[DraftChannel, ...]
     left_out: tuple[tuple[str, str, str], ...]
@@ -71,18 +71,7 @@ def draft_channels(recorders: dict[str, Sequence[Column]]) -> DraftChannels:
     recorders : dict of str to sequence of Column
         Columns of one file of each recorder, the main one under "main"; a column counts as dead if it is in all.
     """
-    meanings = [(recorder, meaning(column)) for recorder, columns in recorders.items() for column in columns]
-    known = any(each.quantity is not None for _, each in meanings)
-    taken: list[tuple[str, Meaning]] = []
-    left_out = []
-    for recorder, each in meanings:
-        if each.left_out:
-            left_out.append((recorder, each.column.heading, each.left_out))
-        elif each.quantity is None and (known or len(taken) >= MOST_UNKNOWN):
-            unit = f'its unit is "{each.column.unit}" and its name' if each.column.unit else "its name"
-            left_out.append((recorder, each.column.heading, f"{unit} does not tell what it measures"))
-        else:
-            taken.append((recorder, each))
+    taken, left_out = _chosen(recorders)
     names = unique(("_".join(_id_parts(each.column.name)) for _, each in taken), "channel", as_variables=True)
     called = {recorder: [column.name for column in columns] for recorder, columns in recorders.items()}
     asked: set[str] = set()
@@ -92,6 +81,23 @@ def draft_channels(recorders: dict[str, Sequence[Column]]) -> DraftChannels:
         column = each.column.name if alone and each.column.name.strip() else each.column.number
         channels.append(DraftChannel(name, recorder, each, tuple(_lines(each, recorder, column, asked))))
     return DraftChannels(tuple(channels), tuple(left_out))
+
+
+def _chosen(recorders: dict[str, Sequence[Column]]) -> tuple[list[tuple[str, Meaning]], list[tuple[str, str, str]]]:
+    """Columns that become channels, by recorder, and the others: recorder, heading and reason."""
+    meanings = [(recorder, meaning(column)) for recorder, columns in recorders.items() for column in columns]
+    known = any(each.quantity is not None for _, each in meanings)
+    taken: list[tuple[str, Meaning]] = []
+    left_out = []
+    for recorder, each in meanings:
+        if each.left_out:
+            left_out.append((recorder, each.column.heading, each.left_out))
+        elif each.quantity is None and (known or len(taken) >= MOST_UNKNOWN):
+            unit = f'its unit is "{each.column.unit}" and its name' if each.column.unit else "its name"
+            left_out.append((recorder, each.column.heading, f"{unit} does not show what it measures"))
+        else:
+            taken.append((recorder, each))
+    return taken, left_out
 
 
 def _id_parts(name: str) -> list[str]:
@@ -112,7 +118,7 @@ def _lines(each: Meaning, recorder: str, column: str | int, asked: set[str]) -> 
         lines.append(Line("recorder", value(recorder)))
     if each.quantity is None:
         choices = ", ".join(f'"{quantity}"' for quantity in units.QUANTITY_DIMENSIONS)
-        question = _once(asked, "quantity", f"what it measures: {choices}; or leave these lines out")
+        question = _once(asked, "quantity", f"what it measures: {choices}; or delete these lines")
         return [*lines, Line("quantity", '"?"', question=question), *_unit(each, asked), *_place(each, asked)]
     lines.append(Line("quantity", value(each.quantity), each.because, each.conflict))
     lines += _unit(each, asked)
@@ -127,13 +133,13 @@ def _unit(each: Meaning, asked: set[str]) -> list[Line]:
         question = f'the file gives no unit: such as "{usual}", or "V" with a line gain = "10 {usual}/V" below it'
         return [Line("unit", '"?"', question=_once(asked, f"unit {usual}", question))]
     if not each.unit_known:
-        return [Line("unit", '"?"', question=f'the file says "{column.unit}", which is no unit known here')]
+        return [Line("unit", '"?"', question=f'the file says "{column.unit}", which is not a known unit')]
     lines = [Line("unit", value(column.unit), "as in the file")]
     if dimension is not None and not each.is_physical:
         recorded = units.normalise_unit(column.unit)
         below = f"({recorded})" if {"/", " "} & set(recorded) else recorded
         gain = f"? {units.DIMENSIONS[dimension][1]}/{below}"
-        lines.append(Line("gain", value(gain), question=_once(asked, "gain", "of its calibration sheet")))
+        lines.append(Line("gain", value(gain), question=_once(asked, "gain", "from its calibration sheet")))
     return lines
 
 
@@ -148,10 +154,10 @@ def _place(each: Meaning, asked: set[str]) -> list[Line | str]:
     lines: list[Line | str] = [Line("on", value(place), each.place_word, doubt)]
     if each.quantity == "displacement" and place == "specimen":
         lines.append(Line("at", '["? mm", "0 mm", "? mm"]', question=_once(asked, "at", _FIRST_POINT)))
-        fixed = _once(asked, "relative_to", 'where it is fixed: "table" where it moves with the table, else "ground"')
+        fixed = _once(asked, "relative_to", 'where it is fixed: "table" if it moves with the table, else "ground"')
         lines.append(Line("relative_to", '"?"', question=fixed))
     if each.quantity == "acceleration" and place == "specimen":
-        where = "where it sits; two or more along x at different heights enter the angle"
+        where = "where it is fixed; two or more along x at different heights improve the angle"
         lines.append(comment(f'at = ["43 mm", "0 mm", "440 mm"]      {where}'))
     lines.append(_direction(each, asked))
     if each.quantity == "displacement" and place == "specimen":
@@ -175,7 +181,7 @@ def _direction(each: Meaning, asked: set[str]) -> Line:
     direction = AXES[each.axis] if each.axis else (0, 1, 0) if along == "axis" else (1, 0, 0)
     reason = f'from "{each.axis}" in its name' if each.axis else ""
     negative = ", ".join(str(-part or 0) for part in direction)
-    question = _once(asked, "direction", f"of a positive reading; [{negative}] where it is the other way round")
+    question = _once(asked, "direction", f"of a positive reading; [{negative}] if it is reversed")
     return Line("direction", value(direction), reason, question)
 
 

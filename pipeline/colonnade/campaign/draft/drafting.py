@@ -1,4 +1,4 @@
-"""A campaign.toml to start from, guessed from a folder of raw files where it can be."""
+"""A campaign.toml to start from, guessed from a folder of raw files."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from colonnade.errors import CampaignError
 from colonnade.readers.irregular import irregular
 
 RAW_FOLDERS = ("raw", "data", "rohdaten", "dati", "daten")
-"""Names of folders that say nothing of the campaign in them."""
+"""Names of folders that say nothing about the campaign in them."""
 
 MOST_TOLD = 5
 
 
 @dataclass(frozen=True)
 class Question:
-    """Something a person has to fill in or look at: its line in the file, key, value and what is asked."""
+    """A value that a person has to fill in or check: its line in the file, key, value and what is asked."""
 
     line: int
     key: str
@@ -46,14 +46,14 @@ class CampaignDraft:
     Attributes
     ----------
     path : Path
-        Where it belongs; nothing is there yet.
+        Where it is to be written.
     text : str
     tests, setups : int
         How many.
     open, doubts : tuple of Question
-        What has to be filled in, and guesses that ask for a look.
+        What has to be filled in, and guesses to check.
     refused : tuple of (str, str)
-        Files that are not in it, with the reason.
+        Files that are not used, with the reason.
     asks_first : bool
         Whether it asks of each kind of files whether they are recordings of tests, before anything else about them.
     """
@@ -91,25 +91,21 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     if (kind := irregular(folder)) and not folder.is_dir():
         raise CampaignError(f"{folder}: this is {kind}. The folder with the raw files was expected.")
     if not folder.is_dir():
-        raise CampaignError(f"{folder}: there is no such folder. The one with the raw files was expected.")
+        raise CampaignError(f"{folder}: folder not found. The folder with the raw files was expected.")
     path = folder / FILE_NAME
     if path.exists() or path.is_symlink():
         raise CampaignError(
-            f"{path}: it is there already and is left as it is. To draft another one, move it away or give it another "
-            "name first; to go on with it, `colonnade check`."
+            f"{path}: it exists already and was not changed. To draft another one, move or rename it first. To "
+            "continue with it, run `colonnade check`."
         )
     found = survey(folder, progress)
     if not found.files:
-        raise CampaignError(
-            "\n".join([f"{folder}: no file in it is a recording that I can read.", *_told(found.refused)])
-        )
+        raise CampaignError("\n".join([f"{folder}: no recording found that can be read.", *_told(found.refused)]))
     arranged, copies = arrange(found.files)
     setups, empty = _with_channels(arranged)
     refused = (*found.refused, *empty)
     if not setups:
-        raise CampaignError(
-            "\n".join([f"{folder}: no file in it has a column that measures anything.", *_told(refused)])
-        )
+        raise CampaignError("\n".join([f"{folder}: no file has a column that measures anything.", *_told(refused)]))
     home = folder.parent if folder.name.casefold() in RAW_FOLDERS else folder
     written = write(as_id(home.name, "campaign"), setups, copies, refused)
     asked = list(_questions(written))
@@ -155,4 +151,4 @@ def _told(refused: tuple[tuple[str, str], ...]) -> list[str]:
     lines = [f"  {name}: {reason}" for name, reason in refused[:MOST_TOLD]]
     if len(refused) > MOST_TOLD:
         lines.append(f"  and {len(refused) - MOST_TOLD} more")
-    return lines or ["  There is no file in it but documents. Name the folder with the raw files."]
+    return lines or ["  It only holds documents. Name the folder with the raw files."]

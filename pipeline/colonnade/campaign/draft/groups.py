@@ -17,15 +17,15 @@ PUBLISHED = ("bhrc", "cosmos", "peer")
 
 
 def explained(groups: int, files: int) -> list[Line | str]:
-    """Say above the groups what is asked, and how it is answered."""
+    """Explain above the groups what is asked and how to answer."""
     return [
         "",
         comment(f"{files} files of {groups} kinds were found. The first question is: which are recordings of tests?"),
         comment(
-            'Each group asks it once, at format = "?". If it is one: write there the format that stands behind it,'
+            'Each group asks it once, at format = "?". If it is one: replace the "?" by the format named after it,'
         ),
-        comment("and take the # from the lines of its channels that you need. Until then they are kept as recorded."),
-        comment("If it is none: delete the group, from its line with ==== to the next one."),
+        comment("and remove the # from the lines that you need. Until then its channels are kept as recorded."),
+        comment("If not: delete the group, from its line with ==== to the next one."),
     ]
 
 
@@ -43,7 +43,7 @@ def group(number: str, files: str, format: str, lines: Sequence[Line | str]) -> 
     Returns
     -------
     lines : list of Line or str
-        Its channels are kept as recorded; what else is known or asked about them stands there as a comment.
+        Its channels are kept as recorded; what else is known or asked about them is there as a comment.
     """
     asked = f"recordings of tests ({files})? Then {value({'format': format})}; if not, delete this group"
     kept: list[Line | str] = ["", comment(f"==== Group {number}: {files}")]

@@ -15,12 +15,12 @@ from colonnade.campaign.draft.vocabulary import KINDS, MOTIONS, find, plain, wor
 from colonnade.campaign.test import KINDS as ALL_KINDS
 
 STILL = 0.05
-"""A table that moves by less than this fraction of its motion in another test stands still."""
+"""A table that moves by less than this fraction of its motion in another test is still."""
 
 SAME_FREQUENCY = 0.05
 """A frequency in a name that is further off the recorded one than this fraction is doubted."""
 
-# A word of its own: "usp000hzq8" tells no frequency.
+# A separate word: "usp000hzq8" is not a frequency.
 _FREQUENCY = re.compile(r"(?<![\d.,])(\d{1,6}(?:[.,p]\d{1,6})?)[ _-]?hz(?![a-z0-9])")
 _SPAN = re.compile(r"(?<![a-z])span[ _=-]?(\d{1,6}(?:[.,p]\d{1,6})?)(?![\d.,])")
 
@@ -40,7 +40,7 @@ def kind_lines(test: DraftTest, channels: Sequence[DraftChannel], largest: dict[
     Returns
     -------
     lines : list of Line or str
-        kind, and frequency, motion or span where they are told.
+        kind, and frequency, motion or span if they are known.
     """
     name = PurePosixPath(test.main.stem).name
     parts = words(name)
@@ -54,11 +54,11 @@ def kind_lines(test: DraftTest, channels: Sequence[DraftChannel], largest: dict[
     elif frequency is not None:
         kind = Line("kind", '"sine"', "the table moves as a steady sine", "guessed from its signal")
     elif still and _specimen_dies_away(test, channels):
-        reason = "the table stands still and the specimen comes to rest"
+        reason = "the table does not move and the specimen comes to rest"
         kind = Line("kind", '"free-vibration"', reason, "guessed from its signal")
     else:
         others = ", ".join(f'"{kind}"' for kind in ALL_KINDS if kind != "other")
-        kind = Line("kind", '"other"', "", f"neither name nor signal tells: {others}; an other has no prediction")
+        kind = Line("kind", '"other"', "", f'neither name nor signal shows it: {others}; "other" has no prediction')
     lines: list[Line | str] = [kind]
     if kind.value in ('"sine"', '"pulse"'):
         lines += _frequency_lines(named, frequency if kind.value == '"sine"' else None)
@@ -95,7 +95,7 @@ def _frequency_lines(named: float | None, recorded: float | None) -> list[Line |
 
 
 def _number(pattern: re.Pattern[str], name: str) -> float | None:
-    """Read a number above zero from a name; None where it tells none."""
+    """Read a number above zero from a name; None if it has none."""
     found = pattern.search(plain(name))
     number = float(re.sub("[,p]", ".", found[1])) if found else 0.0
     return number if number > 0 else None

@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from colonnade.campaign.fields import one_line
+from colonnade.campaign.syntax.fields import one_line
 
 
 @dataclass(frozen=True)
@@ -17,11 +17,11 @@ class Line:
     Attributes
     ----------
     key, value : str
-        As TOML; a "?" in the value stands for what a person has to fill in, and does not pass for an answer.
+        As TOML; a "?" in the value is what a person has to fill in; it is not accepted as an answer.
     reason : str
-        Why it is guessed so; empty where it is plain.
+        Why it is guessed so; empty if it is plain.
     question : str
-        What a person should look at; empty where there is no doubt.
+        What a person should look at; empty if there is no doubt.
     """
 
     key: str

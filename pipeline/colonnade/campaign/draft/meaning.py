@@ -20,7 +20,7 @@ _OF_DIMENSION = {
 _NUMBERED = re.compile(r"^(?:column \d+$|block \d+: )")
 
 PLACE_OF = {"displacement": "specimen", "acceleration": "table", "velocity": "table"}
-"""Where a transducer of which nothing is said most often is."""
+"""Where a transducer most often is, if nothing says so."""
 
 
 @dataclass(frozen=True)
@@ -32,17 +32,17 @@ class Meaning:
     ----------
     column : Column
     left_out : str
-        Why it is no channel; empty where it is one.
+        Why it is not a channel; empty if it is one.
     quantity : str or None
-        None where nothing tells.
+        None if nothing shows it.
     place : str or None
-        "specimen", "table" or "ground"; None where nothing tells.
+        "specimen", "table" or "ground"; None if nothing shows it.
     axis : str or None
         "x", "y" or "z", where the name says so.
     because : str
-        What the quantity is told from.
+        What shows the quantity.
     place_word : str
-        What the place is told from.
+        What shows the place.
     unit_known, is_physical : bool
         Whether the file's unit is one that colonnade knows, and of the quantity rather than of a voltage.
     conflict : str
@@ -62,7 +62,7 @@ class Meaning:
 
 
 def meaning(column: Column) -> Meaning:
-    """Tell what a column is from its unit, its name and what its signal looks like."""
+    """Find out what a column is from its unit, its name and what its signal looks like."""
     if column.is_clock:
         return Meaning(column, left_out="the clock")
     if column.shape.is_dead:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 
 from colonnade.campaign.draft.vocabulary import plain
-from colonnade.campaign.identifier import folded, identifier
+from colonnade.campaign.syntax.identifier import folded, identifier
 
 
 def unique(names: Iterable[str], otherwise: str, *, as_variables: bool = False) -> list[str]:
@@ -17,7 +17,7 @@ def unique(names: Iterable[str], otherwise: str, *, as_variables: bool = False) 
     ----------
     names : iterable of str
     otherwise : str
-        What a name becomes of which no letter or digit can be kept.
+        What a name becomes if none of its letters and digits can be kept.
     as_variables : bool, optional
         Whether ids that differ in ``.``, ``-`` and ``_`` alone count as the same.
 

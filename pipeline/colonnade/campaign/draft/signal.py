@@ -5,18 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from colonnade.arrays import Array
 
 LONGEST = 1 << 20
-"""Samples that are looked at; enough to tell the shape of any test."""
+"""Samples that are examined; enough to see the shape of any test."""
 
 SINE_SHARE = 0.6
 """A signal with this share of its power at one frequency is a steady sine."""
 
 FEWEST_CYCLES = 4
-"""Of a sine that is told from a pulse."""
+"""Of a sine that is distinguished from a pulse."""
 
 QUIET_END = 0.1
 """A signal whose last sixth varies by less than this fraction of the first half has died away."""
@@ -30,7 +29,7 @@ class Shape:
     Attributes
     ----------
     spread : float
-        Standard deviation, in the file's unit; NaN where there is no number.
+        Standard deviation, in the file's unit; NaN if there is no number.
     counts : bool
         Whether it rises by one from sample to sample.
     sine : float or None
@@ -57,7 +56,7 @@ def shape_of(values: Array, time: Array | None) -> Shape:
     ----------
     values : ndarray, shape (n,)
     time : ndarray, shape (n,), or None
-        s; without it no frequency is told.
+        s; without it no frequency is found.
     """
     known = np.isfinite(values) if time is None else np.isfinite(values) & np.isfinite(time)
     signal = values[known][:LONGEST]
@@ -73,7 +72,7 @@ def shape_of(values: Array, time: Array | None) -> Shape:
 
 def steady_sine(signal: Array, interval: float) -> float | None:
     """
-    Frequency of a signal that is a steady sine where it moves at all; None where it is none.
+    Frequency of a signal that is a steady sine where it moves at all; None if it is not.
 
     Parameters
     ----------

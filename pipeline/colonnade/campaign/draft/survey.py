@@ -1,4 +1,4 @@
-"""What lies in a folder of raw files: every file that a format reads, its columns and what their signals look like."""
+"""What is in a folder of raw files: every file that a format reads, its columns and what their signals look like."""
 
 from __future__ import annotations
 
@@ -8,30 +8,27 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from colonnade.campaign.draft.lines import value
 from colonnade.campaign.draft.signal import Shape, shape_of
-from colonnade.campaign.rawpath import inside
+from colonnade.campaign.syntax.rawpath import inside
 from colonnade.errors import ColonnadeError
 from colonnade.readers.irregular import irregular
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import MOST_GENERAL, read
 
-Array = NDArray[np.float64]
-
 OWN_FOLDERS = ("processed", "report")
-"""Folders that colonnade itself writes beside a campaign file."""
+"""Folders that colonnade itself writes next to a campaign file."""
 
 NO_RECORDINGS = (
     *(".toml", ".md", ".rst", ".json", ".yaml", ".yml", ".html", ".htm", ".pdf", ".doc", ".docx", ".odt", ".ppt"),
     *(".pptx", ".png", ".jpg", ".jpeg", ".gif", ".svg", ".bmp", ".mp4", ".avi", ".mov", ".zip", ".gz", ".7z", ".py"),
     *(".m", ".ipynb", ".tdms_index", ".lnk", ".ini", ".bak", ".tmp"),
 )
-"""Endings of files that are kept beside recordings but are none."""
+"""Endings of files that are kept with recordings but are not recordings."""
 
 WRITING = ("delimiter ", "decimal sign ", "one column", "numbers run on")
-"""Notes of readers that tell how numbers are written."""
+"""Notes of readers about how numbers are written."""
 
 LOG_HEADS = {"id", "kind", "specimen"}
 """Column heads by which a table is a log of tests."""
@@ -119,7 +116,7 @@ class Survey:
     files : tuple of RawFile
         In the order of their names, numbers as numbers.
     refused : tuple of (str, str)
-        What was looked at and is no recording, with the reason.
+        Files that are not recordings, with the reason.
     """
 
     files: tuple[RawFile, ...]
@@ -148,11 +145,11 @@ def survey(folder: Path, progress: Callable[[int, int], None] | None = None) -> 
                 refused.append((relative, f"it is {kind}, not a file"))
             elif _is_log(path):
                 key = f"tests = {value(relative)} above [specimens]"
-                refused.append((relative, f"it looks like a log of tests; {key} takes it in place of [[tests]]"))
+                refused.append((relative, f"it looks like a test log; use it with {key} instead of [[tests]]"))
             else:
                 found.append(_seen(relative, read(path, within=folder)))
         except UnicodeEncodeError:
-            refused.append((ascii(relative)[1:-1], "its name is not UTF-8; give it another"))
+            refused.append((ascii(relative)[1:-1], "its name is not UTF-8; rename it"))
         except (ColonnadeError, ValueError, OSError) as error:
             refused.append((relative, _first_reason(str(error), path.name)))
         if progress is not None:
@@ -195,9 +192,9 @@ def _is_log(path: Path) -> bool:
     return {cell.strip(' "').casefold() for cell in re.split(r"[;,\t]", head)} >= LOG_HEADS
 
 
-def _first_reason(told: str, name: str) -> str:
-    """Leave of a refusal what a person needs to see that a file is none, or which extra reads it."""
-    lines = [line.strip() for line in told.removeprefix(f"{name}: ").splitlines() if line.strip()]
+def _first_reason(refusal: str, name: str) -> str:
+    """Keep of a refusal what shows that a file is not a recording, or which extra reads it."""
+    lines = [line.strip() for line in refusal.removeprefix(f"{name}: ").splitlines() if line.strip()]
     extra = next((line for line in lines if "pip install" in line), None)
     general = next((line for line in lines[1:] if line.startswith(f"{MOST_GENERAL.name}: ")), None)
     return extra or (f"{lines[0].rstrip('.')} ({general})" if general else lines[0])

@@ -47,7 +47,7 @@ LEFT_OUT: dict[str, tuple[str, ...]] = {
     "a temperature": ("temp", "temperatur", "thermo"),
     "a supply": ("supply", "battery", "batt", "excit", "speisung"),
 }
-"""What is no measurement of the motion: words that say so."""
+"""What is not a measurement of the motion: words that say so."""
 
 KINDS: dict[str, tuple[str, ...]] = {
     "free-vibration": ("free", "frei", "libera", "release", "snap", "decay", "elefther", "eleuth", "loslassen", "fv"),

@@ -22,7 +22,7 @@ _SIZES = {
         "height": "along z",
     },
     "cylinder": {"diameter": "", "height": ""},
-    "cone": {"base_diameter": "of the circle it stands on", "top_diameter": "", "height": ""},
+    "cone": {"base_diameter": "of the base circle", "top_diameter": "", "height": ""},
 }
 
 
@@ -66,9 +66,9 @@ def write(
     described = [line for specimen, shape in dict.fromkeys(specimens) for line in _specimen(specimen, shape)]
     asks_first = len(setups) > MOST_SETUPS
     lines: list[Line | str] = [
-        comment("Drafted by `colonnade init` from the raw files. Behind each # stands why a value is what it is."),
+        comment("Drafted by `colonnade init` from the raw files. The text after each # says why a value was chosen."),
         comment('A "?" in a value has to be filled in before anything runs; "# ?" is a guess that asks for a look.'),
-        comment("`colonnade check` tells what is still open, with its line."),
+        comment("`colonnade check` lists what is still open, with its line."),
         Line("schema", str(SCHEMA)),
         Line("campaign", value(name), "from the name of the folder"),
         Line("title", value(f"Campaign {name}"), "of the report; say it better"),
@@ -89,8 +89,8 @@ def write(
         for each in named:
             lines += of_setup[each.name]
     if copies or refused:
-        lines += ["", comment("Files that are not in here:")]
-        lines += [comment(f"{file}: the same columns as {taken}, so taken for a copy of it") for file, taken in copies]
+        lines += ["", comment("Files that are not used:")]
+        lines += [comment(f"{file}: the same columns as {taken}, so it is treated as a copy") for file, taken in copies]
         lines += [comment(f"{file}: {reason}") for file, reason in refused]
     return Draft(tuple(lines))
 
@@ -122,7 +122,7 @@ def _hinted(channel: DraftChannel, setup: str) -> DraftChannel:
 
 
 def _specimens(tests: Sequence[DraftTest]) -> list[tuple[str, str]]:
-    """Specimen of each test, and its shape, where file names tell them; one for all tests of which nothing tells."""
+    """Specimen of each test, and its shape, if file names show them; one for all other tests."""
     found = [find(words(test.main.stem), SHAPES) for test in tests]
     return [(each[0], each[0]) if each else ("specimen", "") for each in found]
 
@@ -156,14 +156,14 @@ def _described(named: _NamedSetup) -> list[Line | str]:
         pair = linked(drafted.channels, recorder)
         lines += ["", f"[setups.{key(named.name)}.recorders.{key(recorder)}]", *_recorder_lines(setup, recorder)]
         if pair:
-            reason = "both see the table move, which tells how late it started"
-            lines.append(Line("clock", value({"align": list(pair)}), reason, '"trigger" where both start together'))
+            reason = "both record the table's motion, which shows how late it started"
+            lines.append(Line("clock", value({"align": list(pair)}), reason, '"trigger" if both start together'))
         else:
-            either = 'or {align = ["a channel of main", "a channel of this one that sees the same"]}'
+            either = 'or {align = ["a channel of main", "a channel of this one that measures the same"]}'
             lines.append(Line("clock", '"trigger"', "", either))
     lines += [
         "",
-        comment("A channel may also say offset, range and delay; `colonnade schema campaign` has all keys."),
+        comment("A channel may also have offset, range and delay; `colonnade schema campaign` lists all keys."),
     ]
     for channel in drafted.channels:
         lines += ["", f"[setups.{key(named.name)}.channels.{key(channel.id)}]", *channel.lines]
@@ -191,7 +191,7 @@ def _left_out(drafted: DraftChannels) -> list[Line | str]:
         by_reason.setdefault(reason, []).append(f'"{heading}"')
     lines: list[Line | str] = [
         "",
-        comment("Columns that are left out; a table like those above takes one in:"),
+        comment("Columns that are left out; to use one, add a table like those above:"),
     ]
     for reason, headings in by_reason.items():
         some = ", ".join(headings[:4]) + (f" … {headings[-1]}" if len(headings) > 4 else "")

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from colonnade.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,8 +29,6 @@ class ContactBody:
         Mass-normalised elastic mode shapes at the base nodes, kg^-½; m is 0 for a rigid body.
     frequencies, modal_damping : ndarray, shape (m,)
         rad/s; fraction of critical.
-    modal_gravity : ndarray, shape (m, 3)
-        Participation of a uniform acceleration in the body's axes, kg^½: 0, since the modes carry no momentum.
     description : str
         For people: shape, mesh, degrees of freedom, how reduced.
     ring_radii : ndarray, shape (n,)
@@ -41,7 +38,8 @@ class ContactBody:
     Notes
     -----
     The modes carry no momentum and no angular momentum (mean axes), so that translation and rotation are those of the
-    rigid body; strains are small. Inertia forces of the rotation on the modes are neglected.
+    rigid body, and a uniform acceleration does not excite them; strains are small. Inertia forces of the rotation on
+    the modes are neglected.
     """
 
     mass: float
@@ -52,7 +50,6 @@ class ContactBody:
     modes: Array
     frequencies: Array
     modal_damping: Array
-    modal_gravity: Array
     description: str
     ring_radii: Array = field(default_factory=lambda: np.zeros(0))
 
@@ -71,7 +68,6 @@ class ContactBody:
             "modes": (count, 3, kept),
             "frequencies": (kept,),
             "modal_damping": (kept,),
-            "modal_gravity": (kept, 3),
         }
         for name, shape in shapes.items():
             values = np.ascontiguousarray(getattr(self, name), dtype=np.float64)
@@ -85,8 +81,6 @@ class ContactBody:
                 raise ValueError(f"{name} is {getattr(self, name)}; positive values were expected")
         if np.any(self.modal_damping < 0.0):
             raise ValueError(f"modal_damping is {self.modal_damping}; values from 0 on were expected")
-        if np.any(self.modal_gravity != 0.0):
-            raise ValueError("modal_gravity is not 0; modes that carry no momentum were expected")
         if np.any(self.ring_radii < 0.0) or (kept > 0 and self.has_rings):
             raise ValueError(
                 f"ring_radii is {self.ring_radii} m with {kept} modes; radii from 0 on were expected, 0 with modes"
@@ -109,8 +103,3 @@ class ContactBody:
     def has_rings(self) -> bool:
         """Whether the base touches along whole circles."""
         return bool(np.any(self.ring_radii > 0.0))
-
-    @property
-    def is_rigid(self) -> bool:
-        """Whether the body has no elastic modes."""
-        return bool(self.frequencies.size == 0)

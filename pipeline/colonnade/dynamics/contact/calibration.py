@@ -9,8 +9,8 @@ from functools import partial
 from math import acosh, ceil, exp, log, nan
 
 import numpy as np
-from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.history import ContactHistory
@@ -18,7 +18,6 @@ from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.simulate import plane_block, simulate
 from colonnade.dynamics.contact.stability import longest_step
 
-Array = NDArray[np.float64]
 Identify = Callable[[ContactHistory], tuple[float, str]]
 
 VELOCITY_RATIO = "velocity-ratio"

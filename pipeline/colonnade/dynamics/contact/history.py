@@ -5,14 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 import numpy as np
-from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.history import NO_ROCKING_RATIO, History
-
-Array = NDArray[np.float64]
+from colonnade.dynamics.models.contact import CONTACT
 
 LARGEST_RESIDUAL = 0.01
 """Of the energy balance, over its largest part; beyond it the run says that the balance does not close."""
@@ -122,7 +121,7 @@ class ContactHistory(History):
     base_force: Array
     energies: EnergyBalance
     airborne: float
-    model: str = "contact"
+    model: str = CONTACT.name
 
     @property
     def tilt(self) -> Array:

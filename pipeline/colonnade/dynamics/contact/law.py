@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import sqrt
-from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from colonnade.dynamics.contact.body import ContactBody
-from colonnade.validation import number, text
-
-Array = NDArray[np.float64]
+from colonnade.validation import number
 
 STATIC_PENETRATION = 1e-6
 """Of the default law: how deep the standing body sinks, in heights of its centre of mass."""
@@ -26,9 +23,7 @@ class ContactLaw:
     Attributes
     ----------
     stiffness : float
-        Normal penalty stiffness k, per area of the base (N/m³) or per node (N/m).
-    per : {"area", "node"}
-        What the stiffness is for; of a ring, all around.
+        Normal penalty stiffness k per area of the base, N/m³.
     damping_fraction : float
         ξ, the critical damping fraction: 2 ξ sqrt(m k) v acts while the node is in contact, m the node's mass.
     friction : float
@@ -45,20 +40,17 @@ class ContactLaw:
     µ N / k_t.
 
     A ring of radius r has its stiffness k and its mass m spread evenly around: by length k' = k / 2πr, m' = m / 2πr and
-    the damping 2 ξ sqrt(m' k'), each the limit of more and more nodes. Per area, k is the stiffness times the area of
-    the annulus that the ring stands for.
+    the damping 2 ξ sqrt(m' k'), each the limit of more and more nodes; k is the stiffness times the area of the
+    annulus that the ring stands for.
     """
 
     stiffness: float
-    per: Literal["area", "node"] = "area"
     damping_fraction: float = 0.4
     friction: float = 0.6
     tangential_ratio: float = 1.0
     tangential_damping: float = 1.0
 
     def __post_init__(self) -> None:
-        if text("per", self.per, '"area" or "node"') not in ("area", "node"):
-            raise ValueError(f'per is {self.per!r}; "area" or "node" was expected')
         for name in ("stiffness", "tangential_ratio"):
             number(name, getattr(self, name), "a positive number", above=0.0)
         for name in ("damping_fraction", "friction", "tangential_damping"):
@@ -91,7 +83,7 @@ class ContactLaw:
 
     def node_stiffness(self, body: ContactBody) -> Array:
         """Normal stiffness of each base node, N/m, shape (n,)."""
-        return self.stiffness * body.node_area if self.per == "area" else np.full(len(body.nodes), self.stiffness)
+        return self.stiffness * body.node_area
 
     def node_damping(self, body: ContactBody) -> Array:
         """Normal damping 2 ξ sqrt(m k) of each base node, N s/m, shape (n,)."""
@@ -111,41 +103,3 @@ class ContactLaw:
         """
         stiffness = float(self.node_stiffness(body).sum())
         return float(self.node_damping(body).sum()) / (2.0 * sqrt(body.mass * stiffness))
-
-
-def rebound_ratio(damping_fraction: float) -> float:
-    """
-    Rebound over approach speed of one mass on a spring and damper that cannot pull.
-
-    Parameters
-    ----------
-    damping_fraction : float
-        ξ from 0 on.
-
-    Returns
-    -------
-    ratio : float
-        exp(−ξ t*) with the (dimensionless) time t* at which the force is zero again: the mass leaves before the depth
-        is zero.
-
-    Notes
-    -----
-    With depth δ'' + 2 ξ δ' + δ = 0, δ(0) = 0, δ'(0) = 1, the force δ + 2 ξ δ' = −δ'' vanishes at
-    tan(ω t*) = 2 ξ ω / (2 ξ² − 1), ω = sqrt(1 − ξ²) (Schwager and Pöschel 2007); the speed is then −exp(−ξ t*).
-
-    Examples
-    --------
-    >>> round(rebound_ratio(0.3), 5)
-    0.45098
-    """
-    if not damping_fraction >= 0.0:
-        raise ValueError(f"damping_fraction is {damping_fraction}; a number from 0 on was expected")
-    if damping_fraction < 1.0:
-        frequency = sqrt(1.0 - damping_fraction**2)
-        duration = float(np.arctan2(2.0 * damping_fraction * frequency, 2.0 * damping_fraction**2 - 1.0)) / frequency
-    elif damping_fraction == 1.0:
-        duration = 2.0
-    else:
-        rate = sqrt(damping_fraction**2 - 1.0)
-        duration = float(np.log((damping_fraction + rate) / (damping_fraction - rate))) / rate
-    return float(np.exp(-damping_fraction * duration))

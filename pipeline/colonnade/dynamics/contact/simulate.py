@@ -5,20 +5,18 @@ from __future__ import annotations
 from math import ceil, hypot
 
 import numpy as np
-from numpy.typing import NDArray
 
+from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
-from colonnade.dynamics.contact import engine
 from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.engine.run import run
+from colonnade.dynamics.contact.engine.state import COLUMNS, POINTS, Body, Near, State
 from colonnade.dynamics.contact.history import ContactHistory, EnergyBalance, impacts_of, tilt
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.stability import longest_step
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
-from colonnade.dynamics.contact.state import COLUMNS, POINTS, Body, Near, State
 from colonnade.dynamics.motion import Motion, at_rest
 from colonnade.validation import number
-
-Array = NDArray[np.float64]
 
 DEFAULT_STEP = 1e-5
 """s; shorter where the contact is too stiff for it."""
@@ -80,7 +78,7 @@ def simulate(
 
     Examples
     --------
-    >>> from colonnade.dynamics.contact.layout import rigid_body
+    >>> from colonnade.dynamics.contact.nodes import rigid_body
     >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
     >>> body = rigid_body(block)
     >>> law = ContactLaw.stiff(body, block.gravity, damping_fraction=0.4)
@@ -170,7 +168,7 @@ def _run(
         float(law.friction),
     )
     state = State.begin(fixed, np.concatenate((start.position, start.velocity, orientation, spin)))
-    count, impacts = engine.run(fixed, state, Near.room(fixed), table, interval, parts, samples)
+    count, impacts = run(fixed, state, Near.room(fixed), table, interval, parts, samples)
     return samples[:count], impacts
 
 
@@ -206,25 +204,18 @@ def _history(
     impacts: Array,
     overturned: bool,
 ) -> ContactHistory:
-    """Name the columns; hold the last state where the body lies."""
+    """Name the columns; hold the last state of a body that lies."""
     matrices = rotation_matrices(samples[:, 6:10])
     axis = matrices[:, :, 2]
     turning = np.einsum("nij,nj->ni", matrices, samples[:, 10:13])
-    angle = np.arctan2(axis[:, 0], axis[:, 2])
-    rate = np.cross(turning, axis)
-    speed = (rate[:, 0] * axis[:, 2] - axis[:, 0] * rate[:, 2]) / (axis[:, 0] ** 2 + axis[:, 2] ** 2)
+    angle, speed = _rocking(axis, turning)
+    missing = motion.acceleration.size - len(samples)
+    if missing:
+        angle[-1], speed[-1] = np.copysign(0.5 * np.pi, axis[-1, 0]), 0.0
     side = np.where(angle < 0.0, -1.0, 1.0)
     pole = np.column_stack((side * body.half_width, np.zeros(len(side)), np.full(len(side), -body.height)))
     slide = (samples[:, :3] + np.einsum("nij,nj->ni", matrices, pole) - pole)[:, :2]
-    lies = len(samples) < motion.acceleration.size
-    if lies:
-        angle[-1], speed[-1] = np.copysign(0.5 * np.pi, axis[-1, 0]), 0.0
-    over = tilt(samples[:, 6:10]) > block.critical_angle
-    passed = np.nan
-    if overturned:
-        passed = motion.time[int(len(over) - np.argmin(over[::-1])) if not over.all() else 0]
     times, speeds, rebounds = impacts_of(impacts, block)
-    missing = motion.acceleration.size - len(samples)
 
     def whole(values: Array) -> Array:
         return np.concatenate((values, np.repeat(values[-1:], missing, axis=0))) if missing else values
@@ -237,7 +228,7 @@ def _history(
         times,
         speeds,
         rebounds,
-        float(passed),
+        _passed(motion.time, tilt(samples[:, 6:10]) > block.critical_angle) if overturned else float("nan"),
         body=body,
         law=law,
         step=step,
@@ -253,3 +244,15 @@ def _history(
         energies=EnergyBalance(*(whole(samples[:, column]) for column in range(17, 25))),
         airborne=float(samples[-1, 25]),
     )
+
+
+def _rocking(axis: Array, turning: Array) -> tuple[Array, Array]:
+    """Give the rocking angle and its rate, of the body's axis and its angular velocity, shape (n, 3) each."""
+    rate = np.cross(turning, axis)
+    speed = (rate[:, 0] * axis[:, 2] - axis[:, 0] * rate[:, 2]) / (axis[:, 0] ** 2 + axis[:, 2] ** 2)
+    return np.arctan2(axis[:, 0], axis[:, 2]), speed
+
+
+def _passed(time: Array, over: Mask) -> float:
+    """Give the time of the first sample of the last stretch that is `over` α, which lasts to the end."""
+    return float(time[int(len(over) - np.argmin(over[::-1])) if not over.all() else 0])

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from colonnade.dynamics.contact.body import ContactBody
-from colonnade.dynamics.contact.engine import PASSES
+from colonnade.dynamics.contact.engine.kick import PASSES
 from colonnade.dynamics.contact.law import ContactLaw
-
-Array = NDArray[np.float64]
 
 AROUND = 4
 """Equal points that have the second moments of a ring."""

@@ -6,13 +6,11 @@ from dataclasses import dataclass, field
 from math import hypot, tan
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from colonnade.arrays import Array
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.law import ContactLaw
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -9,16 +9,17 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from colonnade.arrays import Array, Codes
 from colonnade.dynamics.block import Block, Sided
-from colonnade.dynamics.maps.column import Codes, MapColumn, map_column
+from colonnade.dynamics.maps.column import MapColumn, map_column
 from colonnade.dynamics.maps.plan import EDGE, WIDTH, MapPlan, plan_map
+from colonnade.dynamics.models.registry import DEFAULT
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.plane.harmonic import RAMP_SHAPES
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.validation import whole
-
-Array = NDArray[np.float64]
 
 MOST_THREADS = 1024
 
@@ -75,8 +76,8 @@ def stability_map(
     cycles: float = 20,
     phase: float = 0.0,
     ramp: float = 0,
-    ramp_shape: str = "linear",
-    model: str = "linear",
+    ramp_shape: str = RAMP_SHAPES[0],
+    model: str = DEFAULT,
     width: float = WIDTH,
     edge: float = EDGE,
     motion: Motion | None = None,
@@ -101,7 +102,8 @@ def stability_map(
         Cycles over which the amplitude rises before, and falls after.
     ramp_shape : {"linear", "cosine"}
         How it rises and falls: in proportion to time, or as half a cosine.
-    model : {"linear", "nonlinear"}
+    model : str, optional
+        A plane one.
     width : float, optional
         In A: intervals narrower than this make no limit.
     edge : float, optional

@@ -10,16 +10,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from colonnade.dynamics.harmonic_run import OUTCOMES, Harmonic, harmonic_outcomes
+from colonnade.arrays import Array, Codes
 from colonnade.dynamics.maps.plan import MapPlan
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.plane.harmonic import OUTCOMES, Harmonic, harmonic_outcomes
 from colonnade.dynamics.rock import rock
 
 if TYPE_CHECKING:
     from colonnade.dynamics.maps.space import InSpace
 
-Array = NDArray[np.float64]
-Codes = NDArray[np.int8]
 Runs = Callable[[Array], Codes]
 """Outcomes of some A."""
 

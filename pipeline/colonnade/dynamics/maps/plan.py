@@ -8,12 +8,14 @@ from math import pi, tan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block, Sided
-from colonnade.dynamics.harmonic_run import Restitution, check_model, check_ramp_shape, restitution_up_to
 from colonnade.dynamics.history import NO_ROCKING_RATIO
+from colonnade.dynamics.models.registry import DEFAULT, model_of, plane_model_of
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.plane.harmonic import RAMP_SHAPES, Restitution, check_ramp_shape, restitution_up_to
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.validation import instance, number, samples
@@ -21,7 +23,6 @@ from colonnade.validation import instance, number, samples
 if TYPE_CHECKING:
     from colonnade.dynamics.maps.space import InSpace
 
-Array = NDArray[np.float64]
 
 WIDTH = 0.01
 """In A: narrower intervals of overturning, or of survival, are islands and make no limit."""
@@ -69,7 +70,7 @@ class MapPlan:
         that `motion_frequency` (Hz) gives Ω.
     motion_frequency : float, optional
     space : InSpace, optional
-        Body and law of contact of the model "contact", whose restitution they are.
+        Body and law of contact of a model in space, whose restitution they are.
     """
 
     block: Block
@@ -105,7 +106,7 @@ class MapPlan:
             negative = max(-float(self.motion.acceleration.min()), 0.0) / self.motion.peak
         limits = []
         for side, share in ((self.block.negative, positive), (self.block.positive, negative)):
-            threshold = side.critical_angle if self.model == "linear" else tan(side.critical_angle)
+            threshold = model_of(self.model).uplift_threshold(side.critical_angle)
             limits.append(threshold / share if share > 0 else np.inf)
         return float(min(limits) / tan(self.block.critical_angle))
 
@@ -150,8 +151,8 @@ def plan_map(
     cycles: float = 20,
     phase: float = 0.0,
     ramp: float = 0,
-    ramp_shape: str = "linear",
-    model: str = "linear",
+    ramp_shape: str = RAMP_SHAPES[0],
+    model: str = DEFAULT,
     width: float = WIDTH,
     edge: float = EDGE,
     motion: Motion | None = None,
@@ -170,7 +171,7 @@ def plan_map(
     if motion is not None:
         instance("motion", motion, Motion)
     if space is None:
-        check_model(model)
+        plane_model_of(model)
     check_ramp_shape(ramp_shape)
     frequencies = _axis("frequency_ratio", frequency_ratio, 1)
     amplitudes = _axis("amplitude_ratio", amplitude_ratio, 2)

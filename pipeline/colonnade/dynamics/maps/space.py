@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.simulate import simulate
-from colonnade.dynamics.harmonic_run import OUTCOMES, Harmonic
 from colonnade.dynamics.motion import Motion
-
-Array = NDArray[np.float64]
+from colonnade.dynamics.plane.harmonic import OUTCOMES, Harmonic
 
 SAMPLES_A_CYCLE = 100
 """Of the sine that the contact model is driven by, linear between them: off by 5e-4 of its amplitude at most."""

@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.validation import described, instance, number, samples
-
-Array = NDArray[np.float64]
 
 FREED = ("critical_angle", "p")
 """What may be identified with e."""
@@ -20,7 +18,7 @@ def check_settings(
     block: Any, *, level: Any, lowest_amplitude: Any, noise: Any, lowpass: Any, free: Any
 ) -> tuple[str, ...]:
     """
-    Check what `identify_restitution` is given besides records; return `free`.
+    Check the settings given to `identify_restitution`; return `free`.
 
     Raises
     ------

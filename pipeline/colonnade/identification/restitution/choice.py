@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from math import hypot
 
 from scipy import stats
 
-from colonnade.identification.restitution.each_impact import EachImpact
-from colonnade.identification.restitution.history import UNLIKELY
+from colonnade.identification.restitution.estimators.estimator import Fit
+from colonnade.identification.restitution.estimators.history import UNLIKELY, NonlinearHistory
+from colonnade.identification.restitution.estimators.history_scatter import ScatteredHistory
+from colonnade.identification.restitution.estimators.peaks import PeakDecay
 from colonnade.identification.restitution.result import Estimate, Restitution
 
 LARGEST_ERROR = 0.003
@@ -21,44 +24,39 @@ NEGLIGIBLE = 0.01
 """... if the difference is more than this share of the loss 1 − e: a smaller one changes no prediction."""
 
 MISFIT = 0.02
-"""Share of the loss 1 − e that is added to the error of a whole history that leaves over more than noise."""
-
-METHODS = {
-    "history-scatter": "whole history: exact nonlinear rocking with an e of its own at each impact, about one mean; "
-    "interval over all scatters of e by restricted likelihood, with the noise's own spectrum",
-    "history-nonlinear": "whole history: exact nonlinear rocking, least squares, errors with the noise's own spectrum",
-    "peaks": "peaks: log-energy against impact number, weighted, common zero offset, random-walk scatter (REML)",
-}
+"""Share of the loss 1 − e that is added to the error of a whole history whose residual is more than noise."""
 
 RULE = (
-    "The whole history with an e of its own at each impact is recommended if noise and scatter alone explain what it "
-    f"leaves over (arc by arc, probability at least {UNLIKELY:g}); else the peaks, which do not need p, unless the "
+    "The whole history with an e of its own at each impact is recommended if noise and scatter alone explain its "
+    f"residual (arc by arc, probability at least {UNLIKELY:g}); else the peaks, which do not need p, unless the "
     f"whole history with {MISFIT:.0%} of the loss 1 − e added to its error agrees with them and says more. "
     f"No value is given if its standard error is over {LARGEST_ERROR:g}, if its interval reaches 1, or if a departure "
     "from plane rocking with one e leaves too little."
 )
 
 
-def choose(history: EachImpact, peaks: Estimate) -> tuple[Estimate | None, str]:
+def choose(fits: Sequence[Fit]) -> tuple[Estimate | None, str]:
     """
-    Choose between the whole history and the peaks (see `RULE`).
+    Choose the estimate that is recommended (see `RULE`).
 
     Parameters
     ----------
-    history : EachImpact
-    peaks : Estimate
+    fits : sequence of Fit
+        Of the estimators that may be recommended, the preferred one first.
 
     Returns
     -------
     estimate : Estimate or None
-        None where none is recommended.
+        None if no value is recommended.
     reason : str
-        Why; empty where there is one.
+        Why; empty if a value is.
     """
-    chosen = history.estimate if history.is_consistent else _of_two(history, peaks)
+    *preferred, last = fits
+    chosen = last.estimate
+    for fit in reversed(preferred):
+        chosen = _of_two(fit.estimate, chosen) if fit.objection else fit.estimate
     if chosen.value is None or chosen.high is None or chosen.standard_error is None or chosen.low is None:
-        left = "" if history.decay is None else " What the whole history leaves over is more than noise."
-        return None, chosen.reason + (left or f" {history.estimate.reason}")
+        return None, " ".join([chosen.reason, *(fit.objection for fit in preferred)])
     if chosen.high >= 1:
         return None, (
             f"The motion does not decay: e would be {chosen.value:.4f}, between {chosen.low:.4f} and "
@@ -73,17 +71,17 @@ def choose(history: EachImpact, peaks: Estimate) -> tuple[Estimate | None, str]:
     return chosen, ""
 
 
-def _of_two(history: EachImpact, peaks: Estimate) -> Estimate:
-    """Return the peaks, or the whole history, widened for its misfit, where that agrees with them and says more."""
-    value, error = history.estimate.value, history.estimate.standard_error
-    if peaks.value is None or peaks.standard_error is None or value is None or error is None:
-        return peaks
+def _of_two(preferred: Estimate, other: Estimate) -> Estimate:
+    """Return the other, or the preferred one, widened for its misfit, if the two agree and it says more."""
+    value, error = preferred.value, preferred.standard_error
+    if other.value is None or other.standard_error is None or value is None or error is None:
+        return other
     widened = hypot(error, MISFIT * (1 - value))
-    close = abs(value - peaks.value) <= DISAGREEMENT * hypot(widened, peaks.standard_error)
-    if not close or peaks.standard_error <= widened:
-        return peaks
-    half = float(stats.norm.ppf((1 + peaks.level) / 2)) * widened
-    return replace(history.estimate, low=value - half, high=value + half, standard_error=widened)
+    close = abs(value - other.value) <= DISAGREEMENT * hypot(widened, other.standard_error)
+    if not close or other.standard_error <= widened:
+        return other
+    half = float(stats.norm.ppf((1 + other.level) / 2)) * widened
+    return replace(preferred, low=value - half, high=value + half, standard_error=widened)
 
 
 def disagreement(result: Restitution) -> str:
@@ -91,8 +89,9 @@ def disagreement(result: Restitution) -> str:
     by_name = {estimate.name: estimate for estimate in result.estimates}
     # An e of its own at each impact takes up what a wrong block does; where that shows, one e for all shows it best.
     misfits = result.history is not None and result.history.probability < UNLIKELY
-    peaks, history = by_name.get("peaks"), by_name.get("history-nonlinear" if misfits else "history-scatter")
-    if peaks is None or history is None or peaks.value is None or history.value is None:
+    peaks = by_name[PeakDecay.name]
+    history = by_name[NonlinearHistory.name if misfits else ScatteredHistory.name]
+    if peaks.value is None or history.value is None:
         return ""
     difference = history.value - peaks.value
     error = hypot(history.standard_error or 0.0, peaks.standard_error or 0.0)
@@ -102,5 +101,5 @@ def disagreement(result: Restitution) -> str:
         f"The whole history gives e = {history.value:.5f}, the peaks {peaks.value:.5f}: "
         f"{abs(difference) / error:.2g} standard errors apart; at most {DISAGREEMENT:g} were expected. The times of "
         "impact are not quite those of this block: check its dimensions and mass, and for slide or rotation out of "
-        f"plane. The value of the {'peaks' if result.recommended == 'peaks' else 'whole history'} is used."
+        f"plane. The value of the {'peaks' if result.recommended == PeakDecay.name else 'whole history'} is used."
     )

@@ -39,7 +39,7 @@ def pool(values: ArrayLike, standard_errors: ArrayLike, *, level: float = 0.95) 
     Raises
     ------
     ValueError
-        If there is no value or an error is not positive.
+        If values are missing or an error is not positive.
 
     Notes
     -----

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from colonnade.arrays import Array
 
 
 def _none() -> Array:
@@ -146,7 +146,7 @@ class FittedHistory:
 @dataclass(frozen=True)
 class Restitution:
     """
-    An identified coefficient of restitution, or the reason why there is none.
+    An identified coefficient of restitution, or the reason why it is missing.
 
     Attributes
     ----------

@@ -16,8 +16,9 @@ from typing import IO, Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt
 
+from colonnade.arrays import Array
 from colonnade.readers.bounded.bounds import Bounds
-from colonnade.readers.recording import Array, RecordedChannel, Recording, Window
+from colonnade.readers.recording import RecordedChannel, Recording, Window
 
 LONGEST_LINE = 64_000_000
 """Bytes of JSON that an answer may have."""

@@ -16,11 +16,12 @@ from pathlib import Path, PureWindowsPath
 from typing import Any, Literal
 
 import colonnade
+from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.bounded import messages
 from colonnade.readers.bounded.bounds import MEGABYTE, bounds_of
 from colonnade.readers.bounded.messages import Answer, BrokenAnswerError, EndedError, Request
-from colonnade.readers.recording import Array, Recording, Window
+from colonnade.readers.recording import Recording, Window
 
 START = 120.0
 """Seconds within which the process has to have imported what it needs."""

@@ -12,11 +12,11 @@ from importlib import import_module
 from pathlib import Path
 from typing import IO, Any
 
+from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.bounded import messages
 from colonnade.readers.bounded.enclosure import enclose, limit, own_folders, watch
 from colonnade.readers.bounded.messages import Answer, Request
-from colonnade.readers.recording import Array
 
 BACKSTOP = 5.0
 """Seconds by which this process outlives its time, if whoever asks does not end it."""
@@ -46,9 +46,8 @@ def serve(requests: IO[bytes], answers: IO[bytes], handle: Callable[[Request, IO
     while line := requests.readline():
         request = Request.of(line)
         format = formats().get(request.format)
-        if format is not None and format.is_installed:
-            for module in format.modules:
-                import_module(module)
+        for module in () if format is None else format.modules:
+            import_module(module)
         handle(request, requests, answers)
 
 

@@ -1,0 +1,67 @@
+"""TOML files of a campaign as text and as tables, refused in words where they are neither."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from colonnade.campaign.syntax.fields import one_line
+from colonnade.campaign.syntax.places import Place
+from colonnade.errors import CampaignError
+from colonnade.readers.irregular import irregular
+
+_LARGEST_BYTES = 20_000_000
+
+
+def read_text(path: Path) -> str:
+    """
+    Read a text file that a person wrote.
+
+    Raises
+    ------
+    CampaignError
+        If it cannot be read or is not UTF-8.
+    """
+    if kind := irregular(path):
+        raise CampaignError(f"{path.name}: this is {kind}; a text file was expected.")
+    try:
+        if path.stat().st_size > _LARGEST_BYTES:
+            raise CampaignError(f"{path.name} is too large for a campaign's own file. Is it a raw file?")
+        return path.read_bytes().decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise CampaignError(
+            f"{path.name}: byte {error.start + 1} is not UTF-8 text. "
+            "Save the file as UTF-8; editors offer it as the encoding."
+        ) from None
+    except OSError as error:
+        raise CampaignError(f"{path.name}: it cannot be read ({error.strerror}).") from None
+
+
+def parse(text: str, name: str) -> dict[str, Any]:
+    """
+    Parse TOML.
+
+    Raises
+    ------
+    CampaignError
+        If it is none; the message gives line and column.
+    """
+    try:
+        return tomllib.loads(text.replace("\r\n", "\n"))
+    except (ValueError, RecursionError) as error:  # a number of thousands of digits is a plain ValueError
+        said = "tables or lists are nested too deeply" if isinstance(error, RecursionError) else str(error)
+        raise CampaignError(
+            f"{name}: this is not valid TOML: {said}. Put text in quotes and lists in [ ]; give each key once."
+        ) from None
+
+
+def refusal(paragraphs: Iterable[str]) -> CampaignError:
+    """Build the error of a file with several problems, each paragraph once and on one line."""
+    return CampaignError("\n".join(dict.fromkeys(map(one_line, paragraphs))))
+
+
+def place_of(location: Place) -> Place:
+    """Return a key's place: pydantic's, without its mark for a key."""
+    return tuple(part for part in location if part != "[key]")

@@ -1,0 +1,257 @@
+"""An elastic body reduced to component modes: rigid motion apart, vibration modes, and attachment modes of its base."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.elastic.assembly import ElasticBody, rigid_modes
+from colonnade.dynamics.contact.elastic.viscosity import modal_damping
+from colonnade.dynamics.contact.law import ContactLaw
+
+VIBRATION_MODES = 40
+"""Free vibration modes kept by default."""
+
+DEPENDENCE = 1e-9
+"""Share of the strain energy below which a mixture of attachment shapes adds nothing to the others."""
+
+FOLLOWED = 0.25
+"""Of the longest stable step of a mode: a step that is longer does not follow it, and the energy balance suffers."""
+
+SHIFT = 1e-3
+"""Of the squared frequency (speed of sound over the largest length), added to every mode while solving."""
+
+
+def reduce_body(
+    body: ElasticBody,
+    *,
+    vibration_modes: int = VIBRATION_MODES,
+    attachment: bool = True,
+) -> ContactBody:
+    """
+    Reduce a meshed body to modes that the contact engine can advance one by one.
+
+    Parameters
+    ----------
+    body : ElasticBody
+    vibration_modes : int, optional
+        Lowest free vibration modes, exact for the mesh.
+    attachment : bool, optional
+        Also keep the residual deformation under a unit force at each base node along each axis. With them the base's
+        static flexibility is the mesh's own, whatever the number of vibration modes.
+
+    Returns
+    -------
+    reduced : ContactBody
+        Modes by rising frequency. Its inertia is that of the volume, its rigid motion is free of the modes.
+
+    Raises
+    ------
+    ValueError
+        If the number of modes is negative or not below the mesh's.
+
+    Notes
+    -----
+    Craig and Chang's method for a free body: inertia-relieved attachment modes less their share in the vibration modes,
+    made orthogonal to each other through the small eigenproblem of their flexibility, so that stiffness and mass are
+    both diagonal. Inertia forces of the rotation on the deformation are left out (strains are small).
+    """
+    elastic_modes = 3 * len(body.points) - 6
+    if not 0 <= vibration_modes < elastic_modes:
+        raise ValueError(
+            f"{vibration_modes} vibration modes were asked for; the mesh has {elastic_modes}, so a number from 0 to "
+            f"{elastic_modes - 1} was expected"
+        )
+    roots = np.sqrt(np.repeat(body.node_mass, 3))
+    scaled = _scale(body.stiffness, 1 / roots)
+    rigid = roots[:, None] * rigid_modes(body.points, body.node_mass)
+    solve = _solver(scaled, _shift(body), 3 * len(body.base))
+
+    def flexibility(loads: Array) -> Array:
+        return _without(rigid, solve(_without(rigid, loads)))
+
+    modes, frequencies = _vibration(scaled, flexibility, rigid, vibration_modes)
+    if attachment:
+        loads = np.zeros((roots.size, 3 * len(body.base)))
+        loaded = (3 * body.base[:, None] + np.arange(3)).ravel()
+        loads[loaded, np.arange(loaded.size)] = 1 / roots[loaded]
+        shapes, attached = _attachment(scaled, _without(modes, flexibility(_without(modes, loads))))
+        modes, frequencies = np.hstack((modes, shapes)), np.concatenate((frequencies, attached))
+    order = np.argsort(frequencies)
+    frequencies, modes = frequencies[order], modes[:, order] / roots[:, None]
+    kept = "with" if attachment else "without"
+    return replace(
+        rigid_on_nodes(body),
+        modes=modes.reshape(-1, 3, frequencies.size)[body.base],
+        frequencies=frequencies,
+        modal_damping=modal_damping(body, modes, frequencies),
+        description=f"{body.description}; {vibration_modes} vibration modes {kept} attachment modes",
+    )
+
+
+def rigid_on_nodes(body: ElasticBody) -> ContactBody:
+    """Give the rigid block that stands on the same nodes, with the same weights."""
+    count = len(body.base)
+    return ContactBody(
+        mass=body.mass,
+        inertia=body.inertia,
+        nodes=body.points[body.base],
+        node_mass=body.node_mass[body.base],
+        node_area=body.base_area,
+        modes=np.empty((count, 3, 0)),
+        frequencies=np.empty(0),
+        modal_damping=np.empty(0),
+        description=f"{body.description}, rigid",
+    )
+
+
+def keep_modes(body: ContactBody, highest_frequency: float) -> ContactBody:
+    """
+    Leave out the modes above a frequency.
+
+    Parameters
+    ----------
+    body : ContactBody
+        As reduced; its low modes stay as accurate as they are, the base becomes stiffer.
+    highest_frequency : float
+        rad/s; `keep_modes_for_step` finds the one that a step and a contact allow.
+
+    Returns
+    -------
+    body : ContactBody
+        The rigid body where no mode is as low.
+    """
+    kept = int(np.searchsorted(body.frequencies, highest_frequency, side="right"))
+    if kept == body.frequencies.size:
+        return body
+    return replace(
+        body,
+        modes=body.modes[:, :, :kept],
+        frequencies=body.frequencies[:kept],
+        modal_damping=body.modal_damping[:kept],
+        description=f"{body.description}, of which {kept} up to {highest_frequency:.4g} rad/s",
+    )
+
+
+def keep_modes_for_step(body: ContactBody, law: ContactLaw, step: float) -> ContactBody:
+    """
+    Keep the lowest modes, as many as a step of the contact engine follows.
+
+    Parameters
+    ----------
+    body : ContactBody
+        As reduced.
+    law : ContactLaw
+        Its stiffness and damping shorten the step of fast modes.
+    step : float
+        s.
+
+    Returns
+    -------
+    body : ContactBody
+        With the modes that the step follows (`FOLLOWED`); the rigid body where it follows none.
+
+    Raises
+    ------
+    ValueError
+        If the step is too long even for the rigid body; the message gives the one that is not.
+    """
+    from colonnade.dynamics.contact.stability import longest_step
+
+    rigid = keep_modes(body, 0.0)
+    if step > longest_step(rigid, law):
+        raise ValueError(
+            f"The step is {step:.3g} s; even the rigid body on this contact needs one of at most "
+            f"{longest_step(rigid, law):.3g} s"
+        )
+    frequencies = np.append(0.0, body.frequencies)
+    low, high = 0, body.frequencies.size + 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        allowed = longest_step(keep_modes(body, frequencies[middle]), law) >= step / FOLLOWED
+        low, high = (middle, high) if allowed else (low, middle)
+    return keep_modes(body, frequencies[low])
+
+
+def _vibration(scaled: Any, flexibility: Callable[[Array], Array], rigid: Array, count: int) -> tuple[Array, Array]:
+    """Lowest elastic modes in coordinates scaled by the square root of the mass, and their frequencies."""
+    from scipy.sparse.linalg import LinearOperator, eigsh
+
+    size = len(rigid)
+    if count == 0:
+        return np.empty((size, 0)), np.empty(0)
+    operator = LinearOperator((size, size), matvec=flexibility, dtype=np.float64)
+    start = np.random.default_rng(0).standard_normal(size)
+    _, modes = eigsh(operator, k=count, which="LM", v0=start, tol=1e-10)
+    modes, _ = np.linalg.qr(_without(rigid, modes))
+    squares, mixture = np.linalg.eigh(modes.T @ (scaled @ modes))
+    return modes @ mixture, np.sqrt(squares)
+
+
+def _attachment(scaled: Any, shapes: Array) -> tuple[Array, Array]:
+    """Mix shapes into orthonormal modes that the stiffness does not couple, and give their frequencies."""
+    stiffness = shapes.T @ (scaled @ shapes)
+    shapes = shapes / np.sqrt(np.diagonal(stiffness))
+    shares, mixture = np.linalg.eigh(shapes.T @ (scaled @ shapes))
+    kept = shares > DEPENDENCE * shares[-1]
+    shapes = shapes @ (mixture[:, kept] / np.sqrt(shares[kept]))
+    # Strain energies are now alike, so the flexibilities are the masses, 1/ω².
+    flexibilities, mixture = np.linalg.eigh(shapes.T @ shapes)
+    return (shapes @ mixture) / np.sqrt(flexibilities), 1 / np.sqrt(flexibilities)
+
+
+def _without(basis: Array, vectors: Array) -> Array:
+    """Take the components along an orthonormal basis out of vectors."""
+    return np.asarray(vectors - basis @ (basis.T @ vectors))
+
+
+def _scale(matrix: Any, factors: Array) -> Any:
+    from scipy.sparse import diags_array
+
+    weights = diags_array(factors)
+    return (weights @ matrix @ weights).tocsr()
+
+
+def _shift(body: ElasticBody) -> float:
+    longest = float(np.ptp(body.points, axis=0).max())
+    return SHIFT * body.material.modulus / body.material.density / longest**2
+
+
+def _solver(matrix: Any, shift: float, layer: int) -> Callable[[Array], Array]:
+    """
+    Factor matrix + shift · 1, whose layers of `layer` unknowns are coupled to their neighbours only.
+
+    Notes
+    -----
+    Block Cholesky from layer to layer, with the inverses of the dense corners kept: a solution is products alone.
+    """
+    from scipy.linalg import cholesky, solve_triangular
+
+    starts = range(0, matrix.shape[0], layer)
+    corners: list[Array] = []
+    links: list[Array] = []
+    for start in starts:
+        block = matrix[start : start + layer, start : start + layer].toarray()
+        block[np.diag_indices(layer)] += shift
+        if start:
+            below = matrix[start : start + layer, start - layer : start].toarray()
+            links.append(below @ corners[-1].T)
+            block -= links[-1] @ links[-1].T
+        corners.append(solve_triangular(cholesky(block, lower=True), np.eye(layer), lower=True))
+
+    def solve(loads: Array) -> Array:
+        parts = [loads[start : start + layer] for start in starts]
+        for i, corner in enumerate(corners):
+            right = parts[i] - links[i - 1] @ parts[i - 1] if i else parts[i]
+            parts[i] = corner @ right
+        for i in reversed(range(len(corners))):
+            right = parts[i] - links[i].T @ parts[i + 1] if i + 1 < len(corners) else parts[i]
+            parts[i] = corners[i].T @ right
+        return np.concatenate(parts)
+
+    return solve

@@ -1,0 +1,1 @@
+"""Many runs of one motion over what is not known exactly."""

@@ -1,0 +1,211 @@
+"""Steady response to a harmonic base motion: after how many cycles it repeats, and how large it is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import atan2, cosh, pi, sinh, sqrt, tan
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from colonnade.arrays import Array
+from colonnade.dynamics.block import Block, Sided
+from colonnade.dynamics.models.registry import DEFAULT
+from colonnade.dynamics.plane.harmonic import RAMP_SHAPES, Harmonic, harmonic_run, restitution_up_to
+from colonnade.dynamics.restitution_law import RestitutionLaw
+
+AT_REST, IRREGULAR, OVERTURNED = 0, -1, -2
+"""Orders of responses that do not repeat as rocking."""
+
+LARGEST_ORDER = 8
+"""Longest repeat looked for, in cycles of the base."""
+
+REPEATS = 3
+"""How often a response has to repeat."""
+
+SAME = 1e-4
+"""States that differ by less, as fractions of α and of α p, are the same."""
+
+
+@dataclass(frozen=True)
+class SteadyResponse:
+    """
+    Steady responses over Ω and A.
+
+    Attributes
+    ----------
+    frequency_ratio, amplitude_ratio : ndarray, shape (n,) and (m,)
+    order : ndarray of int8, shape (n, m)
+        k ≥ 1: the response repeats every k cycles of the base (sub-harmonic 1/k for k > 1); 0 at rest, −1 irregular,
+        −2 overturned.
+    period : ndarray, shape (n, m)
+        s; NaN where nothing repeats.
+    amplitude : ndarray, shape (n, m)
+        Largest |θ|/α over the last `LARGEST_ORDER` · `REPEATS` cycles; NaN where the block overturned.
+    """
+
+    frequency_ratio: Array
+    amplitude_ratio: Array
+    order: NDArray[np.int8]
+    period: Array
+    amplitude: Array
+
+
+def steady_response(
+    block: Block,
+    *,
+    frequency_ratio: ArrayLike,
+    amplitude_ratio: ArrayLike,
+    restitution: Sided | RestitutionLaw | Callable[[float], float] | None = None,
+    settling: int = 400,
+    phase: float = 0.0,
+    ramp: float = 0.0,
+    ramp_shape: str = RAMP_SHAPES[0],
+    model: str = DEFAULT,
+) -> SteadyResponse:
+    """
+    Find the steady response, from rest, over Ω and A.
+
+    Parameters
+    ----------
+    block : Block
+    frequency_ratio, amplitude_ratio : array_like, shape (n,) and (m,)
+        Ω = ω / p and A = a / (g tan α).
+    restitution : float, pair of float, RestitutionLaw or function, optional
+        e, as of `rock`; default the rigid-body value.
+    settling : int, optional
+        Cycles at full amplitude before the response is looked at. A deviation dies out as e² a cycle where there are
+        two impacts in it: at e = 0.976 to 4e-9 within 400 cycles.
+    phase : float, optional
+        rad.
+    ramp : float, optional
+        Cycles over which the amplitude rises at first.
+    ramp_shape : {"linear", "cosine"}
+        How it rises: in proportion to time, or as half a cosine.
+    model : str, optional
+        A plane one.
+
+    Returns
+    -------
+    response : SteadyResponse
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range or the model is not known.
+    """
+    omegas = np.atleast_1d(np.asarray(frequency_ratio, dtype=np.float64))
+    amplitudes = np.atleast_1d(np.asarray(amplitude_ratio, dtype=np.float64))
+    if not (omegas > 0).all():
+        raise ValueError("frequency_ratio has to be positive throughout")
+    if settling < 1:
+        raise ValueError(f"settling is {settling}; at least one cycle was expected")
+    e = restitution_up_to(block, restitution, float(amplitudes.max(initial=0.0)))
+    watched = LARGEST_ORDER * (REPEATS + 1)
+    shape = (omegas.size, amplitudes.size)
+    order, period, amplitude = np.zeros(shape, dtype=np.int8), np.full(shape, np.nan), np.full(shape, np.nan)
+    for row, omega in enumerate(omegas * block.p):
+        cycle = 2 * pi / omega
+        first = round(ramp) + settling
+        edges = (ramp * cycle, (first + watched) * cycle, (first + watched) * cycle)
+        motion = Harmonic(omega, phase, edges, ramp_shape)
+        for column, level in enumerate(amplitudes):
+            run = harmonic_run(
+                block,
+                motion,
+                float(level),
+                e,
+                model=model,
+                samples=first + watched,
+                interval=cycle,
+                peaks_from=(first + LARGEST_ORDER) * cycle,
+            )
+            if run.outcome == "overturned":
+                order[row, column] = OVERTURNED
+                continue
+            amplitude[row, column] = run.peak_ratio
+            states = np.column_stack([run.angle, run.angular_velocity / block.p])[first:] / block.critical_angle
+            order[row, column] = AT_REST if run.peak_ratio == 0.0 else _order(states)
+            if order[row, column] > 0:
+                period[row, column] = order[row, column] * cycle
+    return SteadyResponse(omegas, amplitudes, order, period, amplitude)
+
+
+def _order(states: Array) -> int:
+    """Return the smallest number of cycles after which the states, one a cycle, repeat; `IRREGULAR` if none."""
+    for order in range(1, LARGEST_ORDER + 1):
+        last = states[-(REPEATS + 1) * order :]
+        if np.abs(last[order:] - last[:-order]).max() < SAME:
+            return order
+    return IRREGULAR
+
+
+@dataclass(frozen=True)
+class SymmetricResponse:
+    """
+    A harmonic response with two equal and opposite arcs a cycle.
+
+    Attributes
+    ----------
+    phase : float
+        Phase ω t of the base acceleration a sin ω t, rad, at which an arc with θ > 0 begins.
+    velocity : float
+        |θ'| just after each impact, rad/s; before it is 1/e times as large.
+    """
+
+    phase: float
+    velocity: float
+
+
+def symmetric_responses(
+    block: Block, *, frequency_ratio: float, amplitude_ratio: float, restitution: float
+) -> list[SymmetricResponse]:
+    """
+    Symmetric harmonic responses of the linear model in closed form, stable or not, the larger velocity first.
+
+    Parameters
+    ----------
+    block : Block
+        Symmetric.
+    frequency_ratio, amplitude_ratio : float
+        Ω and A.
+    restitution : float
+        e > 0.
+
+    Returns
+    -------
+    responses : list of SymmetricResponse
+        None, one or two. Whether the angle keeps its sign over the arc and whether the response is stable is not asked.
+
+    Raises
+    ------
+    ValueError
+        If the block is not symmetric.
+
+    Notes
+    -----
+    With F = A tan α/(α (1 + Ω²)), k = coth(π/2Ω), β the phase and v the velocity over α p, the arc's ends h = 0 at
+    x = 0 and π/Ω and h'(π/Ω) = −v/e give
+
+        F sin β = v (1 − 1/e)/(2 k),     F Ω cos β = v (1 + 1/e)/2 − 1/k,
+
+    whose squares make a quadratic equation for v.
+    """
+    if not block.is_symmetric:
+        raise ValueError("The block has unequal sides; a symmetric one was expected")
+    alpha, e = block.critical_angle, restitution
+    gain = amplitude_ratio * tan(alpha) / alpha / (1 + frequency_ratio**2)
+    half = pi / frequency_ratio / 2
+    k = cosh(half) / sinh(half)
+    across, along = (1 - 1 / e) / (2 * k), (1 + 1 / e) / (2 * frequency_ratio)
+    offset = 1 / (k * frequency_ratio)
+    # (across v)² + (along v − offset)² = gain²
+    square, middle, constant = across**2 + along**2, along * offset, offset**2 - gain**2
+    discriminant = middle**2 - square * constant
+    if discriminant < 0:
+        return []
+    roots = [(middle + sign * sqrt(discriminant)) / square for sign in (1, -1)]
+    return [
+        SymmetricResponse(atan2(across * v, along * v - offset) % (2 * pi), v * alpha * block.p) for v in roots if v > 0
+    ]

@@ -1,0 +1,13 @@
+"""The linear model: θ̈ = p² (θ − α sgn θ − a/g), solved exactly between samples."""
+
+from __future__ import annotations
+
+from colonnade.dynamics.models.model import Line, PlaneModel
+
+LINEAR = PlaneModel(
+    name="linear",
+    line=Line("#d1490f", "dashed", 1.1),
+    is_linearised=True,
+    is_default=True,
+    propagator="colonnade.dynamics.plane.linear",
+)

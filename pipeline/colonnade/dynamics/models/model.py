@@ -1,0 +1,120 @@
+"""What a model of rocking says of itself, and what it is asked for."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import tan
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from colonnade.dynamics.block import Block, Sided
+    from colonnade.dynamics.contact.law import ContactLaw
+    from colonnade.dynamics.history import History
+    from colonnade.dynamics.motion import Motion
+    from colonnade.dynamics.restitution_law import RestitutionLaw
+
+
+@dataclass(frozen=True)
+class Line:
+    """
+    How a model's line looks in every figure.
+
+    Attributes
+    ----------
+    color : str
+        As in HTML; told apart by colour-blind readers (after Okabe and Ito).
+    dash : str
+        Name of a dash of the figures' style; distinct on a grey print.
+    width : float
+        Points.
+    """
+
+    color: str
+    dash: str
+    width: float
+
+
+@dataclass(frozen=True)
+class Case:
+    """What a model is asked to run; arguments as of `rock`, already checked."""
+
+    block: Block
+    motion: Motion | None
+    restitution: Sided | RestitutionLaw | Callable[[float], float] | None
+    theta0: float
+    omega0: float
+    duration: float | None
+    rest_angle: float
+    contact: ContactLaw | None
+    out_of_plane: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Model(ABC):
+    """
+    A model of rocking.
+
+    Attributes
+    ----------
+    name : str
+        In settings, files and figures.
+    line : Line
+    in_space : bool
+        Whether its restitution follows from a law of contact; if not, it needs e.
+    is_linearised : bool
+        Whether its equation is linear in θ.
+    is_default : bool
+        Whether a campaign uses it unless its settings name others.
+    members : int
+        Runs of its ensemble unless the settings give another number; 0 for none, if a run is expensive.
+    map_points : tuple of int
+        Ω and A of a stability map unless others are asked for.
+    """
+
+    name: str
+    line: Line
+    in_space: bool
+    is_linearised: bool = False
+    is_default: bool
+    members: int
+    map_points: tuple[int, int]
+
+    @abstractmethod
+    def run(self, case: Case) -> History:
+        """
+        Run the model.
+
+        Raises
+        ------
+        ValueError
+            If the case asks for what the model does not have.
+        """
+
+    def uplift_threshold(self, critical_angle: float) -> float:
+        """Return a/g of the base above which a block at rest uplifts: α, or tan α."""
+        return critical_angle if self.is_linearised else tan(critical_angle)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaneModel(Model):
+    """
+    A model of rocking in the plane.
+
+    Attributes
+    ----------
+    propagator : str
+        Module of its `propagate` under a sampled motion without vertical acceleration.
+    """
+
+    in_space: bool = False
+    members: int = 100
+    map_points: tuple[int, int] = (100, 150)
+    propagator: str
+
+    def run(self, case: Case) -> History:
+        """Run it; see `plane.run`."""
+        from colonnade.dynamics.plane.run import run
+
+        return run(self, case)

@@ -1,0 +1,12 @@
+"""The nonlinear model: θ̈ = −p² [sin(α sgn θ − θ) + (a/g) cos(α sgn θ − θ)], by Taylor series to rounding."""
+
+from __future__ import annotations
+
+from colonnade.dynamics.models.model import Line, PlaneModel
+
+NONLINEAR = PlaneModel(
+    name="nonlinear",
+    line=Line("#0b6bb0", "dash-dotted", 1.1),
+    is_default=True,
+    propagator="colonnade.dynamics.plane.nonlinear",
+)

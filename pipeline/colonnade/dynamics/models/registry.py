@@ -1,0 +1,47 @@
+"""The models of rocking by name. A new one is a module of this folder and its entry here."""
+
+from __future__ import annotations
+
+from colonnade.dynamics.models.contact import CONTACT
+from colonnade.dynamics.models.linear import LINEAR
+from colonnade.dynamics.models.model import Model, PlaneModel
+from colonnade.dynamics.models.nonlinear import NONLINEAR
+from colonnade.errors import nearest
+from colonnade.validation import text
+
+MODELS: dict[str, Model] = {model.name: model for model in (LINEAR, NONLINEAR, CONTACT)}
+"""In the order of tables and figures."""
+
+PLANE_MODELS: dict[str, PlaneModel] = {name: model for name, model in MODELS.items() if isinstance(model, PlaneModel)}
+"""Those that need e, which is identified with them, and have kernels for harmonic motion."""
+
+DEFAULT = LINEAR.name
+"""Model of one run unless another is asked for: the quickest."""
+
+
+def model_of(name: str) -> Model:
+    """
+    Return the model of a name.
+
+    Raises
+    ------
+    ValueError
+        If there is none, with the nearest name.
+    """
+    if text("model", name, "the name of a model") not in MODELS:
+        raise ValueError(f'Unknown model "{name}".{nearest(name, MODELS)}')
+    return MODELS[name]
+
+
+def plane_model_of(name: str) -> PlaneModel:
+    """
+    Return the plane model of a name.
+
+    Raises
+    ------
+    ValueError
+        If there is none, with the nearest name.
+    """
+    if text("model", name, "the name of a model") not in PLANE_MODELS:
+        raise ValueError(f'Unknown plane model "{name}".{nearest(name, PLANE_MODELS)}')
+    return PLANE_MODELS[name]

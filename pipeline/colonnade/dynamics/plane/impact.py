@@ -1,0 +1,87 @@
+"""What an impact leaves: its restitution, whether the block then rests, and whether, left alone, it stands at last."""
+
+from __future__ import annotations
+
+from math import cos, sin, sqrt
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.dynamics.kernel import kernel
+
+
+@kernel
+def restitution_of(restitution: Array, speeds: Array, here: int, velocity: float) -> float:
+    """
+    Give e of an impact that ends an arc on side `here` (0 for θ < 0, 1 for θ > 0).
+
+    `restitution`, shape (2 m,), is e at `speeds`, shape (m,), rad/s, on the one side and then on the other; linear
+    between them, constant beyond.
+    """
+    if speeds.size == 1:
+        return float(restitution[here])
+    speed, first = abs(velocity), here * speeds.size
+    above = int(np.searchsorted(speeds, speed))
+    if above == 0 or above == speeds.size:
+        return float(restitution[first + min(above, speeds.size - 1)])
+    share = (speed - speeds[above - 1]) / (speeds[above] - speeds[above - 1])
+    lower, upper = restitution[first + above - 1], restitution[first + above]
+    return float(lower + share * (upper - lower))
+
+
+@kernel
+def holding_moment(critical: float, weight: float, pull: float, linearised: bool) -> float:
+    """
+    Moment about the pole, over m g R, that holds a block down at θ = 0.
+
+    `weight` is 1 + v/g with the vertical base acceleration v, `pull` is s a/g on side s.
+    """
+    return weight * critical + pull if linearised else weight * sin(critical) + pull * cos(critical)
+
+
+@kernel
+def comes_to_rest(risen: float, critical: float, holding: float, rest_angle: float) -> bool:
+    """Tell whether the next arc, which starts with the energy `risen` over m g R, stays below `rest_angle` α."""
+    return holding >= 0.0 and risen <= rest_angle * critical * holding
+
+
+@kernel
+def _hill(lean: float) -> float:
+    """Potential over m g R at lean = α − |θ|; 0 where the centre of mass is above the pole."""
+    return -2.0 * sin(0.5 * lean) ** 2
+
+
+@kernel
+def survives_free_rocking(
+    height: float,
+    rate: float,
+    here: int,
+    critical: Array,
+    p: Array,
+    restitution: Array,
+    speeds: Array,
+    linearised: bool,
+) -> bool:
+    """
+    Tell whether a block that rocks on side `here`, left on a base at rest, comes back to stand.
+
+    `height` is |θ|, `rate` its velocity over p. What is left after one impact decides both sides: every later impact
+    only takes energy.
+    """
+    there = 1 - here
+    if linearised:
+        # h − α = C eˣ + D e⁻ˣ: outwards for good if C > 0; else the energy gives the velocity of the impact.
+        beyond = height - critical[here]
+        if beyond + rate > 0.0:
+            return False
+        arriving = p[here] * sqrt(max(rate * rate - beyond * beyond + critical[here] ** 2, 0.0))
+        after = restitution_of(restitution, speeds, here, arriving) * arriving
+        return bool(after <= p[there] * critical[there])
+    # The energy tells whether the block passes α, outwards, or from beyond it back inwards.
+    energy = 0.5 * rate * rate + _hill(critical[here] - height)
+    passed = height > critical[here]
+    if (passed and (rate >= 0.0 or energy <= 0.0)) or (not passed and rate > 0.0 and energy > 0.0):
+        return False
+    arriving = p[here] * sqrt(max(2.0 * (energy - _hill(critical[here])), 0.0))
+    after = restitution_of(restitution, speeds, here, arriving) * arriving / p[there]
+    return bool(0.5 * after * after + _hill(critical[there]) <= 0.0)

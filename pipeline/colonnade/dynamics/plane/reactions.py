@@ -1,0 +1,149 @@
+"""Forces between block and base along a rocking history, and where they break the model's assumptions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from colonnade.arrays import Array, Mask
+from colonnade.dynamics.history import History
+from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.motion import Motion
+from colonnade.validation import instance, number
+
+
+@dataclass(frozen=True)
+class Reactions:
+    """
+    Forces of the base on the block.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s, of the history's samples.
+    horizontal, vertical : ndarray, shape (n,)
+        N, along +x and +z, between impacts; NaN where the block lies.
+    required_friction : ndarray, shape (n,)
+        |H|/N, dimensionless; inf where the vertical force does not press.
+    impact_times, impact_friction : ndarray, shape (m,)
+        s; ratio of the horizontal to the vertical impulse of each impact.
+    friction : float or None
+        The coefficient that the flags are for.
+    """
+
+    time: Array
+    horizontal: Array
+    vertical: Array
+    required_friction: Array
+    impact_times: Array
+    impact_friction: Array
+    friction: float | None
+
+    @property
+    def loses_contact(self) -> Mask:
+        """Samples at which the base would have to pull, N ≤ 0, shape (n,)."""
+        return np.asarray(self.vertical <= 0.0)
+
+    @property
+    def slides(self) -> Mask:
+        """Samples at which more friction is required than there is, shape (n,); none where no friction was given."""
+        if self.friction is None:
+            return np.zeros(self.time.size, dtype=np.bool_)
+        return np.asarray(self.required_friction > self.friction)
+
+    @property
+    def impacts_slide(self) -> Mask:
+        """Impacts whose impulse requires more friction than there is, shape (m,); none where no friction was given."""
+        if self.friction is None:
+            return np.zeros(self.impact_times.size, dtype=np.bool_)
+        return np.asarray(self.impact_friction > self.friction)
+
+    @property
+    def first_break(self) -> float:
+        """Time from which pure rocking is not what the block would do, s; NaN where it holds throughout."""
+        broken = np.concatenate((self.time[self.loses_contact | self.slides], self.impact_times[self.impacts_slide]))
+        return float(broken.min()) if broken.size else np.nan
+
+
+def reactions(history: History, motion: Motion, *, friction: float | None = None) -> Reactions:
+    """
+    Compute the forces of the base on a block that rocks or rests.
+
+    Parameters
+    ----------
+    history : History
+    motion : Motion
+        The base motion that it is the answer to.
+    friction : float, optional
+        Coefficient of friction of block on base, for the flags.
+
+    Returns
+    -------
+    reactions : Reactions
+
+    Raises
+    ------
+    ValueError
+        If the motion has not as many samples as the history, or the friction is negative.
+
+    Notes
+    -----
+    The centre of mass turns about the pole at distance R. With ψ = α sgn θ − θ it lies −R sin ψ along x and R cos ψ
+    above the pole, so that H = m [a + R (θ̈ cos ψ + θ̇² sin ψ)] and N = m [g + v + R (θ̈ sin ψ − θ̇² cos ψ)], θ̈ from the
+    model's own equation. An impact takes the horizontal velocity from R cos α ω to e times that and turns the vertical
+    one round: for a symmetric block its impulses are as (1 − e) : (1 + e) tan α.
+
+    Examples
+    --------
+    >>> from colonnade.dynamics.block import Block
+    >>> from colonnade.dynamics.rock import rock
+    >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> motion = Motion([0.0, 1.0], 0.01)
+    >>> forces = reactions(rock(block, motion), motion, friction=0.3)
+    >>> forces.horizontal.round(2).tolist(), forces.first_break
+    ([0.0, 26.1], nan)
+    """
+    instance("history", history, History)
+    instance("motion", motion, Motion)
+    if motion.acceleration.size != history.time.size:
+        raise ValueError(
+            f"The motion has {motion.acceleration.size} samples and the history {history.time.size}; "
+            "the motion that the history was computed from was expected"
+        )
+    if friction is not None:
+        friction = number("friction", friction, "a coefficient from 0 on", low=0.0, finite=False)
+    block, angle, velocity = history.block, history.angle, history.angular_velocity
+    rests = (angle == 0.0) & (velocity == 0.0)
+    side = np.where(angle == 0.0, velocity, angle)
+    distance, square = block.pole_distance_at(side), block.p_at(side) ** 2
+    lean = np.where(side < 0.0, -1.0, 1.0) * block.critical_angle_at(side) - angle
+    weight = block.gravity + (0.0 if motion.vertical is None else motion.vertical)
+    pull, lift = motion.acceleration / block.gravity, weight / block.gravity
+    if MODELS[history.model].is_linearised:
+        turning = -square * (lift * lean + pull)
+    else:
+        turning = -square * (lift * np.sin(lean) + pull * np.cos(lean))
+    turning = np.where(rests, 0.0, turning)
+    along = motion.acceleration + distance * (turning * np.cos(lean) + velocity**2 * np.sin(lean))
+    above = weight + distance * (turning * np.sin(lean) - velocity**2 * np.cos(lean))
+    lies = np.abs(angle) >= 0.5 * pi
+    horizontal = np.where(lies, np.nan, block.mass * along)
+    vertical = np.where(lies, np.nan, block.mass * above)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        required = np.where(vertical <= 0.0, np.inf, np.abs(horizontal) / vertical)
+    return Reactions(
+        history.time, horizontal, vertical, required, history.impact_times, _impact_friction(history), friction
+    )
+
+
+def _impact_friction(history: History) -> Array:
+    """Ratio of the impulses of each impact, from the velocities of the centre of mass before and after it."""
+    block, before, after = history.block, history.impact_velocities, history.rebound_velocities
+    arriving = before > 0.0
+    height = [side.pole_distance * np.cos(side.critical_angle) for side in block.sides]
+    half_width = [side.half_width for side in block.sides]
+    along = np.where(arriving, *height[::-1]) * after - np.where(arriving, *height) * before
+    above = np.where(arriving, *half_width[::-1]) * np.abs(after) + np.where(arriving, *half_width) * np.abs(before)
+    return np.asarray(np.abs(along) / above)

@@ -1,0 +1,1 @@
+"""Rocking spectra of recorded motions and overturning spectra of pulses."""

@@ -1,0 +1,1 @@
+"""Figures of stability maps and steady responses."""

@@ -1,0 +1,136 @@
+"""The measured map: each sine test by its outcome over Ω and A, with both boundaries bracketed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, cast
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+
+from colonnade.figures.style import LIMIT, MEASURED, blank_figure, styled
+from colonnade.identification.response.boundaries import Boundaries, Bracket, MapPoint, bracket_boundaries
+
+MARKERS: dict[str, dict[str, Any]] = {
+    "no-rocking": {"marker": "o", "facecolors": "white", "edgecolors": MEASURED["color"]},
+    "rocking": {"marker": "D", "facecolors": "#0b6bb0", "edgecolors": "#0b6bb0"},
+    "overturned": {"marker": "X", "facecolors": "#d1490f", "edgecolors": "#d1490f"},
+}
+"""Told apart by shape on a grey print, and by colour to colour-blind readers."""
+
+NAMES = {"no-rocking": "no rocking", "rocking": "rocking", "overturned": "overturned"}
+
+BOUNDARIES: tuple[tuple[str, str, str], ...] = (
+    ("rocking", "rocking begins", "#5b6675"),
+    ("overturning", "overturning begins", "#8a3fa8"),
+)
+
+LOGARITHMIC = 6.0
+"""Amplitudes that span more than this factor are drawn on a logarithmic axis."""
+
+
+def measured_map(points: Sequence[MapPoint], *, axes: Axes | None = None) -> Figure:
+    """
+    Draw the measured map of a specimen.
+
+    Parameters
+    ----------
+    points : sequence of MapPoint
+        Its sine tests.
+    axes : Axes, optional
+        To draw into; a new figure with its legend otherwise.
+
+    Returns
+    -------
+    figure : Figure
+
+    Raises
+    ------
+    ValueError
+        If there is no point.
+
+    Notes
+    -----
+    A bar spans the tests between which a boundary, met going up in A, lies; a line joins the middles of the bars of
+    neighbouring frequencies. A sub-harmonic response is labelled by its order.
+    """
+    if not points:
+        raise ValueError("no sine test was given; at least one point of the map was expected")
+    with styled():
+        own = axes is None
+        if axes is None:
+            axes = blank_figure(3.6).subplots()
+        _draw_scale(axes, points)
+        for name, label, colour in BOUNDARIES:
+            _draw_boundary(axes, bracket_boundaries(points), name, label, colour)
+        draw_points(axes, points)
+        figure = cast(Figure, axes.get_figure(root=True))
+        if own:
+            figure.legend(loc="outside upper left", ncols=5, columnspacing=1.2, handletextpad=0.5, borderaxespad=0.2)
+        return figure
+
+
+def draw_points(axes: Axes, points: Sequence[MapPoint], *, prefix: str = "") -> None:
+    """Draw sine tests by outcome, those with a sub-harmonic response with its order; `prefix` begins their labels."""
+    for outcome, look in MARKERS.items():
+        chosen = [point for point in points if point.outcome == outcome]
+        if chosen:
+            axes.scatter(
+                [point.frequency_ratio for point in chosen],
+                [point.amplitude_ratio for point in chosen],
+                s=26,
+                linewidths=0.9,
+                label=f"{prefix}{NAMES[outcome]}",
+                zorder=4,
+                **look,
+            )
+    for point in points:
+        if isinstance(point.order, int) and point.order > 1:
+            axes.annotate(
+                f"1/{point.order}",
+                (point.frequency_ratio, point.amplitude_ratio),
+                xytext=(6, 0),
+                textcoords="offset points",
+                va="center",
+                fontsize=7,
+            )
+
+
+def _draw_scale(axes: Axes, points: Sequence[MapPoint]) -> None:
+    amplitudes = np.array([point.amplitude_ratio for point in points])
+    frequencies = np.array([point.frequency_ratio for point in points])
+    axes.axhline(1.0, **LIMIT)
+    axes.set_xlim(0.0, 1.08 * float(frequencies.max()))
+    low, high = min(float(amplitudes.min()), 1.0), max(float(amplitudes.max()), 1.0)
+    if low > 0 and high / low > LOGARITHMIC:
+        axes.set_yscale("log")
+        axes.set_ylim(low / 1.15, high * 1.15)
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 5.0, 7.0), numticks=20))
+        axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axes.yaxis.set_minor_formatter(NullFormatter())
+    else:
+        axes.set_ylim(0.0, 1.1 * high)
+    axes.set_xlabel("Ω = ω / p")
+    axes.set_ylabel("A = a / (g tan α)")
+
+
+def _draw_boundary(axes: Axes, boundaries: Sequence[Boundaries], name: str, label: str, colour: str) -> None:
+    brackets: list[tuple[float, Bracket]] = [(each.frequency_ratio, getattr(each, name)) for each in boundaries]
+    found = [(ratio, bracket) for ratio, bracket in brackets if bracket.middle is not None]
+    if not found:
+        return
+    # Where a frequency has no bracket the line breaks: nothing is known there.
+    middles = [np.nan if bracket.middle is None else bracket.middle for _, bracket in brackets]
+    ratios = [ratio for ratio, _ in brackets]
+    axes.plot(ratios, middles, color=colour, linestyle=(0, (4.0, 2.0)), linewidth=0.9, label=label, zorder=2)
+    axes.vlines(
+        [ratio for ratio, _ in found],
+        [cast(float, bracket.below) for _, bracket in found],
+        [cast(float, bracket.above) for _, bracket in found],
+        color=colour,
+        linewidth=4.0,
+        alpha=0.45,
+        zorder=1,
+    )

@@ -1,0 +1,174 @@
+"""Steady responses to a sine: their orders over Ω and A with the sub-harmonic regions, and response curves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from colonnade.arrays import Array
+from colonnade.dynamics.history import NO_ROCKING_RATIO
+from colonnade.dynamics.maps.steady import AT_REST, IRREGULAR, LARGEST_ORDER, OVERTURNED, SteadyResponse
+from colonnade.figures.histories import SMALLEST_RATIO
+from colonnade.figures.maps.measured_map import draw_points
+from colonnade.figures.maps.stability_map import (
+    OVERTURNED_COLOUR,
+    cell_edges,
+    scale_axes,
+    words_of_restitution,
+    words_of_sine,
+)
+from colonnade.figures.style import blank_figure, styled
+from colonnade.identification.response.boundaries import MapPoint
+
+
+class Orders(NamedTuple):
+    """Orders that share a colour."""
+
+    name: str
+    orders: tuple[int, ...]
+    colour: str
+
+
+REGIONS = (
+    Orders("at rest", (AT_REST,), "#ffffff"),
+    Orders("every cycle", (1,), "#dbe7f1"),
+    Orders("sub-harmonic 1/2", (2,), "#5fb59b"),
+    Orders("sub-harmonic 1/3", (3,), "#5b93c7"),
+    Orders("sub-harmonic 1/4", (4,), "#2c5f8f"),
+    Orders(f"sub-harmonic 1/5 … 1/{LARGEST_ORDER}", tuple(range(5, LARGEST_ORDER + 1)), "#8a3fa8"),
+    Orders("irregular", (IRREGULAR,), "#30353d"),
+    Orders("overturned", (OVERTURNED,), OVERTURNED_COLOUR),
+)
+
+CURVES = 4
+"""Response curves in a panel."""
+
+LEAST_SHARE = 0.15
+"""Of an axis: an A (or Ω) at which the block rocks steadily on less of the other axis makes no curve."""
+
+CURVE_COLOURS = ("#0b6bb0", "#0a8a5f", "#c07a00", "#8a3fa8")
+
+
+def response_orders(response: SteadyResponse, points: Sequence[MapPoint], options: Mapping[str, Any]) -> Figure:
+    """
+    Draw the orders of steady responses over Ω and A, and below them curves of the largest angle over each.
+
+    Parameters
+    ----------
+    response : SteadyResponse
+        At least two Ω and two A.
+    points : sequence of MapPoint
+        Measured sine tests; of a sub-harmonic response with its order.
+    options : mapping
+        What the responses depend on: `model`, `settling`, `ramp`, `ramp_shape`, `phase`, and e as in the options of a
+        stability map.
+
+    Returns
+    -------
+    figure : Figure
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than two Ω or A.
+
+    Notes
+    -----
+    A response of order k repeats every k cycles of the base. A curve breaks where the block overturns and where the
+    order changes; dots mark responses that are sub-harmonic or irregular.
+    """
+    if min(response.order.shape) < 2:
+        raise ValueError(f"orders of {response.order.shape} Ω and A were given; at least two of each were expected")
+    with styled():
+        figure = blank_figure(6.6)
+        grid = figure.add_gridspec(2, 2, height_ratios=(1.7, 1.0))
+        axes = figure.add_subplot(grid[0, :])
+        present = _draw_regions(axes, response)
+        scale_axes(axes, response.frequency_ratio, response.amplitude_ratio, points)
+        draw_points(axes, points, prefix="measured: ")
+        settled = f"{options['model']} model; {words_of_restitution(options)}; {words_of_sine(options)}"
+        axes.set_title(f"{settled}, {options['settling']} cycles to settle", fontsize=8, color="#5b6675")
+        patches = [Patch(facecolor=region.colour, edgecolor="#8a919c", linewidth=0.5) for region in present]
+        handles, labels = axes.get_legend_handles_labels()
+        figure.legend(
+            [*patches, *handles],
+            [*(region.name for region in present), *labels],
+            loc="outside lower center",
+            ncols=4,
+            fontsize=8,
+            columnspacing=1.2,
+            handletextpad=0.6,
+        )
+        over_frequency, over_amplitude = figure.add_subplot(grid[1, 0]), figure.add_subplot(grid[1, 1])
+        _draw_curves(
+            over_frequency,
+            response.frequency_ratio,
+            response.amplitude.T,
+            response.order.T,
+            response.amplitude_ratio,
+            "A",
+        )
+        over_frequency.set_xlabel("Ω = ω / p")
+        over_frequency.set_ylabel("largest |θ| / α")
+        _draw_curves(
+            over_amplitude, response.amplitude_ratio, response.amplitude, response.order, response.frequency_ratio, "Ω"
+        )
+        over_amplitude.set_xlabel("A = a / (g tan α)")
+        return figure
+
+
+def _draw_regions(axes: Axes, response: SteadyResponse) -> list[Orders]:
+    """Draw the cells in the colours of their regions; return the regions there are."""
+    numbers = np.zeros(response.order.shape, dtype=np.int8)
+    for number, region in enumerate(REGIONS):
+        numbers[np.isin(response.order, region.orders)] = number
+    axes.grid(False)
+    axes.pcolormesh(
+        cell_edges(response.frequency_ratio),
+        cell_edges(response.amplitude_ratio),
+        numbers.T,
+        cmap=ListedColormap([region.colour for region in REGIONS]),
+        norm=BoundaryNorm(np.arange(len(REGIONS) + 1) - 0.5, len(REGIONS)),
+        rasterized=True,
+        zorder=0,
+    )
+    return [region for number, region in enumerate(REGIONS) if (numbers == number).any()]
+
+
+def _draw_curves(
+    axes: Axes, ratios: Array, amplitudes: Array, orders: NDArray[np.int8], others: Array, name: str
+) -> None:
+    """Draw some rows of `amplitudes`, each at one of the `others`, over `ratios`."""
+    chosen = _rows(amplitudes)
+    for row, colour in zip(chosen, CURVE_COLOURS, strict=False):
+        # Between responses of different orders the curve jumps: no line leads across.
+        jumps = np.flatnonzero(orders[row, 1:] != orders[row, :-1]) + 1
+        axes.plot(
+            np.insert(ratios, jumps, np.nan),
+            np.insert(amplitudes[row], jumps, np.nan),
+            color=colour,
+            linewidth=1.1,
+            label=f"{name} = {others[row]:.2f}",
+        )
+        unlike = (orders[row] > 1) | (orders[row] == IRREGULAR)
+        axes.plot(ratios[unlike], amplitudes[row][unlike], ".", color=colour, markersize=4.0)
+    largest = float(np.nanmax(amplitudes[chosen], initial=SMALLEST_RATIO)) if chosen else SMALLEST_RATIO
+    axes.set_ylim(0.0, 1.3 * largest)
+    axes.set_xlim(float(ratios[0]), float(ratios[-1]))
+    if chosen:
+        axes.legend(loc="upper left", ncols=CURVES // 2, fontsize=7.5, handlelength=1.4, columnspacing=1.0)
+
+
+def _rows(amplitudes: Array) -> list[int]:
+    """Return up to `CURVES` rows, evenly spread over those in which the block rocks steadily often enough."""
+    rocking = np.flatnonzero((np.nan_to_num(amplitudes) > NO_ROCKING_RATIO).mean(axis=1) >= LEAST_SHARE)
+    if rocking.size == 0:
+        return []
+    return sorted(set(rocking[np.linspace(0, rocking.size - 1, CURVES).round().astype(np.intp)].tolist()))

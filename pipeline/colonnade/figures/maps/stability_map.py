@@ -1,0 +1,157 @@
+"""The stability map: computed regions and limits over Ω and A, with the measured points on them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, cast
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+
+from colonnade.arrays import Array
+from colonnade.dynamics.maps.chart import StabilityMap
+from colonnade.figures.maps.measured_map import draw_points
+from colonnade.figures.style import BASE, LineStyle, blank_figure, model_style, styled
+from colonnade.identification.response.boundaries import MapPoint
+
+OVERTURNED_COLOUR = "#eec9b4"
+SHADE = LinearSegmentedColormap.from_list("overturning", ["#ffffff", OVERTURNED_COLOUR])
+"""Of the share of a cell that overturns; light, so that points and lines stand out."""
+
+LOGARITHMIC = 6.0
+"""Amplitudes that span more than this factor are drawn on a logarithmic axis."""
+
+
+def stability_map(
+    charts: StabilityMap | Sequence[StabilityMap], points: Sequence[MapPoint] = (), *, axes: Axes | None = None
+) -> Figure:
+    """
+    Draw a stability map.
+
+    Parameters
+    ----------
+    charts : StabilityMap or sequence of StabilityMap
+        Maps of one block, one for each model. The first is shaded by the share of each cell that overturns; of each
+        the limits are drawn.
+    points : sequence of MapPoint, optional
+        Measured sine tests.
+    axes : Axes, optional
+        To draw into; a new figure with its legend and with the options of the first map otherwise.
+
+    Returns
+    -------
+    figure : Figure
+
+    Raises
+    ------
+    ValueError
+        If there is no map.
+
+    Notes
+    -----
+    The lower limit is the full line, the upper one the thin one; where a limit is absent up to the largest A its line
+    breaks. Each model has the colour and dash that it has in every figure.
+    """
+    charts = [charts] if isinstance(charts, StabilityMap) else list(charts)
+    if not charts:
+        raise ValueError("no map was given; at least one was expected")
+    with styled():
+        own = axes is None
+        if axes is None:
+            axes = blank_figure(4.4).subplots()
+        first = charts[0]
+        scale_axes(axes, first.frequency_ratio, first.amplitude_ratio, points)
+        axes.grid(False)
+        axes.pcolormesh(
+            cell_edges(first.frequency_ratio),
+            cell_edges(first.amplitude_ratio),
+            first.overturning_fraction.T,
+            cmap=SHADE,
+            vmin=0.0,
+            vmax=1.0,
+            rasterized=True,
+            zorder=0,
+        )
+        for chart in charts:
+            _limits(axes, chart)
+        draw_points(axes, points, prefix="measured: ")
+        figure = cast(Figure, axes.get_figure(root=True))
+        if own:
+            axes.set_title(_words(charts), fontsize=8, color="#5b6675")
+            handles, labels = axes.get_legend_handles_labels()
+            shade = Patch(facecolor=SHADE(1.0), label=f"overturned, share of cell ({first.options['model']})")
+            figure.legend(
+                handles=[shade, *handles],
+                labels=[str(shade.get_label()), *labels],
+                loc="outside lower center",
+                ncols=3,
+                fontsize=8,
+                columnspacing=1.4,
+                handletextpad=0.6,
+            )
+        return figure
+
+
+def _limits(axes: Axes, chart: StabilityMap) -> None:
+    model = str(chart.options["model"])
+    style = model_style(model)
+    onset: LineStyle = {**BASE, "linestyle": style["linestyle"]}
+    lower: LineStyle = {**style, "linewidth": 1.6}
+    upper: LineStyle = {**style, "linewidth": 0.8}
+    begins = f"{model}: rocking begins, A = {chart.no_rocking[0]:.3f}"
+    axes.plot(chart.frequency_ratio, chart.no_rocking, label=begins, zorder=2, **onset)
+    axes.plot(chart.frequency_ratio, chart.lower, label=f"{model}: lower limit", zorder=3, **lower)
+    axes.plot(chart.frequency_ratio, chart.upper, label=f"{model}: upper limit", zorder=3, **upper)
+
+
+def scale_axes(axes: Axes, frequency_ratio: Array, amplitude_ratio: Array, points: Sequence[MapPoint]) -> None:
+    """Scale and label the axes of a map so that they hold its Ω and A, and the measured points."""
+    amplitudes = [point.amplitude_ratio for point in points]
+    low = min([float(amplitude_ratio[0]), *amplitudes])
+    high = max([float(amplitude_ratio[-1]), *amplitudes])
+    axes.set_xlim(float(frequency_ratio[0]), float(frequency_ratio[-1]))
+    if high / low > LOGARITHMIC:
+        axes.set_yscale("log")
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 5.0, 7.0), numticks=20))
+        axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.set_ylim(low, high)
+    axes.set_xlabel("Ω = ω / p")
+    axes.set_ylabel("A = a / (g tan α)")
+
+
+def cell_edges(centres: Array) -> Array:
+    """Edges of the cells around the centres; the outermost end at the centres themselves."""
+    middles = 0.5 * (centres[1:] + centres[:-1])
+    return np.concatenate([centres[:1], middles, centres[-1:]])
+
+
+def _words(charts: Sequence[StabilityMap]) -> str:
+    """Return in words what the limits depend on; of several maps, how finely each was scanned is left to its own."""
+    options = charts[0].options
+    motion = "recorded table motion, stretched"
+    if options["base_motion"] == "sine":
+        motion = f"{options['cycles']:g} cycles, {words_of_sine(options)}"
+    e = words_of_restitution(options)
+    widths = " | ".join(dict.fromkeys(f"{chart.options['width']:.2g}" for chart in charts))
+    scanned = f", scanned in steps of {options['scan_step']:.2g}" if len(charts) == 1 else ""
+    return f"{motion}; {e}; limits at least {widths} wide{scanned}"
+
+
+def words_of_sine(options: Mapping[str, Any]) -> str:
+    """Return in words the ramps and the phase of the sine of a map or of steady responses."""
+    ramp = f"{options['ramp_shape']} ramps of {options['ramp']:g}" if options["ramp"] else "no ramp"
+    return f"{ramp}, phase {options['phase']:.2f} rad"
+
+
+def words_of_restitution(options: Mapping[str, Any]) -> str:
+    """Return in words the e of a map or of steady responses."""
+    if "restitution_values" in options:
+        values = options["restitution_values"]
+        return f"e = {values[0]:.4g} … {values[-1]:.4g} over the speed of the impact"
+    negative, positive = options["restitution_negative"], options["restitution_positive"]
+    return f"e = {negative:.4g}" if negative == positive else f"e = {negative:.4g} | {positive:.4g}"

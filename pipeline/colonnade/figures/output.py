@@ -1,0 +1,142 @@
+"""
+What becomes of a figure: SVG text for a page, or a PNG. The one place where figures leave matplotlib.
+
+The same figure gives the same bytes. SVG text is small, and its ids are its own, so that many figures fit on a page.
+"""
+
+from __future__ import annotations
+
+import re
+from io import BytesIO
+from typing import NamedTuple
+from xml.etree import ElementTree
+
+from matplotlib.figure import Figure
+
+from colonnade.figures.style import styled
+
+NAMESPACE = "http://www.w3.org/2000/svg"
+LINK = "{http://www.w3.org/1999/xlink}href"
+FONTS = "'DejaVu Sans', Verdana, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
+
+_IDENTITY = re.compile(r"[A-Za-z][A-Za-z0-9._-]*")
+_REFERENCE = re.compile(r"url\(#([^)]+)\)")
+_LONG_NUMBER = re.compile(r"(\d+\.\d{2})\d+")
+_FONT = re.compile(r"font(-family)?:([^;]*?)'DejaVu Sans'[^;]*")
+
+
+class Picture(NamedTuple):
+    """A figure with its id in a page, its title, and what is seen in it, for those who do not see it."""
+
+    figure: Figure
+    identity: str
+    title: str
+    description: str
+
+    def svg(self) -> str:
+        """Return it as an `<svg>` element."""
+        return to_svg(self.figure, identity=self.identity, title=self.title, description=self.description)
+
+
+def to_png(figure: Figure, *, dpi: int = 150) -> bytes:
+    """Return a figure as a PNG file, without date and program."""
+    written = BytesIO()
+    with styled():
+        figure.savefig(written, format="png", dpi=dpi, metadata={"Software": None})
+    return written.getvalue()
+
+
+def to_svg(figure: Figure, *, identity: str, title: str, description: str) -> str:
+    """
+    Return a figure as an `<svg>` element with a text alternative.
+
+    Parameters
+    ----------
+    figure : Figure
+    identity : str
+        Unique in the page: the element's id, and the beginning of every id inside it.
+    title, description : str
+        What the picture shows and what is seen in it, for those who do not see it. Any text; it is escaped.
+
+    Returns
+    -------
+    svg : str
+        No XML declaration, metadata, date, script or outside link. The text stays text.
+
+    Raises
+    ------
+    ValueError
+        If `identity` is no valid id.
+    """
+    if not _IDENTITY.fullmatch(identity):
+        raise ValueError(f"{identity!r} is no id; a letter, then letters, digits, '.', '_' or '-' were expected")
+    written = BytesIO()
+    with styled():
+        figure.savefig(written, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
+    root = ElementTree.fromstring(written.getvalue())
+    _drop(root, {f"{{{NAMESPACE}}}metadata", f"{{{NAMESPACE}}}style"})
+    _rename(root, identity)
+    _shorten(root)
+    _describe(root, identity, title, description)
+    ElementTree.register_namespace("", NAMESPACE)
+    return ElementTree.tostring(root, encoding="unicode")
+
+
+def _drop(root: ElementTree.Element, tags: set[str]) -> None:
+    """Remove elements: the style sheet that matplotlib writes is meant for a file and would act on the whole page."""
+    for parent in root.iter():
+        for child in [child for child in parent if child.tag in tags]:
+            parent.remove(child)
+
+
+def _rename(root: ElementTree.Element, identity: str) -> None:
+    """Give ids that are referred to a new, own name, and drop the others."""
+    referred: dict[str, str] = {}
+    for element in root.iter():
+        link = element.attrib.get(LINK, "")
+        targets = [link.removeprefix("#")] if link.startswith("#") else []
+        for value in element.attrib.values():
+            targets += _REFERENCE.findall(value)
+        for target in targets:
+            referred.setdefault(target, f"{identity}-{len(referred) + 1}")
+    for element in root.iter():
+        own = element.attrib.pop("id", None)
+        if own in referred:
+            element.set("id", referred[own])
+        if LINK in element.attrib:
+            # What is no reference is a picture within the picture: a raster, as of a field of colours.
+            link = element.attrib.pop(LINK)
+            element.set("href", "#" + referred[link.removeprefix("#")] if link.startswith("#") else link)
+        for name, value in element.attrib.items():
+            element.set(name, _REFERENCE.sub(lambda found: f"url(#{referred[found[1]]})", value))
+
+
+def _shorten(root: ElementTree.Element) -> None:
+    """Write coordinates to 0.01 pt, drop white space between elements, and name fonts that other machines have."""
+    for element in root.iter():
+        for name in element.attrib.keys() & {"d", "x", "y", "transform", "points"}:
+            shortened = _LONG_NUMBER.sub(r"\1", element.attrib[name])
+            element.set(name, shortened.replace(" \n", "").replace("\n", "") if name == "d" else shortened)
+        if "style" in element.attrib:
+            element.set(
+                "style", _FONT.sub(lambda found: f"font{found[1] or ''}:{found[2]}{FONTS}", element.attrib["style"])
+            )
+        if element.text is not None and not element.text.strip():
+            element.text = None
+        element.tail = None
+
+
+def _describe(root: ElementTree.Element, identity: str, title: str, description: str) -> None:
+    for name in ("width", "height", "version"):
+        root.attrib.pop(name, None)
+    root.attrib |= {
+        "id": identity,
+        "role": "img",
+        "aria-labelledby": f"{identity}-title {identity}-description",
+        "stroke-linejoin": "round",
+        "stroke-linecap": "butt",
+    }
+    for position, (tag, name, text) in enumerate((("title", "title", title), ("desc", "description", description))):
+        element = ElementTree.Element(f"{{{NAMESPACE}}}{tag}", id=f"{identity}-{name}")
+        element.text = text
+        root.insert(position, element)

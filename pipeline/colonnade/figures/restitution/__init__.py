@@ -1,0 +1,1 @@
+"""Figures of a free vibration and its restitution."""

@@ -1,0 +1,168 @@
+"""The coefficient of restitution of each impact against its speed: is e constant?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from colonnade.arrays import Array
+from colonnade.figures.panels import legend_above, stacked_panels
+from colonnade.figures.style import FIT, LIMIT, MEASURED, styled
+
+HEIGHT = 2.4
+"""Of the panel, inches."""
+
+MARKS = ("o", "s", "^", "D", "v", "P", "X", "<", ">")
+"""Of several free vibrations; from the tenth on they are drawn as the first ones."""
+
+SMALLEST_RANGE = 2e-3
+"""No axis of e is narrower than this."""
+
+BEST = 0.25
+"""Share of the impacts, those with the smallest errors, whose bars find room on the axis in any case."""
+
+SPREAD = 6.0
+"""Robust standard deviations about the median that the axis of e shows; what tiny impacts scatter may leave it."""
+
+MOST_NAMED = 3
+"""Free vibrations up to which each is named in the legend."""
+
+
+class ImpactSeries(NamedTuple):
+    """
+    Impacts of one free vibration: |ω| before (rad/s), e with its standard error, whether used; all of shape (n,).
+    """
+
+    title: str
+    velocity: Array
+    restitution: Array
+    standard_error: Array
+    used: NDArray[np.bool_]
+
+
+class Level(NamedTuple):
+    """A value of e with its interval, NaN where it has none."""
+
+    value: float
+    low: float
+    high: float
+    name: str
+
+
+def impact_restitution(
+    series: Sequence[ImpactSeries],
+    *,
+    level: Level | None = None,
+    rigid: float | None = None,
+) -> Figure:
+    """
+    Draw e of each impact with its error, and the value identified with its band.
+
+    Parameters
+    ----------
+    series : sequence of ImpactSeries
+        One a free vibration; bars are ± two standard errors.
+    level : Level, optional
+        The value taken as constant.
+    rigid : float, optional
+        Rigid-body value, drawn where the axis reaches it, else told at its edge.
+
+    Returns
+    -------
+    figure : Figure
+
+    Raises
+    ------
+    ValueError
+        If there is no series.
+    """
+    if not series:
+        raise ValueError("no free vibration was given; at least one series of impacts was expected")
+    with styled():
+        figure, (axes,) = stacked_panels([HEIGHT])
+        fastest = max((float(np.nanmax(one.velocity, initial=0.0)) for one in series), default=0.0) or 1.0
+        axes.set_xlim(0, 1.05 * fastest)
+        for index, one in enumerate(series):
+            _draw_impacts(axes, one, MARKS[index % len(MARKS)], named=1 < len(series) <= MOST_NAMED)
+        if level is not None and np.isfinite(level.value):
+            _draw_level(axes, level)
+        axes.set_ylim(*_limits(series, level))
+        if rigid is not None:
+            _draw_rigid(axes, rigid)
+        if not any(np.isfinite(one.restitution).any() for one in series):
+            axes.text(0.5, 0.5, "no impacts", transform=axes.transAxes, ha="center", va="center")
+        axes.yaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
+        axes.set_xlabel("angular velocity before the impact (rad/s)")
+        axes.set_ylabel("e of each impact")
+        legend_above(figure, [axes])
+        return figure
+
+
+def _draw_impacts(axes: Axes, impacts: ImpactSeries, mark: str, *, named: bool) -> None:
+    shown = np.isfinite(impacts.restitution) & np.isfinite(impacts.velocity)
+    label = impacts.title if named else "impact used"
+    for chosen, face, text in (
+        (shown & impacts.used, MEASURED["color"], label),
+        (shown & ~impacts.used, "white", "impact left out"),
+    ):
+        if chosen.any():
+            axes.errorbar(
+                impacts.velocity[chosen],
+                impacts.restitution[chosen],
+                yerr=2 * np.nan_to_num(impacts.standard_error[chosen]),
+                fmt=mark,
+                markersize=3.0,
+                markerfacecolor=face,
+                markeredgecolor=MEASURED["color"],
+                markeredgewidth=0.8,
+                ecolor="#8a919c",
+                elinewidth=0.8,
+                label=text,
+            )
+
+
+def _draw_level(axes: Axes, level: Level) -> None:
+    if np.isfinite(level.low) and np.isfinite(level.high):
+        axes.axhspan(level.low, level.high, color=FIT["color"], alpha=0.18, linewidth=0)
+    axes.axhline(level.value, label=level.name, **FIT)
+
+
+def _draw_rigid(axes: Axes, rigid: float) -> None:
+    low, high = axes.get_ylim()
+    if low < rigid < high:
+        axes.axhline(rigid, label="rigid body", **LIMIT)
+        return
+    above = rigid >= high
+    axes.annotate(
+        f"rigid body {rigid:.4f} {'↑' if above else '↓'}",
+        (0.995, 0.97 if above else 0.03),
+        xycoords="axes fraction",
+        ha="right",
+        va="top" if above else "bottom",
+        fontsize=8,
+        color="#30353d",
+    )
+
+
+def _limits(series: Sequence[ImpactSeries], level: Level | None) -> tuple[float, float]:
+    """Return the range that shows nearly all impacts, and the interval of the level."""
+    values = np.concatenate([one.restitution[np.isfinite(one.restitution)] for one in series])
+    bounds = [] if level is None else [value for value in level[:3] if np.isfinite(value)]
+    if values.size:
+        middle = float(np.median(values))
+        spread = SPREAD * 1.4826 * float(np.median(np.abs(values - middle)))
+        spread = max(spread, SMALLEST_RANGE / 2)
+        errors = np.concatenate([one.standard_error[np.isfinite(one.restitution)] for one in series])
+        bar = 2 * float(np.nan_to_num(np.nanquantile(errors, BEST))) if np.isfinite(errors).any() else 0.0
+        bounds += [max(float(values.min()), middle - spread) - bar, min(float(values.max()), middle + spread) + bar]
+    if not bounds:
+        return 0.0, 1.0
+    half = max(0.58 * (max(bounds) - min(bounds)), SMALLEST_RANGE / 2)
+    middle = (max(bounds) + min(bounds)) / 2
+    return middle - half, middle + half

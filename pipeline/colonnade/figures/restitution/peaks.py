@@ -1,0 +1,161 @@
+"""Peaks of free vibrations with the fit that gives the restitution: Housner's relation is a straight line here."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple, cast
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator, StrMethodFormatter
+from numpy.typing import NDArray
+
+from colonnade.arrays import Array
+from colonnade.dynamics.block import Block
+from colonnade.figures.panels import legend_outside
+from colonnade.figures.style import FIT, MEASURED, blank_figure, styled
+from colonnade.identification.restitution.arcs.energy import released_energy
+
+COLUMNS = 3
+
+BELOW = 0.5
+"""The energy axis ends at this share of that of the lowest peak that stands two standard errors above zero."""
+
+
+class PeakSeries(NamedTuple):
+    """
+    Peaks of one free vibration, all of shape (n,).
+
+    Attributes
+    ----------
+    title : str
+    angle, standard_error, fitted_angle : ndarray
+        rad.
+    used : ndarray of bool
+    band : ndarray, optional
+        Half-width of the band of confidence about the fitted line, of ln energy (`confidence_band`).
+    """
+
+    title: str
+    angle: Array
+    standard_error: Array
+    fitted_angle: Array
+    used: NDArray[np.bool_]
+    band: Array | None = None
+
+
+def peak_decay(series: Sequence[PeakSeries], block: Block, *, axes: Sequence[Axes] | None = None) -> Figure:
+    """
+    Draw the energy of successive peaks against the impact number, a panel a test, all on the same scales.
+
+    Parameters
+    ----------
+    series : sequence of PeakSeries
+    block : Block
+        Its critical angles scale the energy.
+    axes : sequence of Axes, optional
+        To draw into, one a test; a new figure with its legend otherwise.
+
+    Returns
+    -------
+    figure : Figure
+
+    Raises
+    ------
+    ValueError
+        If there is no series.
+
+    Notes
+    -----
+    The energy is the share of the overturning barrier that a peak holds (`released_energy`): each impact multiplies it
+    by e², so that on a logarithmic axis a constant e is a straight line. Bars are ± two standard errors.
+    """
+    if not series:
+        raise ValueError("no free vibration was given; at least one series of peaks was expected")
+    with styled():
+        own = axes is None
+        if axes is None:
+            columns = min(len(series), COLUMNS)
+            rows = -(-len(series) // columns)
+            figure = blank_figure(0.7 + 2.1 * rows)
+            grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+            for unused in grid.flat[len(series) :]:
+                unused.remove()
+            axes = list(grid.flat[: len(series)])
+            for index, one in enumerate(axes):
+                # The lowest panel of each column carries the scale, also where the last row is not full.
+                one.tick_params(labelbottom=index + columns >= len(series))
+                one.set_xlabel("impact number n" if index + columns >= len(series) else "")
+                one.set_ylabel("energy / barrier" if index % columns == 0 else "")
+        for one, peaks in zip(axes, series, strict=True):
+            _draw_peaks(one, peaks, block)
+            figure = cast(Figure, one.get_figure(root=True))
+        lowest = min((_lowest(peaks, block) for peaks in series), default=1.0)
+        for one in axes:
+            if lowest < 1.0:
+                one.set_ylim(bottom=max(one.get_ylim()[0], lowest))
+            _label_energies(one)
+        if own:
+            legend_outside(figure, axes)
+    return figure
+
+
+def _draw_peaks(axes: Axes, peaks: PeakSeries, block: Block) -> None:
+    number = np.arange(1, peaks.angle.size + 1)
+    critical = block.critical_angle_at(peaks.angle)
+    shown = np.isfinite(peaks.angle) & (np.abs(peaks.angle) < critical) & (peaks.angle != 0)
+    size = np.clip(np.abs(peaks.angle), 0.0, critical)
+    low = np.clip(size - 2 * peaks.standard_error, 1e-3 * size, critical)
+    high = np.clip(size + 2 * peaks.standard_error, 0.0, critical)
+    energy, lowest, highest = (released_energy(angle, critical) for angle in (size, low, high))
+    for chosen, face, label in (
+        (shown & peaks.used, MEASURED["color"], "peak used"),
+        (shown & ~peaks.used, "white", "peak left out"),
+    ):
+        if not chosen.any():
+            continue
+        axes.errorbar(
+            number[chosen],
+            energy[chosen],
+            yerr=np.nan_to_num([energy[chosen] - lowest[chosen], highest[chosen] - energy[chosen]]),
+            fmt="o",
+            markersize=2.8,
+            markerfacecolor=face,
+            markeredgecolor=MEASURED["color"],
+            markeredgewidth=0.8,
+            ecolor="#8a919c",
+            elinewidth=0.8,
+            label=label,
+        )
+    fitted = np.isfinite(peaks.fitted_angle)
+    if fitted.any():
+        line = released_energy(np.abs(peaks.fitted_angle[fitted]), critical[fitted])
+        axes.plot(number[fitted], line, label="fit", zorder=3, **FIT)
+        if peaks.band is not None and np.isfinite(peaks.band[fitted]).any():
+            wide = np.exp(peaks.band[fitted])
+            axes.fill_between(
+                number[fitted], line / wide, line * wide, color=FIT["color"], alpha=0.18, linewidth=0, label="95 % band"
+            )
+    axes.set_yscale("log")
+    axes.set_xlim(0, max(peaks.angle.size + 1, axes.get_xlim()[1]))
+    axes.set_title(peaks.title)
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=5, integer=True))
+    if not shown.any():
+        axes.text(0.5, 0.5, "no peaks", transform=axes.transAxes, ha="center", va="center")
+
+
+def _lowest(peaks: PeakSeries, block: Block) -> float:
+    """Energy below which a scale shows nothing but the bars of peaks near the noise."""
+    size = np.abs(peaks.angle)
+    critical = block.critical_angle_at(peaks.angle)
+    known = np.isfinite(size) & (size < critical) & (size > 2 * np.nan_to_num(peaks.standard_error))
+    return BELOW * float(released_energy(size[known], critical[known]).min()) if known.any() else 1.0
+
+
+def _label_energies(axes: Axes) -> None:
+    """Label 1, 2 and 5 of each decade where few decades are shown, so that at least two labels stand at any scale."""
+    lowest, highest = axes.get_ylim()
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if highest < 1e3 * lowest else (1.0,), numticks=12))
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))

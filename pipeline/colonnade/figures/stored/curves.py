@@ -1,0 +1,77 @@
+"""Curves of a test's stored results, over the critical angle of the block."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from colonnade.dynamics.block import Block
+from colonnade.figures.curve import Curve
+from colonnade.figures.histories import Spread
+from colonnade.figures.record import Quantity
+from colonnade.store.records.stored import Stored
+from colonnade.units import from_si
+
+
+def measured_ratio(stored: Stored, block: Block, *, as_recorded: bool = False) -> Curve | None:
+    """Return the measured θ/α about the zero of the predictions, or as recorded; None if it was not measured."""
+    offset = 0.0 if as_recorded else float(np.nan_to_num(stored.value("compare", "zero_offset")))
+    return _ratio(stored, block, "rocking", offset=offset)
+
+
+def predicted_ratios(stored: Stored, block: Block) -> dict[str, Curve]:
+    """Return the predicted θ/α by model."""
+    curves = {model: _ratio(stored, block, "predict", model) for model in stored.models("predict")}
+    return {model: curve for model, curve in curves.items() if curve is not None}
+
+
+def spreads(stored: Stored, block: Block) -> dict[str, Spread]:
+    """Return the ensembles' bands of θ/α by model."""
+    found = {}
+    for model in stored.models("ensemble"):
+        time, levels, angles = (
+            stored.array("ensemble", name, model) for name in ("elapsed", "quantile", "rocking_angle_band")
+        )
+        overturning, horizon = (
+            stored.value("ensemble", name, model) for name in ("overturning_probability", "horizon")
+        )
+        found[model] = Spread(time, levels, angles / block.critical_angle_at(angles), overturning, horizon)
+    return found
+
+
+def misfits(stored: Stored, measured: Curve | None, predicted: Mapping[str, Curve]) -> dict[str, Curve]:
+    """Return predicted minus measured θ/α as far as the two are compared, by model."""
+    found = {}
+    for model, curve in predicted.items():
+        until = stored.compared("compared_until", model)
+        if measured is not None and curve.values.shape == measured.values.shape and np.isfinite(until):
+            within = curve.time <= until
+            found[model] = Curve(curve.time[within], (curve.values - measured.values)[within])
+    return found
+
+
+def quantities(stored: Stored, wanted: Sequence[tuple[str, str, str, str]], block: Block) -> list[Quantity]:
+    """Return those motions that were measured; wanted are variable, words, label and unit."""
+    found = []
+    for name, _, label, unit in wanted:
+        curve = motion(stored, name, unit)
+        if curve is not None and np.isfinite(curve.values).any():
+            uplift = block.uplift_acceleration if name == "base_acceleration" else None
+            found.append(Quantity(f"{label}\n({unit})", curve, uplift, "g tan α"))
+    return found
+
+
+def motion(stored: Stored, name: str, unit: str) -> Curve | None:
+    """Return a measured motion over time in a unit, None if it was not measured."""
+    values = stored.array("rocking", name)
+    if not (values.ndim == 1 and values.size):
+        return None
+    return Curve(stored.array("rocking", "elapsed"), from_si(1.0, unit) * values)
+
+
+def _ratio(stored: Stored, block: Block, stage: str, model: str | None = None, *, offset: float = 0.0) -> Curve | None:
+    if not stored.has(stage, "rocking_angle", model):
+        return None
+    angle = stored.array(stage, "rocking_angle", model) - offset
+    return Curve(stored.array(stage, "elapsed", model), angle / block.critical_angle_at(angle))

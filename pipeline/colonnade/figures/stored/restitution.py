@@ -1,0 +1,145 @@
+"""Pictures of restitution: fitted history, peaks, e of each impact, estimators side by side, region of e and α."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.campaign import Test
+from colonnade.dynamics.block import Block
+from colonnade.figures.curve import Curve
+from colonnade.figures.output import Picture
+from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
+from colonnade.figures.restitution.history import fitted_history
+from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
+from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
+from colonnade.figures.restitution.region import Region, joint_region
+from colonnade.figures.stored.curves import measured_ratio
+from colonnade.identification.restitution.estimators.registry import ESTIMATORS
+from colonnade.identification.restitution.fitting.confidence_band import confidence_band
+from colonnade.store.records.stored import Stored
+from colonnade.store.records.wording import number
+
+STAGE = "restitution"
+
+MOST_SIDE_BY_SIDE = 12
+"""Free vibrations of a specimen of which each has its estimators drawn; of more, the recommended ones alone."""
+
+
+def estimate_rows(stored: Stored) -> list[EstimateRow]:
+    """Return what each estimator gives of a free vibration, in the order in which they are stored."""
+    values, low, high = (stored.by("estimator", STAGE, f"estimate{end}") for end in ("", "_low", "_high"))
+    recommended = stored.text(STAGE, "recommended")
+    return [
+        EstimateRow(ESTIMATORS[name].label, value, low[name], high[name], name == recommended)
+        for name, value in values.items()
+    ]
+
+
+def fitted(test: Test, stored: Stored, block: Block) -> Picture | None:
+    """Draw the measured angle, the history fitted to it and the residual; None if none was fitted."""
+    time, angle = (stored.array(STAGE, name) for name in ("fitted_elapsed", "fitted_history"))
+    if not time.size or not angle.size:
+        return None
+    critical = block.critical_angle_at(angle)
+    residual = Curve(time, stored.array(STAGE, "history_residual") / critical)
+    model = stored.text(STAGE, "history_model")
+    measured = measured_ratio(stored, block, as_recorded=True)
+    left = residual.values[np.isfinite(residual.values)]
+    rms = float(np.sqrt(np.mean(left**2))) if left.size else np.nan
+    return Picture(
+        fitted_history(measured, Curve(time, angle / critical), residual, model=model),
+        f"fitted-{test.id}",
+        f"{test.id}: measured free vibration and the {model} model fitted to it",
+        f"From {time[0]:.2f} s to {time[-1]:.2f} s the two differ by {number(rms)} α RMS.",
+    )
+
+
+def peak_series(test: Test, stored: Stored, block: Block) -> PeakSeries | None:
+    """Return the peaks of a free vibration, None if none were found."""
+    angle, error, fit, used = _columns(stored, "peak_angle", "peak_angle_standard_error", "fitted_angle", "peak_used")
+    if not angle.size:
+        return None
+    used = used == 1
+    return PeakSeries(
+        _short(test.id), angle, error, fit, used, confidence_band(angle, error, used & np.isfinite(fit), block)
+    )
+
+
+def peaks(identity: str, series: Sequence[PeakSeries], block: Block) -> Picture | None:
+    """Draw the peaks of free vibrations with their fits; None without any."""
+    if not series:
+        return None
+    described = [f"{one.title}: {int(one.used.sum())} of {one.used.size} peaks used." for one in series]
+    title = "Energy of successive peaks against the impact number, with the fitted line and its band"
+    return Picture(peak_decay(series, block), identity, title, " ".join(described))
+
+
+def impact_series(test: Test, stored: Stored) -> ImpactSeries | None:
+    """Return e of each impact of a free vibration, None if there is none."""
+    names = ("velocity", "restitution", "restitution_standard_error", "used")
+    velocity, restitution, error, used = _columns(stored, *(f"impact_{name}" for name in names))
+    if not restitution.size:
+        return None
+    return ImpactSeries(_short(test.id), velocity, restitution, error, used == 1)
+
+
+def impacts(identity: str, series: Sequence[ImpactSeries], level: Level, rigid: float) -> Picture | None:
+    """Draw e of each impact against its speed, with the value and interval identified from all; None without any."""
+    if not series:
+        return None
+    used, total = sum(int(one.used.sum()) for one in series), sum(one.used.size for one in series)
+    return Picture(
+        impact_restitution(series, level=level, rigid=rigid),
+        identity,
+        "e of each impact against the angular velocity before it",
+        f"{used} of {total} impacts used. {level.name}: {number(level.value, 4)}.",
+    )
+
+
+def estimators(identity: str, groups: Sequence[EstimateGroup], rigid: float) -> Picture | None:
+    """Draw estimators side by side; None without any estimate."""
+    shown = [group for group in groups if group.rows]
+    if not shown:
+        return None
+    if len(shown) > MOST_SIDE_BY_SIDE:
+        chosen = [row._replace(name=group.title) for group in shown for row in group.rows if row.recommended]
+        shown = [EstimateGroup("recommended of each", chosen)] if chosen else shown[:MOST_SIDE_BY_SIDE]
+    said = [f"{group.title}: {row.name} {number(row.value, 5)}." for group in shown for row in group.rows]
+    title = "Estimates of e side by side, with their intervals"
+    return Picture(estimators_side_by_side(shown, rigid=rigid), identity, title, " ".join(said))
+
+
+def region(test: Test, stored: Stored) -> Picture | None:
+    """Draw the joint region of e and the critical angle; None if the angle was not freed."""
+    names = ("restitution", "critical_angle", "restitution_error", "critical_angle_error", "correlation")
+    e, ratio, e_error, ratio_error, correlation = (stored.value(STAGE, f"region_{name}") for name in names)
+    both = correlation * e_error * ratio_error
+    covariance = np.array([[e_error**2, both], [both, ratio_error**2]])
+    if not (np.isfinite(covariance).all() and np.linalg.eigvalsh(covariance).min() > 0):
+        return None
+    level = level_of(stored, STAGE, "")
+    fixed = level[:3] if all(map(isfinite, level[:3])) else None
+    return Picture(
+        joint_region([Region(test.id, np.array([e, ratio]), covariance)], fixed=fixed),
+        f"region-{test.id}",
+        f"{test.id}: joint region of e and the critical angle",
+        f"With the critical angle freed: e = {e:.4f}, α {ratio:.4f} times that given.",
+    )
+
+
+def level_of(stored: Stored, stage: str, name: str) -> Level:
+    """Return the e that a stage identified, with its interval, as a figure shows it; NaN if it is not known."""
+    value, low, high = (stored.value(stage, f"restitution{end}") for end in ("", "_low", "_high"))
+    return Level(value, low, high, name)
+
+
+def _columns(stored: Stored, *names: str) -> list[Array]:
+    return [stored.array(STAGE, name) for name in names]
+
+
+def _short(name: str, longest: int = 26) -> str:
+    return name if len(name) <= longest else f"{name[: longest - 1]}…"

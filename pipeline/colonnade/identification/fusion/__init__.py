@@ -1,0 +1,1 @@
+"""From transducers, gyroscopes and accelerometers to the motion of the specimen."""

@@ -1,0 +1,1 @@
+"""What cannot be right: channels held against each other and against the equation of motion."""

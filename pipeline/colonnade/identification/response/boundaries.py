@@ -1,0 +1,171 @@
+"""The two boundaries of a measured map, bracketed by its tests: no rocking | rocking | overturning."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from colonnade.dynamics.history import Outcome
+
+SAME_FREQUENCY = 0.02
+"""Tests whose Ω differ from the group's first by less than this fraction were meant to have one frequency."""
+
+
+@dataclass(frozen=True)
+class MapPoint:
+    """
+    One sine test on the map.
+
+    Attributes
+    ----------
+    test : str
+        Its id.
+    frequency_ratio, amplitude_ratio : float
+        Ω and A.
+    outcome : str
+    order : int, "irregular" or None
+        Of its response.
+    """
+
+    test: str
+    frequency_ratio: float
+    amplitude_ratio: float
+    outcome: Outcome
+    order: int | str | None = None
+
+
+@dataclass(frozen=True)
+class Bracket:
+    """
+    Where a boundary lies, going up in A.
+
+    Attributes
+    ----------
+    below, above : float or None
+        The smallest A beyond the boundary, and the largest one short of it that is smaller; None if not measured.
+    exceptions : tuple of float
+        Larger A that had the outcome from below the boundary all the same, in order.
+    """
+
+    below: float | None
+    above: float | None
+    exceptions: tuple[float, ...] = ()
+
+    @classmethod
+    def between(cls, short: list[float], beyond: list[float]) -> Bracket:
+        """Bracket the boundary between the A of tests short of it and of those beyond it."""
+        above = min(beyond, default=None)
+        below = [amplitude for amplitude in short if above is None or amplitude < above]
+        exceptions = tuple(sorted(set(short) - set(below)))
+        return cls(max(below, default=None), above, exceptions)
+
+    @property
+    def middle(self) -> float | None:
+        """Middle of the bracket, None where a side is missing."""
+        return None if self.below is None or self.above is None else (self.below + self.above) / 2
+
+
+@dataclass(frozen=True)
+class Boundaries:
+    """
+    Both boundaries at one frequency.
+
+    Attributes
+    ----------
+    frequency_ratio : float
+        Mean Ω of the group.
+    rocking : Bracket
+        Between tests without and with rocking; overturning is rocking here.
+    overturning : Bracket
+        Between tests that rocked and that overturned; those without rocking bound it from below where none rocked.
+    notes : tuple of str
+        What is out of order, or missing.
+    """
+
+    frequency_ratio: float
+    rocking: Bracket
+    overturning: Bracket
+    notes: tuple[str, ...]
+
+
+def bracket_boundaries(points: Iterable[MapPoint]) -> list[Boundaries]:
+    """
+    Bracket both boundaries at each frequency.
+
+    Parameters
+    ----------
+    points : iterable of MapPoint
+        Of one specimen.
+
+    Returns
+    -------
+    boundaries : list of Boundaries
+        In order of Ω; tests within `SAME_FREQUENCY` of each other form a group.
+    """
+    groups: list[list[MapPoint]] = []
+    for point in sorted(points, key=lambda each: each.frequency_ratio):
+        if groups and point.frequency_ratio <= groups[-1][0].frequency_ratio * (1 + SAME_FREQUENCY):
+            groups[-1].append(point)
+        else:
+            groups.append([point])
+    return [_of_group(group) for group in groups]
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """How far a computed limit lies above the measured boundary: mean and RMS in A, over how many frequencies."""
+
+    mean: float
+    rms: float
+    frequencies: int
+
+
+def limit_misfit(boundaries: Iterable[Boundaries], frequency_ratio: ArrayLike, limit: ArrayLike) -> Misfit | None:
+    """
+    Compare a computed limit of overturning with the measured boundary.
+
+    Parameters
+    ----------
+    boundaries : iterable of Boundaries
+    frequency_ratio, limit : array_like, shape (n,)
+        Ω, increasing, and A of the limit, NaN where it has no value.
+
+    Returns
+    -------
+    misfit : Misfit or None
+        Limit, linear between its Ω, minus the middle of each bracket; None where no frequency has both.
+    """
+    omega, computed = np.asarray(frequency_ratio, dtype=np.float64), np.asarray(limit, dtype=np.float64)
+    measured = [(each.frequency_ratio, each.overturning.middle) for each in boundaries]
+    differences = [
+        float(np.interp(at, omega, computed)) - middle
+        for at, middle in measured
+        if middle is not None and omega[0] <= at <= omega[-1]
+    ]
+    known = np.array([difference for difference in differences if np.isfinite(difference)])
+    if known.size == 0:
+        return None
+    return Misfit(float(known.mean()), float(np.sqrt((known**2).mean())), int(known.size))
+
+
+def _of_group(group: list[MapPoint]) -> Boundaries:
+    still = [point.amplitude_ratio for point in group if point.outcome == "no-rocking"]
+    rocked = [point.amplitude_ratio for point in group if point.outcome == "rocking"]
+    fell = [point.amplitude_ratio for point in group if point.outcome == "overturned"]
+    rocking = Bracket.between(still, [*rocked, *fell])
+    overturning = Bracket.between(rocked or still, fell)
+    notes = []
+    for what, bracket in (("rocking", rocking), ("overturning", overturning)):
+        if bracket.exceptions:
+            amplitudes = ", ".join(f"{amplitude:.3g}" for amplitude in bracket.exceptions)
+            notes.append(f"{what} at A = {bracket.above:.3g}, yet none at {amplitudes}")
+    if rocking.below is None:
+        notes.append("no test without rocking")
+    if rocking.above is None:
+        notes.append("no test with rocking")
+    if overturning.above is None:
+        notes.append("no test that overturned")
+    return Boundaries(sum(point.frequency_ratio for point in group) / len(group), rocking, overturning, tuple(notes))

@@ -1,0 +1,104 @@
+"""Whether a measured history could be one more run of a model: its distance from the runs, ranked among their own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from colonnade.arrays import Array
+
+WITHIN = 0.95
+"""Largest rank of a measured history that is within a model's own spread."""
+
+BAND = (0.025, 0.5, 0.975)
+"""Quantiles that distances are scaled by: the middle, and the edges of the 95 % band on either side of it."""
+
+FEWEST = 20
+"""Runs below which no rank is given: with fewer no history can be among the outermost 5 %."""
+
+_LEAST = 1e-9
+"""rad; half a band is at least as wide."""
+
+
+def is_within(rank: float) -> bool | None:
+    """Whether a measured history of this rank is within the model's own spread; None if it was not ranked."""
+    return None if np.isnan(rank) else bool(rank <= WITHIN)
+
+
+@dataclass(frozen=True)
+class Distances:
+    """
+    Largest scaled distances from the median; 1 is the edge of the 95 % band of all others.
+
+    Attributes
+    ----------
+    measured : float
+    members : ndarray, shape (m,)
+    """
+
+    measured: float
+    members: Array
+
+
+def rank(measured: float, members: Array) -> float:
+    """Return the share of the members' values, shape (m,), that are below the measured one, equal ones by half."""
+    return float(np.mean(members < measured) + 0.5 * np.mean(members == measured))
+
+
+def distances(measured: ArrayLike, members: ArrayLike) -> Distances | None:
+    """
+    Measure how far a measured history and each run of a model are from the middle of all others.
+
+    Parameters
+    ----------
+    measured : array_like, shape (n,)
+        rad, up to the horizon; samples that are not finite are left out for all.
+    members : array_like, shape (m, n)
+        rad, each with measurement errors of its own, as if it had been recorded.
+
+    Returns
+    -------
+    distances : Distances or None
+        None for fewer than `FEWEST` runs, or without a finite sample.
+
+    Raises
+    ------
+    ValueError
+        If the shapes do not belong together or a run is not finite.
+
+    Notes
+    -----
+    Each of the m + 1 histories is measured as if it were the measured one: median and band are those of the m others.
+    If all m + 1 are drawn alike, each rank is equally likely, so the verdict is wrong in 5 % of the cases, whatever the
+    model and the motion (conformal prediction: Vovk, Gammerman & Shafer 2005, ch. 2).
+    """
+    seen, runs = np.asarray(measured, dtype=np.float64), np.asarray(members, dtype=np.float64)
+    if runs.ndim != 2 or seen.shape != runs.shape[1:]:
+        raise ValueError(f"measured has shape {seen.shape} and members {runs.shape}; (n,) and (m, n) were expected")
+    if not np.isfinite(runs).all():
+        raise ValueError("a member is not finite; finite angles were expected")
+    known = np.isfinite(seen)
+    if runs.shape[0] < FEWEST or not known.any():
+        return None
+    everyone = np.vstack((seen[known], runs[:, known]))
+    low, middle, high = _of_the_others(everyone)
+    deviation = everyone - middle
+    half = np.where(deviation > 0, high - middle, middle - low)
+    largest = (np.abs(deviation) / np.maximum(half, _LEAST)).max(axis=1)
+    return Distances(float(largest[0]), largest[1:])
+
+
+def _of_the_others(everyone: Array) -> list[Array]:
+    """Quantiles `BAND` at each time of all histories but one, shape (m + 1, n) each, for each one left out."""
+    order = np.argsort(everyone, axis=0)
+    ranked = np.take_along_axis(everyone, order, axis=0)
+    place = np.empty_like(order)
+    np.put_along_axis(place, order, np.arange(order.shape[0])[:, None], axis=0)
+    quantiles = []
+    for level in BAND:
+        share, below = np.modf(level * (order.shape[0] - 2))
+        lower, upper = (np.where(place > each, ranked[each], ranked[each + 1]) for each in (int(below), int(below) + 1))
+        quantiles.append((1 - share) * lower + share * upper)
+    return quantiles

@@ -1,0 +1,1 @@
+"""Arcs of a rocking history: what lies between two impacts."""

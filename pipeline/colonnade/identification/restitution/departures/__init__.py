@@ -1,0 +1,1 @@
+"""Departures of a free vibration from plane rocking with one e."""

@@ -1,0 +1,131 @@
+"""Departures of a free vibration from plane rocking with one e: named, quantified, and what is left out for them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from colonnade.dynamics.block import Block
+from colonnade.identification.restitution.arcs.series import ArcSeries, arc_series
+from colonnade.identification.restitution.departures.contacts import find_bouncing, find_sliding
+from colonnade.identification.restitution.departures.departure import Departure
+from colonnade.identification.restitution.departures.first_cycles import out_of_plane_share, signature
+from colonnade.identification.restitution.departures.two_sides import FEWEST_ARCS as FEWEST_COMPARED
+from colonnade.identification.restitution.departures.two_sides import OFFSET, compare_sides, sides_problem
+
+__all__ = ["Departure", "find_departures"]
+
+FEWEST_ARCS = 3
+
+MOST_CORRECTIONS = 4
+SMALLEST_CORRECTION = 0.3
+"""Standard errors of the zero offset; it is corrected up to so many times until less is left."""
+
+
+def find_departures(
+    time: ArrayLike,
+    angle: ArrayLike,
+    block: Block,
+    *,
+    impact_time: ArrayLike,
+    impact_standard_error: ArrayLike,
+    peak_angle: ArrayLike,
+    peak_standard_error: ArrayLike,
+    used: ArrayLike,
+    out_of_plane: ArrayLike | None = None,
+    slide: ArrayLike | None = None,
+    uplift: ArrayLike | None = None,
+) -> tuple[Departure, ...]:
+    """
+    Find how a free vibration departs from plane rocking of a rigid block with one e.
+
+    Parameters
+    ----------
+    time, angle : array_like, shape (m,)
+        s, increasing; rad, about the rest position. Missing samples are NaN.
+    block : Block
+    impact_time, impact_standard_error : array_like, shape (n + 1,)
+        Times at which the angle passes its zero, before and after each of n arcs, and their standard errors, s.
+    peak_angle, peak_standard_error : array_like, shape (n,)
+        θ of each arc's peak, signed, from the same zero, and its standard error, rad.
+    used : array_like of bool, shape (n,)
+        Arcs to look at; the others are counted, and left alone.
+    out_of_plane : array_like, shape (m,), optional
+        Rotation about x, rad.
+    slide, uplift : array_like, shape (m,), optional
+        Displacement of the pole relative to the table, and height of the base's lowest point, m.
+
+    Returns
+    -------
+    departures : tuple of Departure
+        Three-dimensional rocking, sliding, bouncing, unequal restitution, unequal sides, zero drift, as far as found,
+        in this order; each threshold stands with the function that finds it.
+
+    Raises
+    ------
+    ValueError
+        If the shapes do not fit.
+
+    Notes
+    -----
+    Three-dimensional rocking spoils the first, large cycles: with a measured rotation out of the plane it is that, else
+    its signature. The two sides are compared by the arcs that are left.
+    """
+    times, angles = np.asarray(time, dtype=np.float64), np.asarray(angle, dtype=np.float64)
+    impacts, errors = (np.asarray(each, dtype=np.float64) for each in (impact_time, impact_standard_error))
+    peaks, peak_errors = (np.asarray(each, dtype=np.float64) for each in (peak_angle, peak_standard_error))
+    chosen = np.asarray(used, dtype=bool)
+    if not impacts.shape == errors.shape == (peaks.size + 1,) or not peaks.shape == peak_errors.shape == chosen.shape:
+        raise ValueError(
+            f"{impacts.size} impacts with {errors.size} errors, {peaks.size} peaks with {peak_errors.size} errors and "
+            f"{chosen.size} flags; one impact more than peaks, and as many of the others, were expected"
+        )
+    records = {}
+    for name, given in (("angle", angles), ("out_of_plane", out_of_plane), ("slide", slide), ("uplift", uplift)):
+        if given is not None:
+            records[name] = np.asarray(given, dtype=np.float64)
+            if records[name].shape != times.shape:
+                raise ValueError(
+                    f"{name} has shape {records[name].shape} and time {times.shape}; arrays of one length were expected"
+                )
+
+    def series(first: int, offset: float) -> ArcSeries:
+        later = chosen & (np.arange(peaks.size) >= first)
+        return arc_series(block, impacts, errors, peaks - offset, peak_errors, later, zero_offset=offset)
+
+    whole, offset = _about_zero(series, 0, 0.0)
+    if whole.number.size < FEWEST_ARCS:
+        return ()
+    spatial = (
+        out_of_plane_share(times, records["out_of_plane"], whole) if "out_of_plane" in records else signature(whole)
+    )
+    found = [
+        spatial,
+        find_sliding(times, angles, records["slide"], block, whole) if "slide" in records else None,
+        find_bouncing(times, angles, records.get("uplift"), block, whole),
+        *compare_sides(whole if spatial is None else _about_zero(series, spatial.left_out, offset)[0]),
+    ]
+    return tuple(departure for departure in found if departure is not None)
+
+
+def _about_zero(series: Callable[[int, float], ArcSeries], first: int, offset: float) -> tuple[ArcSeries, float]:
+    """
+    Give the arcs from a first one on about their own zero, and that zero (rad).
+
+    A zero found from the peaks of sides that are not equal is wrong, by much of a small peak.
+    """
+    arcs = series(first, offset)
+    for _ in range(MOST_CORRECTIONS):
+        if arcs.number.size < FEWEST_COMPARED:
+            break
+        fit = sides_problem(arcs).fit()
+        correction = float(fit.coefficients[OFFSET])
+        if abs(correction) < SMALLEST_CORRECTION * fit.error(OFFSET):
+            break
+        # Not beyond the smallest peak in one step: its energy is not linear in the offset.
+        reach = 0.5 * float(arcs.peak.min())
+        offset += min(max(correction, -reach), reach)
+        arcs = series(first, offset)
+    return arcs, offset

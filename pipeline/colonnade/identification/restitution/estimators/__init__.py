@@ -1,0 +1,1 @@
+"""The estimators of the coefficient of restitution, one module each."""

@@ -1,0 +1,1 @@
+"""Free rocking fitted to the samples of a record, and what its residual says."""

@@ -1,0 +1,197 @@
+"""A path of free rocking with an e of its own at each impact, laid through the samples of a record."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import sqrt
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.identification.restitution.fitting.forecast import BLURRED, extended, stretch_of
+from colonnade.identification.restitution.fitting.free_decay import ALWAYS, Decay
+from colonnade.identification.restitution.fitting.least_squares import (
+    MOST_HALVINGS,
+    Stretch,
+    UnfollowedError,
+    blur,
+    nearest,
+)
+from colonnade.identification.restitution.fitting.samples import AngleSamples
+
+MOST_STEPS = 20
+CONVERGED = 1e-3
+"""Least lessening of the penalised sum of squares, in the noise's variance, for which another step is made."""
+
+SAME_NOISE = 0.05
+"""Change of the noise's variance, as a share of it, below which it is taken as found."""
+
+LIKELY_SCATTER = 4e-3
+"""Of ln e, with which the first arcs are followed; ..."""
+
+SCATTERS = 3e-4, 3e-2
+"""... then what they show, between these."""
+
+FARTHER = 1.6
+"""Times as many arcs as have been followed are looked at next."""
+
+
+@dataclass(frozen=True)
+class RockingPath:
+    """A decay with its `deviations`, and the drift of the zero (rad over the stretch, none in its middle)."""
+
+    decay: Decay
+    drift: float = 0.0
+
+    def seen(self, stretch: Stretch) -> Array:
+        """Angle as a record through the stretch's low-pass shows it, rad, shape (n,)."""
+        angle, _ = self.decay.followed(stretch.time)
+        if stretch.cutoff_hz is not None:
+            angle = angle + blur(self.decay, stretch)
+        return np.asarray(angle + self.drift * _centred_time(stretch))
+
+    def residual(self, stretch: Stretch) -> Array:
+        """Measured less seen, rad; NaN where not counted."""
+        residual = stretch.angle - self.seen(stretch)
+        if stretch.margin > 0:
+            ends = self.decay.arcs()[2]
+            residual = np.where(nearest(stretch.time, ends) < stretch.margin, np.nan, residual)
+        return residual
+
+    def linear(self, stretch: Stretch, names: tuple[str, ...]) -> tuple[Array, Array, Array]:
+        """Residual, and derivatives of the angle by the unknowns (the drift last) and by ln e of each impact."""
+        residual = self.residual(stretch)
+        fixed, by_impact = self.decay.jacobian(stretch.time, names)
+        fixed = np.column_stack((fixed, _centred_time(stretch)))
+        uncounted = ~np.isfinite(residual)
+        fixed[uncounted], by_impact[uncounted] = 0.0, 0.0
+        return residual, fixed, by_impact
+
+    def moved(self, step: Array, names: tuple[str, ...]) -> RockingPath:
+        """Return the path with steps added to the unknowns, the drift, and ln e of each impact."""
+        steps = dict(zip(names, step.tolist(), strict=False))
+        return RockingPath(
+            self.decay.moved_by_impact(steps, step[len(names) + 1 :]), self.drift + float(step[len(names)])
+        )
+
+
+def fit_path(path: RockingPath, stretch: Stretch, names: tuple[str, ...], scatter: float) -> RockingPath:
+    """
+    Move a path to where it is closest to the record, with departures of ln e that a scatter allows.
+
+    Parameters
+    ----------
+    path : RockingPath
+    stretch : Stretch
+    names : tuple of str
+        Of the unknowns that are moved with the drift.
+    scatter : float
+        Standard deviation of ln e from impact to impact.
+
+    Raises
+    ------
+    UnfollowedError
+        If the path leads to where the block overturns.
+
+    Notes
+    -----
+    Least squares by Gauss and Newton, with (departure / scatter)² of each impact added; noise as the residuals show.
+    """
+    power = _power(path, stretch)
+    for _ in range(3):
+        path = _closest(path, stretch, names, scatter, power)
+        power, before = _power(path, stretch), power
+        if abs(power - before) < SAME_NOISE * before:
+            break
+    return path
+
+
+def fit_path_forward(samples: AngleSamples, path: RockingPath, lowest: float) -> RockingPath:
+    """Follow a path forward: the first arcs, then as many more as are foreseen, to the record's end or lowest peak."""
+    margin, scatter = BLURRED / float(path.decay.p.max()), LIKELY_SCATTER
+    while True:
+        stretch = stretch_of(samples, path.decay, margin=margin)
+        path = fit_path(path, stretch, ALWAYS, scatter)
+        if path.decay.count > 5:
+            scatter = float(np.clip(1.5 * np.std(path.decay.by_impact), *SCATTERS))
+        longer = _longer(path, stretch, samples, scatter, lowest)
+        if longer is None:
+            return path
+        path = longer
+
+
+def _centred_time(stretch: Stretch) -> Array:
+    """Time over the stretch, from −1/2 to 1/2."""
+    start, end = float(stretch.time[0]), float(stretch.time[-1])
+    return np.asarray((stretch.time - start) / max(end - start, 1e-300) - 0.5)
+
+
+def _power(path: RockingPath, stretch: Stretch) -> float:
+    residual = path.residual(stretch)
+    if not np.isfinite(residual).sum() > path.decay.count + len(ALWAYS) + 1:
+        raise UnfollowedError("too few samples")
+    return max(float(np.nanmean(residual**2)), 1e-30)
+
+
+def _closest(path: RockingPath, stretch: Stretch, names: tuple[str, ...], scatter: float, power: float) -> RockingPath:
+    def objective(tried: RockingPath) -> float:
+        if not np.isfinite(tried.decay.arcs()[0]).all():
+            return np.inf
+        residual = tried.residual(stretch)
+        return float(np.nansum(residual**2) / power + (tried.decay.by_impact**2).sum() / scatter**2)
+
+    here = objective(path)
+    if not np.isfinite(here):
+        raise UnfollowedError("the block would overturn")
+    for _ in range(MOST_STEPS):
+        normal, gradient = _normal(path, stretch, names, scatter, power)
+        scale = np.sqrt(np.diag(normal))
+        if not (scale > 0).all():
+            raise UnfollowedError("an unknown has no effect")
+        step = np.linalg.solve(normal / np.outer(scale, scale), gradient / scale) / scale
+        if float(gradient @ step) < CONVERGED:
+            break
+        for halving in range(MOST_HALVINGS):
+            tried = path.moved(0.5**halving * step, names)
+            there = objective(tried)
+            if there < here * (1 + 1e-9):
+                break
+        else:
+            break
+        path, here = tried, there
+    return path
+
+
+def _normal(
+    path: RockingPath, stretch: Stretch, names: tuple[str, ...], scatter: float, power: float
+) -> tuple[Array, Array]:
+    """Normal equations of the penalised squares: matrix and right side."""
+    residual, fixed, by_impact = path.linear(stretch, names)
+    columns = np.hstack((fixed, by_impact))
+    normal = columns.T @ columns / power
+    gradient = columns.T @ np.nan_to_num(residual) / power
+    penalty = np.concatenate((np.zeros(fixed.shape[1]), np.full(by_impact.shape[1], scatter**-2)))
+    normal[np.diag_indices_from(normal)] += penalty
+    gradient[fixed.shape[1] :] -= path.decay.by_impact * scatter**-2
+    return normal, gradient
+
+
+def _longer(
+    path: RockingPath, stretch: Stretch, samples: AngleSamples, scatter: float, lowest: float
+) -> RockingPath | None:
+    """Return the path with as many more arcs as the record has and the fit foresees; None for none."""
+    count, power = path.decay.count, _power(path, stretch)
+    # Residuals of filtered noise are correlated over a few samples: twice the error that white noise would give.
+    normal, _ = _normal(path, stretch, ALWAYS, scatter, 4 * power)
+    scale = np.sqrt(np.diag(normal))
+    covariance = np.linalg.inv(normal / np.outer(scale, scale)) / np.outer(scale, scale)
+    further = replace(path.decay, count=max(int(FARTHER * count), count + 4))
+    _, by_impact = further.derivatives_by_impact()
+    drift = np.zeros((further.count, 1))
+    derivatives = np.hstack((further.derivatives(ALWAYS)[:, 1, :], drift, by_impact))
+    known = covariance.shape[0]
+    spread = np.diag(np.full(derivatives.shape[1], scatter**2))
+    spread[:known, :known] = covariance
+    error = np.sqrt(np.maximum(np.einsum("nk,kj,nj->n", derivatives, spread, derivatives), 0.0))
+    longer = extended(path.decay, further, error, samples, max(lowest, 2 * sqrt(power)))
+    return None if longer is None else replace(path, decay=longer)

@@ -1,0 +1,1 @@
+"""Binary files of recorders: catman, FAMOS, MDF, UFF."""

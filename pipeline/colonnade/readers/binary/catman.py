@@ -1,0 +1,209 @@
+"""HBM catman binary files (.bin): a header a channel, then the values channel by channel."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.errors import ReadError
+from colonnade.readers.binary.stored_numbers import Bytes, StoredNumbers, values_at
+from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
+from colonnade.readers.registry import Format, Options, Recognition
+from colonnade.readers.text.clock import RISING_SHARE, TIME_NAME, even_times, moment_after, rising_share
+
+VERSIONS = range(5010, 5100)
+RESERVED_TEXTS = 32
+OVERFLOW = -1e6
+"""What catman writes for a channel that overflowed or is not connected."""
+DAY_ZERO = datetime(1899, 12, 30)
+PRECISIONS = {0: "<f8", 1: "<f4", 2: "<u2"}
+"""Of the header's export format."""
+EXPORT_FORMAT = 140
+"""Place of the export format in a channel's extended header, which starts with its date and its step in ms."""
+TWO_BYTE_STEPS = 32767
+"""Steps between the smallest and the largest value of a channel in two bytes."""
+
+
+@dataclass(frozen=True)
+class ChannelHeader:
+    """What the file says of a channel; `step` in s, 0 where it is not given."""
+
+    name: str
+    unit: str
+    length: int
+    is_numeric: bool
+    began: datetime | None
+    step: float
+    precision: str
+
+
+class _Fields:
+    """Little-endian numbers and texts of a file, one after the other; struct.error where it ends before one does."""
+
+    def __init__(self, content: Bytes) -> None:
+        self._content, self._place = content, 0
+
+    def take(self, form: str) -> Any:
+        """The next number, or several as a tuple."""
+        found = struct.unpack_from("<" + form, self._content.data, self._place)
+        self._place += struct.calcsize("<" + form)
+        return found[0] if len(found) == 1 else found
+
+    def counted(self, size: int) -> bytes:
+        """So many bytes."""
+        if not 0 <= size <= self._content.size - self._place:
+            raise struct.error
+        self._place += size
+        return self._content[self._place - size : self._place].tobytes()
+
+    def text(self, length_form: str = "h") -> str:
+        """A text behind its length."""
+        return self.counted(self.take(length_form)).decode("cp1252", errors="replace").strip("\0 ")
+
+
+def recognise(path: Path) -> Recognition:
+    """Say whether the first bytes are a catman version and an offset within the file."""
+    with path.open("rb") as stream:
+        head = stream.read(8)
+        size = stream.seek(0, 2)
+    if len(head) == 8:
+        version, offset, _ = struct.unpack("<hih", head)
+        if version in VERSIONS and 80 < offset <= max(size, 1 << 16) and head[6:8] < b"\xff\xff":
+            return Recognition(True, f"it starts with catman's version {version} and the offset of its values")
+    return Recognition(False, "it does not start with a version of catman's binary format")
+
+
+def read(path: Path, options: Options) -> Recording:
+    """
+    Read a catman binary file.
+
+    A channel goes by the nearest time channel above it of the same length, as catman writes a group.
+
+    Raises
+    ------
+    ReadError
+        If its headers are not whole, or it holds no numbers.
+    """
+    try:
+        content = np.memmap(path, dtype=np.uint8, mode="r")
+        version, offset, headers = _headers(_Fields(content))
+    except (struct.error, ValueError):
+        raise ReadError(
+            f"{path.name}: it ends within its headers, or these are damaged. Copy it from the recorder again."
+        ) from None
+    if not 0 < offset <= content.size:
+        raise ReadError(
+            f"{path.name}: its values should start at byte {offset}, but it has {content.size} bytes: it was cut off."
+        )
+    numeric = [header for header in headers if header.is_numeric and header.length]
+    channels: list[RecordedChannel] = []
+    warnings: list[str] = []
+    for header, stored in zip(numeric, _stored(numeric, content, offset), strict=True):
+        values, told = values_at(content, stored)
+        warnings += told + _without_overflows(header.name, values)
+        channels.append(_on_clock(header, values, channels))
+    if not any(channel.values.size for channel in channels):
+        raise ReadError(f"{path.name}: its headers tell of {len(headers)} channels, but none of them holds a number.")
+    sizes = ", ".join(sorted({header.precision[-1] for header in numeric}))
+    notes = [f"catman version {version}, values of {sizes} bytes"]
+    clocks = [f'clock: "{channel.name}"' for channel in channels if channel.is_clock]
+    notes += clocks or ["clock: the step in each channel's header"]
+    notes += [f'no numbers in "{header.name}": left out' for header in headers if not header.is_numeric]
+    return Recording(path, "catman", tuple(channels), numeric[0].began, tuple(notes), tuple(warnings))
+
+
+def _headers(fields: _Fields) -> tuple[int, int, list[ChannelHeader]]:
+    """Read the file's header and that of each channel."""
+    version, offset = fields.take("hi")
+    for _ in range(1 + RESERVED_TEXTS):
+        fields.text()
+    count, _ = fields.take("hi")  # the second is the largest length
+    fields.counted(4 * max(count, 0))  # offsets of the channels' headers
+    fields.take("i")  # reduction
+    return version, offset, [_header(fields) for _ in range(count)]
+
+
+def _header(fields: _Fields) -> ChannelHeader:
+    """Read a channel's header."""
+    _, length = fields.take("hi")  # the first is its number
+    if length < 0:
+        raise struct.error
+    name, unit, _ = fields.text(), fields.text(), fields.text()
+    kind, _, _ = fields.take("hhd")  # 0 numbers, 1 text, 2 objects; bytes of a value in memory; date of the file
+    extended = fields.counted(fields.take("i"))
+    date, milliseconds, export = 0.0, 0.0, 0
+    if len(extended) > EXPORT_FORMAT:
+        (date, milliseconds), export = struct.unpack_from("<2d", extended), extended[EXPORT_FORMAT]
+    fields.counted(2)  # linearisation, scaling
+    fields.counted(8 * fields.take("B"))
+    fields.take("h")  # kind of thermocouple
+    fields.text()  # formula
+    fields.text("i")  # sensor
+    return ChannelHeader(
+        name,
+        unit,
+        length,
+        kind == 0,
+        moment_after(DAY_ZERO, 86400 * date) if date > 1 else None,
+        milliseconds / 1000 if 0 < milliseconds < 1e9 else 0.0,
+        PRECISIONS.get(export, "<f8"),
+    )
+
+
+def _stored(headers: list[ChannelHeader], content: Bytes, place: int) -> Iterator[StoredNumbers]:
+    """Find the channels' values, which follow one another from a byte on."""
+    for header in headers:
+        size, low, factor = int(header.precision[-1]), 0.0, 1.0
+        if size == 2:  # steps between the smallest and the largest value, which stand before them
+            if place + 16 <= content.size:
+                low, high = struct.unpack_from("<2d", content.data, place)
+                factor = (high - low) / TWO_BYTE_STEPS
+            place += 16
+        yield StoredNumbers(header.name, header.unit, "", header.precision, place, header.length, size, low, factor)
+        place += header.length * size
+
+
+def _without_overflows(name: str, values: Array) -> list[str]:
+    """Take out catman's sign of an overflow, and warn of it."""
+    over = values == OVERFLOW
+    values[over] = np.nan
+    count = f"{int(over.sum())} of {values.size}"
+    told = f'"{name}": {count} values are catman\'s sign of an overflow or an open input; missing'
+    return [told] if over.any() else []
+
+
+def _on_clock(header: ChannelHeader, values: Array, above: list[RecordedChannel]) -> RecordedChannel:
+    """Give a channel the times of the nearest time channel above it, where that is as long, else its header's step."""
+    if _is_clock(header, values):
+        time: Array | None = values * TIME_UNITS[header.unit.casefold()]
+        return RecordedChannel(header.name, header.unit, values, time, is_clock=True)
+    clock = next((channel.time for channel in reversed(above) if channel.is_clock), None)
+    if clock is not None and clock.size == values.size:
+        time = clock
+    else:
+        time = even_times(values.size, header.step) if header.step else None
+    return RecordedChannel(header.name, header.unit or None, values, time)
+
+
+def _is_clock(header: ChannelHeader, values: Array) -> bool:
+    """Whether a channel is the time since the start of its group, not the amplifier's own absolute clock."""
+    if header.unit.casefold() not in TIME_UNITS or not values.size:
+        return False
+    named = TIME_NAME.match(header.name.casefold()) is not None
+    return named and (values.size == 1 or rising_share(values) >= RISING_SHARE)
+
+
+FORMAT = Format(
+    name="catman",
+    summary="HBM catman binary, values of 2, 4 or 8 bytes.",
+    suffixes=(".bin",),
+    recognise=recognise,
+    read=read,
+)

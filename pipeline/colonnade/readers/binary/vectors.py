@@ -1,0 +1,56 @@
+"""Columns of numbers in files without columns side by side: vectors of structs and groups."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from numpy.typing import NDArray
+
+from colonnade.readers.binary.values import as_values
+from colonnade.readers.recording import RecordedChannel, Recording
+
+
+@dataclass(frozen=True)
+class Column:
+    """
+    One column of numbers.
+
+    Attributes
+    ----------
+    path : str
+        As it is reached in the file: `run.top`, `x[2]` (the second column of x).
+    scope : tuple of str
+        Structs or groups that it lies in, outermost first.
+    values : ndarray of numbers, shape (n,)
+    name, unit : str or None
+        Where the file tells them beside the numbers.
+    """
+
+    path: str
+    scope: tuple[str, ...]
+    values: NDArray[Any]
+    name: str | None = None
+    unit: str | None = None
+
+
+def named(columns: list[Column]) -> list[Column]:
+    """Give columns without a name the last part of their path, where no other column has it, else all of it."""
+    last = [column.name or column.path.rpartition(".")[2] for column in columns]
+    counts = Counter(last)
+    return [
+        replace(column, name=short if counts[short] == 1 else column.path)
+        for column, short in zip(columns, last, strict=True)
+    ]
+
+
+def recorded(path: Path, format: str, columns: list[Column]) -> tuple[Recording, list[str]]:
+    """Make channels of columns that have names, in their order, with warnings of infinite values."""
+    channels, warnings = [], []
+    for column in columns:
+        values, infinite = as_values(column.values)
+        channels.append(RecordedChannel(column.name or column.path, column.unit, values, heading=column.path))
+        warnings += [f"{column.path}: {infinite}"] if infinite else []
+    return Recording(path, format, tuple(channels)), warnings

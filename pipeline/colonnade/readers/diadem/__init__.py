@@ -1,0 +1,1 @@
+"""NI DIAdem data sets."""

@@ -1,0 +1,199 @@
+"""NetCDF of every version and plain HDF5, with units and times as the CF conventions write them."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import Field
+
+from colonnade.arrays import Array
+from colonnade.errors import ReadError
+from colonnade.readers.binary.magic import HDF5, by_mark, head
+from colonnade.readers.binary.vector_clocks import find_clocks, given_clock
+from colonnade.readers.binary.vectors import Column, named, recorded
+from colonnade.readers.hdf5.content import Variable, read_classic, read_hdf5
+from colonnade.readers.recording import TIME_UNITS, Recording, TimeUnit
+from colonnade.readers.registry import Format, Options, Recognition
+from colonnade.readers.text.clock import Clocks
+
+CLASSIC = (b"CDF\x01", b"CDF\x02", b"CDF\x05")
+MOST_COLUMNS = 1000
+"""Of one variable; a wider one is no table of channels."""
+SINCE = re.compile(r"(?P<unit>\w+)\s+since\s+(?P<moment>.+)", re.IGNORECASE)
+DAYS = {"d": 86400.0, "day": 86400.0, "days": 86400.0, "ns": 1e-9, "nanosecond": 1e-9, "nanoseconds": 1e-9}
+
+
+class NetcdfOptions(Options):
+    """What can be said about a NetCDF or HDF5 file."""
+
+    group: str | None = Field(default=None, description="The only group that is read, with those in it.")
+    time: str | int | None = Field(
+        default=None, description="Variable, by name or number from 1, that is the clock of those as long as it."
+    )
+    time_unit: TimeUnit | None = Field(default=None, description="Unit of the times.")
+
+
+def recognise(path: Path) -> Recognition:
+    """Say whether a file is NetCDF or HDF5, by its first bytes."""
+    return by_mark(path, (*CLASSIC, HDF5), "the mark of NetCDF or HDF5")
+
+
+def read(path: Path, options: NetcdfOptions) -> Recording:
+    """
+    Read a NetCDF or HDF5 file.
+
+    Raises
+    ------
+    ReadError
+        If it is neither, is damaged, holds no column of numbers, or lacks a group or variable that the options name.
+    """
+    recognition = recognise(path)
+    if not recognition.yes:
+        raise ReadError(f"{path.name}: {recognition.reason}.")
+    content = read_classic(path) if head(path).startswith(CLASSIC) else read_hdf5(path)
+    within = "" if options.group is None else options.group.strip("/") + "/"
+    variables = [each for each in content.variables if each.path.startswith(within)]
+    columns, left_out = _columns(variables)
+    left_out = [f"{place} is left out: {why}" for place, why in content.left_out.items()] + left_out
+    if not columns:
+        where = "in it" if options.group is None else f'in group "{options.group}"'
+        raise ReadError("\n  ".join([f"{path.name}: no column of numbers {where}.", *content.warnings, *left_out]))
+    recording, infinite = recorded(path, "netcdf", named(columns))
+    if options.time is None:
+        clocks = find_clocks(columns, _scalars(variables, content.attributes), options.time_unit)
+        clocks = _by_coordinates(columns, variables, clocks, options.time_unit)
+    else:
+        clocks = given_clock(recording, options.time, options.time_unit)
+    return replace(
+        recording,
+        channels=clocks.applied(recording.channels),
+        start=clocks.start,
+        notes=(*clocks.notes, *left_out),
+        warnings=(*content.warnings, *infinite, *clocks.warnings),
+    )
+
+
+def _columns(variables: list[Variable]) -> tuple[list[Column], list[str]]:
+    """Take variables apart into columns along their first dimension, and say which are left out."""
+    columns: list[Column] = []
+    left_out: list[str] = []
+    for variable in variables:
+        shape = variable.values.shape
+        if variable.values.size < 2:
+            continue
+        if len(shape) > 2 or (len(shape) == 2 and min(shape) > MOST_COLUMNS):
+            size = " × ".join(map(str, shape))
+            left_out.append(f"{variable.path} is left out: an array of {size} is no set of channels")
+            continue
+        table = _decoded(variable)
+        if len(shape) == 2 and shape[1] > shape[0] and variable.dimensions[:1] == (None,):
+            table = table.T
+        unit = str(variable.attributes.get("units", variable.attributes.get("unit", ""))).strip() or None
+        parts = {variable.path: table}
+        if table.ndim == 2:
+            parts = {f"{variable.path}[{number}]": part for number, part in enumerate(table.T, 1)}
+        columns += [
+            Column(place, variable.groups, part, place.rpartition("/")[2], unit) for place, part in parts.items()
+        ]
+    return columns, left_out
+
+
+def _decoded(variable: Variable) -> Array:
+    """Values with what the CF conventions say of them: missing ones, factor and offset of packed numbers."""
+    values = variable.values
+    missing = np.zeros(values.shape, dtype=bool)
+    for name in ("_FillValue", "missing_value"):
+        told = variable.attributes.get(name)
+        if isinstance(told, (int, float, np.number)):
+            missing |= values == told
+    decoded = np.array(values, dtype=np.float64)
+    decoded[missing] = np.nan
+    factor, offset = (variable.attributes.get(name) for name in ("scale_factor", "add_offset"))
+    if isinstance(factor, (int, float, np.number)):
+        decoded *= float(factor)
+    if isinstance(offset, (int, float, np.number)):
+        decoded += float(offset)
+    return decoded
+
+
+def _scalars(variables: list[Variable], attributes: dict[str, Any]) -> dict[str, float]:
+    """Single numbers of the file and of its attributes, by name."""
+    found = {each.path.replace("/", "."): float(each.values.ravel()[0]) for each in variables if each.values.size == 1}
+    for name, value in attributes.items():
+        if isinstance(value, (int, float, np.number)):
+            found[name] = float(value)
+    return found
+
+
+def _by_coordinates(columns: list[Column], variables: list[Variable], found: Clocks, unit: str | None) -> Clocks:
+    """Let columns go by the coordinate of their first dimension if that is of times; else by the clocks found."""
+    coordinates = _coordinates(columns, variables)
+    times, start, notes = list(found.times), found.start, []
+    used = set()
+    for coordinate in sorted(set(coordinates) - {-1}):
+        understood = _as_times(columns[coordinate], unit)
+        if understood is None:
+            continue
+        seconds, moment, how = understood
+        start = moment or start
+        used.add(coordinate)
+        notes.append(f"clock: {columns[coordinate].path}, the coordinate of a dimension ({how})")
+        for number, column in enumerate(columns):
+            if coordinates[number] == coordinate and column.values.size == seconds.size:
+                times[number] = seconds
+    others = found.notes
+    if used and all(time is not None for time in times):  # then no column needs a clock that was found
+        others = tuple(note for note in others if not note.startswith(("no clock", "clock:")))
+    return replace(found, columns=found.columns | used, times=tuple(times), notes=(*notes, *others), start=start)
+
+
+def _coordinates(columns: list[Column], variables: list[Variable]) -> list[int]:
+    """Of each column the number of the one that is the coordinate of its first dimension; -1 where none is."""
+    numbers = {column.path: number for number, column in enumerate(columns)}
+    dimensions = {each.path: each.dimensions[0] or "" for each in variables if each.dimensions}
+    return [numbers.get(dimensions.get(column.path.partition("[")[0], ""), -1) for column in columns]
+
+
+def _as_times(column: Column, unit: str | None) -> tuple[Array, datetime | None, str] | None:
+    """Understand a coordinate as times: `seconds since …`, or a unit of time; None where it is neither."""
+    values = np.asarray(column.values, dtype=np.float64)
+    told = unit or column.unit or ""
+    since = SINCE.fullmatch(told)
+    factor = {**TIME_UNITS, **DAYS}.get((since["unit"] if since else told).casefold())
+    if factor is None or not np.isfinite(values).any():
+        return None
+    if since is None:
+        return values * factor, None, f"in {told}"
+    first = float(values[np.isfinite(values)][0])
+    moment = _moment(since["moment"], first * factor)
+    how = f'"{told}", counted from the first' if moment else f'"{told}", of which the date is not understood'
+    return (values - first) * factor, moment, how
+
+
+def _moment(text: str, later: float) -> datetime | None:
+    """Date and time, in UTC, `later` s after the one that is written."""
+    import pandas as pd
+
+    try:
+        origin = pd.Timestamp(text.strip())
+        moment = origin + pd.Timedelta(later, unit="s")
+    except (ValueError, OverflowError):
+        return None
+    zoned = moment.tz_localize("UTC") if moment.tzinfo is None else moment.tz_convert("UTC")
+    return zoned.to_pydatetime(warn=False).astimezone(UTC)
+
+
+FORMAT = Format(
+    name="netcdf",
+    summary="NetCDF (classic and NetCDF-4) and HDF5: variables of all groups, CF units and times.",
+    suffixes=(".nc", ".cdf", ".h5", ".hdf5"),
+    options=NetcdfOptions,
+    recognise=recognise,
+    read=read,
+    modules=("h5py", "scipy.io"),
+)

@@ -1,0 +1,113 @@
+"""MATLAB files of versions 5 to 7 and 7.3: vectors, matrices, structs and cells of numbers as channels."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from pydantic import Field
+
+from colonnade.errors import ReadError, nearest
+from colonnade.readers.binary.magic import HDF5, head, look
+from colonnade.readers.binary.vector_clocks import find_clocks, given_clock
+from colonnade.readers.binary.vectors import named, recorded
+from colonnade.readers.matlab.bristol import lacking_channels, numbered_channels
+from colonnade.readers.matlab.columns import find_columns
+from colonnade.readers.matlab.tree import Node, Tree
+from colonnade.readers.matlab.version_5 import read_v5
+from colonnade.readers.matlab.version_73 import read_v73
+from colonnade.readers.recording import Recording, TimeUnit
+from colonnade.readers.registry import Format, Options, Recognition
+
+MARK = b"MATLAB "
+USER_BLOCK = 512
+"""Bytes before HDF5's own start in a file of version 7.3."""
+
+
+class MatlabOptions(Options):
+    """What can be said about a MATLAB file; all of it is found where it is not said."""
+
+    time: str | int | None = Field(
+        default=None, description="Vector, by name or number from 1, that is the clock of those as long as it."
+    )
+    time_unit: TimeUnit | None = Field(default=None, description="Unit of the times.")
+    variables: tuple[str, ...] = Field(default=(), description="Variables that are read; all of them otherwise.")
+
+
+def recognise(path: Path) -> Recognition:
+    """Say whether a file is MATLAB's, by its first bytes."""
+    first = head(path)
+    if first[USER_BLOCK:].startswith(HDF5) and first.startswith(MARK):
+        return Recognition(True, "starts as a MATLAB file of version 7.3")
+    if first.startswith(MARK) and first[126:128] in (b"IM", b"MI"):
+        return Recognition(True, "starts as a MATLAB file of version 5 to 7")
+    if first.startswith(MARK):
+        return Recognition(
+            False, f"it starts like a MATLAB file, but its header is damaged or cut off ({len(first)} bytes)"
+        )
+    what = look(first)
+    if not what and path.suffix.casefold() == ".mat":
+        what = "if it is one of version 4, open it in MATLAB and save it again"
+    return Recognition(False, 'it does not start with "MATLAB 5.0" or "MATLAB 7.3"' + (f"; {what}" if what else ""))
+
+
+def read(path: Path, options: MatlabOptions) -> Recording:
+    """
+    Read a MATLAB file.
+
+    Raises
+    ------
+    ReadError
+        If it is not MATLAB's, is damaged, holds no column of numbers, or lacks a variable that the options name.
+    """
+    recognition = recognise(path)
+    if not recognition.yes:
+        raise ReadError(f"{path.name}: {recognition.reason}.")
+    tree = read_v73(path) if head(path)[USER_BLOCK:].startswith(HDF5) else read_v5(path)
+    chosen = _chosen(path, tree, options.variables)
+    others, columns, scalars, notes = numbered_channels(chosen)
+    found = find_columns(others)
+    columns = named([*columns, *found.columns])
+    left_out = [f"{place} is left out: {why}" for place, why in {**tree.left_out, **found.left_out}.items()]
+    if not columns:
+        raise ReadError(_nothing(path, tree, left_out))
+    warnings = [*tree.warnings, *lacking_channels(chosen, columns)]
+    recording, infinite = recorded(path, "matlab", columns)
+    if options.time is None:
+        clocks = find_clocks(columns, {**found.scalars, **scalars}, options.time_unit)
+    else:
+        clocks = given_clock(recording, options.time, options.time_unit)
+    return replace(
+        recording,
+        channels=clocks.applied(recording.channels),
+        start=clocks.start,
+        notes=(*notes, *clocks.notes, *left_out),
+        warnings=(*warnings, *clocks.warnings, *infinite),
+    )
+
+
+def _chosen(path: Path, tree: Tree, wanted: tuple[str, ...]) -> dict[str, Node]:
+    """Take the variables that were asked for."""
+    for name in wanted:
+        if name in tree.left_out and name not in tree.variables:
+            raise ReadError(f"{path.name}: {name} cannot be read: {tree.left_out[name]}.")
+        if name not in tree.variables:
+            raise ReadError(f'{path.name}: there is no variable "{name}".{nearest(name, tree.variables)}')
+    return {name: node for name, node in tree.variables.items() if not wanted or name in wanted}
+
+
+def _nothing(path: Path, tree: Tree, left_out: list[str]) -> str:
+    held = ", ".join(list(tree.variables)[:8]) or "no variable"
+    reasons = "\n  ".join([*tree.warnings, *left_out])
+    return f"{path.name}: no column of numbers in it; it holds {held}." + (f"\n  {reasons}" if reasons else "")
+
+
+FORMAT = Format(
+    name="matlab",
+    summary="MATLAB .mat of versions 5 to 7.3: vectors, matrices, structs; Simulink's and Bristol's layouts.",
+    suffixes=(".mat",),
+    options=MatlabOptions,
+    recognise=recognise,
+    read=read,
+    modules=("h5py", "scipy.io"),
+)

@@ -1,0 +1,1 @@
+"""Strong-motion records as networks publish them."""

@@ -1,0 +1,127 @@
+"""Strong-motion formats that are not read here: recognised by their headers, so that nobody takes them for tables."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from colonnade.readers.text.header_claims import header_claims
+from colonnade.readers.text.lines.numbered import first_lines
+
+HEADER_LINES = 64
+"""As many as the longest of these headers has (ESM)."""
+
+LINE_NUMBER = slice(72, 74)
+"""Columns in which USC numbers the lines of its header."""
+
+SPECTRA = re.compile(r"response (?:and|spectr)", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Network:
+    """
+    A network's own format.
+
+    Attributes
+    ----------
+    name : str
+        As people know it.
+    looks : callable
+        Lines of the head -> whether they are this format's.
+    """
+
+    name: str
+    looks: Callable[[list[str]], bool]
+
+
+def foreign_format(path: Path) -> str:
+    """
+    Say which strong-motion format a file has that is not read here, and what to do; empty if it has none.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    reason : str
+        With what the header says of interval and unit, which an export has to keep.
+    """
+    lines = first_lines(path, HEADER_LINES)
+    if len(lines) < 2:
+        return ""
+    network = next((network for network in NETWORKS if network.looks(lines)), None)
+    if network is None:
+        return ""
+    if SPECTRA.search(lines[0]):
+        return (
+            f"this is a strong-motion file in the format of {network.name} with response spectra, not with a motion. "
+            "Download volume 1 or 2 of the same record."
+        )
+    claims = header_claims("\n".join(lines))
+    says = [f"an interval of {claims.step:g} s"] if claims.step else []
+    says += [f"accelerations in {claims.unit}"] if claims.unit else []
+    kept = f" Its header gives {' and '.join(says)}: keep that." if says else ""
+    return (
+        f"this is a strong-motion record in the format of {network.name}, which is not read here. Download the record "
+        "as COSMOS V1 or V2, miniSEED or SAC if the network offers it; or convert it (gmprocess of the USGS reads this "
+        "format), or export it as text with a column of times and one of accelerations, with names and units above."
+        + kept
+    )
+
+
+def _starts(pattern: str, line: int = 0) -> Callable[[list[str]], bool]:
+    """Whether a line, from 0, starts so, whatever its case."""
+    expression = re.compile(pattern, re.IGNORECASE)
+    return lambda lines: len(lines) > line and expression.match(lines[line]) is not None
+
+
+def _holds(pattern: str, within: int) -> Callable[[list[str]], bool]:
+    """Whether one of the first lines holds a text, whatever its case."""
+    expression = re.compile(pattern, re.IGNORECASE)
+    return lambda lines: any(expression.search(line) for line in lines[:within])
+
+
+def _is_usc(lines: list[str]) -> bool:
+    """USC writes the words of CSMIP and numbers the lines of its header."""
+    numbered = sum(line[LINE_NUMBER].strip().isdigit() for line in lines[3:11])
+    return numbered >= 7 and _holds(r"corrected accelerogram", 2)(lines)
+
+
+def _is_csmip(lines: list[str]) -> bool:
+    """The first line names the volume; from volume 2 on the lines below repeat those of the volumes it is made of."""
+    first, below = lines[0].casefold(), " ".join(lines[1:3]).casefold()
+    if "uncorrected accelerogram data" in first:
+        return True
+    return ("corrected accelerogram" in first or SPECTRA.search(first) is not None) and "accelerogram" in below
+
+
+def _is_smc(lines: list[str]) -> bool:
+    """A number and the kind of the file, or an asterisk there and on line 11."""
+    if re.fullmatch(r"\s*\d\s+(?:un)?corrected accelerogram\s*", lines[0], re.IGNORECASE):
+        return True
+    kind = re.fullmatch(r"\s*(?:\*|\d\s+(?:velocity|displacement|response spectr\w+))\s*", lines[0], re.IGNORECASE)
+    return kind is not None and len(lines) > 10 and lines[10].strip().startswith("*")
+
+
+def _is_esm(lines: list[str]) -> bool:
+    """Lines of `KEY: value`."""
+    return lines[0].startswith("EVENT_NAME:") and any(line.startswith("SAMPLING_INTERVAL_S:") for line in lines)
+
+
+NETWORKS = (
+    Network("SMC (United States Geological Survey)", _is_smc),
+    Network("USC (University of Southern California)", _is_usc),
+    Network("GeoNet (New Zealand)", _starts(r".*corrected accelerogram.*(?:GNS|Geological (?:&|and) Nuclear)\b")),
+    Network("CSMIP/DMG (California Strong Motion Instrumentation Program)", _is_csmip),
+    Network("ESM/ITACA (DYNA, Engineering Strong Motion database)", _is_esm),
+    Network(
+        "CWA/CWB (Central Weather Administration of Taiwan)", _starts(r"#\s*(?:Earthquake Information|StationCode)")
+    ),
+    Network("NSMN/AFAD (Turkey)", _starts(r".*STRONG GROUND MOTION RECORDS? OF T")),
+    Network("UNAM (Mexico, Archivo Estándar de Aceleración)", _holds(r"ARCHIVO EST.{1,2}NDAR DE ACELERACI", 12)),
+    Network("RENADIC (Universidad de Chile)", _holds(r"UNIVERSIDAD DE CHILE\s*-\s*RENADIC", 12)),
+)
+"""In the order in which they are asked: USC writes what CSMIP writes, and more."""

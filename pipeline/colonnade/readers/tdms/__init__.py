@@ -1,0 +1,1 @@
+"""LabVIEW TDMS."""

@@ -1,0 +1,235 @@
+"""What the samples of TDMS channels go by: their own properties, or a channel of times beside them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.readers.binary.vector_clocks import given_clock
+from colonnade.readers.recording import RecordedChannel, Recording
+from colonnade.readers.text.clock import Clocks, find_clocks
+
+EARLIEST_START = np.datetime64("1970-01-01", "us")
+"""LabVIEW writes 1904-01-01 where no start is known."""
+NO_TIMING = 1.0
+"""Step, s, that LabVIEW writes where nobody told it one."""
+
+
+@dataclass(frozen=True)
+class Waveform:
+    """
+    The clock that a channel's properties give.
+
+    Attributes
+    ----------
+    offset, step : float
+        s.
+    start : datetime64 or None
+        Where it is known.
+    first : int
+        Number, from 0, of the first sample that was read.
+    """
+
+    offset: float
+    step: float
+    start: np.datetime64 | None
+    first: int = 0
+
+
+@dataclass(frozen=True)
+class Column:
+    """
+    A channel before it has its clock.
+
+    Attributes
+    ----------
+    group : str
+    channel : RecordedChannel
+    waveform : Waveform or None
+        None where its properties give no step.
+    first : datetime64 or None
+        The first of its values, where these are timestamps.
+    """
+
+    group: str
+    channel: RecordedChannel
+    waveform: Waveform | None = None
+    first: np.datetime64 | None = None
+
+
+def waveform(properties: Mapping[str, Any]) -> Waveform | None:
+    """
+    Take the clock from a channel's properties.
+
+    Parameters
+    ----------
+    properties : mapping
+        By names in lower case.
+
+    Returns
+    -------
+    waveform : Waveform or None
+        None where they give no step.
+    """
+    try:
+        step = float(properties.get("wf_increment") or 0.0)
+        offset = float(properties.get("wf_start_offset") or 0.0)
+    except (TypeError, ValueError):
+        return None
+    if not (np.isfinite(step) and step > 0 and np.isfinite(offset)):
+        return None
+    start = properties.get("wf_start_time")
+    known = isinstance(start, np.datetime64) and not np.isnat(start) and start >= EARLIEST_START
+    return Waveform(offset, step, start if known else None)
+
+
+def beginnings(waveforms: Sequence[Waveform | None]) -> list[float]:
+    """Give the time of each channel's first sample from the earliest start in the file, s; NaN where none is known."""
+    zero = min((own.start for own in waveforms if own is not None and own.start is not None), default=None)
+    return [np.nan if own is None else own.offset + _late(own, zero) for own in waveforms]
+
+
+def on_clocks(path: Path, columns: list[Column], time: str | int | None, time_unit: str | None) -> Recording:
+    """
+    Give each channel its clock.
+
+    Channels with different starts keep different clocks, all counted from the earliest start in the file.
+
+    Parameters
+    ----------
+    path : Path
+    columns : list of Column
+    time : str or int or None
+        The channel of times for all that are as long as it.
+    time_unit : str or None
+        Its unit.
+
+    Raises
+    ------
+    ReadError
+        If there is no such channel, or it holds no number.
+    """
+    zero = min((start for column in columns if (start := _start(column)) is not None), default=None)
+    tracks: dict[tuple[float, float, int, int], Array] = {}
+    times = [_track(column, zero, tracks) for column in columns]
+    first = _first_sample(columns, times, zero)
+    clocks = _channels_of_times(columns, times)
+    recording = Recording(path, "tdms", tuple(column.channel for column in columns), first)
+    if time is not None:
+        given = given_clock(recording, time, time_unit)
+        clocks = Clocks(
+            clocks.columns | given.columns,
+            tuple(own if new is None else new for own, new in zip(clocks.times, given.times, strict=True)),
+            clocks.notes + given.notes,
+            clocks.warnings,
+        )
+    notes = (*clocks.notes, *_summary(columns, clocks.times))
+    return replace(recording, channels=clocks.applied(recording.channels), notes=notes, warnings=clocks.warnings)
+
+
+def _start(column: Column) -> np.datetime64 | None:
+    return column.waveform.start if column.waveform else None
+
+
+def _seconds(later: np.datetime64, earlier: np.datetime64) -> float:
+    return float((later - earlier) / np.timedelta64(1, "us")) / 1e6
+
+
+def _late(own: Waveform, zero: np.datetime64 | None) -> float:
+    return _seconds(own.start, zero) if own.start is not None and zero is not None else 0.0
+
+
+def _track(
+    column: Column, zero: np.datetime64 | None, tracks: dict[tuple[float, float, int, int], Array]
+) -> Array | None:
+    """Times of a channel by its properties, s; channels with the same ones share the array."""
+    if column.waveform is None:
+        return None
+    begin = column.waveform.offset + _late(column.waveform, zero)
+    first = column.waveform.first
+    key = (begin, column.waveform.step, first, column.channel.values.size)
+    if key not in tracks:
+        tracks[key] = begin + column.waveform.step * np.arange(first, first + key[3], dtype=np.float64)
+    return tracks[key]
+
+
+def _first_sample(columns: list[Column], times: list[Array | None], zero: np.datetime64 | None) -> datetime | None:
+    """Date and time of the first sample, in UTC as TDMS keeps it."""
+    if zero is None:
+        moment = min((column.first for column in columns if column.first is not None), default=None)
+    else:
+        offset = min(
+            float(time[0]) for column, time in zip(columns, times, strict=True) if _start(column) and time is not None
+        )
+        moment = zero + np.timedelta64(round(offset * 1e6), "us")
+    if moment is None:
+        return None
+    found = moment.astype("datetime64[us]").item()
+    return found.replace(tzinfo=UTC) if isinstance(found, datetime) else None
+
+
+def _channels_of_times(columns: list[Column], times: list[Array | None]) -> Clocks:
+    """Let channels without a clock of their own go by a channel of times in their group."""
+    bundles: dict[tuple[str, int], list[int]] = {}
+    for number, column in enumerate(columns):
+        bundles.setdefault((column.group, column.channel.values.size), []).append(number)
+    clocks: set[int] = set()
+    chosen = list(times)
+    notes: list[str] = []
+    warnings: list[str] = []
+    for (group, _), members in bundles.items():
+        channels = tuple(columns[number].channel for number in members)
+        kinds = tuple("number" if columns[number].first is None else "time" for number in members)
+        found = find_clocks(channels, kinds)
+        if not found.columns and all(times[number] is not None for number in members):
+            continue
+        clocks |= {members[index] for index in found.columns}
+        notes += [f'group "{group}": {note}' for note in found.notes]
+        warnings += [f'group "{group}": {warning}' for warning in found.warnings]
+        warnings += _put_on_clocks(columns, members, found, chosen)
+    return Clocks(frozenset(clocks), tuple(chosen), tuple(notes), tuple(warnings))
+
+
+def _put_on_clocks(columns: list[Column], members: list[int], found: Clocks, times: list[Array | None]) -> list[str]:
+    """Give channels of a group the clocks found there, but for those with a step of their own; warn of what is lost."""
+    warnings = []
+    for index, (number, time) in enumerate(zip(members, found.times, strict=True)):
+        column, own = columns[number], times[number]
+        is_clock = index in found.columns
+        has_step = column.waveform is not None and column.waveform.step != NO_TIMING
+        if time is None or (has_step and not is_clock):
+            continue
+        times[number] = time
+        if not is_clock and own is not None and not np.array_equal(np.diff(time), np.diff(own)):
+            warnings.append(
+                f'"{column.channel.heading}" goes by the channel of times: the step of exactly 1 s in its properties '
+                "is what LabVIEW writes where it knows none"
+            )
+    return warnings
+
+
+def _summary(columns: list[Column], times: Sequence[Array | None]) -> list[str]:
+    """Say which clocks there are by the channels' properties, and which channels have none."""
+    steps = Counter(column.waveform.step for column in columns if column.waveform)
+    notes = [
+        f"clock of {count} {'channel' if count == 1 else 'channels'}: a step of {step:.9g} s ({1 / step:.9g} Hz), "
+        "by wf_increment"
+        for step, count in steps.items()
+    ]
+    starts = {start for column in columns if (start := _start(column)) is not None}
+    if len(starts) > 1:
+        notes.append(
+            f"channels start up to {_seconds(max(starts), min(starts)):.6g} s apart, by wf_start_time: "
+            "each keeps a clock of its own"
+        )
+    without = [column.channel.heading for column, time in zip(columns, times, strict=True) if time is None]
+    if without:
+        notes.append(f'{len(without)} channels have no clock ("{without[0]}", …): give `time` or `sampling_rate`')
+    return notes

@@ -1,0 +1,242 @@
+"""LabVIEW TDMS: every channel with the unit and the clock that its own properties give."""
+
+from __future__ import annotations
+
+import logging
+from collections import Counter
+from dataclasses import replace
+from io import BufferedReader, FileIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pydantic import Field
+
+from colonnade.errors import ReadError, nearest
+from colonnade.readers.binary.magic import by_mark
+from colonnade.readers.binary.values import as_values
+from colonnade.readers.recording import RecordedChannel, Recording, TimeUnit, Window
+from colonnade.readers.registry import Format, Options, Recognition
+from colonnade.readers.tdms.clocks import NO_TIMING, Column, beginnings, on_clocks, waveform
+from colonnade.readers.tdms.segments import missing_samples, walk
+from colonnade.readers.text.heading import take_apart
+
+if TYPE_CHECKING:
+    from nptdms import TdmsChannel, TdmsFile
+
+UNIT_PROPERTIES = ("unit_string", "ni_unitdescription", "unit", "units")
+"""Names, in lower case, of the property that holds a channel's unit, the most usual first."""
+
+MUCH = 1 << 16
+"""Bytes from which on a read is held against what the file has."""
+
+
+class TdmsOptions(Options):
+    """What can be said about a TDMS file."""
+
+    group: str | None = Field(default=None, description="The only group that is read; all of them otherwise.")
+    time: str | int | None = Field(
+        default=None, description="Channel that is the clock of those as long as it, whatever their properties say."
+    )
+    time_unit: TimeUnit | None = Field(default=None, description="Unit of that channel.")
+
+
+def recognise(path: Path) -> Recognition:
+    """Say whether a file is TDMS."""
+    return by_mark(path, (b"TDSm",), "TDSm, the mark of LabVIEW's TDMS")
+
+
+def read(path: Path, options: TdmsOptions) -> Recording:
+    """
+    Read a TDMS file.
+
+    Raises
+    ------
+    ReadError
+        If it is not TDMS, is damaged, holds no numbers, or lacks the group or channel that the options name.
+    """
+    return _recording(path, options, None)
+
+
+def read_window(path: Path, options: TdmsOptions, window: Window) -> Recording:
+    """
+    Read what a test needs of a long TDMS file, where the clocks of all channels are in their properties; else all.
+
+    Raises
+    ------
+    ReadError
+        As `read`.
+    """
+    return _recording(path, options, window if options.time is None else None)
+
+
+def _recording(path: Path, options: TdmsOptions, window: Window | None) -> Recording:
+    from nptdms import TdmsFile
+
+    recognition = recognise(path)
+    if not recognition.yes:
+        raise ReadError(f"{path.name}: {recognition.reason}.")
+    ending = walk(path)
+    with _BoundedStream(path) as stream:
+        file = _open(path, stream)
+        channels, notes = _channels(path, file, options.group)
+        parts = _parts(channels, window)
+        if parts is None:
+            stream.seek(0)
+            file = TdmsFile.read(stream)
+            channels, notes = _channels(path, file, options.group)
+            parts = [slice(None)] * len(channels)
+        columns, warnings = _columns(channels, file, parts, options.group)
+    warnings = missing_samples(ending, file) + warnings
+    if not columns:
+        raise ReadError(f"{path.name}: no channel holds numbers. {'; '.join(warnings + notes)}".rstrip())
+    recording = on_clocks(path, columns, options.time, options.time_unit)
+    return replace(recording, notes=(*recording.notes, *notes), warnings=(*warnings, *recording.warnings))
+
+
+def _parts(channels: list[TdmsChannel], window: Window | None) -> list[slice] | None:
+    """Samples of each channel that a window wants; None, which is all, where some channel's clock is elsewhere."""
+    waveforms = [waveform(_properties(channel)) for channel in channels]
+    if window is None or any(own is None or own.step == NO_TIMING for own in waveforms):
+        return None
+    if any(channel.scaler_data_types for channel in channels):
+        return None
+    parts = []
+    for channel, begin in zip(channels, beginnings(waveforms), strict=True):
+        step = float(_properties(channel)["wf_increment"])
+        # One sample at least, so that a channel that is not there yet keeps its clock.
+        first = min(max(int((window.low - begin) / step) - 1, 0), len(channel) - 1)
+        parts.append(slice(first, min(max(int((window.high - begin) / step) + 2, first + 1), len(channel))))
+    return parts
+
+
+class _BoundedStream(BufferedReader):
+    """A file of which no more is asked than it has, however many bytes its damaged content speaks of."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(FileIO(path))
+        self._length = path.stat().st_size
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        """Read up to so many bytes."""
+        if size is not None and size > MUCH:
+            size = max(min(size, self._length - self.tell()), 0)
+        return super().read(size)
+
+
+def _open(path: Path, stream: _BoundedStream) -> TdmsFile:
+    """
+    Open the file, once its description is found to fit into it.
+
+    It is given as a stream, so that a .tdms_index beside it, which may be another file's, is not looked at.
+    """
+    from nptdms import TdmsFile
+    from nptdms.log import log_manager
+
+    log_manager.set_level(logging.CRITICAL)  # what it would print is told as warnings of the recording
+    size = path.stat().st_size
+    try:
+        described = TdmsFile.open(stream)
+    except MemoryError as error:
+        raise ReadError(
+            f"{path.name}: its description speaks of more than a file of {size} bytes can hold: the "
+            "file is damaged. Copy it again from the recorder."
+        ) from error
+    for channel in (channel for group in described.groups() for channel in group.channels()):
+        if len(channel) > size:
+            raise ReadError(
+                f"{path.name}: {channel.path} is said to have {len(channel)} samples, in a file of {size} bytes: "
+                "the file is damaged. Copy it again from the recorder."
+            )
+    return described
+
+
+def _channels(path: Path, file: TdmsFile, only: str | None) -> tuple[list[TdmsChannel], list[str]]:
+    """Find the channels of numbers, with notes on those that are none."""
+    if only is not None and only not in file:
+        raise ReadError(f'{path.name}: there is no group "{only}".{nearest(only, file)}')
+    channels, notes = [], []
+    for channel in (each for group in file.groups() if only in (None, group.name) for each in group.channels()):
+        if refused := _refusal(channel):
+            notes.append(f'"{channel.group_name}/{channel.name}" is left out: {refused}')
+        else:
+            channels.append(channel)
+    return channels, notes
+
+
+def _columns(
+    channels: list[TdmsChannel], file: TdmsFile, parts: list[slice], only: str | None
+) -> tuple[list[Column], list[str]]:
+    """Take the wanted parts of channels, with warnings."""
+    groups = [group for group in file.groups() if only in (None, group.name)]
+    counted = Counter(channel.name for group in groups for channel in group.channels())
+    columns, warnings = [], []
+    for channel, part in zip(channels, parts, strict=True):
+        column, warning = _column(channel, file, part, unique=counted[channel.name] == 1)
+        columns.append(column)
+        warnings += [f'"{channel.group_name}/{channel.name}": {warning}'] if warning else []
+    return columns, warnings
+
+
+def _refusal(channel: TdmsChannel) -> str:
+    """Say why a channel is no column of numbers, or nothing where it is one."""
+    if len(channel) == 0:
+        return "it holds no samples"
+    kind = channel.dtype.kind
+    if kind in "fiubM":
+        return ""
+    return {"O": "it holds text", "c": "it holds complex numbers"}.get(kind, "its samples are no numbers")
+
+
+def _properties(channel: TdmsChannel) -> dict[str, Any]:
+    """Properties of a channel by names in lower case."""
+    return {key.lower(): value for key, value in channel.properties.items()}
+
+
+def _column(channel: TdmsChannel, file: TdmsFile, part: slice, *, unique: bool) -> tuple[Column, str]:
+    """Take a channel with its unit and what is to be warned of; its name is the short one where no other has it."""
+    written = f"{channel.group_name}/{channel.name}"
+    name, unit_in_name = take_apart(channel.name)
+    name = name if unique else written
+    properties = _properties(channel)
+    if channel.dtype.kind == "M":
+        moments = channel[:]
+        known = ~np.isnat(moments)
+        if not known.any():
+            return Column(
+                channel.group_name, RecordedChannel(name, None, np.full(moments.shape, np.nan), heading=written)
+            ), ""
+        first = moments[np.argmax(known)]
+        values = np.where(known, (moments - first) / np.timedelta64(1, "us") / 1e6, np.nan)
+        return Column(channel.group_name, RecordedChannel(name, None, values, heading=written), first=first), ""
+    numbers, unscaled = _numbers(channel, file, part)
+    values, infinite = as_values(numbers)
+    unit = next((str(properties[key]).strip() for key in UNIT_PROPERTIES if properties.get(key)), "") or unit_in_name
+    recorded = RecordedChannel(name, unit, values, heading=written)
+    warning = "; ".join(part for part in (unscaled, infinite) if part)
+    clock = waveform(properties)
+    if clock is not None and part.start:
+        clock = replace(clock, first=part.start)
+    return Column(channel.group_name, recorded, clock), warning
+
+
+def _numbers(channel: TdmsChannel, file: TdmsFile, part: slice) -> tuple[Any, str]:
+    """Scale the samples; raw ones of a DAQmx channel without scaling are given as they are, with a warning."""
+    everywhere = (channel.properties, file[channel.group_name].properties, file.properties)
+    if channel.scaler_data_types and not any("NI_Number_Of_Scales" in properties for properties in everywhere):
+        return next(iter(channel.raw_scaler_data.values())), (
+            "raw counts, as the file does not say how they are scaled; give the gain in campaign.toml"
+        )
+    return channel[part], ""
+
+
+FORMAT = Format(
+    name="tdms",
+    summary="LabVIEW TDMS: channels in groups, each with its unit and its own clock.",
+    suffixes=(".tdms",),
+    options=TdmsOptions,
+    recognise=recognise,
+    read=read,
+    modules=("nptdms",),
+    read_window=read_window,
+)

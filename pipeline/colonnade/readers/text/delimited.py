@@ -1,0 +1,145 @@
+"""Delimited text, as spreadsheets and most recorders export it; what is not given is sniffed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.errors import ReadError
+from colonnade.readers.recording import TIME_UNITS, Recording, Window
+from colonnade.readers.registry import Format, Recognition
+from colonnade.readers.strong_motion.refused import foreign_format
+from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
+from colonnade.readers.text.lines.cells import WHITESPACE
+from colonnade.readers.text.lines.damage import mend
+from colonnade.readers.text.lines.encoding import ends_within_line
+from colonnade.readers.text.lines.pieces import pieces_of_file
+from colonnade.readers.text.lines.rows import Rows, Stretch, read_rows
+from colonnade.readers.text.lines.timestamps import past_midnight
+from colonnade.readers.text.row_layout import Named, Verdict
+from colonnade.readers.text.running_series import fixed_fields, read_block, series_of
+from colonnade.readers.text.table import Table, layout_of
+
+
+def recognise(path: Path) -> Recognition:
+    """Say whether a file is text with rows of numbers, and not a strong-motion record in a network's own format."""
+    if reason := foreign_format(path):
+        return Recognition(False, reason, is_known=True)
+    try:
+        header = read_header(path, DelimitedOptions())
+    except ReadError as error:
+        return Recognition(False, str(error).removeprefix(f"{path.name}: "))
+    width, first = len(header.form.kinds), header.heading.first + 1
+    return Recognition(True, f"text with rows of {width} numbers from line {first} on")
+
+
+def read(path: Path, options: DelimitedOptions, window: Window | None = None) -> Recording:
+    """
+    Read a delimited text file.
+
+    Parameters
+    ----------
+    path : Path
+    options : DelimitedOptions
+    window : Window, optional
+        What is wanted of it; some samples on either side may come along. Default: all.
+
+    Raises
+    ------
+    ReadError
+        If it is not text or has no rows of numbers, a column that the options name is missing, or it is not clear
+        whether rows are samples of several channels or pieces of one series. If it is a strong-motion record in a
+        format that is not read, unless the options say how many lines to skip.
+    """
+    if not options.skip_rows and (reason := foreign_format(path)):
+        raise ReadError(f"{path.name}: {reason}")
+    header = read_header(path, options)
+    stretch = None if window is None else _stretch(header, options, window)
+    rows = _rows(header, stretch)
+    verdict = _layout(header, rows, options)
+    if verdict.layout == "columns":
+        return _recording(header, rows, options)
+    claims, form = header.claims, header.form
+    values = read_block(path, form.dialect, header.heading.first, claims.width)
+    recording = Recording(path, "delimited", (), notes=header.notes)
+    return series_of(recording, values, len(form.kinds), claims, verdict)
+
+
+def _rows(header: Header, stretch: Stretch | None) -> Rows:
+    pieces = pieces_of_file(header.path, header.form.dialect.encoding, header.heading.first)
+    rows = read_rows(header.path, pieces, header.form, stretch)
+    if not rows.size:
+        raise ReadError(
+            f"{header.path.name}: none of its {rows.skipped} samples are within the test's window. Look at the "
+            "file's times and at the test's `window`, which counts from the file's own zero."
+        )
+    return rows
+
+
+def _layout(header: Header, rows: Rows, options: DelimitedOptions) -> Verdict:
+    """Decide whether columns are channels."""
+    dialect, claims = header.form.dialect, header.claims
+
+    def columns() -> tuple[Sequence[Array], Named]:
+        fields = None
+        if claims.fields and claims.width and claims.fields != len(rows.columns):
+            # Fields of fixed width may touch: blanks do not separate them then.
+            fields = fixed_fields(header.path, dialect, header.heading.first, claims)
+        return (rows.columns, header.named) if fields is None else (fields, "")
+
+    return layout_of(
+        header.path,
+        header.form.kinds,
+        options,
+        claims,
+        columns,
+        is_free=dialect.delimiter == WHITESPACE,
+        is_whole=rows.skipped == 0 and rows.reaches_end and not ends_within_line(header.path),
+    )
+
+
+def _recording(header: Header, rows: Rows, options: DelimitedOptions) -> Recording:
+    """Say what the rows mean."""
+    path, heading, kinds = header.path, header.heading, header.form.kinds
+    is_cut = rows.reaches_end and ends_within_line(path)
+    mended = mend(rows, header.form, heading.headings, is_cut=is_cut)
+    columns = [
+        past_midnight(column) if kind == "time" else column for column, kind in zip(mended.columns, kinds, strict=True)
+    ]
+    if not any(np.isfinite(column).any() for column in columns):
+        raise ReadError(f"{path.name}: no cell from line {heading.first + 1} on holds a number.")
+    recording = Table(path, "delimited", heading, kinds, columns, rows.start).recording(options, header.claims)
+    return replace(
+        recording,
+        notes=(*header.notes, *heading.notes, *recording.notes, *mended.notes),
+        warnings=(*header.warnings, *heading.warnings, *recording.warnings, *mended.warnings),
+    )
+
+
+def _stretch(header: Header, options: DelimitedOptions, window: Window) -> Stretch | None:
+    """Find the rows of a window; None, which is all of them, if the file has several clocks or timestamps."""
+    if window.sampling_rate_hz is not None:
+        return Stretch(window.low * window.sampling_rate_hz, window.high * window.sampling_rate_hz)
+    head = _recording(header, _rows(header, Stretch(0.0, 0.0)), options)
+    clocks = [number for number, channel in enumerate(head.channels) if channel.is_clock]
+    if len(clocks) != 1 or header.form.kinds[clocks[0]] != "number":
+        return None
+    unit = options.time_unit or head.channels[clocks[0]].unit or "s"
+    second = 1.0 / TIME_UNITS.get(unit.casefold(), 1.0)
+    return Stretch(window.low * second, window.high * second, clocks[0])
+
+
+FORMAT = Format(
+    name="delimited",
+    summary="Delimited text: CSV, TSV, columns between spaces; with or without names, units and preamble.",
+    suffixes=(".csv", ".txt", ".tsv", ".dat", ".asc"),
+    options=DelimitedOptions,
+    recognise=recognise,
+    read=read,
+    in_process=True,
+    read_window=read,
+)

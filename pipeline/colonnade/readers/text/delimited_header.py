@@ -1,0 +1,179 @@
+"""How a delimited text is written and what its columns are called, found in its head before samples are read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal, Self
+
+from pydantic import AfterValidator, Field, model_validator
+
+from colonnade.errors import ReadError
+from colonnade.readers.text.first_sample import column_kinds, find_first_sample
+from colonnade.readers.text.header_claims import HeaderClaims, header_claims
+from colonnade.readers.text.heading import Heading, HeadingLines, describe_columns, find_heading, unread_numbers
+from colonnade.readers.text.lines.cells import COMMENT_SIGNS, MISSING, WHITESPACE, Dialect
+from colonnade.readers.text.lines.encoding import (
+    Encoding,
+    detect_encoding,
+    head_lines,
+    known_encoding,
+    looks_binary,
+)
+from colonnade.readers.text.lines.faults import RowForm
+from colonnade.readers.text.row_layout import Named
+from colonnade.readers.text.sniffing import sniff
+from colonnade.readers.text.table import TableOptions
+
+DELIMITER_WORDS = {"comma": ",", "semicolon": ";", "tab": "\t", "\\t": "\t", "pipe": "|", "space": " ", "spaces": " "}
+
+
+def _delimiter(text: str) -> str:
+    character = DELIMITER_WORDS.get(text.casefold(), text)
+    if len(character) != 1 or character.isalnum() or character in '"+-.\r\n':
+        raise ValueError('one character was expected, such as ";" or ",", or "tab" or "spaces"')
+    return character
+
+
+class DelimitedOptions(TableOptions):
+    """What can be said about a delimited text file; all of it is sniffed if it is not given."""
+
+    delimiter: Annotated[str, AfterValidator(_delimiter)] | None = Field(
+        default=None, description='Between the cells of a row: one character, "tab", or "spaces" for any run of spaces.'
+    )
+    decimal: Literal[".", ","] | None = Field(default=None, description="Decimal sign.")
+    thousands: Literal[".", ",", " ", "'"] | None = Field(
+        default=None, description="Sign between groups of three digits."
+    )
+    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
+        default=None, description='Of the text, such as "utf-8", "utf-16", "latin-1".'
+    )
+    skip_rows: int = Field(default=0, ge=0, description="Lines at the top of the file that are not looked at.")
+    comment: str | None = Field(default=None, min_length=1, description="What starts a line that is not a sample.")
+    missing: tuple[str, ...] = Field(default=(), description='Texts that stand for a missing value, such as "-999".')
+
+    @property
+    def lines_to_pass(self) -> int:
+        """Lines at the top of the file that cannot be samples."""
+        return max(self.skip_rows, self.names_row or 0, self.units_row or 0)
+
+    @model_validator(mode="after")
+    def _signs_differ(self) -> Self:
+        if self.decimal is not None and self.decimal == self.thousands:
+            raise ValueError(f'decimal and thousands are both "{self.decimal}"')
+        return self
+
+
+@dataclass(frozen=True)
+class Header:
+    """
+    All that is known of a file before its samples are read.
+
+    Attributes
+    ----------
+    path : Path
+    form : RowForm
+        How its rows are written.
+    heading : Heading
+    named : str
+        Whether names or units are above the columns, or words that may be a sentence.
+    claims : HeaderClaims
+        What the lines above the first sample say of the numbers.
+    notes, warnings : tuple of str
+    """
+
+    path: Path
+    form: RowForm
+    heading: Heading
+    named: Named
+    claims: HeaderClaims
+    notes: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+
+def read_header(path: Path, options: DelimitedOptions) -> Header:
+    """
+    Find out how a file is written and what its columns are called, from its head.
+
+    Raises
+    ------
+    ReadError
+        If it is empty, not text, or has no rows of numbers.
+    """
+    encoding, lines = _head(path, options)
+    start = options.lines_to_pass
+    given = Dialect(
+        encoding.name,
+        delimiter=options.delimiter or ",",
+        decimal=options.decimal or ".",
+        comments=COMMENT_SIGNS if options.comment is None else (options.comment,),
+        missing=MISSING | {text.casefold() for text in options.missing},
+    )
+    sniffed = sniff(
+        lines[start:], given, delimiter=options.delimiter, decimal=options.decimal, thousands=options.thousands
+    )
+    dialect = sniffed.dialect
+    kinds = column_kinds(lines[start:], dialect, sniffed.columns)
+    first = find_first_sample(lines, start, dialect, kinds) if sniffed.columns else None
+    if first is None:
+        raise ReadError(
+            f"{path.name}: no rows of numbers were found in the {len(lines)} lines looked at"
+            f"{_as_given(options)}; the first is {lines[0][:60]!r}."
+        )
+    where = options.heading_lines(find_heading(lines, options.skip_rows, first, dialect, kinds))
+    width = _named_width(lines, where, dialect, kinds)
+    heading = describe_columns(lines, where, first, dialect, width)
+    texts = ", ".join(f'"{head}"' for head, kind in zip(heading.headings, kinds, strict=False) if kind == "text")
+    notes: tuple[str, ...] = (f"encoding {encoding.name} ({encoding.evidence})",) if encoding.evidence else ()
+    notes += (f"text, not numbers, in {texts}",) if texts else ()
+    return Header(
+        path,
+        RowForm(dialect, tuple(kinds[:width]), len(kinds) - width),
+        heading,
+        _named(lines, where, heading, dialect, options),
+        header_claims("\n".join(lines[:first])),
+        notes + sniffed.notes,
+        (*sniffed.warnings, *unread_numbers(lines, where, start, first, dialect)),
+    )
+
+
+def _head(path: Path, options: DelimitedOptions) -> tuple[Encoding, list[str]]:
+    """Read the first lines of a text."""
+    encoding = Encoding(options.encoding, "") if options.encoding else detect_encoding(path)
+    try:
+        lines, _ = head_lines(path, encoding.name, wanted=options.lines_to_pass + 200)
+    except UnicodeError as error:
+        raise ReadError(f"{path.name}: it is not text in {encoding.name} ({error}).") from error
+    if not any(line.strip() for line in lines):
+        raise ReadError(f"{path.name}: the file is empty; rows of numbers were expected.")
+    if reason := looks_binary(lines):
+        raise ReadError(f"{path.name}: {reason}; text with rows of numbers was expected.")
+    return encoding, lines
+
+
+def _named(
+    lines: list[str], where: HeadingLines, heading: Heading, dialect: Dialect, options: DelimitedOptions
+) -> Named:
+    """Say whether names are above the columns; between single blanks they may be the words of a sentence."""
+    if not heading.names_most:
+        return ""
+    if where.units is not None or where.names is None or options.names_row is not None:
+        return "names"
+    words = lines[where.names].split()
+    between_blanks = dialect.delimiter == WHITESPACE and lines[where.names].strip() == " ".join(words)
+    return "words" if between_blanks and len(words) > 2 else "names"
+
+
+def _named_width(lines: list[str], where: HeadingLines, dialect: Dialect, kinds: list[str]) -> int:
+    """Count the columns without the empty ones at the end that have no name either."""
+    heading = describe_columns(lines, where, 0, dialect, len(kinds))
+    width = len(kinds)
+    while width > 1 and kinds[width - 1] == "empty" and heading.headings[width - 1] == f"column {width}":
+        width -= 1
+    return width
+
+
+def _as_given(options: DelimitedOptions) -> str:
+    """Remind of the options that the sniffing had to keep to."""
+    told = [f"{key} = {value!r}" for key, value in options.model_dump(exclude_defaults=True).items()]
+    return f" with {', '.join(told)}" if told else ""

@@ -1,0 +1,1 @@
+"""Lines of a text file: encoding, cells, blocks of numbers, and damage."""

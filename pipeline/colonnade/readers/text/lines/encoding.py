@@ -1,0 +1,136 @@
+"""Opening text whose encoding nobody wrote down."""
+
+from __future__ import annotations
+
+import codecs
+from dataclasses import dataclass
+from io import StringIO
+from pathlib import Path
+from typing import TextIO
+
+HEAD_BYTES = 1 << 18
+"""As much of a file as is looked at to find out how it is written."""
+
+# UTF-32 before UTF-16: the little-endian mark of the former starts with that of the latter.
+BYTE_ORDER_MARKS = (
+    (codecs.BOM_UTF8, "utf-8-sig"),
+    (codecs.BOM_UTF32_LE, "utf-32"),
+    (codecs.BOM_UTF32_BE, "utf-32"),
+    (codecs.BOM_UTF16_LE, "utf-16"),
+    (codecs.BOM_UTF16_BE, "utf-16"),
+)
+PRINTED_CONTROLS = frozenset("\t\n\r\f\v\x1a")
+
+
+@dataclass(frozen=True)
+class Encoding:
+    """A text encoding and how it was found."""
+
+    name: str
+    evidence: str
+
+
+def detect_encoding(path: Path) -> Encoding:
+    """
+    Find a text file's encoding from its head.
+
+    Parameters
+    ----------
+    path : Path
+        The file; OSError if it cannot be opened.
+
+    Returns
+    -------
+    encoding : Encoding
+        By a byte order mark; else UTF-16 where every second byte is zero; else UTF-8 where that is valid; else
+        Windows-1252, the extension of Latin-1 that loggers on Windows write.
+    """
+    with path.open("rb") as stream:
+        head = stream.read(HEAD_BYTES)
+    # A block of zeros at the end is what a power failure leaves; it says nothing of the encoding.
+    head = head.rstrip(b"\0") or head
+    for mark, name in BYTE_ORDER_MARKS:
+        if head.startswith(mark):
+            return Encoding(name, "by its byte order mark")
+    zeros_even, zeros_odd = (head[offset::2].count(0) / max(len(head) // 2, 1) for offset in (0, 1))
+    if zeros_odd > 0.3 > 0.05 > zeros_even:
+        return Encoding("utf-16-le", "every second byte is zero, without a byte order mark")
+    if zeros_even > 0.3 > 0.05 > zeros_odd:
+        return Encoding("utf-16-be", "every first byte of two is zero, without a byte order mark")
+    if head.isascii():
+        return Encoding("utf-8", "plain ASCII so far as looked at")
+    try:
+        codecs.getincrementaldecoder("utf-8")().decode(head, final=False)
+    except UnicodeDecodeError as error:
+        place = head.count(b"\n", 0, error.start) + 1
+        return Encoding(
+            "cp1252", f"byte 0x{head[error.start]:02x} on line {place} is not UTF-8; Windows-1252 is assumed"
+        )
+    return Encoding("utf-8", "valid so far as looked at")
+
+
+def known_encoding(name: str) -> str:
+    """
+    Give an encoding's own name.
+
+    Raises
+    ------
+    ValueError
+        If the encoding is unknown.
+    """
+    try:
+        return codecs.lookup(name).name
+    except LookupError:
+        raise ValueError('unknown encoding; give for example "utf-8", "utf-16" or "latin-1"') from None
+
+
+def open_text(path: Path, encoding: str) -> TextIO:
+    """Open text for reading; line ends are left as they are, bytes that are not characters become U+FFFD."""
+    return path.open(encoding=encoding, errors="replace", newline="")
+
+
+def head_lines(path: Path, encoding: str, wanted: int = 0) -> tuple[list[str], bool]:
+    """
+    Read the first lines of a file.
+
+    Parameters
+    ----------
+    path, encoding
+        As for `open_text`.
+    wanted : int
+        Number of lines that have to be among them, if the file has so many.
+
+    Returns
+    -------
+    lines : list of str
+        Without line ends and byte order mark. A last line that was cut by the limit is left out.
+    whole : bool
+        Whether this is all of the file.
+    """
+    with open_text(path, encoding) as stream:
+        text = stream.read(HEAD_BYTES)
+        block = text
+        while len(block) == HEAD_BYTES and text.count("\n") + text.count("\r") < wanted:
+            block = stream.read(HEAD_BYTES)
+            text += block
+        whole = not stream.read(1)
+    lines = [line.rstrip("\r\n") for line in StringIO(text.removeprefix("\ufeff"), newline="")]
+    return (lines if whole or len(lines) == 1 else lines[:-1]), whole
+
+
+def looks_binary(lines: list[str]) -> str:
+    """Say why these lines cannot be text; empty if they can."""
+    text = "".join(lines).rstrip("\0\ufffd")
+    controls = sum(text.count(chr(code)) for code in range(32) if chr(code) not in PRINTED_CONTROLS)
+    unreadable = controls + text.count("\ufffd")
+    if text and unreadable > 0.02 * len(text):
+        return f"{unreadable} of the first {len(text)} characters are not printable: a binary file, or another encoding"
+    return ""
+
+
+def ends_within_line(path: Path) -> bool:
+    """Whether the file's last line has no line end."""
+    with path.open("rb") as stream:
+        size = stream.seek(0, 2)
+        stream.seek(max(size - 8, 0))
+        return not stream.read().rstrip(b"\0\x1a").endswith((b"\n", b"\r"))

@@ -1,0 +1,203 @@
+"""LabVIEW measurement files (.lvm): text in segments, each with a header of its own."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+from pydantic import AfterValidator, Field
+
+from colonnade.arrays import Array
+from colonnade.errors import ReadError
+from colonnade.readers.recording import RecordedChannel, Recording
+from colonnade.readers.registry import Format, Options, Recognition
+from colonnade.readers.text.clock import even_times, moment_after
+from colonnade.readers.text.heading import take_apart
+from colonnade.readers.text.lines.encoding import known_encoding
+from colonnade.readers.text.lines.numbered import NumberedLines, first_lines
+from colonnade.readers.text.lines.rows import filled_length
+from colonnade.readers.text.lvm_segments import Preamble, Segment, read_preamble, read_segments
+
+SIGNATURE = "LabVIEW Measurement"
+LABVIEW_EPOCH = datetime(1904, 1, 1)
+SINCE_EPOCH = 1e9
+"""Seconds: larger x-values count from LabVIEW's epoch, not from the start of the recording."""
+
+
+class LvmOptions(Options):
+    """What can be said about a LabVIEW measurement file."""
+
+    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
+        default=None, description='Of the text, such as "utf-8" or "latin-1".'
+    )
+
+
+@dataclass(frozen=True)
+class SegmentColumn:
+    """
+    A column's samples in one segment.
+
+    Attributes
+    ----------
+    name : str
+    unit : str or None
+    values : ndarray, shape (n,)
+    times : ndarray, shape (n,), or None
+        Seconds since `began`; None if x is not a time.
+    began : datetime or None
+    is_clock : bool
+    """
+
+    name: str
+    unit: str | None
+    values: Array
+    times: Array | None
+    began: datetime | None
+    is_clock: bool
+
+
+def recognise(path: Path) -> Recognition:
+    """Say whether the first line is that of a LabVIEW measurement file."""
+    head = first_lines(path, 1)
+    if head and head[0].startswith(SIGNATURE):
+        return Recognition(True, f'the first line is "{SIGNATURE}"')
+    return Recognition(False, f'the first line is not "{SIGNATURE}"')
+
+
+def read(path: Path, options: LvmOptions) -> Recording:
+    """
+    Read a LabVIEW measurement file.
+
+    Channels of the same name are joined over the segments by each segment's own date and time.
+
+    Raises
+    ------
+    ReadError
+        If a header is not whole, or no rows of numbers follow.
+    """
+    with NumberedLines(path, options.encoding) as lines:
+        preamble = read_preamble(path, lines)
+        segments, warnings = read_segments(path, lines, preamble)
+    if not any(segment.columns[0].size for segment in segments):
+        raise ReadError(f"{path.name}: there are headers, but no rows of numbers below them: the file was cut off.")
+    for segment in segments:
+        warnings += _too_short(segment)
+    pieces: dict[tuple[int, str], list[SegmentColumn]] = {}
+    for segment in segments:
+        for column, piece in _columns(segment, preamble):
+            pieces.setdefault((column, piece.name), []).append(piece)
+    origin = next((piece for same in pieces.values() for piece in same if piece.times is not None), None)
+    channels = tuple(_joined(same, origin, preamble) for same in pieces.values())
+    start = None
+    if origin is not None and origin.times is not None and origin.times.size:
+        start = moment_after(origin.began, float(origin.times[0]))
+    return Recording(
+        path, "lvm", channels, start, notes=_notes(preamble, segments), warnings=tuple(dict.fromkeys(warnings))
+    )
+
+
+def _too_short(segment: Segment) -> list[str]:
+    """Report a segment with fewer rows than its header says."""
+    for column, (name, values) in enumerate(zip(segment.names, segment.columns, strict=True)):
+        said = segment.entry("Samples", column)
+        if said.isdecimal() and int(said) > filled_length(values):
+            return [
+                f"the samples below line {segment.line} end too early: the header says {said}, "
+                f'"{name}" has {filled_length(values)}'
+            ]
+    return []
+
+
+def _columns(segment: Segment, preamble: Preamble) -> Iterator[tuple[int, SegmentColumn]]:
+    """Take a segment's columns apart, each with its number."""
+    clock = 0
+    for column, name in enumerate(segment.names):
+        is_clock = column == 0 or (preamble.clocks == "multi" and column % 2 == 0)
+        if is_clock and preamble.clocks == "no":
+            continue  # an empty column
+        clock = column if is_clock else clock
+        owner = min(column + 1, len(segment.names) - 1) if is_clock else column
+        values = segment.columns[column][: filled_length(segment.columns[column])]
+        began = _moment(segment.entry("Date", owner), segment.entry("Time", owner))
+        began = began or _moment(preamble.entries.get("Date", ""), preamble.entries.get("Time", ""))
+        times = None
+        if segment.entry("X_Dimension", owner).casefold() not in ("time", ""):
+            is_clock = False
+        elif preamble.clocks == "no":
+            times = _even_times(segment, preamble, column, values.size)
+        else:
+            times = segment.columns[clock][: values.size]
+            if times.size and times[0] > SINCE_EPOCH:
+                began = moment_after(LABVIEW_EPOCH, float(times[0]))
+                times = times - times[0]
+        unit = "s" if is_clock else segment.entry("Y_Unit_Label", column) or take_apart(name)[1]
+        yield column, SegmentColumn(name, unit, values, times, began, is_clock)
+
+
+def _even_times(segment: Segment, preamble: Preamble, column: int, count: int) -> Array | None:
+    """Times by the header's interval; None if it gives none."""
+    step = preamble.dialect.number(segment.entry("Delta_X", column))
+    begin = preamble.dialect.number(segment.entry("X0", column) or "0")
+    return even_times(count, step, begin) if step > 0 and np.isfinite(begin) else None
+
+
+def _joined(pieces: list[SegmentColumn], origin: SegmentColumn | None, preamble: Preamble) -> RecordedChannel:
+    """Join a channel's pieces, on the clock of the recording's first sample."""
+    first = pieces[0]
+    values = np.concatenate([piece.values for piece in pieces])
+    times: list[Array] = []
+    shift = 0.0
+    before: Array | None = None
+    for piece in pieces:
+        if piece.times is None or origin is None:
+            return RecordedChannel(take_apart(first.name)[0], first.unit, values, heading=first.name)
+        # x-values that go on where the segment before ended count from its beginning, not from this one's.
+        follows = before is not None and before.size > 0 and bool((piece.times[:1] > before[-1:]).any())
+        goes_on = preamble.clocks != "no" and follows
+        if not goes_on and piece.began is not None and origin.began is not None:
+            shift = (piece.began - origin.began).total_seconds()
+        times.append(piece.times + shift)
+        before = piece.times
+    time = np.concatenate(times)
+    return RecordedChannel(take_apart(first.name)[0], first.unit, values, time, first.name, first.is_clock)
+
+
+def _moment(date: str, time: str) -> datetime | None:
+    """Date and time of day as LabVIEW writes them, `2013/02/19` and `09:51:40,7271890640258789063`."""
+    day = re.match(r"(\d{4})/(\d{1,2})/(\d{1,2})", date)
+    hour = re.match(r"(\d{1,2}):(\d{2}):(\d{2})(?:[.,](\d{1,6}))?", time)
+    if day is None or hour is None:
+        return None
+    try:
+        fraction = (hour[4] or "").ljust(6, "0")
+        return datetime(int(day[1]), int(day[2]), int(day[3]), int(hour[1]), int(hour[2]), int(hour[3]), int(fraction))
+    except ValueError:
+        return None
+
+
+def _notes(preamble: Preamble, segments: list[Segment]) -> tuple[str, ...]:
+    decimal = "comma" if preamble.dialect.decimal == "," else "point"
+    clock = {
+        "no": "clock: Delta_X of the header, as X_Columns is No",
+        "multi": "clocks: each channel's own X_Value, as X_Columns is Multi",
+    }.get(preamble.clocks, "clock: X_Value")
+    notes = [f"encoding {preamble.dialect.encoding}", f"decimal {decimal}, as the header says", clock]
+    if len(segments) > 1:
+        notes.append(f"{len(segments)} segments, joined by their dates and times")
+    return tuple(notes)
+
+
+FORMAT = Format(
+    name="lvm",
+    summary="LabVIEW measurement text, in segments with headers.",
+    suffixes=(".lvm",),
+    options=LvmOptions,
+    recognise=recognise,
+    read=read,
+    in_process=True,
+)

@@ -1,0 +1,251 @@
+"""Text of MTS 793 testing machines (MPT, Basic TestWare): the first line says how it is written, blocks follow."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from itertools import pairwise
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+from pydantic import AfterValidator, Field
+
+from colonnade.arrays import Array
+from colonnade.errors import ReadError
+from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
+from colonnade.readers.registry import Format, Options, Recognition
+from colonnade.readers.text.clock import RISING_SHARE, moment_after, rising_share
+from colonnade.readers.text.heading import looks_like_unit
+from colonnade.readers.text.lines.cells import WHITESPACE, Dialect, is_timestamp
+from colonnade.readers.text.lines.damage import mend
+from colonnade.readers.text.lines.encoding import ends_within_line, known_encoding
+from colonnade.readers.text.lines.faults import RowForm
+from colonnade.readers.text.lines.numbered import NumberedLines, first_lines
+from colonnade.readers.text.lines.pieces import pieces_of_lines
+from colonnade.readers.text.lines.rows import read_rows
+
+SIGNATURE = "MTS793|"
+DELIMITERS = {"0": WHITESPACE, "1": ",", "2": "\t"}
+"""Of the fifth field of the first line: plain, Lotus, Excel (MPT manual, "How to parse the MPT specimen data file")."""
+
+
+class MtsOptions(Options):
+    """What can be said about an MTS 793 text."""
+
+    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
+        default=None, description='Of the text, such as "latin-1".'
+    )
+
+
+@dataclass(frozen=True)
+class Declared:
+    """What the first line says: language, dialect, and the sign within dates."""
+
+    language: str
+    dialect: Dialect
+    date_sign: str
+
+
+@dataclass(frozen=True)
+class Block:
+    """
+    Rows of one acquisition process.
+
+    Attributes
+    ----------
+    line : int
+        Of the names, in the file.
+    names, units : tuple of str
+    columns : list of ndarray, shape (n,)
+    origin : datetime or None
+        When the machine's running time was zero.
+    """
+
+    line: int
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    columns: list[Array]
+    origin: datetime | None
+
+    @property
+    def size(self) -> int:
+        """Number of its rows."""
+        return self.columns[0].size
+
+
+def recognise(path: Path) -> Recognition:
+    """Say whether the first line is that of an MTS 793 text."""
+    head = first_lines(path, 1)
+    if head and head[0].lstrip('"').startswith(SIGNATURE):
+        return Recognition(True, f'the first line starts with "{SIGNATURE}"')
+    return Recognition(False, f'the first line does not start with "{SIGNATURE}"')
+
+
+def read(path: Path, options: MtsOptions) -> Recording:
+    """
+    Read an MTS 793 text.
+
+    Blocks of the same names and units go on from one another. Of others the longest gives the channels as they are
+    called, and the recording's start; the rest follow with the number of their block before the name.
+
+    Raises
+    ------
+    ReadError
+        If the first line does not say how numbers are written, or no block of numbers follows.
+    """
+    warnings: list[str] = []
+    with NumberedLines(path, options.encoding) as lines:
+        declared = _declared(path, lines.take() or "", lines.encoding)
+        blocks = [block for block in _blocks(path, lines, declared, warnings) if block.size]
+    if not blocks:
+        raise ReadError(
+            f"{path.name}: no block of numbers was found: a line of names, one of units, then rows of numbers were "
+            "expected. The file was cut off, or holds the operator's notes only."
+        )
+    series = _series(blocks)
+    lengths = [sum(block.size for block in same) for same in series]
+    longest = lengths.index(max(lengths))
+    channels = _channels(series[longest], "")
+    clock = next((channel.time for channel in channels if channel.time is not None), None)
+    start = None if clock is None else moment_after(series[longest][0].origin, float(clock[0]))
+    for number, same in enumerate(series):
+        channels += _channels(same, f"block {number + 1}: ") if number != longest else []
+    if len(series) > 1:
+        warnings.append(
+            f"{len(series)} blocks with different columns: block {longest + 1}, the longest with {max(lengths)} rows, "
+            f'is taken; columns of the others are called "block {2 if longest == 0 else 1}: …"'
+        )
+    notes = _notes(declared, series, channels)
+    return Recording(path, "mts", tuple(channels), start, notes, tuple(warnings))
+
+
+def _notes(declared: Declared, series: list[list[Block]], channels: list[RecordedChannel]) -> tuple[str, ...]:
+    blocks = []
+    for number, same in enumerate(series, 1):
+        pieces = f", in {len(same)} pieces of the same columns" if len(same) > 1 else ""
+        rows = sum(block.size for block in same)
+        blocks.append(f"block {number}: {rows} rows below line {same[0].line + 1}{pieces}")
+    clocks = ", ".join(f'"{channel.heading}"' for channel in channels if channel.is_clock)
+    return (
+        f"encoding {declared.dialect.encoding}",
+        "delimiter and decimal sign as the first line declares them",
+        *blocks,
+        f"clock: {clocks}" if clocks else "no clock: no rising column in s",
+    )
+
+
+def _declared(path: Path, line: str, encoding: str) -> Declared:
+    """Take the first line apart: program, language, version, delimiter, decimal sign, signs of date and time."""
+    fields = line.strip().strip('"').split("|")
+    if len(fields) < 8 or fields[4] not in DELIMITERS or fields[5] not in (".", ","):
+        raise ReadError(
+            f'{path.name}: line 1 is "{line[:60]}"; "MTS793|program|language|version|delimiter|decimal sign|…" was '
+            "expected, with a delimiter 0, 1 or 2. Export the file from the machine again."
+        )
+    delimiter = DELIMITERS[fields[4]]
+    return Declared(fields[2], Dialect(encoding, delimiter, fields[5], quoted=delimiter == ","), fields[6])
+
+
+def _blocks(path: Path, lines: NumberedLines, declared: Declared, warnings: list[str]) -> Iterator[Block]:
+    """Find each line above a block, `… Time: 10.0 Sec …`, that has names, units and numbers below it."""
+    dialect = declared.dialect
+    for _, line in lines.rest():
+        title = _cells(line, dialect)
+        if _seconds(title, dialect) is None:
+            continue
+        names = _cells(lines.take() or "", dialect)
+        units = _cells(lines.peek() or "", dialect)
+        if not names or len(units) > len(names) or any(dialect.is_number(cell) for cell in units):
+            continue
+        units += [""] * (len(names) - len(units))
+        lines.take()
+        if not _is_row(lines.peek() or "", dialect):
+            if all(looks_like_unit(unit) for unit in units):
+                warnings.append(f'the block below line {lines.number} ("{names[0]}", …) has no rows: cut off')
+            continue
+        line_of_names = lines.number - 1
+        form = RowForm(dialect, ("number",) * len(names), by_instrument=True)
+        rows = ((number, row.rstrip("\t ")) for number, row in lines.until(lambda row: not _is_row(row, dialect)))
+        found = read_rows(path, pieces_of_lines(rows), form)
+        mended = mend(found, form, names, is_cut=lines.peek() is None and ends_within_line(path))
+        warnings += mended.warnings
+        yield Block(line_of_names, tuple(names), tuple(units), mended.columns, _origin(title, declared))
+
+
+def _is_row(line: str, dialect: Dialect) -> bool:
+    """Whether a line is a row: not blank, and not without any number."""
+    cells = dialect.split(line)
+    return any(dialect.is_number(cell) for cell in cells[:2]) and not any(is_timestamp(cell) for cell in cells)
+
+
+def _cells(line: str, dialect: Dialect) -> list[str]:
+    """Cut a line into cells; between spaces only if there are two or more, as names hold single ones."""
+    cells = re.split(r"\s{2,}", line.strip()) if dialect.delimiter == WHITESPACE else dialect.split(line)
+    while cells and not cells[-1]:
+        cells.pop()
+    return cells
+
+
+def _seconds(title: list[str], dialect: Dialect) -> float | None:
+    """Running time in the line above a block, `… Zeit: 320,02344 s 01.09.2014 13:30:25`."""
+    for cell, following in pairwise(title):
+        if cell.endswith(":") and dialect.is_number(following):
+            return dialect.number(following)
+    return None
+
+
+def _origin(title: list[str], declared: Declared) -> datetime | None:
+    """Date and time of the running time's zero, if the date can be read in one way only."""
+    seconds = _seconds(title, declared.dialect)
+    if seconds is None or not title:
+        return None
+    text = title[-1]
+    forms = {
+        ".": ("%d.%m.%Y %H:%M:%S",),
+        "/": ("%m/%d/%Y %I:%M:%S %p", "%m/%d/%Y %H:%M:%S") if declared.language == "ENU" else (),
+        "-": ("%Y-%m-%d %H:%M:%S",),
+    }
+    for form in forms.get(declared.date_sign, ()):
+        try:
+            return moment_after(datetime.strptime(text, form), -seconds)
+        except ValueError:
+            continue
+    return None
+
+
+def _series(blocks: list[Block]) -> list[list[Block]]:
+    """Put blocks of the same names and units together, in the order of the file."""
+    series: dict[tuple[tuple[str, ...], tuple[str, ...]], list[Block]] = {}
+    for block in blocks:
+        series.setdefault((block.names, block.units), []).append(block)
+    return list(series.values())
+
+
+def _channels(blocks: list[Block], prefix: str) -> list[RecordedChannel]:
+    """Join the columns of blocks; their clock is the first one in a unit of time whose values rise."""
+    first = blocks[0]
+    columns = [np.concatenate(pieces) for pieces in zip(*(block.columns for block in blocks), strict=True)]
+    time: Array | None = None
+    clock = None
+    for number, (unit, values) in enumerate(zip(first.units, columns, strict=True)):
+        if unit.casefold() in TIME_UNITS and (values.size == 1 or rising_share(values) >= RISING_SHARE):
+            clock, time = number, values * TIME_UNITS[unit.casefold()]
+            break
+    return [
+        RecordedChannel(prefix + name, unit or None, values, time, is_clock=number == clock)
+        for number, (name, unit, values) in enumerate(zip(first.names, first.units, columns, strict=True))
+    ]
+
+
+FORMAT = Format(
+    name="mts",
+    summary="Text of MTS 793 testing machines (MPT, Basic TestWare), in blocks.",
+    suffixes=(".dat", ".txt"),
+    options=MtsOptions,
+    recognise=recognise,
+    read=read,
+    in_process=True,
+)

@@ -1,0 +1,149 @@
+"""Finding out how the numbers of a text file are written: delimiter, decimal sign, quotation marks."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import chain
+
+from colonnade.readers.text.lines.cells import SAMPLE_LINES, WHITESPACE, Dialect, kind_of
+
+DELIMITERS = (";", "\t", "|", ",", WHITESPACE)
+DELIMITER_NAMES = {"\t": "tab", WHITESPACE: "spaces"}
+
+
+@dataclass(frozen=True)
+class Sniffed:
+    """
+    A dialect with its evidence.
+
+    Attributes
+    ----------
+    dialect : Dialect
+    columns : int
+        Cells on most rows of numbers; 0 without a row of numbers.
+    notes, warnings : tuple of str
+    """
+
+    dialect: Dialect
+    columns: int
+    notes: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class _Fit:
+    """How well a dialect explains the sample: the share of lines that are rows of numbers, of numbers in these."""
+
+    dialect: Dialect
+    columns: int
+    rows: int
+    score: float
+
+
+def sniff(
+    lines: list[str], given: Dialect, *, delimiter: str | None, decimal: str | None, thousands: str | None
+) -> Sniffed:
+    """
+    Find the dialect that makes most cells numbers and gives most lines the same number of cells.
+
+    Parameters
+    ----------
+    lines : list of str
+        The head of the file; its later part is looked at, as there the samples are surest.
+    given : Dialect
+        What is known otherwise: encoding, comment signs, missing values.
+    delimiter, decimal, thousands : str or None
+        Not sniffed if they are given.
+    """
+    sample = [line for line in lines if line.strip() and not given.is_comment(line)][-SAMPLE_LINES:]
+    fits = [_fit(sample, dialect) for dialect in _candidates(sample, given, delimiter, decimal, thousands)]
+    best = max(fits, key=lambda fit: (fit.score, fit.columns > 1))
+    if best.rows == 0:
+        return Sniffed(best.dialect, 0)
+    dialect = best.dialect
+    numbers = [*filter(dialect.is_number, chain.from_iterable(map(dialect.split, sample)))]
+    notes = [] if delimiter else [_delimiter_note(best, len(sample))]
+    notes += [] if decimal else [_decimal_note(dialect, numbers)]
+    warnings = () if delimiter or decimal else _two_readings(best, fits, sample, numbers)
+    grouped = next((number for number in numbers if dialect.other_sign in number), None)
+    if thousands is None and grouped is not None:
+        dialect = replace(dialect, thousands=dialect.other_sign)
+        notes.append(f'"{dialect.thousands}" between thousands (as in "{grouped}")')
+    return Sniffed(dialect, best.columns, tuple(notes), warnings)
+
+
+def _candidates(
+    sample: list[str], given: Dialect, delimiter: str | None, decimal: str | None, thousands: str | None
+) -> Iterator[Dialect]:
+    """Dialects that the sample may be written in."""
+    quoted = sum('"' in line for line in sample) > len(sample) / 2
+    for candidate in DELIMITERS if delimiter is None else (delimiter,):
+        if quoted and candidate == WHITESPACE and delimiter is None:
+            continue
+        padded = any(candidate + " " in line for line in sample)
+        for sign in (".", ",") if decimal is None else (decimal,):
+            if sign != candidate or quoted:
+                yield replace(
+                    given, delimiter=candidate, decimal=sign, thousands=thousands, quoted=quoted, padded=padded
+                )
+
+
+def _fit(sample: list[str], dialect: Dialect) -> _Fit:
+    counts: Counter[int] = Counter()
+    numbers: defaultdict[int, float] = defaultdict(float)
+    for line in sample:
+        cells = dialect.split(line)
+        weight, filled = _weigh(cells, dialect)
+        if weight > 0 and weight >= filled / 2:
+            counts[len(cells)] += 1
+            numbers[len(cells)] += weight / filled
+    if not counts:
+        return _Fit(dialect, 0, 0, 0.0)
+    columns, rows = max(counts.items(), key=lambda item: (item[1], item[0]))
+    return _Fit(dialect, columns, rows, round(rows / len(sample) * numbers[columns] / rows, 3))
+
+
+def _weigh(cells: list[str], dialect: Dialect) -> tuple[float, int]:
+    """Weight of the numbers among cells, and the number of cells that hold something."""
+    weight, filled = 0.0, 0
+    for cell in cells:
+        kind = kind_of(cell, dialect)
+        filled += kind != "missing"
+        if kind in ("number", "time"):
+            # "05" is hardly a whole number; rather the decimals of "1,05" cut at the comma.
+            digits = cell.lstrip("+-")
+            weight += 0.5 if len(digits) > 1 and digits[0] == "0" and digits.isdigit() else 1.0
+    return weight, filled
+
+
+def _delimiter_note(best: _Fit, lines: int) -> str:
+    if best.columns == 1:
+        return "one column: no delimiter makes more numbers of the lines looked at"
+    delimiter = quote(best.dialect.delimiter)
+    return f"delimiter {delimiter} ({best.columns} cells on {best.rows} of the {lines} lines looked at)"
+
+
+def _decimal_note(dialect: Dialect, numbers: list[str]) -> str:
+    signed = next((number for number in numbers if dialect.decimal in number), None)
+    why = " assumed: the numbers looked at have none" if signed is None else f' (as in "{signed}")'
+    return f'decimal sign "{dialect.decimal}"{why}'
+
+
+def _two_readings(best: _Fit, fits: list[_Fit], sample: list[str], numbers: list[str]) -> tuple[str, ...]:
+    """Warn of two columns of whole numbers that may be one column with decimal commas."""
+    is_open = best.dialect.delimiter == "," and best.columns == 2
+    if not is_open or any(best.dialect.decimal in number for number in numbers):
+        return ()
+    if not any(fit.columns == 1 and fit.score == best.score for fit in fits):
+        return ()
+    return (
+        f'rows such as "{sample[-1].strip()}" are read as two columns of whole numbers; they could also be '
+        'one column with decimal commas: then set decimal = ","',
+    )
+
+
+def quote(delimiter: str) -> str:
+    """Show a delimiter in a message: `";"`, `tab`."""
+    return DELIMITER_NAMES.get(delimiter, f'"{delimiter}"')

@@ -1,0 +1,167 @@
+"""A table of columns, from a text or a sheet -> a recording; what can be said about such a table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime
+from pathlib import Path
+from typing import Literal, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from colonnade.arrays import Array
+from colonnade.errors import ReadError
+from colonnade.readers.recording import RecordedChannel, Recording, TimeUnit
+from colonnade.readers.registry import Options
+from colonnade.readers.text.clock import Clocks, find_clocks, in_seconds
+from colonnade.readers.text.header_claims import HeaderClaims
+from colonnade.readers.text.heading import Heading, HeadingLines
+from colonnade.readers.text.row_layout import Named, Verdict, judge
+
+
+class TableOptions(Options):
+    """What can be said about a table; all of it is found if it is not given."""
+
+    names_row: int | None = Field(
+        default=None, ge=0, description="Row or line with the columns' names, from 1; 0 if they have no names."
+    )
+    units_row: int | None = Field(
+        default=None, ge=0, description="Row or line with the columns' units, from 1; 0 if there are none."
+    )
+    time: str | int | None = Field(default=None, description="Name or number, from 1, of the column that is the clock.")
+    time_unit: TimeUnit | None = Field(default=None, description="Unit of that column.")
+    layout: Literal["columns", "running"] | None = Field(
+        default=None,
+        description='"columns" if each column is a channel, "running" if numbers run on from row to row.',
+    )
+
+    @model_validator(mode="after")
+    def _unit_has_column(self) -> Self:
+        if self.time_unit is not None and self.time is None:
+            raise ValueError("time_unit needs `time`: the column it belongs to")
+        return self
+
+    def heading_lines(self, found: HeadingLines) -> HeadingLines:
+        """Lines of names and units: as given, else as found; a line that is given as one is not found as the other."""
+        names, units = found.names, found.units
+        if self.names_row is not None:
+            names = self.names_row - 1 if self.names_row else None
+            units = None if units == self.names_row - 1 else units
+        if self.units_row is not None:
+            units = self.units_row - 1 if self.units_row else None
+            names = None if self.names_row is None and names == self.units_row - 1 else names
+        return HeadingLines(names, units)
+
+
+@dataclass(frozen=True)
+class Table:
+    """
+    Columns with their heading.
+
+    Attributes
+    ----------
+    path : Path
+    format : str
+    heading : Heading
+    kinds : tuple of str
+        What each column holds: `number`, `time` (in seconds from the first), `text` or `empty`.
+    columns : list of ndarray, shape (n,)
+    start : datetime or None
+        Of the first timestamp that has a date.
+    """
+
+    path: Path
+    format: str
+    heading: Heading
+    kinds: tuple[str, ...]
+    columns: Sequence[Array]
+    start: datetime | None = None
+
+    def recording(self, options: TableOptions, claims: HeaderClaims) -> Recording:
+        """
+        Give the columns as channels, each on its clock.
+
+        A single column without a clock has the unit and the interval that the lines above it claim.
+
+        Raises
+        ------
+        ReadError
+            If the column of times that the options name is missing or holds no number.
+        """
+        heading = self.heading
+        channels = tuple(
+            RecordedChannel(name, unit, values, heading=head)
+            for name, unit, values, head in zip(
+                heading.names, heading.units, self.columns, heading.headings, strict=True
+            )
+        )
+        recording = Recording(self.path, self.format, channels, self.start)
+        clocks = self._clocks(recording, options)
+        if len(channels) == 1 and not clocks.columns:
+            channels = (replace(channels[0], unit=channels[0].unit or claims.unit),)
+            clocks = Clocks(frozenset(), (claims.times(channels[0].values.size),), (claims.clock_note,), ())
+        return replace(recording, channels=clocks.applied(channels), notes=clocks.notes, warnings=clocks.warnings)
+
+    def _clocks(self, recording: Recording, options: TableOptions) -> Clocks:
+        """Times of the channels: by the column that was given, else by those found."""
+        found = find_clocks(recording.channels, self.kinds)
+        if options.time is None:
+            return found
+        clock = recording.channel(options.time)
+        if not np.isfinite(clock.values).any():
+            raise ReadError(
+                f'{self.path.name}: column "{clock.heading}" holds no number, so it cannot be the clock. '
+                "Name a column of times, or leave `time` out."
+            )
+        index = next(number for number, channel in enumerate(recording.channels) if channel is clock)
+        if self.kinds[index] == "time":
+            time, how = clock.values, "timestamps"
+        else:
+            time, how = in_seconds(clock, options.time_unit or clock.unit)
+        times = [own if number in found.columns else time for number, own in enumerate(found.times)]
+        times[index] = time
+        note = f'clock: "{clock.heading}", as given ({how})'
+        return Clocks(found.columns | {index}, tuple(times), (note,), ())
+
+
+def layout_of(
+    path: Path,
+    kinds: Sequence[str],
+    options: TableOptions,
+    claims: HeaderClaims,
+    columns: Callable[[], tuple[Sequence[Array], Named]],
+    *,
+    is_free: bool,
+    is_whole: bool,
+) -> Verdict:
+    """
+    Decide whether columns are channels: as given, by what they hold, else by the evidence.
+
+    Parameters
+    ----------
+    path : Path
+    kinds : sequence of str
+        What each column holds.
+    options : TableOptions
+    claims : HeaderClaims
+    columns : callable
+        Gives the columns, and what their names are, as `judge` needs them.
+    is_free, is_whole : bool
+        As for `judge`.
+
+    Raises
+    ------
+    ReadError
+        If the evidence does not decide it.
+    """
+    if options.layout is not None:
+        return Verdict(options.layout, ("as given",))
+    if options.time is not None or any(kind != "number" for kind in kinds):
+        return Verdict("columns")
+    values, named = columns()
+    verdict = judge(values, claims, named=named, is_free=is_free, is_whole=is_whole)
+    if verdict.layout is None:
+        raise ReadError(verdict.undecided(path, len(kinds)))
+    return verdict

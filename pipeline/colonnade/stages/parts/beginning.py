@@ -1,0 +1,165 @@
+"""Where a prediction begins: the sample, the angle about its true zero, and the base motion from there on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import xarray as xr
+
+from colonnade.arrays import Array
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.errors import StageError
+from colonnade.findings import Finding
+from colonnade.identification.response.base_motion import LEAST_MOTION, table_moves
+from colonnade.identification.restitution.arcs.arcs import find_arcs
+from colonnade.stages.parts.base_motion import (
+    base_acceleration,
+    left_out,
+    transverse_acceleration,
+    vertical_acceleration,
+)
+from colonnade.stages.parts.inputs import Inputs
+
+RECORDED = "the recorded motion of the base"
+NOT_RECORDED = "a base at rest: its motion was not recorded"
+AT_REST = f"a base at rest: what was recorded changes the specimen's velocity by less than {LEAST_MOTION:g} p α"
+
+
+class BeginningInputs(Inputs):
+    """
+    What the beginning of a prediction reads of the campaign.
+
+    Attributes
+    ----------
+    block : Block
+    free_vibration : bool
+    tilt : float
+        The table's rotation about +y, rad: with it gravity pulls towards +x.
+    has_vertical : bool
+        The set-up has an accelerometer of the table along z.
+    """
+
+    block: Block
+    free_vibration: bool
+    tilt: float = 0.0
+    has_vertical: bool = False
+
+    @property
+    def is_in_space(self) -> bool:
+        """Whether the model also moves across the plane."""
+        return False
+
+
+@dataclass(frozen=True)
+class Beginning:
+    """
+    Where a prediction begins.
+
+    Attributes
+    ----------
+    first : int
+        Sample of the record.
+    theta0, omega0 : float
+        Angle there, about the true zero, and angular velocity, rad and rad/s.
+    base : ndarray, shape (n,)
+        Base acceleration of the whole record along x, m/s².
+    motion : Motion
+        From `first` on, with the table's tilt in it, and along z where that is known throughout.
+    driven_by : str
+        `RECORDED`, `NOT_RECORDED` or `AT_REST`.
+    zero_offset : float
+        rad, what the measured angle shows at the true zero.
+    warnings : list of Finding
+    """
+
+    first: int
+    theta0: float
+    omega0: float
+    base: Array
+    motion: Motion
+    driven_by: str = RECORDED
+    zero_offset: float = 0.0
+    warnings: list[Finding] = field(default_factory=list)
+
+
+def begin(rocking: xr.Dataset, inputs: BeginningInputs, identified: xr.Dataset | None = None) -> Beginning:
+    """
+    Find where a prediction begins and what it is driven by.
+
+    Parameters
+    ----------
+    rocking : xr.Dataset
+        Result of `rocking`.
+    inputs : BeginningInputs
+    identified : xr.Dataset, optional
+        Result of `restitution`, of a free vibration: its zero offset.
+
+    Raises
+    ------
+    StageError
+        If there is no base motion, or a free vibration shows no arc to start from.
+
+    Notes
+    -----
+    A free vibration is driven by what was recorded on the table if that moves it (`table_moves`), the same rule as of
+    its restitution; otherwise by nothing, since the noise of an accelerometer moves no table.
+    """
+    time, block = rocking["elapsed"].to_numpy(), inputs.block
+    first, peak, since, offset, driven_by = 0, 0.0, 0.0, 0.0, RECORDED
+    if inputs.free_vibration:
+        first, peak, since, offset = _start(rocking, block, identified)
+        driven_by = _drives_free_vibration(rocking, block)
+    if driven_by == RECORDED:
+        base = base_acceleration(rocking)
+        vertical, warnings = vertical_acceleration(rocking, gravity=block.gravity, expected=inputs.has_vertical)
+        transverse = transverse_acceleration(rocking) if inputs.is_in_space else None
+        if transverse is None:
+            warnings += left_out(rocking, base)
+    else:
+        base, vertical, transverse, warnings = np.zeros_like(time), None, None, []
+    # On a tilted table a part of gravity acts along x, as a base acceleration the other way would.
+    felt = base[first:] - block.gravity * np.sin(inputs.tilt)
+    vertical, transverse = (None if each is None else each[first:] for each in (vertical, transverse))
+    motion = Motion(felt, float(time[1] - time[0]), vertical, transverse)
+    theta0, omega0 = _fallen(peak, since, float(felt[0]), block)
+    return Beginning(first, theta0, omega0, base, motion, driven_by, offset, warnings)
+
+
+def _drives_free_vibration(rocking: xr.Dataset, block: Block) -> str:
+    if "base_acceleration" not in rocking:
+        return NOT_RECORDED
+    time = rocking["elapsed"].to_numpy()
+    moves = table_moves(rocking["base_acceleration"].to_numpy(), float(time[1] - time[0]), block)
+    return RECORDED if moves else AT_REST
+
+
+def _fallen(peak: float, since: float, base: float, block: Block) -> tuple[float, float]:
+    """Angle (rad) and angular velocity (rad/s) a part of a sampling interval (s) after a peak (rad)."""
+    if since == 0.0:
+        return peak, 0.0
+    side = block.negative if peak < 0 else block.positive
+    lean = np.copysign(side.critical_angle, peak) - peak
+    acceleration = -(block.side_p(side) ** 2) * (np.sin(lean) + base / block.gravity * np.cos(lean))
+    return float(peak + acceleration * since**2 / 2), float(acceleration * since)
+
+
+def _start(rocking: xr.Dataset, block: Block, identified: xr.Dataset | None) -> tuple[int, float, float, float]:
+    """Find the first peak between two impacts: next sample, angle (rad), time to the sample (s), zero offset (rad)."""
+    if "rocking_angle" not in rocking:
+        raise StageError("A free vibration without a measured angle has no release to start a prediction from.")
+    offset = 0.0
+    if identified is not None and np.isfinite(identified["restitution"]):
+        offset = float(identified["zero_offset"])
+    time, angle = rocking["elapsed"].to_numpy(), rocking["rocking_angle"].to_numpy() - offset
+    arcs = find_arcs(time, angle, block.p, lowest=float(rocking["noise_threshold"]))
+    whole = np.flatnonzero(np.isfinite(arcs.peak_angle))
+    if whole.size == 0:
+        raise StageError(
+            "This free vibration has no arc between two impacts above the noise; a prediction needs a peak to start "
+            "from. Was the specimen released within the record?"
+        )
+    when, peak = float(arcs.peak_time[whole[0]]), float(arcs.peak_angle[whole[0]])
+    first = min(int(np.searchsorted(time, when)), time.size - 2)
+    return first, peak, float(time[first] - when), offset

@@ -1,0 +1,175 @@
+"""The measured angle among the runs of a model: how far it is from them, and up to which time that means anything."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from colonnade.arrays import Array
+from colonnade.campaign import Campaign, Test
+from colonnade.campaign.settings import MeasurementSettings
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.ensembles.ensemble import Ensemble, stride_of
+from colonnade.dynamics.history import capped
+from colonnade.identification.response.as_measured import Measurement, as_measured
+from colonnade.identification.response.rank import distances
+from colonnade.stages.parts.beginning import Beginning
+from colonnade.stages.parts.inputs import Inputs
+from colonnade.stages.parts.transducers import transducers
+
+SEED = 22
+"""Of the measurement errors of the runs; they are the same in every run of the stage."""
+
+
+class MeasurementInputs(Inputs):
+    """
+    What is known of the measured angle that the runs of a model are compared with.
+
+    Attributes
+    ----------
+    block : Block
+    settings : MeasurementSettings
+    filter_order : int
+    channels : tuple of str
+        Transducers on the specimen, by the names of their variables.
+    """
+
+    block: Block
+    settings: MeasurementSettings
+    filter_order: int
+    channels: tuple[str, ...]
+
+    @classmethod
+    def of(cls, campaign: Campaign, test: Test) -> MeasurementInputs:
+        """Gather it for one test."""
+        return cls(
+            block=campaign.specimens[test.specimen].block(campaign.gravity),
+            settings=campaign.processing.predict.ensemble,
+            filter_order=campaign.processing.filter_order,
+            channels=transducers(campaign.channels(test)).on_specimen,
+        )
+
+
+def measurement_errors(
+    conditioned: xr.Dataset, rocking: xr.Dataset, start: float | None, inputs: MeasurementInputs
+) -> Measurement:
+    """
+    Gather the errors of a measured angle.
+
+    Parameters
+    ----------
+    conditioned, rocking : xr.Dataset
+        Results of `condition` and `rocking`.
+    start : float or None
+        Measured angle that the model starts from, rad; None if it starts at rest.
+    inputs : MeasurementInputs
+    """
+    time = rocking["elapsed"].to_numpy()
+    error = float(rocking["rocking_angle_standard_error"]) if "rocking_angle" in rocking else 0.0
+    drift = float(rocking["rocking_angle_drift"]) / np.sqrt(3) if "rocking_angle" in rocking else 0.0
+    is_integrated = "angle_deviation" in rocking
+    cutoffs = [conditioned[name].attrs.get("cutoff_hz") for name in inputs.channels if name in conditioned]
+    known = [float(each) for each in cutoffs if each is not None]
+    return Measurement(
+        interval=float(time[1] - time[0]),
+        gain=inputs.settings.angle_gain,
+        zero=max(inputs.settings.angle_zero * inputs.block.critical_angle, drift),
+        noise=0.0 if is_integrated else float(np.sqrt(max(error**2 - drift**2, 0.0))),
+        drift=rocking["angle_deviation"].to_numpy() if is_integrated else np.zeros(time.size),
+        cutoff_hz=min(known, default=None),
+        filter_order=inputs.filter_order,
+        start=start,
+        start_error=0.0 if start is None else error,
+    )
+
+
+def describe_bands(
+    rocking: xr.Dataset, beginning: Beginning, found: Ensemble, deviations: Mapping[str, float]
+) -> xr.Dataset:
+    """
+    Put the bands of an ensemble into a dataset.
+
+    Parameters
+    ----------
+    rocking : xr.Dataset
+        Result of `rocking`.
+    beginning : Beginning
+        Of the prediction.
+    found : Ensemble
+    deviations : mapping of str to float
+        Standard deviation of each input.
+    """
+    time = rocking["elapsed"].to_numpy()[beginning.first :: stride_of(beginning.motion)]
+    low, high = found.overturning_interval()
+    sensitivity = found.sensitivity()
+    return xr.Dataset(
+        {
+            "rocking_angle": ("elapsed", found.central),
+            "rocking_angle_band": (("quantile", "elapsed"), found.bands),
+            "overturning_probability": ((), found.overturning_probability),
+            "overturning_probability_low": ((), low),
+            "overturning_probability_high": ((), high),
+            "member_peak_ratio": ("member", found.peak_ratio),
+            "member_overturning_time": ("member", found.overturning_time + float(time[0])),
+            "input_deviation": ("input", np.array([deviations[name] for name in sensitivity])),
+            "peak_sensitivity": ("input", np.array(list(sensitivity.values()))),
+        },
+        coords={
+            "elapsed": ("elapsed", time),
+            "quantile": ("quantile", found.levels),
+            "input": ("input", np.array(list(sensitivity), dtype=object)),
+        },
+    )
+
+
+def rank_measured(
+    rocking: xr.Dataset,
+    beginning: Beginning,
+    found: Ensemble,
+    starts: Array,
+    errors: Measurement,
+    inputs: MeasurementInputs,
+) -> dict[str, Any]:
+    """
+    Compare the measured angle with the runs of a model.
+
+    Parameters
+    ----------
+    rocking : xr.Dataset
+        Result of `rocking`.
+    beginning : Beginning
+        Of the prediction.
+    found : Ensemble
+    starts : ndarray, shape (members,)
+        By how much each run began above the measured start, rad.
+    errors : Measurement
+        Of the measured angle, as of `measurement_errors`.
+    inputs : MeasurementInputs
+
+    Returns
+    -------
+    variables : dict
+        `horizon`, s; if an angle was measured and there are runs enough, `measured_distance`, and on `judged_member`
+        the `member_distance` of the runs.
+    """
+    first, stride = beginning.first, stride_of(beginning.motion)
+    time = rocking["elapsed"].to_numpy()[first::stride]
+    horizon = found.horizon(inputs.settings.horizon * inputs.block.critical_angle) + float(time[0])
+    variables: dict[str, Any] = {"horizon": ((), horizon)}
+    if "rocking_angle" not in rocking:
+        return variables
+    angle = rocking["rocking_angle"].to_numpy()[first::stride] - beginning.zero_offset
+    measured = capped(time, angle, float(rocking["overturning_time"]), inputs.block)
+    thinned = errors.thinned(first, stride)
+    recorded = as_measured(found.histories, starts[: len(found.histories)], thinned, np.random.default_rng(SEED))
+    seen = time <= horizon
+    compared = distances(measured[seen], recorded[:, seen])
+    if compared is None:
+        return variables
+    return variables | {
+        "measured_distance": ((), compared.measured),
+        "member_distance": ("judged_member", compared.members),
+    }

@@ -1,0 +1,115 @@
+"""Motions that a table may have followed: those of the campaign file, and El Centro if it is installed."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from colonnade.campaign import Campaign
+from colonnade.errors import ReadError
+from colonnade.findings import Finding, warning
+from colonnade.readers.irregular import irregular
+from colonnade.readers.registry import companions
+from colonnade.readers.strong_motion import el_centro
+from colonnade.signals.named_motion import Series
+
+
+class ReferenceMotionFile(BaseModel):
+    """
+    Where a reference motion is read from.
+
+    Attributes
+    ----------
+    path : Path or None
+        Its file; None for El Centro of the installed package. No part of what a result is made from: the digest is.
+    digest : str
+        SHA-256 of the file; empty if it cannot be read.
+    interval : float or None
+        s.
+    column : str, int or None
+    layout : str or None
+        Whether columns are channels or numbers run on, where it is given.
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    path: Path | None = Field(exclude=True)
+    digest: str
+    interval: float | None = None
+    column: str | int | None = None
+    layout: Literal["columns", "running"] | None = None
+
+
+def reference_files(campaign: Campaign) -> dict[str, ReferenceMotionFile]:
+    """Reference motions of a campaign, by name."""
+    found = {
+        name: ReferenceMotionFile(
+            path=motion.file,
+            digest=_digest(motion.file),
+            interval=motion.interval,
+            column=motion.column,
+            layout=motion.layout,
+        )
+        for name, motion in campaign.motions.items()
+    }
+    if el_centro.EL_CENTRO not in found and el_centro.is_installed():
+        found[el_centro.EL_CENTRO] = ReferenceMotionFile(path=None, digest="")
+    return found
+
+
+def load(known: Mapping[str, ReferenceMotionFile], warnings: list[Finding]) -> dict[str, Series]:
+    """Read reference motions; what cannot be read is reported and left out."""
+    from colonnade.readers.motion import read_motion
+
+    loaded = {}
+    for name, source in known.items():
+        try:
+            if source.path is None:
+                motion = el_centro.el_centro()
+            else:
+                motion = read_motion(
+                    source.path, unit="m/s^2", dt=source.interval, column=source.column, layout=source.layout
+                )
+        except ReadError as error:
+            warnings.append(warning("reference motion", f'The reference motion "{name}" cannot be used: {error}'))
+            continue
+        loaded[name] = Series(motion.acceleration, motion.dt)
+    return loaded
+
+
+def _digest(path: Path) -> str:
+    """SHA-256 of a file; where it is in several, of theirs."""
+    digests = [_digest_now(each) for each in (path, *_companions(path, _digest_now(path)))]
+    return digests[0] if len(digests) == 1 else hashlib.sha256(" ".join(digests).encode()).hexdigest()
+
+
+def _digest_now(path: Path) -> str:
+    try:
+        status = path.stat()
+    except OSError:
+        return ""
+    if irregular(path):
+        return ""
+    return _digest_of(path, status.st_size, status.st_mtime_ns)
+
+
+@functools.lru_cache(maxsize=64)
+def _companions(path: Path, digest: str) -> tuple[Path, ...]:
+    """Other files that a file of this digest is in; none if they cannot be found, as reading it then says."""
+    try:
+        return companions(path) if digest else ()
+    except ReadError:
+        return ()
+
+
+@functools.lru_cache(maxsize=64)
+def _digest_of(path: Path, size: int, changed: int) -> str:
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError:
+        return ""

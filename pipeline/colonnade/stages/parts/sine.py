@@ -1,0 +1,124 @@
+"""Sine tests within `compare`: Ω and A of the table's recorded motion, and the order of each response to it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.history import NO_ROCKING_RATIO
+from colonnade.findings import Finding, warning
+from colonnade.identification.response.forcing import FEWEST_CYCLES, Forcing, fit_forcing
+from colonnade.identification.response.order import Response, response_order
+
+FREQUENCY_TOLERANCE = 0.01
+"""Largest departure of the recorded frequency from the given one, as a fraction, that is not reported."""
+
+
+@dataclass
+class Sine:
+    """What a sine test adds to a comparison: variables, attributes and warnings."""
+
+    variables: dict[str, Any] = field(default_factory=dict)
+    attributes: dict[str, str] = field(default_factory=dict)
+    warnings: list[Finding] = field(default_factory=list)
+
+
+def sine(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], block: Block, frequency: float | None) -> Sine:
+    """
+    Find frequency and amplitude ratio of a sine test, and the order of the measured and of each predicted response.
+
+    Parameters
+    ----------
+    rocking : xr.Dataset
+        Result of `rocking`.
+    predicted : mapping of str to xr.Dataset
+        Results of `predict` by model.
+    block : Block
+    frequency : float or None
+        As given in the campaign, Hz.
+
+    Returns
+    -------
+    sine : Sine
+        An order is text: "1" harmonic, "n" sub-harmonic 1/n, "irregular", or empty if unknown; the
+        attributes `response_order` and `response_order_reason` are the measured one's.
+    """
+    forcing = fit_forcing(rocking["elapsed"], rocking["base_acceleration"]) if "base_acceleration" in rocking else None
+    if forcing is None:
+        reason = (
+            f"The table's recorded motion along x has no stretch of {FEWEST_CYCLES} periods of an even amplitude, so "
+            "this sine test has no amplitude ratio and no order of response."
+        )
+        given = {} if frequency is None else {"frequency_ratio": ((), 2 * np.pi * frequency / block.p)}
+        return Sine(given, {"response_order": "", "response_order_reason": reason}, [warning("no steady sine", reason)])
+    result = Sine(_forcing_variables(forcing, block))
+    if frequency is not None and abs(forcing.frequency / frequency - 1) > FREQUENCY_TOLERANCE:
+        result.warnings.append(
+            warning(
+                "frequency",
+                f"The table moved at {forcing.frequency:.4g} Hz; the test's frequency is given as {frequency:g} Hz. "
+                "The recorded one is used: correct the test's `frequency`, or the recorder's sampling rate if that is "
+                "wrong.",
+            )
+        )
+    measured = _measured(rocking, forcing)
+    orders = [_text(_predicted(predicted[model], forcing, block)) for model in sorted(predicted)]
+    result.attributes = {"response_order": _text(measured), "response_order_reason": measured.reason}
+    result.variables |= {
+        "response_misfit": ("order", measured.misfit),
+        "impacts_per_cycle": ((), measured.impacts_per_cycle),
+        "predicted_response_order": ("model", np.array(orders, dtype=object)),
+    }
+    return result
+
+
+def _forcing_variables(forcing: Forcing, block: Block) -> dict[str, Any]:
+    scalars = {
+        "forcing_frequency": forcing.frequency,
+        "forcing_amplitude": forcing.amplitude,
+        "forcing_amplitude_spread": forcing.amplitude_spread,
+        "forcing_distortion": forcing.distortion,
+        "steady_start": forcing.start,
+        "steady_stop": forcing.stop,
+        "frequency_ratio": 2 * np.pi * forcing.frequency / block.p,
+        "amplitude_ratio": forcing.amplitude / block.uplift_acceleration,
+    }
+    return {name: ((), value) for name, value in scalars.items()}
+
+
+def _measured(rocking: xr.Dataset, forcing: Forcing) -> Response:
+    if "rocking_angle" not in rocking:
+        return Response(None, "No rocking angle was measured.")
+    threshold = float(rocking["noise_threshold"])
+    # The standard error of the angle also holds the transducers' drift, which is not noise: the excess stays small.
+    noise = min(float(np.nanmedian(rocking["rocking_angle_standard_error"])), threshold / 2)
+    return _response(rocking, forcing, threshold, noise)
+
+
+def _predicted(predicted: xr.Dataset, forcing: Forcing, block: Block) -> Response:
+    return _response(predicted, forcing, NO_ROCKING_RATIO * block.critical_angle, 0.0)
+
+
+def _response(motion: xr.Dataset, forcing: Forcing, threshold: float, noise: float) -> Response:
+    if motion.attrs["outcome"] == "overturned":
+        return Response(None, "The specimen overturned.")
+    if motion.attrs["outcome"] == "no-rocking":
+        return Response(None, "The specimen did not rock.")
+    return response_order(
+        motion["elapsed"],
+        motion["rocking_angle"],
+        forcing.frequency,
+        start=forcing.start,
+        stop=forcing.stop,
+        threshold=threshold,
+        noise=noise,
+    )
+
+
+def _text(response: Response) -> str:
+    return "" if response.order is None else str(response.order)

@@ -1,0 +1,160 @@
+"""The record of one test: what was measured, what each model predicts, and what its stages found."""
+
+from __future__ import annotations
+
+from math import isnan, nan
+from typing import Any, cast
+
+import numpy as np
+
+from colonnade.campaign import Campaign, Test
+from colonnade.campaign.summary import (
+    HistorySummary,
+    IdentifiedSummary,
+    Order,
+    Outcome,
+    PredictionSummary,
+    TestPrototype,
+    TestSummary,
+    Warned,
+)
+from colonnade.dynamics.similitude import at_prototype
+from colonnade.findings import in_order
+from colonnade.store.records.stored import FOREIGN, Stored
+
+COMPARED = ("nrmse", "horizon", "within_spread", "peak_rank", "overturning_probability")
+"""What the comparison of a model with the measured angle gives, by the names of its record."""
+
+SINE = {
+    "frequency": "forcing_frequency",
+    "frequency_ratio": "frequency_ratio",
+    "amplitude_ratio": "amplitude_ratio",
+    "impacts_per_cycle": "impacts_per_cycle",
+}
+"""What the comparison gives of a sine test: name in the record and in the result."""
+
+AT_PROTOTYPE = {"duration": "time", "frequency": "frequency", "peak_time": "time", "peak_slide": "length"}
+"""What is given at prototype scale too, and the kind of quantity by which it scales."""
+
+
+def record_of_test(campaign: Campaign, test: Test, stored: Stored) -> TestSummary:
+    """
+    Take the record of a test from its stored results.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    test : Test
+    stored : Stored
+        As `read_test` gives it.
+
+    Returns
+    -------
+    record : TestSummary
+        What is not known is None.
+    """
+    measured = _measured(test, stored)
+    reason = " ".join(f"{stage}: {text}" if stage else text for stage, text in stored.failures)
+    scale = campaign.specimens[test.specimen].scale
+    return TestSummary(
+        status=stored.status,
+        reason=reason or campaign.review(test.id).excluded or (FOREIGN if stored.is_foreign else None),
+        warnings=tuple(
+            Warned.of(found, explained=explained)
+            for found, explained in in_order(stored.findings, campaign.concerning(test.id))
+        ),
+        kind=test.kind,
+        specimen=test.specimen,
+        span=test.span,
+        observed_outcome=test.observed_outcome,
+        restitution=_identified(stored) if stored.has("restitution") else None,
+        prototype=_at_prototype(measured, scale) if scale is not None and stored.has("rocking") else None,
+        predicted={model: _predicted(stored, model) for model in stored.models("predict")},
+        **measured,
+    )
+
+
+def largest_motion(stored: Stored, name: str) -> float:
+    """Return the largest magnitude of a motion while the specimen stands, NaN if it was not measured."""
+    values, time = np.abs(stored.array("rocking", name)), stored.array("rocking", "elapsed")
+    fall = stored.value("rocking", "overturning_time")
+    standing = values[time <= (np.inf if isnan(fall) else fall)] if values.size else values
+    return float(np.nanmax(standing)) if np.isfinite(standing).any() else nan
+
+
+def driven_by(stored: Stored) -> str:
+    """Return the base motion that drives the predictions, empty if there is no prediction."""
+    return next(filter(None, (stored.text("predict", "driven_by", model) for model in stored.models("predict"))), "")
+
+
+def _measured(test: Test, stored: Stored) -> dict[str, Any]:
+    if not stored.has("rocking"):
+        return {}
+    time = stored.array("rocking", "elapsed")
+    return {
+        "outcome": stored.text("rocking", "outcome") or None,
+        "pga": stored.value("rocking", "peak_ground_acceleration"),
+        "duration": float(time[-1] - time[0]),
+        "peak_slide": largest_motion(stored, "slide"),
+        **(_peak(test, stored) if stored.has("rocking", "rocking_angle") else {}),
+        **(_sine(test, stored) if test.kind == "sine" and stored.has("compare") else {}),
+    }
+
+
+def _peak(test: Test, stored: Stored) -> dict[str, Any]:
+    """Give the peak that predictions are compared with; of a free vibration it is known once that is done."""
+    impacts = stored.datasets["rocking", None].sizes.get("impact", 0)
+    stage, before = ("compare", "measured_") if test.kind == "free-vibration" else ("rocking", "")
+    return {
+        "peak_ratio": stored.value(stage, f"{before}peak_ratio"),
+        "peak_time": stored.value(stage, f"{before}peak_time"),
+        "release_ratio": stored.value("compare", "release_ratio") if before else nan,
+        "impacts": int(impacts),
+    }
+
+
+def _sine(test: Test, stored: Stored) -> dict[str, Any]:
+    found: dict[str, Any] = {name: stored.value("compare", variable) for name, variable in SINE.items()}
+    if isnan(found["frequency"]) and test.frequency is not None:
+        found["frequency"] = test.frequency
+    return {
+        **found,
+        "order": _order(stored.text("compare", "response_order")),
+        "order_reason": stored.text("compare", "response_order_reason") or None,
+    }
+
+
+def _predicted(stored: Stored, model: str) -> PredictionSummary:
+    return PredictionSummary(
+        outcome=cast(Outcome, stored.text("predict", "outcome", model)),
+        peak_ratio=stored.value("predict", "peak_ratio", model),
+        order=_order(stored.by("model", "compare", "predicted_response_order").get(model, "")),
+        **{name: stored.compared(name, model) for name in COMPARED},
+    )
+
+
+def _order(text: str) -> Order:
+    if not text:
+        return None
+    return "irregular" if text == "irregular" else int(text)
+
+
+def _identified(stored: Stored) -> IdentifiedSummary:
+    ends = {"value": "", "low": "_low", "high": "_high"}
+    parts = {
+        name: stored.by("model", "restitution", f"restitution_history{end}")
+        for name, end in (ends | {"residual": "_residual"}).items()
+    }
+    return IdentifiedSummary(
+        **{name: stored.value("restitution", f"restitution{end}") for name, end in ends.items()},
+        reason=stored.text("restitution", "reason") or None,
+        whole_history={
+            model: HistorySummary(**{name: values[model] for name, values in parts.items()}) for model in parts["value"]
+        },
+    )
+
+
+def _at_prototype(measured: dict[str, Any], scale: float) -> TestPrototype:
+    return TestPrototype(
+        **{name: at_prototype(quantity, measured.get(name, nan), scale) for name, quantity in AT_PROTOTYPE.items()}
+    )

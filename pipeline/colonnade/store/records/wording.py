@@ -1,0 +1,159 @@
+"""Numbers and outcomes of a record in words; what is not known is a dash."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+
+from colonnade.campaign.summary import Order
+from colonnade.units import format_quantity, format_uncertain, from_si
+
+NOTHING = "–"
+
+
+def number(value: float | None, digits: int = 3) -> str:
+    """
+    Write a plain number with significant digits.
+
+    Examples
+    --------
+    >>> number(0.41234), number(float("nan")), number(None), number(12345.6)
+    ('0.412', '–', '–', '12300')
+    """
+    if value is None or not isfinite(value):
+        return NOTHING
+    text = f"{value:.{digits}g}"
+    return text if "e" not in text or abs(value) < 1e-4 else f"{float(text):.0f}"
+
+
+def signed(value: float) -> str:
+    """
+    Write a difference with its sign.
+
+    Examples
+    --------
+    >>> signed(0.0123), signed(-0.5), signed(float("nan"))
+    ('+0.012', '-0.5', '–')
+    """
+    return f"{value:+.2g}" if isfinite(value) else NOTHING
+
+
+def quantity(value: float | None, unit: str, digits: int = 3) -> str:
+    """
+    Write an SI value in a unit.
+
+    Examples
+    --------
+    >>> quantity(0.23202, "mm", 4), quantity(None, "mm")
+    ('232 mm', '–')
+    """
+    if value is None or not isfinite(value):
+        return NOTHING
+    if "e" in f"{from_si(value, unit):.{digits}g}":
+        return f"{number(from_si(value, unit), digits)} {unit}"
+    return format_quantity(value, unit, digits)
+
+
+def acceleration(value: float | None) -> str:
+    """
+    Write an acceleration in both units of the field.
+
+    Examples
+    --------
+    >>> acceleration(2.3)
+    '2.3 m/s² (0.235 g)'
+    """
+    if value is None or not isfinite(value):
+        return NOTHING
+    return f"{quantity(value, 'm/s²')} ({quantity(value, 'g')})"
+
+
+def interval(value: float | None, low: float | None, high: float | None, level: float | None) -> str:
+    """
+    Write a coefficient of restitution with the half-width of its interval.
+
+    Examples
+    --------
+    >>> interval(0.97608, 0.97528, 0.97688, 0.95)
+    '0.9761 ± 0.0008 (95 % interval)'
+    >>> interval(0.976, float("nan"), float("nan"), 0.95)
+    '0.976'
+    """
+    if value is None or not isfinite(value):
+        return NOTHING
+    if low is None or high is None or level is None or not isfinite(high - low):
+        return number(value, 4)
+    return f"{format_uncertain(value, (high - low) / 2)} ({100 * level:g} % interval)"
+
+
+def share(part: int, whole: int) -> str:
+    """
+    Write a part of a whole in per cent; what is there is never rounded to nothing.
+
+    Examples
+    --------
+    >>> share(3, 40), share(3, 60000), share(0, 10)
+    ('7.5 %', '< 0.01 %', '0 %')
+    """
+    if part == 0:
+        return "0 %"
+    percent = 100 * part / whole
+    return "< 0.01 %" if percent < 0.01 else f"{percent:.2g} %"
+
+
+def listed(names: Sequence[str], longest: int = 8) -> str:
+    """
+    List names, the first few of them where they are many.
+
+    Examples
+    --------
+    >>> listed(["a", "b"]), listed(list("abcdefgh"), longest=3)
+    ('a, b', 'a, b, c and 5 more')
+    """
+    if len(names) <= longest:
+        return ", ".join(names)
+    return f"{', '.join(names[:longest])} and {len(names) - longest} more"
+
+
+def order(known: Order) -> str:
+    """
+    Write the order of a response.
+
+    Examples
+    --------
+    >>> order(1), order(3), order("irregular"), order(None)
+    ('harmonic', '1/3', 'irregular', '')
+    """
+    if known is None or isinstance(known, str):
+        return known or ""
+    return "harmonic" if known == 1 else f"1/{known}"
+
+
+def count(amount: int, one: str, several: str = "") -> str:
+    """
+    Write a number of things.
+
+    Examples
+    --------
+    >>> count(1, "test"), count(3, "test"), count(0, "test")
+    ('1 test', '3 tests', 'no test')
+    """
+    if amount == 0:
+        return f"no {one}"
+    return f"{amount} {one if amount == 1 else several or one + 's'}"
+
+
+def agree(measured: str, predicted: str) -> bool | None:
+    """
+    Tell whether a predicted outcome is the measured (or observed) one; None where either is not known.
+
+    Examples
+    --------
+    >>> agree("rocking", "rocking"), agree("not-overturned", "overturned"), agree("", "rocking")
+    (True, False, None)
+    """
+    if not measured or not predicted:
+        return None
+    if measured == "not-overturned":
+        return predicted != "overturned"
+    return measured == predicted

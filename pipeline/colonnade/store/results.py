@@ -1,0 +1,165 @@
+"""The results of a campaign: their stages in order, the file that each is kept in, and which results a test has."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    from colonnade.campaign import Campaign, Test
+
+WITHOUT_PREDICTION = ("tilt", "other")
+"""Kinds of test that have no base motion to predict from."""
+
+
+@dataclass(frozen=True)
+class Stage:
+    """
+    A stage of the data's way.
+
+    Attributes
+    ----------
+    file : str
+        Where its result is within `processed`, without suffix, given the subject and the model.
+    summary : str
+        What its result holds, for the file's own description.
+    source : str
+        What the result was made from, as ACDD asks.
+    of : str
+        Whether its subject is a test or a specimen.
+    goes_with : str
+        Stage of `ASKED_FOR` with which a run comes here; empty if that is its own name. No run makes maps: they come
+        with the report, behind everything else.
+    """
+
+    file: str
+    summary: str
+    source: str = "recordings of a shake-table test, processed"
+    of: Literal["test", "specimen"] = "test"
+    goes_with: str = ""
+
+
+_ON_RECORDED_MOTION = "numerical model of a rocking block on a recorded base motion"
+
+STAGES = {
+    "ingest": Stage(
+        "tests/{subject}/recorded",
+        "Channels of a shake-table test as recorded and in SI, with quality flags.",
+        "recordings of a shake-table test",
+    ),
+    "condition": Stage(
+        "tests/{subject}/conditioned",
+        "Channels of a shake-table test on one uniform clock, de-spiked, low-pass filtered, zeroed at rest.",
+    ),
+    "rocking": Stage(
+        "tests/{subject}/rocking",
+        "Rocking angle of a free-standing specimen and motion of its base, from the conditioned transducers.",
+    ),
+    "restitution": Stage(
+        "tests/{subject}/restitution",
+        "Peaks of a free vibration and the coefficient of restitution identified from them.",
+    ),
+    "specimen": Stage(
+        "specimens/{subject}",
+        "Properties of a specimen and the coefficient of restitution of all its free vibrations together.",
+        of="specimen",
+        goes_with="restitution",
+    ),
+    "contact": Stage(
+        "contact/{subject}",
+        "Law of contact with which a specimen rocks freely with its restitution.",
+        "numerical model of a rocking block",
+        of="specimen",
+        goes_with="predict",
+    ),
+    "predict": Stage(
+        "tests/{subject}/predicted-{model}",
+        "Rocking angle of a model on the recorded base motion.",
+        _ON_RECORDED_MOTION,
+    ),
+    "ensemble": Stage(
+        "tests/{subject}/ensemble-{model}",
+        "Bands of a model on the recorded base motion, over what is not exactly known.",
+        f"{_ON_RECORDED_MOTION}, many times",
+    ),
+    "compare": Stage("tests/{subject}/compared", "Measured against predicted rocking, in numbers."),
+    "map": Stage(
+        "maps/{subject}-{model}",
+        "Outcomes of a rocking block over frequency and amplitude of its base motion, and the limits between them.",
+        "numerical model of a rocking block",
+        of="specimen",
+        goes_with="report",
+    ),
+    "responses": Stage(
+        "maps/{subject}-{model}-response",
+        "Steady responses of a rocking block over frequency and amplitude of its base motion.",
+        "numerical model of a rocking block",
+        of="specimen",
+        goes_with="report",
+    ),
+}
+"""In the order of the data's way."""
+
+ASKED_FOR = (*(name for name, stage in STAGES.items() if not stage.goes_with), "report")
+"""Stages by which a run is asked to start or to stop, in their order; the report comes last."""
+
+
+@dataclass(frozen=True, order=True)
+class ResultId:
+    """
+    What a result is of, and what made it.
+
+    Attributes
+    ----------
+    subject : str
+        Id of a test or a specimen.
+    stage : str
+        One of `STAGES`.
+    model : str or None
+        Of a stage that runs once for each model.
+
+    Examples
+    --------
+    >>> str(ResultId("span-2.0", "predict", "linear"))
+    'predict linear'
+    """
+
+    subject: str
+    stage: str
+    model: str | None = None
+
+    def __str__(self) -> str:
+        """Name the result among those of its subject."""
+        return f"{self.stage} {self.model}" if self.model else self.stage
+
+    @property
+    def is_of_specimen(self) -> bool:
+        """Whether it is about a specimen rather than a test."""
+        return STAGES[self.stage].of == "specimen"
+
+    @property
+    def file(self) -> str:
+        """Its file within the folder of results."""
+        return STAGES[self.stage].file.format(subject=self.subject, model=self.model) + ".nc"
+
+    @property
+    def order(self) -> int:
+        """Place in `ASKED_FOR` of the stage that it goes with."""
+        return ASKED_FOR.index(STAGES[self.stage].goes_with or self.stage)
+
+
+def models_of(campaign: Campaign, test: Test) -> tuple[str, ...]:
+    """Models that a test is predicted by."""
+    return () if test.kind in WITHOUT_PREDICTION else campaign.processing.predict.models
+
+
+def results_of(campaign: Campaign, test: Test) -> list[ResultId]:
+    """Results that a test has if nothing fails, in the order in which they are made."""
+    models = models_of(campaign, test)
+    repeated = [model for model in models if campaign.processing.predict.members(model) > 0]
+    found = [ResultId(test.id, stage) for stage in ("ingest", "condition", "rocking")]
+    if test.kind == "free-vibration":
+        found.append(ResultId(test.id, "restitution"))
+    found += [ResultId(test.id, "predict", model) for model in models]
+    found += [ResultId(test.id, "ensemble", model) for model in repeated]
+    return [*found, ResultId(test.id, "compare")]

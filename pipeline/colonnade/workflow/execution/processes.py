@@ -1,0 +1,104 @@
+"""Chains in several processes, none of which outlives the run."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Iterator, Mapping, Sequence
+
+from colonnade.errors import ColonnadeError
+from colonnade.interruption import expect_none
+from colonnade.workflow.chain import Chain, lost, walk
+from colonnade.workflow.execution.cluster import AHEAD, Tell
+from colonnade.workflow.execution.spreading import on_processes, spread, stopped
+from colonnade.workflow.results import StageRun
+
+
+def execute(
+    chains: Sequence[Chain],
+    workers: int | None,
+    scheduler: str | None = None,
+    tell: Tell = lambda sentence: None,
+) -> Iterator[list[StageRun]]:
+    """
+    Execute chains that do not depend on each other.
+
+    Parameters
+    ----------
+    chains : sequence of Chain
+    workers : int or None
+        Processes; one a core by default. With one, all is done in this process.
+    scheduler : str or None
+        Address of a running Dask scheduler whose workers are used instead; they share the campaign's folder.
+    tell : callable, optional
+        Told of workers that were stopped.
+
+    Yields
+    ------
+    ended : list of StageRun
+        Of one chain, in the order in which they end.
+
+    Raises
+    ------
+    ColonnadeError
+        If the cluster is not there, runs other code, does not see the folder or ends before the work does.
+
+    Notes
+    -----
+    Where the system stops a worker, what may have been its chain is tried again alone; one that loses its worker again
+    has failed, and the others go on.
+    """
+    if scheduler is not None:
+        yield from spread(_walk_there, chains, scheduler=scheduler, tell=tell)
+        return
+    import joblib
+
+    count = min(workers or joblib.cpu_count(), len(chains))
+    if count <= 1:
+        for chain in chains:
+            expect_none()
+            yield walk(chain)
+        return
+    from joblib.externals.loky.process_executor import BrokenProcessPool
+
+    waiting = dict(enumerate(chains))
+    while waiting:
+        try:
+            for number, runs in _in_workers(waiting, count):
+                del waiting[number]
+                yield runs
+        except BrokenProcessPool as error:
+            suspects = list(waiting)[: AHEAD * count]
+            tell(
+                f"{stopped(error)} by the system, most often because memory ran out. One of these tests was being "
+                f"worked on, and each was tried again alone: {', '.join(waiting[number].test for number in suspects)}."
+            )
+            for number in suspects:
+                chain = waiting.pop(number)
+                try:
+                    yield from (runs for _, runs in _in_workers({number: chain}, count))
+                except BrokenProcessPool:
+                    yield [lost(chain)]
+
+
+def _in_workers(chains: Mapping[int, Chain], count: int) -> Iterator[tuple[int, list[StageRun]]]:
+    yield from on_processes(_in_worker, chains.items(), count)
+
+
+def _in_worker(numbered: tuple[int, Chain]) -> tuple[int, list[StageRun]]:
+    number, chain = numbered
+    return number, walk(chain)
+
+
+def _walk_there(chain: Chain) -> list[StageRun]:
+    """Walk a chain on a worker of a cluster, which has to see the campaign's folder."""
+    if not chain.campaign.path.is_file():
+        raise ColonnadeError(
+            f"{chain.campaign.path}: a worker on {platform.node()} does not see this file. A folder that all of the "
+            "cluster's workers share under the same path was expected; put the campaign there."
+        )
+    if not chain.layout.processed.is_dir():
+        raise ColonnadeError(
+            f"{chain.layout.processed}: a worker on {platform.node()} does not see this folder of results. A folder "
+            "that all of the cluster's workers share under the same path was expected; give another one with --results."
+        )
+    return walk(chain)

@@ -1,0 +1,126 @@
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from colonnade.arrays import Array
+from colonnade.dynamics.contact.body import ContactBody
+from colonnade.dynamics.contact.elastic.assembly import ElasticBody, assemble, rigid_modes
+from colonnade.dynamics.contact.elastic.mesh import prism_mesh, round_mesh
+from colonnade.dynamics.contact.elastic.reduction import (
+    FOLLOWED,
+    keep_modes,
+    keep_modes_for_step,
+    reduce_body,
+    rigid_on_nodes,
+)
+from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.simulate import simulate
+from colonnade.dynamics.contact.stability import longest_step
+
+PRISM = assemble(prism_mesh(0.086, 0.086, 0.456, (2, 2, 6)), 26.10)
+CONE = assemble(round_mesh(0.097, 0.0755, 0.480, (2, 1, 4)), 21.94)
+BODIES = pytest.mark.parametrize("body", [PRISM, CONE], ids=["prism", "cone"])
+
+
+def point_flexibility(body: ContactBody) -> Array:
+    """Displacement of each base node under a unit force on itself, by the modes alone, m/N, shape (n, 3)."""
+    return np.asarray(np.einsum("nkm,m->nk", body.modes**2, body.frequencies**-2.0))
+
+
+def all_modes(body: ElasticBody) -> tuple[Array, Array]:
+    """Every elastic mode of the mesh by a dense solver: shapes at the base (b, 3, m) and frequencies."""
+    squares, modes = eigh(body.stiffness.toarray(), np.diag(np.repeat(body.node_mass, 3)))
+    return modes[:, 6:].reshape(-1, 3, len(squares) - 6)[body.base], np.sqrt(squares[6:])
+
+
+@BODIES
+def test_vibration_modes_are_the_meshs_own(body: ElasticBody) -> None:
+    _, frequencies = all_modes(body)
+    reduced = reduce_body(body, vibration_modes=12)
+    assert reduced.frequencies[:12] == pytest.approx(frequencies[:12], rel=1e-8)
+    assert reduced.frequencies[-1] <= frequencies[-1] * (1 + 1e-8)
+    assert (np.diff(reduced.frequencies) >= 0.0).all()
+
+
+@BODIES
+@pytest.mark.parametrize("vibration_modes", [0, 6, 20])
+def test_with_attachment_modes_the_base_is_as_flexible_as_the_mesh(body: ElasticBody, vibration_modes: int) -> None:
+    shapes, frequencies = all_modes(body)
+    exact = np.einsum("ikm,jlm,m->ikjl", shapes, shapes, frequencies**-2.0)
+    reduced = reduce_body(body, vibration_modes=vibration_modes)
+    found = np.einsum("ikm,jlm,m->ikjl", reduced.modes, reduced.modes, reduced.frequencies**-2.0)
+    assert found == pytest.approx(exact, abs=1e-6 * exact.max())
+    assert point_flexibility(reduced) == pytest.approx(np.einsum("ikik->ik", exact), rel=1e-6)
+
+
+def test_without_attachment_modes_the_base_is_too_stiff_and_slowly_gets_softer() -> None:
+    exact = point_flexibility(reduce_body(PRISM))[:, 2]
+    found = [
+        point_flexibility(reduce_body(PRISM, vibration_modes=count, attachment=False))[:, 2] / exact
+        for count in (10, 20, 40, 80)
+    ]
+    assert all((less <= more).all() and (more < 1.0).all() for less, more in pairwise(found))
+    assert found[0].max() < 0.5
+
+
+def test_vibration_and_attachment_modes_together_are_a_whole_basis_where_the_mesh_is_small() -> None:
+    body = assemble(prism_mesh(0.1, 0.12, 0.4, (1, 1, 2)), 10.0)
+    reduced = reduce_body(body, vibration_modes=28)
+    elastic = reduced.modes.reshape(12, -1)
+    rigid = rigid_modes(body.points, body.node_mass).reshape(-1, 3, 6)[body.base].reshape(12, 6)
+    # All mass-normalised modes, rigid ones with them, add up to the inverse of the mass.
+    assert elastic @ elastic.T + rigid @ rigid.T == pytest.approx(np.diag(np.repeat(1 / body.node_mass[body.base], 3)))
+
+
+def test_dropping_modes_keeps_the_low_ones_and_ends_at_the_rigid_body() -> None:
+    reduced = reduce_body(PRISM)
+    limit = 2 / 1e-5
+    low = keep_modes(reduced, limit)
+    assert 0 < low.frequencies.size < reduced.frequencies.size
+    assert low.frequencies.max() <= limit
+    assert low.modes == pytest.approx(reduced.modes[:, :, : low.frequencies.size])
+    assert keep_modes(reduced, np.inf) is reduced
+    rigid = keep_modes(reduced, 1.0)
+    assert rigid.frequencies.size == 0
+    assert rigid.nodes == pytest.approx(rigid_on_nodes(PRISM).nodes)
+
+
+def test_a_step_of_ten_microseconds_keeps_modes_that_the_engine_advances_with_closed_energy() -> None:
+    reduced = reduce_body(PRISM)
+    law = ContactLaw.stiff(reduced, 9.81)
+    kept = keep_modes_for_step(reduced, law, 1e-5)
+    count = kept.frequencies.size
+    assert count >= 4
+    assert longest_step(kept, law) >= 1e-5 / FOLLOWED
+    assert longest_step(keep_modes(reduced, reduced.frequencies[count + 1]), law) < 1e-5 / FOLLOWED
+    history = simulate(kept, law=law, theta0=0.05, duration=0.3, step=1e-5)
+    assert history.impact_times.size == 1
+    assert history.energies.closes
+
+
+def test_a_step_that_not_even_the_rigid_body_allows_is_refused() -> None:
+    reduced = reduce_body(PRISM, vibration_modes=6, attachment=False)
+    with pytest.raises(ValueError, match="even the rigid body on this contact needs one of at most"):
+        keep_modes_for_step(reduced, ContactLaw.stiff(reduced, 9.81), 1e-2)
+
+
+def test_damping_of_the_modes_grows_with_their_frequency() -> None:
+    reduced = reduce_body(PRISM)
+    assert reduced.modal_damping.min() >= 0.0
+    assert reduced.modal_damping[:10].max() < 0.2 * reduced.modal_damping.max()
+    assert reduced.modal_damping.max() < 0.06
+
+
+def test_the_same_mesh_gives_the_same_modes() -> None:
+    once, again = reduce_body(CONE), reduce_body(CONE)
+    assert (once.modes == again.modes).all()
+
+
+@pytest.mark.parametrize("count", [-1, 3 * len(CONE.points) - 6])
+def test_an_impossible_number_of_modes_is_refused(count: int) -> None:
+    with pytest.raises(ValueError, match="a number from 0 to"):
+        reduce_body(CONE, vibration_modes=count)

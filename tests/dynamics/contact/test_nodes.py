@@ -1,0 +1,94 @@
+"""Rigid bodies on nodes: areas, inertias, and the plane block found again in the body."""
+
+import math
+
+import numpy as np
+import pytest
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.contact.nodes import rigid_body
+from colonnade.dynamics.contact.simulate import plane_block
+
+PRISM = Block.prism(width=0.2, depth=0.3, height=0.9, mass=10.0)
+CYLINDER = Block.cylinder(diameter=0.2, height=0.9, mass=10.0)
+CONE = Block.cone(base_diameter=0.2, top_diameter=0.1, height=0.9, mass=10.0)
+MEASURED = Block.measured(mass=80.0, pole_distance=0.61, critical_angle=0.21, inertia=41.2)
+BLOCKS = pytest.mark.parametrize(
+    "block", [PRISM, CYLINDER, CONE, MEASURED], ids=["prism", "cylinder", "cone", "measured"]
+)
+
+
+@BLOCKS
+def test_the_body_rocks_in_the_plane_as_its_block_does(block):
+    body = rigid_body(block)
+    plane = plane_block(body, block.gravity)
+    for name in ("critical_angle", "pole_distance", "inertia", "p", "restitution"):
+        assert getattr(plane, name) == pytest.approx(getattr(block, name), rel=1e-12)
+
+
+@BLOCKS
+def test_nodes_share_the_area_and_the_mass_of_the_base_about_its_centre(block):
+    body = rigid_body(block)
+    area = math.pi * 0.1**2 if block in (CYLINDER, CONE) else 0.06 if block is PRISM else body.node_area.sum()
+    assert body.node_area.sum() == pytest.approx(area)
+    assert body.node_mass.sum() == pytest.approx(block.mass)
+    points = body.nodes[body.ring_radii == 0.0]
+    np.testing.assert_allclose(body.node_area[body.ring_radii == 0.0] @ points[:, :2], 0.0, atol=1e-12)
+    assert body.frequencies.size == 0
+
+
+@pytest.mark.parametrize("block", [CYLINDER, CONE], ids=["cylinder", "cone"])
+def test_a_round_base_stands_on_whole_rings_with_the_area_and_mass_of_a_ring_of_nodes(block):
+    body, nodes = rigid_body(block), rigid_body(block, rings=(4, 24))
+    assert body.ring_radii.tolist() == pytest.approx([0.025, 0.05, 0.075, 0.1])
+    np.testing.assert_allclose(body.node_area, nodes.node_area.reshape(4, 24).sum(axis=1), rtol=1e-12)
+    np.testing.assert_allclose(body.node_mass, nodes.node_mass.reshape(4, 24).sum(axis=1), rtol=1e-12)
+    assert body.half_width == nodes.half_width
+    assert "4 whole rings" in body.description
+    assert not nodes.has_rings
+
+
+def test_inertias_of_prism_cylinder_and_cone():
+    np.testing.assert_allclose(rigid_body(PRISM).inertia, 10 / 12 * np.array([0.09 + 0.81, 0.04 + 0.81, 0.04 + 0.09]))
+    np.testing.assert_allclose(rigid_body(CYLINDER).inertia, [10 * (0.0025 + 0.0675)] * 2 + [10 * 0.005])
+    # A whole cone, by its known formulas: 3/80 m (4 r² + h²), 3/10 m r².
+    cone = Block.cone(base_diameter=0.2, top_diameter=1e-9, height=0.9, mass=10.0)
+    transverse = 3 / 80 * 10 * (4 * 0.01 + 0.81)
+    np.testing.assert_allclose(rigid_body(cone).inertia, [transverse, transverse, 0.3 * 10 * 0.01], rtol=1e-7)
+
+
+def test_measured_values_that_replace_dimensions_are_those_of_the_body():
+    body = rigid_body(CYLINDER.override(critical_angle=0.2, inertia=3.0))
+    assert body.half_width == pytest.approx(CYLINDER.pole_distance * math.sin(0.2))
+    assert body.inertia[0] == body.inertia[1] == pytest.approx(3.0 - 10.0 * CYLINDER.pole_distance**2)
+
+
+def test_unequal_sides_have_their_own_half_widths():
+    lopsided = Block.measured(mass=80.0, pole_distance=(0.61, 0.60), critical_angle=(0.21, 0.15), inertia=(41.2, 40.0))
+    x = rigid_body(lopsided).nodes[:, 0]
+    assert -x.min() == pytest.approx(lopsided.negative.half_width)
+    assert x.max() == pytest.approx(lopsided.positive.half_width)
+
+
+def test_a_measured_block_says_what_was_taken_for_its_depth():
+    body = rigid_body(MEASURED)
+    assert "as deep as wide" in body.description
+    assert np.ptp(body.nodes[:, 1]) == pytest.approx(np.ptp(body.nodes[:, 0]))
+
+
+@pytest.mark.parametrize(
+    ("block", "options", "message"),
+    [
+        (PRISM, {"grid": (1, 5)}, r"grid is \(1, 5\)"),
+        (CYLINDER, {"rings": (2, 2)}, r"rings is \(2, 2\)"),
+        (
+            Block.measured(mass=80.0, pole_distance=0.61, critical_angle=0.21, inertia=80.0 * 0.61**2),
+            {},
+            "I₀ − m R² is",
+        ),
+    ],
+    ids=["one row", "two nodes round", "inertia too small"],
+)
+def test_a_base_that_cannot_be_is_refused(block, options, message):
+    with pytest.raises(ValueError, match=message):
+        rigid_body(block, **options)

@@ -1,0 +1,133 @@
+"""Machine code is kept between processes, follows every source that it is made of, and needs no folder."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numba
+import pytest
+
+from colonnade.dynamics import kernel
+
+CALLEE = """
+from colonnade.dynamics.kernel import kernel
+from colonnade.dynamics.number import FACTOR
+
+@kernel
+def scaled(x):
+    return FACTOR * x
+"""
+
+CALLER = """
+from colonnade.dynamics.callee import scaled
+from colonnade.dynamics.kernel import kernel
+
+@kernel
+def raised(x):
+    return scaled(x) + 1.0
+"""
+
+ASKED = """
+from colonnade.dynamics.caller import raised
+value = raised(2.0)
+print(value, sum(raised.stats.cache_hits.values()), sum(raised.stats.cache_misses.values()))
+"""
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A package of two kernels in two files, a constant in a third, and the house's own `kernel`."""
+    folder = tmp_path / "source" / "colonnade" / "dynamics"
+    folder.mkdir(parents=True)
+    (folder.parent / "__init__.py").touch()
+    (folder / "__init__.py").touch()
+    shutil.copy(kernel.__file__, folder)
+    (folder / "callee.py").write_text(CALLEE)
+    (folder / "caller.py").write_text(CALLER)
+    (folder / "number.py").write_text("FACTOR = 3.0\n")
+    return folder
+
+
+def asked(package: Path, **environment: str) -> tuple[float, int, int]:
+    """Value, cache hits and misses in a process of its own."""
+    code = f"import sys; sys.path.insert(0, {str(package.parents[1])!r}){ASKED}"
+    plain = {key: value for key, value in os.environ.items() if key not in ("NUMBA_CACHE_DIR", "PYTHONPATH")}
+    done = subprocess.run(
+        [sys.executable, "-c", code], env={**plain, **environment}, capture_output=True, text=True, check=True
+    )
+    value, hits, misses = done.stdout.split()
+    return float(value), int(hits), int(misses)
+
+
+def folders(place: Path) -> list[Path]:
+    return sorted(place.glob(kernel.FOLDER + "*"))
+
+
+def test_kept_machine_code_follows_every_source_that_it_is_made_of(package):
+    assert asked(package) == (7.0, 0, 1)
+    assert asked(package) == (7.0, 1, 0)
+    (package / "callee.py").write_text(CALLEE.replace("FACTOR * x", "FACTOR * x * x"))
+    assert asked(package) == (13.0, 0, 1)
+    (package / "number.py").write_text("FACTOR = 1.0\n")
+    assert asked(package) == (5.0, 0, 1)
+    (package / "other.py").write_text("not_in_a_kernel = 1\n")
+    assert asked(package) == (5.0, 1, 0)
+    assert len(folders(package / "__pycache__")) == 3
+
+
+def test_without_any_folder_each_process_compiles(package, tmp_path):
+    (package / "__pycache__").touch()  # a file, so that nothing can be put there
+    (tmp_path / "file").touch()
+    nowhere = str(tmp_path / "file" / "inside")
+    assert asked(package, NUMBA_CACHE_DIR=nowhere, XDG_CACHE_HOME=nowhere) == (7.0, 0, 1)
+    assert not folders(tmp_path)
+
+
+def found(monkeypatch: pytest.MonkeyPatch, *places: Path) -> Path | None:
+    monkeypatch.setattr(kernel, "_places", lambda: iter(places))
+    return kernel._cache_folder.__wrapped__()
+
+
+def test_the_first_place_that_can_be_written_is_used(monkeypatch, tmp_path):
+    (tmp_path / "file").touch()
+    first, second = tmp_path / "file" / "inside", tmp_path / "second"
+    assert found(monkeypatch, first, second) == folders(second)[0]
+    assert found(monkeypatch, first) is None
+
+
+def test_the_users_folder_comes_before_the_package_and_that_before_the_home(monkeypatch, tmp_path):
+    monkeypatch.setattr("numba.config.CACHE_DIR", str(tmp_path))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "home"))
+    assert list(kernel._places()) == [
+        tmp_path,
+        Path(kernel.__file__).parent / "__pycache__",
+        tmp_path / "home" / "colonnade",
+    ]
+
+
+def test_folders_unused_for_long_go_when_sources_change(monkeypatch, tmp_path):
+    long_unused, recent = tmp_path / f"{kernel.FOLDER}a", tmp_path / f"{kernel.FOLDER}b"
+    for folder, age in ((long_unused, 1.1 * kernel.KEPT), (recent, 0.5 * kernel.KEPT)):
+        (folder / "inside").mkdir(parents=True)
+        os.utime(folder, (time.time() - age,) * 2)
+    found(monkeypatch, tmp_path)
+    assert not long_unused.exists()
+    assert recent.exists()
+
+
+def test_a_folder_in_use_is_young_again(monkeypatch, tmp_path):
+    folder = found(monkeypatch, tmp_path)
+    os.utime(folder, (0.0, 0.0))
+    assert found(monkeypatch, tmp_path) == folder
+    assert time.time() - folder.stat().st_mtime < kernel.KEPT
+
+
+def test_other_packages_keep_their_setting(monkeypatch):
+    monkeypatch.setattr("numba.config.CACHE_DIR", "theirs")
+    kernel.kernel(lambda x: x)
+    assert numba.config.CACHE_DIR == "theirs"

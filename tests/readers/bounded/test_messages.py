@@ -1,0 +1,68 @@
+"""What is said between the two processes comes through whole, and what is no answer is refused."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from datetime import UTC, datetime
+from pathlib import Path
+from tempfile import TemporaryFile
+
+import numpy as np
+import pytest
+
+from colonnade.readers.bounded import messages
+from colonnade.readers.recording import RecordedChannel, Recording
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        b"",
+        b"{}",
+        b"[]\n",
+        b'{"columns": [{"name": 1}]}\n',
+        b'{"sizes": [-1]}\n',
+        b'{"sizes": [1000000]}\n',
+        b'{"sizes": [2]}\n12345678',
+        b'{"surprise": 1}\n',
+        b"\x80\x04\x95\n",
+    ],
+)
+def test_an_answer_that_is_none_is_refused(tmp_path: Path, answer: bytes) -> None:
+    path = tmp_path / "answer"
+    path.write_bytes(answer)
+    with path.open("rb") as stream, pytest.raises((messages.BrokenAnswerError, messages.EndedError)):
+        messages.receive(stream, 1000)
+
+
+def test_an_answer_whose_parts_do_not_fit_is_refused() -> None:
+    column = {"name": "a", "unit": None, "heading": "a", "is_clock": False, "values": 0, "time": 1}
+    answer = messages.Answer.model_validate({"columns": [column], "sizes": [2, 3]})
+    for arrays in ([np.zeros(2)], [np.zeros(2), np.zeros(3)]):
+        with pytest.raises(messages.BrokenAnswerError):
+            messages.recording_of(Path("r"), answer, arrays)
+
+
+def test_all_that_a_recording_holds_comes_through() -> None:
+    values, time = np.arange(3.0), np.arange(3) / 7
+    channels = (
+        RecordedChannel("t", "s", time, time, "t [s]", is_clock=True),
+        RecordedChannel("top", None, np.array([1.0, np.nan, -0.0]), time),
+        RecordedChannel("none", "mm", np.empty(0), None),
+        RecordedChannel("\udcff", "µm", values, time),
+    )
+    start = datetime(2013, 4, 26, 10, 15, 0, 250000, UTC)
+    whole = Recording(Path("r"), "odd", channels, start, ("a",), ("b",), hint="c", left_out=(("d", "e"),))
+    assert {field.name for field in fields(Recording)} <= {*messages.Answer.model_fields, "path", "channels"}
+    with TemporaryFile() as stream:
+        messages.send(stream, *messages.told(whole))
+        stream.seek(0)
+        back = messages.recording_of(Path("r"), *messages.receive(stream, 1000))
+    for field in fields(Recording):
+        if field.name != "channels":
+            assert getattr(back, field.name) == getattr(whole, field.name)
+    for now, then in zip(back.channels[:3], channels[:3], strict=True):
+        np.testing.assert_array_equal(now.values, then.values)
+        assert (now.name, now.unit, now.heading, now.is_clock) == (then.name, then.unit, then.heading, then.is_clock)
+    assert back.channels[0].time is back.channels[1].time  # sent once
+    assert back.channels[3].name == "?"

@@ -1,0 +1,225 @@
+"""What a stranger's file can do to its reader stays in the bounded process, fails that file alone, and has a name."""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.bounded import bounds, landlock, messages, process
+from colonnade.readers.recording import Recording
+from colonnade.readers.registry import formats, read
+
+on_linux = pytest.mark.skipif(sys.platform != "linux", reason="only Linux binds a process so far")
+with_landlock = pytest.mark.skipif(not landlock.version(), reason="this kernel has no Landlock")
+
+Deed = Callable[..., Recording]
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A folder in which a hostile format is installed as a package of its own."""
+    folder = tmp_path_factory.mktemp("packages")
+    (folder / "hostile_format.py").write_bytes((Path(__file__).parents[1] / "hostile_format.py").read_bytes())
+    described = folder / "hostile_format-1.dist-info"
+    described.mkdir()
+    (described / "METADATA").write_text("Metadata-Version: 2.1\nName: hostile_format\nVersion: 1\n")
+    (described / "entry_points.txt").write_text("[colonnade.formats]\nhostile = hostile_format:FORMAT\n")
+    sys.path.insert(0, str(folder))
+    formats.cache_clear()
+    process.end()
+    yield folder
+    sys.path.remove(str(folder))
+    formats.cache_clear()
+    process.end()
+
+
+@pytest.fixture
+def do(installed: Path, tmp_path: Path) -> Deed:
+    """Read a file of a campaign whose reader then does a deed to a victim."""
+    folder = tmp_path / "campaign"
+    folder.mkdir()
+    path = folder / "free-01.hostile"
+    path.write_bytes(bytes(1000))
+
+    def read_it(deed: str = "", victim: object = "") -> Recording:
+        return read(path, options={"deed": deed, "victim": str(victim)}, within=folder)
+
+    return read_it
+
+
+def came_of(recording: Recording) -> float:
+    return float(recording.channels[0].values[0])
+
+
+def test_one_process_serves_all_files_and_each_is_read_in_a_copy(do: Deed) -> None:
+    (first, server), (second, again) = (do().channels[0].values for _ in range(2))
+    assert os.getpid() not in (first, server)
+    assert server == again
+    if sys.platform == "linux":
+        assert len({first, second, server}) == 3
+
+
+@pytest.mark.parametrize(("deed", "name"), [("crash", "SIGSEGV"), ("abort", "SIGABRT")])
+def test_a_crash_fails_its_own_file_alone(do: Deed, deed: str, name: str) -> None:
+    with pytest.raises(ReadError, match=rf'free-01.hostile: what reads "hostile" crashed on it \({name}\)') as crash:
+        do(deed)
+    assert crash.value.__cause__ is None  # kept against the file
+    server = do().channels[0].values[1]
+    with pytest.raises(ReadError):
+        do(deed)
+    if sys.platform == "linux":
+        assert do().channels[0].values[1] == server  # only the copy was lost
+
+
+@on_linux
+def test_what_swells_is_stopped_at_its_bound(do: Deed, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(bounds, "MEMORY", 200_000_000)
+    with pytest.raises(ReadError, match=r"free-01.hostile: reading it takes more than 200 MB of memory"):
+        do("swell")
+    assert came_of(do("swell_natively")) == 0
+    monkeypatch.undo()
+    assert came_of(do("swell")) == 1e8  # which is none of a bound's business
+
+
+@on_linux
+def test_what_does_not_end_is_stopped(do: Deed, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(bounds, "SECONDS", 1)
+    monkeypatch.setattr(bounds, "PATIENCE", 100)
+    with pytest.raises(ReadError, match=r"free-01.hostile: reading it was stopped after 1 s of processor time"):
+        do("spin")
+    monkeypatch.setattr(bounds, "PATIENCE", 1.5)
+    with pytest.raises(ReadError, match=r"free-01.hostile: reading it was stopped after 2 s") as late:
+        do("sleep")
+    assert isinstance(late.value.__cause__, OSError)  # the machine may have been busy: the next run tries again
+    assert do().channels
+
+
+@pytest.mark.parametrize("deed", ["look", "write", "remove", "spawn", "unpickle", "call"])
+@on_linux
+def test_a_reader_can_only_read_and_only_files_of_the_campaign(do: Deed, tmp_path: Path, deed: str) -> None:
+    victim = tmp_path / "victim"
+    if deed in ("look", "remove"):
+        victim.write_text("secret")
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        where = server.getsockname()[1] if deed == "call" else victim
+        with pytest.raises(ReadError, match=r'free-01.hostile: it cannot be read as "hostile" \(ForbiddenError: .*'):
+            do(deed, where)
+    assert victim.exists() == (deed in ("look", "remove"))
+
+
+@with_landlock
+@pytest.mark.parametrize("deed", ["look_natively", "write_natively", "call_natively", "spawn_natively"])
+def test_code_that_goes_round_python_is_held_by_the_kernel(do: Deed, tmp_path: Path, deed: str) -> None:
+    victim = tmp_path / "victim"
+    if deed == "look_natively":
+        victim.write_text("secret")
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        came = came_of(do(deed, server.getsockname()[1] if deed == "call_natively" else victim))
+    assert came < 0 or (deed == "spawn_natively" and came != 0)
+    assert victim.exists() == (deed == "look_natively")
+
+
+def test_other_files_of_the_campaign_may_be_read_and_not_written(do: Deed, tmp_path: Path) -> None:
+    beside = tmp_path / "campaign" / "free-01.values"
+    beside.write_bytes(bytes(17))
+    assert came_of(do("look", beside)) == 17
+    with pytest.raises(ReadError, match="writing a file was refused"):
+        do("write", beside)
+
+
+def test_a_reader_that_lies_is_not_believed(do: Deed) -> None:
+    with pytest.raises(ReadError, match=r'free-01.hostile: what reads "hostile" crashed on it'):
+        do("lie")
+    assert do().channels
+
+
+def test_what_a_library_prints_is_not_taken_for_an_answer(do: Deed) -> None:
+    assert came_of(do("chatter")) == 0
+
+
+SCRIPT = """
+import sys
+from pathlib import Path
+from colonnade.readers.registry import read
+sys.path.insert(0, sys.argv[1])
+path = Path(sys.argv[2])
+print(int(read(path).channels[0].values[1]), flush=True)
+if len(sys.argv) > 3:
+    read(path, options={"deed": sys.argv[3]})
+"""
+
+
+def is_alive(pid: int) -> bool:
+    try:
+        state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return False
+    return state != "Z"
+
+
+@on_linux
+@pytest.mark.parametrize("deed", [None, "sleep"], ids=["in its end", "killed while it waits for a file"])
+def test_the_process_does_not_outlive_the_one_that_asks(installed: Path, tmp_path: Path, deed: str | None) -> None:
+    path = tmp_path / "free-01.hostile"
+    path.write_bytes(b"1")
+    script = [sys.executable, "-c", SCRIPT, str(installed), str(path), *([deed] if deed else [])]
+    asking = subprocess.Popen(script, stdout=subprocess.PIPE, text=True)
+    assert asking.stdout is not None
+    server = int(asking.stdout.readline())
+    if deed:
+        time.sleep(0.5)
+        assert is_alive(server)
+        asking.send_signal(signal.SIGKILL)
+    asking.communicate(timeout=60)
+    ends = time.monotonic() + 10
+    while is_alive(server) and time.monotonic() < ends:
+        time.sleep(0.05)
+    assert not is_alive(server)
+
+
+def _read_in_a_daemon(path: str, found: multiprocessing.SimpleQueue[float]) -> None:
+    found.put(came_of(read(Path(path))))
+
+
+@on_linux
+def test_a_worker_that_may_have_no_children_of_multiprocessing_reads_too(do: Deed, tmp_path: Path) -> None:
+    assert do().channels  # which a fork must not go on asking
+    context = multiprocessing.get_context("fork")
+    found: multiprocessing.SimpleQueue[float] = context.SimpleQueue()
+    where = str(tmp_path / "campaign" / "free-01.hostile")
+    worker = context.Process(target=_read_in_a_daemon, args=(where, found), daemon=True)
+    worker.start()
+    worker.join(60)
+    assert worker.exitcode == 0
+    assert found.get() > 0
+    assert do().channels
+
+
+def test_a_system_without_safe_copies_reads_in_the_process_itself(installed: Path, tmp_path: Path) -> None:
+    path = tmp_path / "free-01.hostile"
+    path.write_bytes(b"1")
+    request = messages.Request("recording", str(path), str(tmp_path), "hostile", {}, None, bounds.bounds_of(path))
+    serve = (
+        "import sys; sys.path.insert(0, sys.argv[1]); from colonnade.readers.bounded import server; "
+        "server.serve(sys.stdin.buffer, sys.stdout.buffer, server.in_place)"
+    )
+    elsewhere = tmp_path.parent / f"{tmp_path.name}-secret"
+    elsewhere.write_text("secret")
+    deed = replace(request, options={"deed": "look", "victim": str(elsewhere)})
+    lines = request.line() + deed.line() + request.line()
+    told = subprocess.run([sys.executable, "-c", serve, str(installed)], input=lines, capture_output=True, check=True)
+    first, refused, last = (part.split(b"\n", 1)[0] for part in told.stdout.split(messages.BEGUN)[1:])
+    assert json.loads(first)["sizes"] == json.loads(last)["sizes"] == [2]
+    assert "outside the campaign's folder" in json.loads(refused)["refusal"]

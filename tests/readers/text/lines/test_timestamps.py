@@ -1,0 +1,26 @@
+"""Timestamps are seconds from the first of them."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+import numpy as np
+import pandas as pd
+
+from colonnade.readers.text.lines.timestamps import Timestamps, past_midnight
+
+
+def test_pieces_count_on_from_the_first_timestamp() -> None:
+    column = Timestamps()
+    assert column.seconds(pd.Series(["2013-04-26 10:15:00.5", "2013-04-26 10:15:01"])).tolist() == [0, 0.5]
+    assert column.seconds(pd.Series(["2013-04-26 10:16:00.5"])).tolist() == [60]
+    assert column.start == datetime(2013, 4, 26, 10, 15, 0, 500000)
+
+
+def test_what_is_not_a_timestamp_is_missing() -> None:
+    seconds = Timestamps().seconds(pd.Series(["10:15:00", "broken", "10:15:02"]))
+    np.testing.assert_array_equal(seconds, [0, np.nan, 2])
+
+
+def test_times_of_day_go_on_after_midnight() -> None:
+    np.testing.assert_array_equal(past_midnight(np.array([86399.0, np.nan, 1.0])), [86399, np.nan, 86401])

@@ -1,0 +1,49 @@
+"""Names and units are taken apart as people write them."""
+
+from __future__ import annotations
+
+import pytest
+
+from colonnade.readers.text.heading import looks_like_unit, take_apart
+
+
+@pytest.mark.parametrize(
+    ("heading", "name", "unit"),
+    [
+        ("LVDT 1 [mm]", "LVDT 1", "mm"),
+        ("Time (s)", "Time", "s"),
+        ("Kraft/kN", "Kraft", "kN"),
+        ("Weg in mm", "Weg", "mm"),
+        ("ACC [m/s^2]", "ACC", "m/s^2"),
+        ("Dehnung [µε]", "Dehnung", "µε"),
+        ("Angle []", "Angle", None),
+    ],
+)
+def test_a_unit_is_split_off(heading: str, name: str, unit: str | None) -> None:
+    assert take_apart(heading) == (name, unit)
+
+
+@pytest.mark.parametrize(
+    "heading", ["Accel (top)", "LVDT [3]", "Table accel XXXX", "input/output", "[mm]", "distance in front"]
+)
+def test_what_is_no_unit_stays_with_the_name(heading: str) -> None:
+    assert take_apart(heading) == (heading, None)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["mm", "m/s²", "m/s^2", "g's", "Volts", "seconds", "kN", "°", "deg", "%", "mV/V", "[mm]", "N*m", "Hz", "mm."],
+)
+def test_units_are_known_by_their_spelling(text: str) -> None:
+    assert looks_like_unit(text)
+
+
+@pytest.mark.parametrize("text", ["", "top", "LVDT 1", "ACC", "Kraft", "12", "Table", "mmm/"])
+def test_names_are_no_units(text: str) -> None:
+    assert not looks_like_unit(text)
+
+
+def test_the_unit_in_front_of_a_graphs_name_is_found() -> None:
+    assert take_apart("Time [s] - Plot 0") == ("Time - Plot 0", "s")
+    assert take_apart("Amplitude (mm) - Plot 0") == ("Amplitude - Plot 0", "mm")
+    assert take_apart("Table [North] - Plot 0") == ("Table [North] - Plot 0", None)

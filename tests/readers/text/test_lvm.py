@@ -1,0 +1,148 @@
+"""LabVIEW measurement text: clocks, segments, ends, and headers that are not whole."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.registry import read
+
+FILE_HEADER = """LabVIEW Measurement
+Writer_Version\t2
+Separator\tTab
+Decimal_Separator\t{decimal}
+X_Columns\t{clocks}
+Date\t2013/04/26
+Time\t10:15:00.5
+***End_of_Header***
+"""
+SEGMENT = """
+Channels\t2
+Samples\t{samples}\t{samples}
+Date\t2013/04/26\t2013/04/26
+Time\t{time}\t{time}
+Y_Unit_Label\tVolts\tg
+X_Dimension\tTime\tTime
+X0\t{x0}\t{x0}
+Delta_X\t0.005\t0.005
+***End_of_Header***
+X_Value\ttop\ttable\tComment
+"""
+
+
+def header(clocks: str, decimal: str = ".") -> str:
+    return FILE_HEADER.format(clocks=clocks, decimal=decimal)
+
+
+def segment(rows: list[str], time: str = "10:15:01.5", x0: str = "0.0", samples: int | None = None) -> str:
+    return SEGMENT.format(samples=samples or len(rows), time=time, x0=x0) + "\n".join(rows) + "\n"
+
+
+def written(tmp_path: Path, text: str) -> Path:
+    path = tmp_path / "record.lvm"
+    path.write_bytes(text.encode("latin-1"))
+    return path
+
+
+def test_without_x_columns_time_comes_from_the_header(tmp_path: Path) -> None:
+    rows = [f"\t{row}.5\t-{row}.25" for row in range(4)]
+    recording = read(written(tmp_path, header("No") + segment(rows, x0="1.0")))
+    top, table = recording.channels
+    assert (top.name, top.unit, table.name, table.unit) == ("top", "Volts", "table", "g")
+    assert top.values.tolist() == [0.5, 1.5, 2.5, 3.5]
+    assert top.time is not None
+    np.testing.assert_allclose(top.time, [1.0, 1.005, 1.01, 1.015], atol=1e-12)
+    assert recording.start == datetime(2013, 4, 26, 10, 15, 2, 500000)
+
+
+@pytest.mark.parametrize("decimal", [".", ","])
+def test_the_header_decides_the_decimal_sign(tmp_path: Path, decimal: str) -> None:
+    rows = [f"{row * 0.005:.3f}\t{row}.125\t1.5E-1".replace(".", decimal) for row in range(3)]
+    recording = read(written(tmp_path, header("One", decimal) + segment(rows)))
+    assert recording.channel("top").values.tolist() == [0.125, 1.125, 2.125]
+    assert recording.channel("table").values.tolist() == [0.15] * 3
+    assert recording.channels[0].is_clock
+
+
+def test_segments_are_joined_by_their_dates_and_times(tmp_path: Path) -> None:
+    one, two = ([f"\t{row + first}\t0" for row in range(3)] for first in (0, 10))
+    text = header("No") + segment(one, "10:15:01.5") + segment(two, "10:15:03.25")
+    recording = read(written(tmp_path, text))
+    top = recording.channel("top")
+    assert top.values.tolist() == [0, 1, 2, 10, 11, 12]
+    np.testing.assert_allclose(top.time, [0, 0.005, 0.01, 1.75, 1.755, 1.76], atol=1e-9)
+    assert any("2 segments" in note for note in recording.notes)
+
+
+def test_x_values_that_go_on_are_not_shifted_by_their_segments_time(tmp_path: Path) -> None:
+    one, two = ([f"{(row + first) * 0.005:.3f}\t{row}\t0" for row in range(3)] for first in (0, 3))
+    recording = read(written(tmp_path, header("One") + segment(one) + segment(two, "10:15:01.515")))
+    np.testing.assert_allclose(recording.channel("top").time, 0.005 * np.arange(6), atol=1e-12)
+
+
+def test_x_values_since_1904_give_the_start(tmp_path: Path) -> None:
+    epoch = datetime(1904, 1, 1)
+    begin = (datetime(2013, 4, 26, 8, 0) - epoch).total_seconds()
+    rows = [f"{begin + 0.5 * row:.3f}\t{row}\t0" for row in range(3)]
+    recording = read(written(tmp_path, header("One") + segment(rows)))
+    np.testing.assert_allclose(recording.channel("top").time, [0, 0.5, 1])
+    assert recording.start == datetime(2013, 4, 26, 8, 0)
+
+
+def test_channels_of_unequal_length_keep_their_own(tmp_path: Path) -> None:
+    rows = ["\t1\t5", "\t2\t6", "\t3", "\t4"]
+    recording = read(written(tmp_path, header("No") + segment(rows).replace("Samples\t4\t4", "Samples\t4\t2")))
+    assert recording.channel("top").values.tolist() == [1, 2, 3, 4]
+    assert recording.channel("table").values.tolist() == [5, 6]
+    assert recording.warnings == ()
+
+
+def test_fewer_rows_than_announced_are_told(tmp_path: Path) -> None:
+    recording = read(written(tmp_path, header("No") + segment(["\t1\t2", "\t3\t4"], samples=500)))
+    assert recording.warnings == ('the samples below line 19 end too early: the header says 500, "top" has 2',)
+
+
+def test_a_cell_without_a_number_is_missing_and_told_with_its_line(tmp_path: Path) -> None:
+    rows = ["\t1\t2\tLOST COMMUNICATION", "\tOVL\t4", "\t5\t6\tOK"]
+    recording = read(written(tmp_path, header("No") + segment(rows)))
+    np.testing.assert_array_equal(recording.channel("top").values, [1, np.nan, 5])
+    assert recording.warnings == ('"top": 1 cell holds no number (on line 21: "OVL"); missing',)
+
+
+def test_special_blocks_are_no_samples(tmp_path: Path) -> None:
+    rows = ["\t1\t2", "***Start_Special***", "\t99\t99", "***End_Special***", "\t3\t4"]
+    recording = read(written(tmp_path, header("No") + segment(rows, samples=2)))
+    assert recording.channel("top").values.tolist() == [1, 3]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        pytest.param("LabVIEW Measurement\nSeparator\tTab\n", "cut off in its header", id="within the first header"),
+        pytest.param(
+            header("No") + "\nChannels\t2\nSamples\t3\t3\n", "ends within its header", id="within a segment's"
+        ),
+        pytest.param(header("No") + segment([]), "no rows of numbers", id="before the first row"),
+        pytest.param(header("No", ";") + segment(["\t1\t2"]), 'Decimal_Separator is ";"', id="another decimal sign"),
+    ],
+)
+def test_a_file_without_samples_is_refused_with_the_reason(tmp_path: Path, text: str, said: str) -> None:
+    with pytest.raises(ReadError, match=said):
+        read(written(tmp_path, text))
+
+
+@pytest.mark.parametrize("place", ["before", "within"])
+def test_notes_in_a_segments_header_are_no_damage(tmp_path: Path, place: str) -> None:
+    one, two = ([f"\t{row + first}\t0" for row in range(3)] for first in (0, 10))
+    pieces = [segment(one, "10:15:01.5"), segment(two, "10:15:03.5")]
+    note = "Notes\tthe prism was turned\tafter 3 s\n"
+    moved = "Channels\t2\n" + note if place == "within" else note + "Channels\t2\n"
+    text = header("No") + "".join(piece.replace("Channels\t2\n", moved) for piece in pieces)
+    recording = read(written(tmp_path, text))
+    assert recording.warnings == ()
+    assert recording.channel("top").values.tolist() == [0, 1, 2, 10, 11, 12]
+    np.testing.assert_allclose(recording.channel("top").time, [0, 0.005, 0.01, 2, 2.005, 2.01], atol=1e-9)

@@ -1,0 +1,123 @@
+"""MTS 793 text: what the first line declares, and blocks."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.registry import read
+
+
+def written(tmp_path: Path, *lines: str) -> Path:
+    path = tmp_path / "specimen.dat"
+    path.write_bytes("\r\n".join([*lines, ""]).encode("latin-1"))
+    return path
+
+
+def block(delimiter: str, decimal: str, first: float, title: str) -> list[str]:
+    rows = [[first + 0.5 * row, 10.5 + row, -row] for row in range(3)]
+    numbers = [delimiter.join(f"{cell:.4f}".replace(".", decimal) for cell in row) for row in rows]
+    return [title, delimiter.join(["Running Time", "Axial Displacement", "Axial Force"]), "s   mm   kN", *numbers, ""]
+
+
+@pytest.mark.parametrize(
+    ("declared", "delimiter", "decimal", "title", "date"),
+    [
+        ("ENU|1|2|.|/|:|1|0|0|A", "\t", ".", "Data Acquisition\tTime:\t10.0\tSec\t4/26/2013 1:54:32 PM", (13, 54, 22)),
+        ("DEU|1|2|,|.|:|49|1|1|A", "\t", ",", "Datenerfassung\tZeit:\t10,0\ts\t26.04.2013 13:54:32", (13, 54, 22)),
+        (
+            "ENU|1|1|.|/|:|1|0|0|A",
+            ",",
+            ".",
+            '"Data Acquisition","Time:",10.0,"Sec","4/26/2013 1:54:32 PM"',
+            (13, 54, 22),
+        ),
+        (
+            "ENU|1|0|.|/|:|1|0|0|A",
+            "   ",
+            ".",
+            "Data Acquisition   Time:   10.0   Sec   4/26/2013 1:54:32 PM",
+            (13, 54, 22),
+        ),
+    ],
+    ids=["Excel, English", "Excel, German", "Lotus", "plain"],
+)
+def test_the_first_line_declares_delimiter_and_decimal_sign(
+    tmp_path: Path, declared: str, delimiter: str, decimal: str, title: str, date: tuple[int, int, int]
+) -> None:
+    lines = block(delimiter, decimal, 2.0, title)
+    lines[2] = delimiter.join(["s", "mm", "kN"])
+    recording = read(written(tmp_path, f"MTS793|MPT|{declared}", "", *lines))
+    assert recording.format == "mts"
+    assert [(channel.name, channel.unit) for channel in recording.channels] == [
+        ("Running Time", "s"),
+        ("Axial Displacement", "mm"),
+        ("Axial Force", "kN"),
+    ]
+    force = recording.channel("Axial Force")
+    assert force.values.tolist() == [0, -1, -2]
+    assert force.time is not None
+    assert force.time.tolist() == [2.0, 2.5, 3.0]
+    assert recording.start == datetime(2013, 4, 26, *date) + (datetime(2013, 1, 1, 0, 0, 2) - datetime(2013, 1, 1))
+    assert recording.warnings == ()
+
+
+def test_blocks_of_the_same_columns_go_on_and_others_are_kept_apart(tmp_path: Path) -> None:
+    title = "Data Acquisition\tTime:\t{}\tSec\t4/26/2013 1:54:32 PM"
+    lines = []
+    for number, first in enumerate((0.0, 100.0)):
+        lines += block("\t", ".", first, title.format(f"{10 + number}.0"))
+        lines[-5] = "s\tmm\tkN"
+    lines += [title.format("30.0"), "Axial Force\tStrain", "kN\tmm/mm", "7.5\t0.1", ""]
+    recording = read(written(tmp_path, "MTS793|MPT|ENU|1|2|.|/|:|1|0|0|A", "", *lines))
+    displacement = recording.channel("Axial Displacement")
+    assert displacement.values.tolist() == [10.5, 11.5, 12.5] * 2
+    assert displacement.time is not None
+    assert displacement.time.tolist() == [0, 0.5, 1, 100, 100.5, 101]
+    assert recording.channel("block 2: Axial Force").values.tolist() == [7.5]
+    assert recording.channel("block 2: Axial Force").time is None
+
+
+def test_a_date_that_could_be_read_in_two_ways_is_not(tmp_path: Path) -> None:
+    lines = block("\t", ".", 0.0, "Acquisition\tTime:\t10.0\tSec\t04/05/2013 13:54:32")
+    lines[2] = "s\tmm\tkN"
+    assert read(written(tmp_path, "MTS793|MPT|FRA|1|2|.|/|:|33|1|1|A", "", *lines)).start is None
+
+
+def test_notes_of_the_operator_are_no_block(tmp_path: Path) -> None:
+    lines = ["Operator Information\tTime:\t1.0\tSec\t4/26/2013 1:54:32 PM", "Weight\t5342", "Length\t300.3", ""]
+    with pytest.raises(ReadError, match="no block of numbers"):
+        read(written(tmp_path, "MTS793|MPT|ENU|1|2|.|/|:|1|0|0|A", *lines))
+
+
+def test_a_first_line_that_declares_nothing_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ReadError, match=r'line 1 is "MTS793\|MPT\|ENU"; .* was expected'):
+        read(written(tmp_path, "MTS793|MPT|ENU", "1\t2"))
+
+
+def test_a_row_that_is_too_short_counts_as_missing(tmp_path: Path) -> None:
+    lines = block("\t", ".", 0.0, "Data Acquisition\tTime:\t10.0\tSec\t4/26/2013 1:54:32 PM")
+    lines[2], lines[4] = "s\tmm\tkN", "0.5000\t11.5000"
+    recording = read(written(tmp_path, "MTS793|MPT|ENU|1|2|.|/|:|1|0|0|A", *lines))
+    np.testing.assert_array_equal(recording.channel("Axial Displacement").values, [10.5, np.nan, 12.5])
+    assert recording.warnings == ('line 6: counted as missing: fewer than 3 cells ("0.5000 11.5000")',)
+
+
+def test_the_longest_block_is_the_default_and_the_reader_says_so(tmp_path: Path) -> None:
+    title = "Data Acquisition\tTime:\t{}\tSec\t4/26/2013 1:54:{} PM"
+    lines = [title.format("10.0", 32), "Running Time\tAxial Force", "s\tkN", "2.0\t7.5", "3.0\t8.5", ""]
+    lines += block("\t", ".", 4.0, title.format("20.0", 42))
+    lines[-5] = "s\tmm\tkN"
+    recording = read(written(tmp_path, "MTS793|MPT|ENU|1|2|.|/|:|1|0|0|A", "", *lines))
+    assert recording.channel("Axial Force").values.tolist() == [0, -1, -2]
+    assert recording.channel(2).name == "Axial Displacement"
+    assert recording.channel("block 1: Axial Force").values.tolist() == [7.5, 8.5]
+    assert recording.start == datetime(2013, 4, 26, 13, 54, 26)  # 4.0 s after the running time's zero
+    assert recording.warnings == (
+        "2 blocks with different columns: block 2, the longest with 3 rows, is taken; columns of the others are called "
+        '"block 1: …"',
+    )

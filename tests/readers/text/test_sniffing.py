@@ -1,0 +1,51 @@
+"""How numbers are written is found from the lines that hold them."""
+
+from __future__ import annotations
+
+import pytest
+
+from colonnade.readers.text.lines.cells import Dialect
+from colonnade.readers.text.sniffing import Sniffed, sniff
+
+GIVEN = Dialect("utf-8", ",", ".")
+
+
+def sniffed(*lines: str, delimiter: str | None = None, decimal: str | None = None) -> Sniffed:
+    return sniff(list(lines), GIVEN, delimiter=delimiter, decimal=decimal, thousands=None)
+
+
+@pytest.mark.parametrize(
+    ("lines", "delimiter", "decimal", "columns"),
+    [
+        (["1,5;2,5", "3,5;4,5"], ";", ",", 2),
+        (["1.5,2.5", "3.5,4.5"], ",", ".", 2),
+        (["1.5\t2.5\t0.5", "3.5\t4.5\t0.5"], "\t", ".", 3),
+        (["1.5  2.5", " 3.5 -4.5"], " ", ".", 2),
+        (["0,05", "-0,10"], ";", ",", 1),
+        (['"1,5","2,5"', '"3,5","4,5"'], ",", ",", 2),
+    ],
+)
+def test_delimiter_and_decimal_sign_are_found(lines: list[str], delimiter: str, decimal: str, columns: int) -> None:
+    found = sniffed(*lines)
+    assert (found.dialect.decimal, found.columns) == (decimal, columns)
+    assert columns == 1 or found.dialect.delimiter == delimiter
+    assert found.notes
+
+
+def test_what_is_given_is_not_sniffed() -> None:
+    found = sniffed("1,5", "2,6", "3,7", delimiter=";", decimal=",")
+    assert (found.columns, found.notes, found.warnings) == (1, (), ())
+
+
+def test_signs_between_thousands_are_found() -> None:
+    found = sniffed("1;1.234,5", "2;2.345,5")
+    assert found.dialect.thousands == "."
+    assert 'between thousands (as in "1.234,5")' in found.notes[-1]
+
+
+def test_whole_numbers_around_commas_are_warned_of() -> None:
+    assert "could also be one column with decimal commas" in sniffed("1,5", "2,6", "3,7").warnings[0]
+
+
+def test_text_has_no_columns_of_numbers() -> None:
+    assert sniffed("one", "two").columns == 0

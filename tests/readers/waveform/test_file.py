@@ -1,0 +1,171 @@
+"""Seismic waveforms: own clocks, gaps, rounded steps, no date, and what is not opened."""
+
+from __future__ import annotations
+
+import pickle
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import obspy
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.registry import read
+from colonnade.readers.waveform.kinds import kind_of_waveform
+
+START = obspy.UTCDateTime(2013, 4, 26, 10, 15)
+
+
+def trace(channel: str, values: np.ndarray, rate: float, after: float = 0.0, **header: object) -> obspy.Trace:
+    told = {"station": "TABLE", "channel": channel, "delta": 1 / rate, "starttime": START + after, **header}
+    return obspy.Trace(np.asarray(values, dtype=np.float32), told)
+
+
+def stored(path: Path, kind: str, *traces: obspy.Trace) -> Path:
+    obspy.Stream(list(traces)).write(str(path), format=kind)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("kind", "suffix"),
+    [("MSEED", "mseed"), ("SAC", "sac"), ("GSE2", "gse"), ("SLIST", "txt"), ("TSPAIR", "txt"), ("KNET", "NS")],
+)
+def test_kinds_are_recognised_without_obspy(tmp_path: Path, kind: str, suffix: str) -> None:
+    path = tmp_path / f"record.{suffix}"
+    if kind == "KNET":
+        path.write_text("Origin Time       2018/01/24 19:51:00\n", encoding="ascii")
+    else:
+        whole = np.arange(300, dtype=np.int32)
+        obspy.Trace(whole, {"station": "TABLE", "delta": 0.01}).write(str(path), format=kind)
+    assert kind_of_waveform(path) == kind
+
+
+def test_a_kinemetrics_file_is_recognised_by_its_tag(tmp_path: Path) -> None:
+    path = tmp_path / "record.evt"
+    path.write_bytes(b"K\x01\x82\x0a" + (1).to_bytes(4, "big") + (2040).to_bytes(2, "big") + bytes(600))
+    assert kind_of_waveform(path) == "KINEMETRICS_EVT"
+
+
+def test_every_channel_keeps_its_own_rate_and_start(tmp_path: Path) -> None:
+    path = stored(
+        tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(50), 200), trace("LVD", np.ones(10), 50, after=0.125)
+    )
+    recording = read(path)
+    acceleration, displacement = recording.channel("TABLE..ACC"), recording.channel("TABLE..LVD")
+    np.testing.assert_allclose(acceleration.time, np.arange(50) / 200, atol=1e-9)
+    np.testing.assert_allclose(displacement.time, 0.125 + np.arange(10) / 50, atol=1e-9)
+
+
+def test_a_gap_is_missing_and_told(tmp_path: Path) -> None:
+    path = stored(
+        tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(50), 100), trace("ACC", 2 * np.ones(50), 100, after=0.6)
+    )
+    recording = read(path)
+    (channel,) = recording.channels
+    assert channel.values.size == 110
+    assert np.isnan(channel.values[50:60]).all()
+    assert channel.values[60] == 2
+    np.testing.assert_allclose(channel.time, np.arange(110) / 100, atol=1e-9)
+    assert recording.warnings == ('"TABLE..ACC": 2 pieces with gaps of 10 samples (0.1 s) in all; missing',)
+
+
+def test_pieces_that_lie_years_apart_are_not_filled_up(tmp_path: Path) -> None:
+    path = stored(
+        tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(50), 100), trace("ACC", np.ones(50), 100, after=1e8)
+    )
+    recording = read(path)
+    assert recording.channels[0].values.size == 100
+    assert "far apart" in recording.warnings[0]
+
+
+def test_the_step_of_a_sac_file_is_not_rounded_to_microseconds(tmp_path: Path) -> None:
+    path = stored(tmp_path / "r.sac", "SAC", trace("ACC", np.ones(4096), 2048))
+    assert obspy.read(str(path))[0].stats.delta == pytest.approx(1 / 2048, rel=1e-3, abs=0)
+    recording = read(path)
+    time = recording.channels[0].time
+    assert time is not None
+    assert time[-1] == pytest.approx(4095 / 2048, rel=1e-9)
+    assert any("2048 Hz" in note for note in recording.notes)
+
+
+def test_a_sac_file_at_100_hz_has_steps_of_10_ms_whatever_single_precision_says(tmp_path: Path) -> None:
+    time = read(stored(tmp_path / "r.sac", "SAC", trace("ACC", np.ones(1000), 100))).channels[0].time
+    assert time is not None
+    assert time[-1] == pytest.approx(9.99, rel=1e-12)
+
+
+def test_a_file_without_a_date_has_no_start(tmp_path: Path) -> None:
+    path = tmp_path / "r.sac"
+    obspy.Trace(np.ones(10, dtype=np.float32), {"delta": 0.01}).write(str(path), format="SAC")
+    recording = read(path)
+    assert recording.start is None
+    assert any("no date" in note for note in recording.notes)
+
+
+def test_the_start_is_in_utc(tmp_path: Path) -> None:
+    start = read(stored(tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(10), 100))).start
+    assert start is not None
+    assert start.isoformat() == "2013-04-26T10:15:00+00:00"
+
+
+@pytest.mark.parametrize("kind", ["PICKLE", "pickle"])
+def test_a_pickle_is_never_opened(tmp_path: Path, kind: str) -> None:
+    path = tmp_path / "record.pickle"
+    path.write_bytes(pickle.dumps({"opened": True}))
+    with pytest.raises(ReadError, match="safe"):
+        read(path, "waveform", {"kind": kind})
+    with pytest.raises(ReadError, match="do not tell its kind"):
+        read(path, "waveform")
+
+
+def test_an_unknown_kind_is_told_with_the_nearest(tmp_path: Path) -> None:
+    path = stored(tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(10), 100))
+    with pytest.raises(ReadError, match=r'no kind "MSED" .* Did you mean "MSEED"'):
+        read(path, "waveform", {"kind": "msed"})
+
+
+def test_a_name_with_signs_of_a_pattern_is_just_a_name(tmp_path: Path) -> None:
+    path = stored(tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(10), 100))
+    named = path.rename(tmp_path / "run[1]?.mseed") if sys.platform != "win32" else path
+    assert read(named).channels[0].values.size == 10
+
+
+def test_a_sac_file_that_was_cut_off_is_refused(tmp_path: Path) -> None:
+    path = stored(tmp_path / "r.sac", "SAC", trace("ACC", np.ones(1000), 100))
+    path.write_bytes(path.read_bytes()[:2000])
+    with pytest.raises(ReadError, match=r"r.sac: ObsPy cannot read it as SAC .* cut off"):
+        read(path)
+
+
+def test_counts_of_k_net_become_metres_per_second_squared(tmp_path: Path) -> None:
+    head = [
+        *("Origin Time       2018/01/24 19:51:00", "Lat.              41.0", "Long.             142.5"),
+        *("Depth. (km)       30", "Mag.              6.2", "Station Code      AOM001", "Station Lat.      41.5267"),
+        *("Station Long.     140.9244", "Station Height(m) 39", "Record Time       2018/01/24 19:51:43"),
+        *("Sampling Freq(Hz) 100Hz", "Duration Time(s)  1", "Dir.              E-W"),
+        *("Scale Factor      3920(gal)/6182761", "Max. Acc. (gal)   4.078", "Last Correction   2018/01/24 19:51:43"),
+        "Memo.             ",
+    ]
+    rows = ["".join(f"{count:9d}" for count in range(first, first + 8)) for first in range(0, 96, 8)]
+    path = tmp_path / "AOM001.EW"
+    path.write_text("\n".join([*head, *rows, ""]), encoding="ascii")
+    channel = read(path).channels[0]
+    assert channel.unit == "m/s^2"
+    np.testing.assert_allclose(channel.values, np.arange(96) * 39.20 / 6182761)
+
+
+def test_damaged_waveforms_are_read_or_refused(written: Callable[..., Path]) -> None:
+    chance = np.random.default_rng(4)
+    path = written("waveform", samples=400)
+    content = bytearray(path.read_bytes())
+    for _ in range(60):
+        flipped = bytearray(content)
+        for place in chance.integers(0, len(content), 8):
+            flipped[place] ^= 1 << int(chance.integers(8))
+        path.write_bytes(flipped[: int(chance.integers(64, len(content)))])
+        try:
+            assert read(path).channels
+        except ReadError as error:
+            assert path.name in str(error)  # noqa: PT017 - either outcome is right

@@ -1,0 +1,85 @@
+"""The paper's step-by-step schemes beside the exact solution of their equation."""
+
+import numpy as np
+import pytest
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
+from paper_schemes import rock_by_steps
+
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+ALPHA = PRISM.critical_angle
+SCHEMES = ("runge-kutta", "hamming")
+RELEASED = {"restitution": 0.976, "theta0": 0.5 * ALPHA}
+STILL = Motion(np.zeros(201), 0.01)
+
+
+def _error(scheme, steps, refinement, until=None):
+    exact = rock(PRISM, STILL, **RELEASED)
+    ours = rock_by_steps(PRISM, STILL, scheme=scheme, steps_per_sample=steps, refinement=refinement, **RELEASED)
+    before = exact.time < (exact.impact_times[0] if until == "impact" else np.inf)
+    return np.abs(ours.angle - exact.angle)[before].max() / ALPHA
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_up_to_the_first_impact_the_order_is_at_least_four(scheme):
+    coarse, fine = (_error(scheme, steps, 1, "impact") for steps in (1, 2))
+    assert coarse < 1e-6
+    assert coarse / fine > 2**3.8
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_over_impacts_the_order_is_one_and_refinement_divides_the_error(scheme):
+    errors = {
+        (steps, refinement): _error(scheme, steps, refinement)
+        for steps in (50, 100, 200, 400)
+        for refinement in (1, 10)
+    }
+    for refinement in (1, 10):
+        sequence = [errors[steps, refinement] for steps in (50, 100, 200, 400)]
+        assert 5 < sequence[0] / sequence[-1] < 13
+    ratio = np.mean([errors[steps, 1] / errors[steps, 10] for steps in (50, 100, 200, 400)])
+    assert 6 < ratio < 16
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("restitution", [0.5, 0.95])
+def test_a_recorded_motion_converges_to_the_exact_history(scheme, restitution):
+    rng = np.random.default_rng(4)
+    time = np.arange(100) * 0.02
+    base = sum(rng.normal() * np.sin(2 * np.pi * rng.uniform(0.8, 5) * time + rng.uniform(0, 6)) for _ in range(5))
+    motion = Motion(1.6 * PRISM.uplift_acceleration * base / np.abs(base).max(), 0.02)
+    exact = rock(PRISM, motion, restitution=restitution)
+    assert exact.impacts >= 3
+    errors = [
+        np.abs(
+            rock_by_steps(PRISM, motion, scheme=scheme, steps_per_sample=steps, restitution=restitution).angle
+            - exact.angle
+        ).max()
+        for steps in (20, 200, 2000)
+    ]
+    assert errors[-1] < 5e-3 * ALPHA
+    assert errors[-1] < 0.1 * errors[0]
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_a_block_past_return_lies_and_one_below_the_threshold_stays(scheme):
+    fallen = rock_by_steps(PRISM, STILL, scheme=scheme, steps_per_sample=10, theta0=1.05 * ALPHA)
+    assert fallen.outcome == "overturned"
+    assert fallen.angle[-1] == pytest.approx(np.pi / 2)
+    below = Motion(np.full(50, PRISM.gravity * ALPHA), 0.01)
+    assert np.abs(rock_by_steps(PRISM, below, scheme=scheme, steps_per_sample=10).angle).max() == 0.0
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"scheme": "euler", "steps_per_sample": 1}, 'no scheme "euler"'),
+        ({"scheme": "hamming", "steps_per_sample": 0}, "steps_per_sample is 0"),
+        ({"scheme": "hamming", "steps_per_sample": 1, "refinement": 0}, "refinement 0"),
+    ],
+)
+def test_what_is_no_scheme_is_refused(options, words):
+    with pytest.raises(ValueError, match=words):
+        rock_by_steps(PRISM, STILL, **options)

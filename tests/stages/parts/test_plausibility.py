@@ -1,0 +1,164 @@
+"""Plausibility of a test's channels, from recordings to warnings."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from colonnade.campaign import load
+from colonnade.readers.recording import RecordedChannel
+from colonnade.stages import condition as conditioning
+from colonnade.stages.condition import condition
+from colonnade.stages.ingest import IngestInputs, ingest
+
+ACCELEROMETER = """
+[setups.frame.channels.head]
+column = "HEAD"
+quantity = "acceleration"
+unit = "g"
+on = "specimen"
+at = ["0 mm", "0 mm", "456 mm"]
+direction = [0, 0, 1]
+"""
+
+
+def _conditioned(campaign, name, recordings):
+    test = campaign.tests[name]
+    return condition(
+        ingest(recordings, IngestInputs.of(campaign, test)), conditioning.ConditionInputs.of(campaign, test)
+    )
+
+
+def _doubts(campaign, name, recordings):
+    return list(map(str, _conditioned(campaign, name, recordings).attrs["warnings"]))
+
+
+def _changed(campaign, *changes):
+    text = campaign.path.read_text(encoding="utf-8")
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    campaign.path.write_text(text, encoding="utf-8")
+    return load(campaign.path)
+
+
+def test_nothing_is_said_of_sound_channels(small_campaign, free_vibration, shaken):
+    assert _doubts(small_campaign, "free-01", free_vibration[0]) == []
+    assert _doubts(small_campaign, "shake-01", shaken[0]) == []
+
+
+@pytest.mark.parametrize(
+    ("factor", "said"),
+    [
+        (-1.0, "Channels top and bottom turn against what the table's acceleration does"),
+        (9.81, "Channel table_acceleration is 9.* times what the specimen's rocking requires: g taken for m/s²"),
+    ],
+)
+def test_an_accelerometer_alone_is_held_against_the_rocking(factor, said, small_campaign, shaken):
+    shaken[0]["main"].channel("ACC").values[:] *= factor
+    (told,) = _doubts(small_campaign, "shake-01", shaken[0])
+    assert re.match(said, told), told
+
+
+def test_transducers_on_the_ground_are_judged_less_the_tables_displacement(small_campaign, shaken):
+    recordings, time, _, base = shaken
+    interval = time[1] - time[0]
+    moved = np.cumsum(np.cumsum(base - base.mean()) * interval) * interval
+    moved -= np.polyval(np.polyfit(time, moved, 2), time)
+    main = recordings["main"]
+    channels = [
+        replace(each, values=each.values + {"LVDT 1": 1e3 * moved / 12, "LVDT 2": 1e3 * moved}.get(each.name, 0.0))
+        for each in main.channels
+    ]
+    recordings["main"] = replace(main, channels=(*channels, RecordedChannel("ACT", "mm", 1e3 * moved, time)))
+    campaign = _changed(
+        small_campaign,
+        ('relative_to = "table"', 'relative_to = "ground"'),
+        ('relative_to = "table"', 'relative_to = "ground"'),
+        (
+            "[setups.frame.channels.table_acceleration]",
+            '[setups.frame.channels.table]\ncolumn = "ACT"\nquantity = "displacement"\nunit = "mm"\non = "table"\n'
+            "direction = [1, 0, 0]\n\n[setups.frame.channels.table_acceleration]",
+        ),
+    )
+    assert [warning for warning in _doubts(campaign, "shake-01", recordings) if "Zero was" not in warning] == []
+    recordings["main"].channel("LVDT 1").values[:] *= 10
+    assert any("Channel top shows" in warning for warning in _doubts(campaign, "shake-01", recordings))
+
+
+@pytest.mark.parametrize(
+    ("named", "polarity", "said"),
+    [
+        ("Valley", 1.0, ""),
+        ("valley", 1.0, ""),
+        ("Valley", -1.0, "with the other polarity"),
+        ("Hill", 1.0, ""),
+        ("Lost", 1.0, 'reference motion "Lost" cannot be used'),
+    ],
+    ids=["right", "whatever its case", "polarity", "without reference", "without file"],
+)
+def test_the_motion_named_is_held_against_its_reference(named, polarity, said, small_campaign, shaken):
+    recordings, time, _, base = shaken
+    rows = "".join(f"{instant:.3f},{polarity * value:.6f}\n" for instant, value in zip(time, base, strict=True))
+    (small_campaign.folder / "valley.csv").write_text("time (s),acceleration (m/s^2)\n" + rows)
+    campaign = _changed(
+        small_campaign,
+        ("[setups.frame]", '[motions]\nValley = "valley.csv"\nLost = "lost.csv"\n\n[setups.frame]'),
+        ('kind = "earthquake"', f'kind = "earthquake"\nmotion = "{named}"\ntime_scale = 1.0'),
+    )
+    told = " ".join(_doubts(campaign, "shake-01", recordings))
+    assert said in told
+    assert bool(told) == bool(said)
+
+
+def test_a_changed_reference_makes_another_result(small_campaign):
+    path = small_campaign.folder / "valley.csv"
+    campaign = _changed(
+        small_campaign,
+        ("[setups.frame]", '[motions]\nValley = "valley.csv"\n\n[setups.frame]'),
+        ('kind = "earthquake"', 'kind = "earthquake"\nmotion = "Valley"'),
+    )
+    keys = []
+    for text in ("time (s),a (g)\n0,0\n0.1,1\n", "time (s),a (g)\n0,0\n0.1,2\n\n"):
+        path.write_text(text)
+        keys.append(conditioning.ConditionInputs.of(campaign, campaign.tests["shake-01"]).model_dump_json())
+    assert keys[0] != keys[1]
+    assert str(small_campaign.folder) not in keys[0]
+
+
+@pytest.mark.parametrize(
+    ("at_rest", "said"),
+    [
+        (1.02, ""),
+        (-1.0, "its sign is wrong"),
+        (9.81, "g taken for m/s²"),
+        (0.001, "blocks constant values"),
+    ],
+    ids=["right", "sign", "unit", "AC"],
+)
+def test_an_accelerometer_on_the_specimen_shows_gravity_at_rest(at_rest, said, small_campaign, free_vibration):
+    recordings, time, _, _ = free_vibration
+    head = at_rest + np.random.default_rng(0).normal(0, 1e-3, time.size)
+    main = recordings["main"]
+    recordings["main"] = replace(main, channels=(*main.channels, RecordedChannel("HEAD", "g", head, time)))
+    campaign = _changed(small_campaign, ("[[tests]]", ACCELEROMETER + "\n[[tests]]"))
+    conditioned = _conditioned(campaign, "free-01", recordings)
+    told = " ".join(map(str, conditioned.attrs["warnings"]))
+    assert said in told
+    assert bool(told) == bool(said)
+    assert float(conditioned["head"][-200:].mean()) == pytest.approx(9.81, abs=1e-3)
+    assert conditioned["head"].attrs["zero"] == pytest.approx(at_rest * 9.80665 - 9.81, abs=5e-3)
+
+
+def test_a_gyroscopes_value_at_rest_is_its_bias(small_campaign, free_vibration):
+    recordings, time, angle, _ = free_vibration
+    turning = np.gradient(angle, time) + 0.03
+    main = recordings["main"]
+    recordings["main"] = replace(main, channels=(*main.channels, RecordedChannel("GYRO", "rad/s", turning, time)))
+    gyro = (
+        ACCELEROMETER.replace("HEAD", "GYRO").replace('"acceleration"', '"angular_velocity"').replace('"g"', '"rad/s"')
+    )
+    conditioned = _conditioned(_changed(small_campaign, ("[[tests]]", gyro + "\n[[tests]]")), "free-01", recordings)
+    assert conditioned["head"].attrs["zero"] == pytest.approx(0.03, abs=1e-4)
+    assert float(np.abs(conditioned["head"][-200:]).max()) < 1e-3

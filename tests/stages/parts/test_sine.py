@@ -1,0 +1,108 @@
+"""Sine tests: Ω and A of what the table did, and the order of the measured and of each predicted response."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from colonnade.stages import compare as comparing
+from colonnade.stages import condition as conditioning
+from colonnade.stages import ingest as ingesting
+from colonnade.stages import predict as predicting
+from colonnade.stages import rocking as rocking_stage
+from colonnade.stages import specimen as pooling
+
+FREQUENCY, AMPLITUDE = 4.0, 1.7  # of the base motion that `shaken` makes
+
+
+@pytest.fixture
+def sine_test(small_campaign):
+    return small_campaign.tests["shake-01"].model_copy(update={"kind": "sine", "frequency": FREQUENCY})
+
+
+@pytest.fixture
+def measured(small_campaign, shaken, sine_test):
+    recorded = ingesting.ingest(shaken[0], ingesting.IngestInputs.of(small_campaign, sine_test))
+    ready = conditioning.condition(recorded, conditioning.ConditionInputs.of(small_campaign, sine_test))
+    return rocking_stage.rocking(ready, rocking_stage.RockingInputs.of(small_campaign, sine_test))
+
+
+@pytest.fixture
+def predicted(small_campaign, measured, sine_test):
+    read = pooling.SpecimenInputs.of(small_campaign, "prism").model_copy(update={"given": 0.93})
+    pooled = pooling.specimen({}, read)
+    return {
+        model: predicting.predict(measured, pooled, predicting.PredictInputs.of(small_campaign, sine_test, model))
+        for model in ("linear", "nonlinear")
+    }
+
+
+def compared(campaign, test, measured, predicted):
+    return comparing.compare(measured, predicted, comparing.CompareInputs.of(campaign, test))
+
+
+def test_frequency_and_amplitude_ratio_are_those_of_the_recorded_motion(small_campaign, sine_test, measured, predicted):
+    result = compared(small_campaign, sine_test, measured, predicted)
+    block = small_campaign.block("prism")
+    assert float(result["forcing_frequency"]) == pytest.approx(FREQUENCY, rel=1e-3)
+    assert float(result["frequency_ratio"]) == pytest.approx(2 * np.pi * FREQUENCY / block.p, rel=1e-3)
+    assert float(result["amplitude_ratio"]) == pytest.approx(AMPLITUDE, rel=5e-3)
+    assert result.attrs["warnings"] == []
+
+
+def test_measured_and_predicted_responses_have_the_true_order(small_campaign, sine_test, shaken, measured, predicted):
+    _, time, angle, _ = shaken
+    late = (time > 4.5) & (time < 5.75)
+    unlike = np.std(np.interp(time[late] + 1 / FREQUENCY, time, angle) - angle[late]) / np.std(angle[late])
+    assert unlike < 0.6
+    result = compared(small_campaign, sine_test, measured, predicted)
+    assert result.attrs["response_order"] == "1"
+    assert "every period" in result.attrs["response_order_reason"]
+    assert result["model"].to_numpy().tolist() == ["linear", "nonlinear"]
+    assert result["predicted_response_order"].to_numpy()[0] == "1"  # the linear model is the truth here
+    assert float(result["impacts_per_cycle"]) == pytest.approx(2.0, abs=0.4)
+
+
+def test_another_frequency_than_the_given_one_is_told_and_the_recorded_one_used(
+    small_campaign, sine_test, measured, predicted
+):
+    wrong = sine_test.model_copy(update={"frequency": 4.1})
+    result = compared(small_campaign, wrong, measured, predicted)
+    assert "4.1 Hz" in result.attrs["warnings"][0].text
+    assert float(result["forcing_frequency"]) == pytest.approx(FREQUENCY, rel=1e-3)
+    near = compared(small_campaign, sine_test.model_copy(update={"frequency": 4.03}), measured, predicted)
+    assert near.attrs["warnings"] == []
+
+
+@pytest.mark.parametrize(("outcome", "words"), [("overturned", "overturned"), ("no-rocking", "did not rock")])
+def test_what_overturned_or_did_not_rock_has_no_order(outcome, words, small_campaign, sine_test, measured, predicted):
+    result = compared(small_campaign, sine_test, measured.assign_attrs(outcome=outcome), predicted)
+    assert result.attrs["response_order"] == ""
+    assert words in result.attrs["response_order_reason"]
+    assert np.isfinite(float(result["amplitude_ratio"]))
+
+
+def test_a_motion_that_is_no_sine_keeps_the_given_frequency_and_is_told(small_campaign, sine_test, measured, predicted):
+    noise = np.random.default_rng(0).normal(0, 1, measured.sizes["elapsed"])
+    shaken = measured.assign(base_acceleration=("elapsed", noise))
+    result = compared(small_campaign, sine_test, shaken, predicted)
+    assert "no stretch of 3 periods" in result.attrs["warnings"][0].text
+    assert float(result["frequency_ratio"]) == pytest.approx(2 * np.pi * 4.0 / small_campaign.block("prism").p)
+    assert "amplitude_ratio" not in result
+
+
+def test_a_specimen_without_transducers_has_forcing_and_predicted_orders(
+    small_campaign, sine_test, measured, predicted
+):
+    bare = xr.Dataset({"base_acceleration": measured["base_acceleration"]}, attrs={"outcome": ""})
+    result = compared(small_campaign, sine_test, bare, predicted)
+    assert result.attrs["response_order"] == ""
+    assert "No rocking angle" in result.attrs["response_order_reason"]
+    assert result["predicted_response_order"].to_numpy()[0] == "1"
+
+
+def test_other_kinds_of_test_have_nothing_of_a_sine(small_campaign, measured, predicted):
+    result = compared(small_campaign, small_campaign.tests["shake-01"], measured, predicted)
+    assert "response_order" not in result.attrs
+    assert "frequency_ratio" not in result

@@ -1,0 +1,90 @@
+"""The summary read back: records of tests with and without a run, and the points of a measured map."""
+
+from __future__ import annotations
+
+import pytest
+
+from colonnade.campaign import load
+from colonnade.campaign import summary as form
+from colonnade.errors import StoreError
+from colonnade.store.layout import Layout
+from colonnade.store.records.summary import map_points, read_summary, records_of_specimens, records_of_tests
+
+CAMPAIGN = """
+schema = 1
+campaign = "one"
+title = "One pulse"
+
+[specimens]
+prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}
+
+[setups.frame.channels]
+top = {column = "top", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
+direction = [1, 0, 0], relative_to = "table"}
+
+[[tests]]
+id = "watched"
+kind = "pulse"
+file = "raw/pulse-01.csv"
+specimen = "prism"
+setup = "frame"
+observed_outcome = "overturned"
+"""
+SUMMARY = form.Summary(
+    campaign="one",
+    colonnade="0",
+    specimens={},
+    tests={"watched": form.TestSummary(status="done", kind="pulse", specimen="prism", outcome="rocking")},
+)
+
+
+@pytest.fixture
+def campaign(tmp_path):
+    (tmp_path / "campaign.toml").write_text(CAMPAIGN, encoding="utf-8")
+    return load(tmp_path)
+
+
+def test_a_test_is_pending_before_a_run_and_as_summarised_after_it(campaign):
+    before = records_of_tests(campaign, None)["watched"]
+    assert (before.status, before.observed_outcome, before.outcome) == ("pending", "overturned", None)
+    assert records_of_tests(campaign, SUMMARY) == SUMMARY.tests
+
+
+def test_a_specimen_has_its_geometry_before_a_run(campaign):
+    record = records_of_specimens(campaign, None)["prism"]
+    assert record["critical_angle"] == pytest.approx(0.18641, abs=5e-6)  # atan(86/456)
+    assert record["restitution"]["value"] is None
+
+
+def test_a_summary_is_read_back_as_written(tmp_path):
+    layout = Layout(tmp_path)
+    assert read_summary(layout) is None
+    layout.processed.mkdir()
+    layout.summary_json.write_text(SUMMARY.text(), encoding="utf-8")
+    assert read_summary(layout) == SUMMARY
+    layout.summary_json.write_text("[" * 100_000, encoding="utf-8")
+    with pytest.raises(StoreError, match="was altered or damaged"):
+        read_summary(layout)
+
+
+def sine(**changes):
+    values = {"status": "done", "kind": "sine", "specimen": "prism", "outcome": "rocking", "order": 3}
+    return form.TestSummary(**(values | {"frequency_ratio": 3.3, "amplitude_ratio": 1.5} | changes))
+
+
+@pytest.mark.parametrize(
+    ("changes", "outcome"),
+    [
+        ({}, "rocking"),
+        ({"outcome": None, "observed_outcome": "overturned"}, "overturned"),
+        ({"outcome": None, "observed_outcome": "not-overturned"}, None),
+        ({"amplitude_ratio": None}, None),
+        ({"specimen": "cone"}, None),
+    ],
+    ids=["measured", "observed", "observed not to overturn", "of unknown amplitude", "of another specimen"],
+)
+def test_a_map_shows_sine_tests_of_known_outcome(changes, outcome):
+    points = map_points({"one": sine(**changes)}, "prism")
+    assert [(point.test, point.frequency_ratio, point.outcome) for point in points] == (
+        [] if outcome is None else [("one", 3.3, outcome)]
+    )

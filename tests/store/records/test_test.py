@@ -1,0 +1,153 @@
+"""What goes into the record of a test, from results whose numbers are in sight."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from colonnade.campaign import load
+from colonnade.findings import serious, warning
+from colonnade.store.records.stored import FOREIGN, Failure, Stored
+from colonnade.store.records.test import record_of_test
+
+SCALE = 20.0
+TIME = np.arange(0.0, 10.0, 0.01)
+
+
+CAMPAIGN = """
+schema = 1
+campaign = "one"
+title = "One pulse"
+
+[specimens]
+prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg", scale = 20}
+
+[setups.frame.channels]
+top = {column = "top", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
+direction = [1, 0, 0], relative_to = "table"}
+
+[[tests]]
+id = "pulse-01"
+kind = "pulse"
+file = "raw/pulse-01.csv"
+specimen = "prism"
+setup = "frame"
+"""
+
+
+def written(folder, text=CAMPAIGN):
+    (folder / "campaign.toml").write_text(text, encoding="utf-8")
+    return load(folder)
+
+
+@pytest.fixture
+def campaign(tmp_path):
+    return written(tmp_path)
+
+
+def record(campaign, results, test=None):
+    datasets = {stage if isinstance(stage, tuple) else (stage, None): each for stage, each in results.items()}
+    return record_of_test(campaign, test or campaign.tests["pulse-01"], Stored(datasets))
+
+
+def rocking(**changes):
+    slide = np.where(TIME < 6.0, -0.002 * TIME, 0.4)
+    values = {
+        "peak_ratio": 0.4,
+        "peak_time": 4.0,
+        "peak_ground_acceleration": 3.0,
+        "overturning_time": np.nan,
+    } | changes
+    return xr.Dataset(
+        {name: ((), value) for name, value in values.items()}
+        | {
+            "rocking_angle": ("elapsed", 0.01 * TIME),
+            "slide": ("elapsed", slide),
+            "impact_time": ("impact", [1.0, 2.0]),
+        },
+        coords={"elapsed": TIME},
+        attrs={"outcome": "rocking"},
+    )
+
+
+def compared(order="3", **values):
+    found = {"forcing_frequency": 3.01, "frequency_ratio": 3.36, "amplitude_ratio": 1.5, "impacts_per_cycle": 0.7}
+    return xr.Dataset(
+        {name: ((), value) for name, value in (found | values).items()}
+        | {
+            "nrmse": ("model", [0.1, 0.2]),
+            "predicted_response_order": ("model", np.array(["3", "irregular"], dtype=object)),
+        },
+        coords={"model": np.array(["linear", "nonlinear"], dtype=object)},
+        attrs={"response_order": order, "response_order_reason": "because"},
+    )
+
+
+def test_prototype_values_stand_beside_the_models(campaign):
+    test = record(campaign, {"rocking": rocking()})
+    assert test.duration == pytest.approx(9.99)
+    assert (test.peak_slide, test.impacts, test.pga) == (0.4, 2, 3.0)
+    assert test.prototype.peak_slide == pytest.approx(8.0)
+    assert test.prototype.peak_time == pytest.approx(4.0 * np.sqrt(SCALE))
+    assert test.prototype.frequency is None
+
+
+def test_the_slide_of_a_specimen_that_fell_counts_while_it_stood(campaign):
+    assert record(campaign, {"rocking": rocking(overturning_time=5.0)}).peak_slide == pytest.approx(0.01)
+
+
+def test_without_a_scale_there_is_no_prototype(tmp_path):
+    assert record(written(tmp_path, CAMPAIGN.replace(", scale = 20", "")), {"rocking": rocking()}).prototype is None
+
+
+def test_a_free_vibrations_peak_is_known_once_it_was_compared(campaign):
+    free = campaign.tests["pulse-01"].model_copy(update={"kind": "free-vibration"})
+    assert record(campaign, {"rocking": rocking()}, free).peak_ratio is None
+    peak = {"measured_peak_ratio": 0.3, "measured_peak_time": 2.0, "release_ratio": 0.5}
+    test = record(campaign, {"rocking": rocking(), "compare": compared("", **peak)}, free)
+    assert (test.peak_ratio, test.peak_time, test.release_ratio) == (0.3, 2.0, 0.5)
+
+
+def test_a_test_without_an_angle_has_no_peak_and_no_impacts(campaign):
+    test = record(campaign, {"rocking": rocking().drop_vars(["rocking_angle", "slide"])})
+    assert (test.peak_ratio, test.impacts, test.peak_slide, test.pga) == (None, None, None, 3.0)
+
+
+@pytest.mark.parametrize(("stored", "order"), [("", None), ("1", 1), ("3", 3), ("irregular", "irregular")])
+def test_a_sine_tests_forcing_and_order_are_the_comparisons(stored, order, campaign):
+    sine = campaign.tests["pulse-01"].model_copy(update={"kind": "sine", "frequency": 3.0})
+    test = record(campaign, {"rocking": rocking(), "compare": compared(stored)}, sine)
+    assert (test.order, test.order_reason, test.impacts_per_cycle) == (order, "because", 0.7)
+    assert (test.frequency, test.frequency_ratio, test.amplitude_ratio) == (3.01, 3.36, 1.5)
+    assert test.prototype.frequency == pytest.approx(3.01 / np.sqrt(SCALE))
+    bare = compared(stored).drop_vars(["forcing_frequency", "amplitude_ratio", "impacts_per_cycle"])
+    test = record(campaign, {"rocking": rocking(), "compare": bare}, sine)
+    assert (test.frequency, test.amplitude_ratio) == (3.0, None)
+
+
+def test_each_models_order_and_error_are_its_own(campaign):
+    result = xr.Dataset({"peak_ratio": ((), 0.4)}, attrs={"outcome": "rocking"})
+    models = {("predict", "linear"): result, ("predict", "nonlinear"): result}
+    predicted = record(campaign, models | {"compare": compared()}).predicted
+    assert (predicted["linear"].order, predicted["linear"].nrmse) == (3, 0.1)
+    assert (predicted["nonlinear"].order, predicted["nonlinear"].nrmse) == ("irregular", 0.2)
+    assert record(campaign, models).predicted["linear"].nrmse is None
+
+
+def test_a_record_is_done_failed_or_pending_with_the_reason(campaign):
+    def status(stored):
+        test = record_of_test(campaign, campaign.tests["pulse-01"], stored)
+        return test.status, test.reason
+
+    assert status(Stored()) == ("pending", None)
+    assert status(Stored(is_foreign=True)) == ("pending", FOREIGN)
+    assert status(Stored({("compare", None): compared()})) == ("done", None)
+    failures = [Failure("ingest", "No file."), Failure("", "Specimen prism failed.")]
+    assert status(Stored(failures=failures)) == ("failed", "ingest: No file. Specimen prism failed.")
+
+
+def test_findings_are_in_order_with_what_follows_from_them(campaign):
+    late = warning("no arc", "No arc was found.", follows=("gain",))
+    test = record_of_test(campaign, campaign.tests["pulse-01"], Stored(findings=[late, serious("gain", "Ten times.")]))
+    assert [(each.kind, each.explained) for each in test.warnings] == [("gain", False), ("no arc", True)]

@@ -1,0 +1,71 @@
+"""One run at a time; a crash frees the lock and leaves nothing in the way."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from colonnade.errors import StoreError
+from colonnade.workflow.execution.lock import only_run
+
+HOLD = """
+import sys, time
+from pathlib import Path
+from colonnade.store.layout import Layout
+from colonnade.workflow.execution.lock import only_run
+with only_run(Layout(Path(sys.argv[1]))):
+    print("held", flush=True)
+    time.sleep(60)
+"""
+
+
+@pytest.fixture
+def holder(small):
+    process = subprocess.Popen([sys.executable, "-c", HOLD, str(small.folder)], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "held\n"
+    yield process
+    process.kill()
+    process.wait()
+    process.stdout.close()
+
+
+def test_a_second_run_at_the_same_time_is_refused_and_told_who_runs(small, holder):
+    before = small.files()
+    with pytest.raises(StoreError, match=f"process {holder.pid} on"):
+        small.run()
+    assert small.files() == before
+
+
+def test_a_crash_frees_the_lock(small, holder):
+    holder.send_signal(signal.SIGKILL)
+    holder.wait()
+    assert not small.run().failed
+    assert not small.layout.lock_holder.exists()
+
+
+def test_the_lock_is_free_after_a_run_and_after_one_that_was_refused(small, holder):
+    with pytest.raises(StoreError):
+        small.run()
+    holder.kill()
+    holder.wait()
+    for _ in range(2):
+        assert not small.run().failed
+
+
+@pytest.mark.parametrize("place", ["processed/tests/pulse-01/.rocking.nc.4711.partial", "report/.a.html.4711.partial"])
+def test_half_a_file_of_a_killed_run_is_swept(small, place):
+    half = small.folder / place
+    half.write_bytes(b"half")
+    small.run()
+    assert not half.exists()
+
+
+def test_half_a_file_that_a_killed_runs_worker_left_after_the_next_run_began_is_swept_at_its_end(small):
+    small.layout.lock_holder.write_text("{}")
+    half = small.layout.test("pulse-01") / ".rocking.nc.4711.partial"
+    with only_run(small.layout):
+        half.write_bytes(b"half")
+    assert not half.exists()

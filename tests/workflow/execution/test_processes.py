@@ -1,0 +1,220 @@
+"""Several processes give what one gives; Ctrl-C and a kill leave no half file and nobody writing."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+
+from colonnade import interruption
+from colonnade.workflow.execution import processes
+
+RUN = """
+import sys
+import colonnade
+def told(stage, done, total):
+    print("going", flush=True)
+try:
+    colonnade.run(sys.argv[1], workers=2, until="compare", progress=told)
+except KeyboardInterrupt:
+    sys.exit(130)
+"""
+IMPORT = """
+import sys
+import time
+from colonnade.workflow.execution.spreading import on_processes
+print("going", flush=True)
+try:
+    list(on_processes(time.sleep, [600] * 9, 2))
+    sys.exit("too late")
+except KeyboardInterrupt:
+    sys.exit(130)
+"""
+# Of two workers one at least is never given anything: a single number is there.
+WAIT = """
+import time
+from colonnade.workflow.execution.spreading import on_processes
+list(on_processes(abs, [-1], 2))
+print("going", flush=True)
+time.sleep(600)
+"""
+PATIENCE = 60.0
+"""Seconds within which workers have to be gone; joblib's own would wait for work for 300."""
+
+
+def test_two_processes_give_what_one_gives(untouched, undisturbed):
+    assert not untouched.run(workers=2).failed
+    assert untouched.contents() == undisturbed.contents()
+    assert untouched.summary() == undisturbed.summary()
+
+
+@pytest.fixture
+def killer(monkeypatch):
+    """Has the worker that takes a test killed in it, as where memory ran out, so often at most."""
+    real = processes._in_worker
+
+    def arm(test, folder, times):
+        def in_worker(numbered):
+            marks = [folder / f"{turn}.killed" for turn in range(times)]
+            left = [mark for mark in marks if not mark.exists()]
+            if numbered[1].test == test and left:
+                left[0].touch()
+                os.kill(os.getpid(), signal.SIGKILL)
+            return real(numbered)
+
+        monkeypatch.setattr(processes, "_in_worker", in_worker)
+
+    return arm
+
+
+def test_a_worker_that_is_stopped_once_costs_nothing(untouched, undisturbed, killer, tmp_path):
+    killer("pulse-01", tmp_path, times=1)
+    result = untouched.run(workers=2)
+    assert not result.failed
+    assert untouched.contents() == undisturbed.contents()
+    (notice,) = result.notices
+    assert re.search(r"A worker process was stopped \(SIGKILL\(-9\).*tried again alone: .*pulse-01", notice)
+
+
+def test_a_test_that_stops_its_worker_each_time_fails_alone_and_is_tried_again(
+    untouched, undisturbed, killer, tmp_path, monkeypatch
+):
+    killer("pulse-01", tmp_path, times=9)
+    failed = [stage for stage in untouched.run(workers=2).stages if stage.action == "failed"]
+    assert [(stage.subject, stage.stage) for stage in failed] == [("pulse-01", "ingest")]
+    assert "stopped the process that worked on this test" in untouched.summary()["tests"]["pulse-01"]["reason"]
+    assert {name: test["status"] for name, test in untouched.summary()["tests"].items() if name != "pulse-01"} == (
+        dict.fromkeys(("free-01", "free-02", "pulse-02"), "done")
+    )
+    monkeypatch.undo()
+    assert not untouched.run(workers=2).failed
+    assert untouched.contents() == undisturbed.contents()
+
+
+def test_an_interrupt_in_this_process_frees_the_lock_and_leaves_whole_files(untouched, undisturbed):
+    def interrupt(stage, done, total):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        untouched.run(progress=interrupt)
+    assert untouched.contents().items() <= undisturbed.contents().items()
+    assert not untouched.run().failed
+    assert untouched.contents() == undisturbed.contents()
+
+
+def test_an_interrupt_whose_exception_was_dropped_ends_the_run_before_its_next_stage(untouched, monkeypatch):
+    monkeypatch.setattr(interruption, "_noted", [])
+
+    def drop(stage, done, total):
+        with suppress(KeyboardInterrupt):
+            interruption.note(signal.SIGTERM, None)
+
+    with pytest.raises(KeyboardInterrupt):
+        untouched.run(progress=drop, until="ingest")
+    assert [path.parent.name for path in untouched.folder.rglob("*.nc")] == ["free-01"]
+    assert not untouched.layout.lock_holder.exists()
+
+
+@pytest.fixture
+def start():
+    """Start a script in a session of its own, as from a terminal, and wait until it says that it goes."""
+    processes = []
+
+    def started(script, *arguments):
+        process = subprocess.Popen(
+            [sys.executable, "-c", script, *map(str, arguments)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+        processes.append(process)
+        assert process.stdout.readline() == "going\n"
+        return process
+
+    yield started
+    for process in processes:
+        for left in members(process.pid):
+            os.kill(left, signal.SIGKILL)
+        for stream in (process.stdout, process.stderr):
+            stream.close()
+        process.wait()
+
+
+@pytest.fixture
+def going(start, untouched):
+    """A run with two workers of which a first test has ended."""
+    return start(RUN, untouched.folder)
+
+
+def members(session: int) -> dict[int, str]:
+    """Processes of a session with their commands, by /proc."""
+    found = {}
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            fields = (entry / "stat").read_text().rpartition(")")[2].split()
+            command = (entry / "cmdline").read_text()
+        except OSError:
+            continue
+        if int(fields[3]) == session and fields[0] != "Z":
+            found[int(entry.name)] = command
+    return found
+
+
+def left_of(session: int) -> dict[int, str]:
+    """Processes of a session that do not end."""
+    until = time.monotonic() + PATIENCE
+    while (there := members(session)) and time.monotonic() < until:
+        time.sleep(0.05)
+    return there
+
+
+in_proc = pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="processes are found in Linux's /proc")
+
+
+@in_proc
+def test_ctrl_c_ends_the_workers_quietly_and_the_next_run_goes_on(going, untouched, undisturbed):
+    os.killpg(going.pid, signal.SIGINT)
+    assert going.wait(PATIENCE) == 130
+    assert "Traceback" not in going.stderr.read()
+    assert left_of(going.pid) == {}
+    assert untouched.contents().items() <= undisturbed.contents().items()
+    assert not untouched.run().failed
+    assert untouched.contents() == undisturbed.contents()
+
+
+@in_proc
+@pytest.mark.parametrize("delay", [0.0, 0.1, 0.4], ids=lambda delay: f"after {delay} s")
+def test_ctrl_c_does_not_tear_workers_from_their_imports(start, delay):
+    starting = start(IMPORT)
+    while not any("popen_loky" in command for command in members(starting.pid).values()):
+        assert starting.poll() is None, starting.stderr.read()
+        time.sleep(0.005)
+    time.sleep(delay)
+    os.killpg(starting.pid, signal.SIGINT)
+    code, told = starting.wait(PATIENCE), starting.stderr.read()
+    assert (code, told) == (130, "")
+    assert left_of(starting.pid) == {}
+
+
+@in_proc
+def test_no_worker_outlives_a_run_that_is_killed(going):
+    going.kill()
+    going.wait()
+    assert left_of(going.pid) == {}
+
+
+@in_proc
+def test_a_worker_that_was_never_given_work_does_not_outlive_its_parent(start):
+    waiting = start(WAIT)
+    assert len(members(waiting.pid)) > 2
+    waiting.kill()
+    waiting.wait()
+    assert left_of(waiting.pid) == {}
