@@ -7,14 +7,16 @@ import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, load
 from colonnade.campaign import Test as OneTest
 from colonnade.dynamics.block import Block
+from colonnade.figures.output import to_svg
+from colonnade.figures.style import blank_figure, styled
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.instruments import Imperfections, Transducer
 from colonnade.laboratory.programme import write
@@ -89,7 +91,8 @@ def _through_the_chain(
     campaign: Campaign, test: OneTest, truth: tuple[Array, Array], rate: float, true: float, cutoff: float
 ) -> Bias:
     recorded = ingest.ingest({MAIN: read(test.files[MAIN])}, ingest.IngestInputs.of(campaign, test))
-    how = condition.ConditionInputs.of(campaign, test).model_copy(update={"lowpass": cutoff})
+    how = condition.ConditionInputs.of(campaign, test)
+    how = how.model_copy(update={"settings": how.settings.model_copy(update={"lowpass": cutoff})})
     rocked = rocking.rocking(condition.condition(recorded, how), rocking.RockingInputs.of(campaign, test))
     identified = restitution.restitution(rocked, restitution.RestitutionInputs.of(campaign, test))
     time, angle = rocked["elapsed"].to_numpy(), rocked["rocking_angle"].to_numpy()
@@ -138,11 +141,11 @@ def table(biases: list[Bias]) -> str:
     return "\n".join(lines)
 
 
-def draw(biases: list[Bias]) -> Any:
+@styled()
+def draw(biases: list[Bias]) -> Figure:
     """Draw bias of peaks and of e over the cut-off."""
-    import matplotlib.pyplot as plt
-
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
+    figure = blank_figure(3.2)
+    left, right = figure.subplots(1, 2)
     for rate, dash in zip(RATES, ("--", "-"), strict=True):
         for true, colour in zip(RESTITUTIONS, ("#1b4965", "#c8553d"), strict=True):
             some = sorted(
@@ -152,30 +155,30 @@ def draw(biases: list[Bias]) -> Any:
             cutoffs = [each.cutoff for each in some]
             label = f"e = {true:g}, {rate:g} Hz"
             left.plot(cutoffs, [100 * each.peaks[-1] for each in some], dash, color=colour, label=label, marker=".")
-            right.plot(cutoffs, [each.restitution for each in some], dash, color=colour, label=label, marker=".")
-    for axes, name in ((left, "peaks of 0.02–0.1 α: measured − true, % of α"), (right, "e: identified − true")):
+            right.plot(cutoffs, [1e6 * each.restitution for each in some], dash, color=colour, label=label, marker=".")
+    for axes, name in ((left, "peaks of 0.02–0.1 α: measured − true, % of α"), (right, "e: identified − true, 10⁻⁶")):
         axes.axvline(default_lowpass(PRISM.p, max(RATES)), color="0.6", linewidth=1)
         axes.axhline(0.0, color="0.8", linewidth=0.8)
         axes.set_xscale("log")
         axes.set_xticks(CUTOFFS, [f"{value:g}" for value in CUTOFFS])
         axes.minorticks_off()
         axes.set_xlabel("cut-off, Hz")
-        axes.set_title(name, fontsize=10)
-    left.legend(fontsize=8)
+        axes.set_title(name)
+    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
 
 
 def rebuild(document: Path) -> None:
     """Put table and figure into the document."""
-    import matplotlib as mpl
-
     biases = measure(RATES, RESTITUTIONS, CUTOFFS)
     text = document.read_text(encoding="utf-8")
     begin, end = MARKS
     measured = f"{begin}\n\n{table(biases)}\n\n![Bias of peaks and of e over the cut-off]({FIGURE})\n\n{end}"
     document.write_text(re.sub(f"{begin}.*{end}", lambda _: measured, text, flags=re.DOTALL), encoding="utf-8")
-    mpl.rcParams["svg.hashsalt"] = "filter-bias"
-    draw(biases).savefig(document.with_name(FIGURE), metadata={"Date": None})
+    title = "Bias of peaks and of e over the cut-off of the low-pass"
+    described = "From 10 Hz on, small peaks have errors of at most 0.1 % of α and e of 1e-5; at 5 Hz peaks miss 1 % of α."
+    text = to_svg(draw(biases), identity="filter-bias", title=title, description=described)
+    document.with_name(FIGURE).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -177,7 +177,7 @@ def draw(campaign: Campaign, summary: dict[str, Any], folder: Path, name: str, p
     }
     for part, drawing in drawn.values():
         if drawing is not None:
-            (folder / f"{name}-{part}.svg").write_text(drawing.svg(), encoding="utf-8")
+            (folder / f"{name}-{part}.svg").write_text(drawing.svg, encoding="utf-8")
     if picture is not None:
         picture.write_bytes(figures.to_png(figures.spans_side_by_side(panels)))
     return {caption: f"{name}-{part}.svg" for caption, (part, _) in drawn.items()}

@@ -77,7 +77,8 @@ def run(seed: int, number: int, wrong: float, members: int) -> Trial:
     ready = conditioning.condition(recorded, conditioning.ConditionInputs.of(campaign, test))
     rocked = rocking_stage.rocking(ready, rocking_stage.RockingInputs.of(campaign, test))
     e = drawn.restitution + wrong * (-1) ** (number // 4)
-    read = running.EnsembleInputs.of(campaign, test, MODEL).model_copy(update={"members": members})
+    read = running.EnsembleInputs.of(campaign, test, MODEL)
+    read = read.model_copy(update={"settings": read.settings.model_copy(update={"members": members})})
     try:
         bands = running.ensemble(ready, rocked, _specimen(e), read, _identified(rocked, campaign, test))
     except StageError:

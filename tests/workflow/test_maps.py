@@ -103,7 +103,7 @@ def test_several_processes_give_the_same_bit_for_bit(small):
 def test_several_models_have_a_map_each_and_a_picture_together(small):
     both = make_maps(small.folder, asking(models=("linear", "nonlinear")), workers=1)
     assert [each.model for each in both] == ["linear", "nonlinear"]
-    together = small.layout.maps_figure("prism", ("linear", "nonlinear"))
+    together = small.layout.together("prism", ("linear", "nonlinear"))
     assert {each.together for each in both} == {together}
     drawn = together.read_text(encoding="utf-8")
     for model in ("linear", "nonlinear"):

@@ -16,6 +16,7 @@ HEIGHT = 1.9
 """Of a model's panel, inches."""
 
 
+@styled()
 def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Figure:
     """
     Draw the measured angle over the bands of each model, one panel a model.
@@ -41,28 +42,27 @@ def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Fi
     for model, spread in spreads.items():
         if not np.allclose(spread.levels + spread.levels[::-1], 1.0):
             raise ValueError(f"{model}: the levels {spread.levels.tolist()} are not paired about 0.5")
-    with styled():
-        figure, axes = stacked_panels([HEIGHT] * len(spreads))
-        curves = [Curve(spread.time, band) for spread in spreads.values() for band in spread.bands]
-        curves += [measured] if measured is not None else []
-        limit = limit_of(curves)
-        for panel, (model, spread) in zip(axes, spreads.items(), strict=True):
-            colour = model_style(model)["color"]
-            for index in range(int((spread.levels < 0.5).sum())):
-                label = f"{spread.share(index):.0%} of the runs" if panel is axes[0] else None
-                shade(panel, spread, index, limit, colour, label=label)
-            mark_horizon(panel, spread, colour)
-            draw_angle(panel, measured, {}, limit)
-            panel.set_ylabel(f"{ANGLE_LABEL}, {model}")
-            if spread.overturning_probability > 0:
-                panel.annotate(
-                    f"{spread.overturning_probability:.0%} overturn",
-                    (0.995, 0.04),
-                    xycoords="axes fraction",
-                    ha="right",
-                    fontsize=8,
-                )
-        axes[-1].set_xlim(*time_limits(curves))
-        axes[-1].set_xlabel("time (s)")
-        legend_above(figure, axes)
-        return figure
+    figure, axes = stacked_panels([HEIGHT] * len(spreads))
+    curves = [Curve(spread.time, band) for spread in spreads.values() for band in spread.bands]
+    curves += [measured] if measured is not None else []
+    limit = limit_of(curves)
+    for panel, (model, spread) in zip(axes, spreads.items(), strict=True):
+        colour = model_style(model)["color"]
+        for index in range(int((spread.levels < 0.5).sum())):
+            label = f"{spread.share(index):.0%} of the runs" if panel is axes[0] else None
+            shade(panel, spread, index, limit, colour, label=label)
+        mark_horizon(panel, spread, colour)
+        draw_angle(panel, measured, {}, limit)
+        panel.set_ylabel(f"{ANGLE_LABEL}, {model}")
+        if spread.overturning_probability > 0:
+            panel.annotate(
+                f"{spread.overturning_probability:.0%} overturn",
+                (0.995, 0.04),
+                xycoords="axes fraction",
+                ha="right",
+                fontsize=8,
+            )
+    axes[-1].set_xlim(*time_limits(curves))
+    axes[-1].set_xlabel("time (s)")
+    legend_above(figure, axes)
+    return figure

@@ -1,5 +1,5 @@
 """
-What becomes of a figure: SVG text for a page, or a PNG. The one place where figures leave matplotlib.
+Figures as SVG text or as PNG: the only module that writes them.
 
 The same figure gives the same bytes. SVG text is small, and its ids are its own, so that many figures fit on a page.
 """
@@ -7,8 +7,9 @@ The same figure gives the same bytes. SVG text is small, and its ids are its own
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
+from functools import cached_property
 from io import BytesIO
-from typing import NamedTuple
 from xml.etree import ElementTree
 
 from matplotlib.figure import Figure
@@ -25,7 +26,8 @@ _LONG_NUMBER = re.compile(r"(\d+\.\d{2})\d+")
 _FONT = re.compile(r"font(-family)?:([^;]*?)'DejaVu Sans'[^;]*")
 
 
-class Picture(NamedTuple):
+@dataclass(frozen=True)
+class Picture:
     """A figure with its id in a page, its title, and what is seen in it, for those who do not see it."""
 
     figure: Figure
@@ -33,8 +35,9 @@ class Picture(NamedTuple):
     title: str
     description: str
 
+    @cached_property
     def svg(self) -> str:
-        """Return it as an `<svg>` element."""
+        """The `<svg>` element, written once: a second layout of the same figure would move it by a hair."""
         return to_svg(self.figure, identity=self.identity, title=self.title, description=self.description)
 
 

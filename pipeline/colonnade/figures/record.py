@@ -36,6 +36,7 @@ class Peak(NamedTuple):
     ratio: float
 
 
+@styled()
 def whole_record(
     measured: Curve | None,
     predicted: Mapping[str, Curve],
@@ -73,23 +74,22 @@ def whole_record(
     """
     misfits = {model: curve for model, curve in (misfits or {}).items() if np.isfinite(curve.values).any()}
     others = [*motions, *base]
-    with styled():
-        heights = [ANGLE_HEIGHT, *([OTHER_HEIGHT] * (bool(misfits) + len(others)))]
-        figure, axes = stacked_panels(heights)
-        limit = limit_of([curve for curve in (measured, *predicted.values()) if curve is not None])
-        draw_angle(axes[0], measured, predicted, limit, spreads=spreads)
-        if impacts is not None and impacts.size:
-            _mark_impacts(axes[0], impacts)
-        if peak is not None and np.isfinite(peak).all() and abs(peak.ratio) < limit:
-            axes[0].plot([peak.time], [peak.ratio], "o", color=MEASURED["color"], markersize=5, markerfacecolor="none")
-        if misfits:
-            _draw_misfits(axes[1], misfits)
-        for one, quantity in zip(axes[1 + bool(misfits) :], others, strict=True):
-            _draw_quantity(one, quantity)
-        curves = [measured, *predicted.values(), *(quantity.curve for quantity in others)]
-        axes[0].set_xlim(*time_limits([curve for curve in curves if curve is not None]))
-        axes[-1].set_xlabel("time (s)")
-        legend_above(figure, axes[:1])
+    heights = [ANGLE_HEIGHT, *([OTHER_HEIGHT] * (bool(misfits) + len(others)))]
+    figure, axes = stacked_panels(heights)
+    limit = limit_of([curve for curve in (measured, *predicted.values()) if curve is not None])
+    draw_angle(axes[0], measured, predicted, limit, spreads=spreads)
+    if impacts is not None and impacts.size:
+        _mark_impacts(axes[0], impacts)
+    if peak is not None and np.isfinite(peak).all() and abs(peak.ratio) < limit:
+        axes[0].plot([peak.time], [peak.ratio], "o", color=MEASURED["color"], markersize=5, markerfacecolor="none")
+    if misfits:
+        _draw_misfits(axes[1], misfits)
+    for one, quantity in zip(axes[1 + bool(misfits) :], others, strict=True):
+        _draw_quantity(one, quantity)
+    curves = [measured, *predicted.values(), *(quantity.curve for quantity in others)]
+    axes[0].set_xlim(*time_limits([curve for curve in curves if curve is not None]))
+    axes[-1].set_xlabel("time (s)")
+    legend_above(figure, axes[:1])
     return figure
 
 

@@ -33,6 +33,7 @@ class SpanPanel(NamedTuple):
     base: Curve | None = None
 
 
+@styled()
 def spans_side_by_side(panels: Sequence[SpanPanel]) -> Figure:
     """
     Draw earthquake tests beside each other, a row of panels for each model, all with the same scales.
@@ -58,25 +59,24 @@ def spans_side_by_side(panels: Sequence[SpanPanel]) -> Figure:
     bases = [panel.base for panel in panels if panel.base is not None]
     limit, largest = limit_of(curves), largest_of(bases) or 1.0
     rows = max(len(models), 1)
-    with styled():
-        figure, grid = side_by_side(len(panels), [ANGLE_HEIGHT] * rows + [BASE_HEIGHT] * bool(bases))
-        for column, panel in zip(grid, panels, strict=True):
-            for one, model in zip(column, models or [""], strict=False):
-                predicted = {model: panel.predicted[model]} if model in panel.predicted else {}
-                draw_angle(one, panel.measured, predicted, limit, intervals=INTERVALS, thinness=THINNESS, limit_name="")
-                one.set_ylabel("")
-            column[0].set_title(panel.title)
-            if bases:
-                if panel.base is not None:
-                    column[-1].plot(*envelope(panel.base, intervals=INTERVALS), **BASE)
-                column[-1].set_ylim(-1.12 * largest, 1.12 * largest)
-                column[-1].yaxis.set_major_locator(MaxNLocator(nbins=4, symmetric=True, steps=[1, 2, 5, 10]))
-            column[-1].set_xlabel("time (s)")
-            column[0].set_xlim(*time_limits([*curves, *bases]))
-        for column in grid[::COLUMNS]:
-            for one in column[:rows]:
-                one.set_ylabel(ANGLE_LABEL)
-            if bases:
-                column[-1].set_ylabel("base\n(m/s²)")
-        legend_above(figure, [one for column in grid for one in column[:rows]])
+    figure, grid = side_by_side(len(panels), [ANGLE_HEIGHT] * rows + [BASE_HEIGHT] * bool(bases))
+    for column, panel in zip(grid, panels, strict=True):
+        for one, model in zip(column, models or [""], strict=False):
+            predicted = {model: panel.predicted[model]} if model in panel.predicted else {}
+            draw_angle(one, panel.measured, predicted, limit, intervals=INTERVALS, thinness=THINNESS, limit_name="")
+            one.set_ylabel("")
+        column[0].set_title(panel.title)
+        if bases:
+            if panel.base is not None:
+                column[-1].plot(*envelope(panel.base, intervals=INTERVALS), **BASE)
+            column[-1].set_ylim(-1.12 * largest, 1.12 * largest)
+            column[-1].yaxis.set_major_locator(MaxNLocator(nbins=4, symmetric=True, steps=[1, 2, 5, 10]))
+        column[-1].set_xlabel("time (s)")
+        column[0].set_xlim(*time_limits([*curves, *bases]))
+    for column in grid[::COLUMNS]:
+        for one in column[:rows]:
+            one.set_ylabel(ANGLE_LABEL)
+        if bases:
+            column[-1].set_ylabel("base\n(m/s²)")
+    legend_above(figure, [one for column in grid for one in column[:rows]])
     return figure

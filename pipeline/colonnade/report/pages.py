@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from typing import Any
-from weakref import WeakKeyDictionary
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
-from markupsafe import Markup
-from matplotlib.figure import Figure
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import Setting
-from colonnade.figures.output import Picture
 from colonnade.store.records import wording
 
 KINDS = {
@@ -79,7 +75,6 @@ class Renderer:
         }
         self._environment.filters |= {
             "setting": _setting,
-            "svg": _svg,
             "number": wording.number,
             "quantity": wording.quantity,
             "acceleration": wording.acceleration,
@@ -91,17 +86,6 @@ class Renderer:
         """Return the page that stands at an address within the report's folder."""
         root = "../" * address.count("/")
         return self._environment.get_template(f"{template}.html.jinja").render(here=address, root=root, **given)
-
-
-_MARKUP: WeakKeyDictionary[Figure, Markup] = WeakKeyDictionary()
-"""Of each figure that is still on a page to come: to lay it out twice would move it by a hair."""
-
-
-def _svg(picture: Picture) -> Markup:
-    """Turn a picture into markup."""
-    if picture.figure not in _MARKUP:
-        _MARKUP[picture.figure] = Markup(picture.svg())
-    return _MARKUP[picture.figure]
 
 
 def _setting(setting: Setting) -> str:

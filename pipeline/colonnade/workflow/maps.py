@@ -273,16 +273,6 @@ def _record(plan: MapPlan) -> dict[str, Any]:
 
 
 def _draw(stored: Sequence[xr.Dataset], points: Sequence[MapPoint], path: Path, specimen: str) -> None:
-    from colonnade import figures
+    from colonnade.figures.stored import maps
 
-    charts = [as_map(each) for each in stored]
-    models = [str(chart.options["model"]) for chart in charts]
-    files.write_text(
-        path,
-        figures.to_svg(
-            figures.stability_map(charts, points),
-            identity=f"map-{specimen}-{'-'.join(models)}",
-            title=f"Stability map of {specimen}, {' and '.join(models)} model",
-            description=f"Outcomes over frequency ratio Ω and amplitude ratio A, with {len(points)} measured points.",
-        ),
-    )
+    files.write_text(path, maps.computed(specimen, [as_map(each) for each in stored], points).svg)

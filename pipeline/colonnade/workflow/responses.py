@@ -146,15 +146,7 @@ def _as_dataset(plan: MapPlan, parts: Sequence[dict[str, NDArray[Any]]]) -> xr.D
 
 
 def _draw(response: SteadyResponse, plan: MapPlan, points: Sequence[MapPoint], layout: Layout, specimen: str) -> None:
-    from colonnade import figures
+    from colonnade.figures.stored import maps
 
-    settings = _settings(plan)
-    files.write_text(
-        layout.figure(ResultId(specimen, "responses", plan.model)),
-        figures.to_svg(
-            figures.response_orders(response, points, settings),
-            identity=f"response-{specimen}-{plan.model}",
-            title=f"Steady responses of {specimen}, {plan.model} model",
-            description=f"Orders over frequency ratio Ω and amplitude ratio A, with {len(points)} measured points.",
-        ),
-    )
+    picture = maps.responses(specimen, response, points, _settings(plan))
+    files.write_text(layout.figure(ResultId(specimen, "responses", plan.model)), picture.svg)

@@ -31,6 +31,7 @@ LOGARITHMIC = 6.0
 """Amplitudes that span more than this factor are drawn on a logarithmic axis."""
 
 
+@styled()
 def measured_map(points: Sequence[MapPoint], *, axes: Axes | None = None) -> Figure:
     """
     Draw the measured map of a specimen.
@@ -58,18 +59,17 @@ def measured_map(points: Sequence[MapPoint], *, axes: Axes | None = None) -> Fig
     """
     if not points:
         raise ValueError("no sine test was given; at least one point of the map was expected")
-    with styled():
-        own = axes is None
-        if axes is None:
-            axes = blank_figure(3.6).subplots()
-        _draw_scale(axes, points)
-        for name, label, colour in BOUNDARIES:
-            _draw_boundary(axes, bracket_boundaries(points), name, label, colour)
-        draw_points(axes, points)
-        figure = cast(Figure, axes.get_figure(root=True))
-        if own:
-            figure.legend(loc="outside upper left", ncols=5, columnspacing=1.2, handletextpad=0.5, borderaxespad=0.2)
-        return figure
+    own = axes is None
+    if axes is None:
+        axes = blank_figure(3.6).subplots()
+    _draw_scale(axes, points)
+    for name, label, colour in BOUNDARIES:
+        _draw_boundary(axes, bracket_boundaries(points), name, label, colour)
+    draw_points(axes, points)
+    figure = cast(Figure, axes.get_figure(root=True))
+    if own:
+        figure.legend(loc="outside upper left", ncols=5, columnspacing=1.2, handletextpad=0.5, borderaxespad=0.2)
+    return figure
 
 
 def draw_points(axes: Axes, points: Sequence[MapPoint], *, prefix: str = "") -> None:

@@ -56,6 +56,7 @@ LEAST_SHARE = 0.15
 CURVE_COLOURS = ("#0b6bb0", "#0a8a5f", "#c07a00", "#8a3fa8")
 
 
+@styled()
 def response_orders(response: SteadyResponse, points: Sequence[MapPoint], options: Mapping[str, Any]) -> Figure:
     """
     Draw the orders of steady responses over Ω and A, and below them curves of the largest angle over each.
@@ -86,42 +87,41 @@ def response_orders(response: SteadyResponse, points: Sequence[MapPoint], option
     """
     if min(response.order.shape) < 2:
         raise ValueError(f"orders of {response.order.shape} Ω and A were given; at least two of each were expected")
-    with styled():
-        figure = blank_figure(6.6)
-        grid = figure.add_gridspec(2, 2, height_ratios=(1.7, 1.0))
-        axes = figure.add_subplot(grid[0, :])
-        present = _draw_regions(axes, response)
-        scale_axes(axes, response.frequency_ratio, response.amplitude_ratio, points)
-        draw_points(axes, points, prefix="measured: ")
-        settled = f"{options['model']} model; {words_of_restitution(options)}; {words_of_sine(options)}"
-        axes.set_title(f"{settled}, {options['settling']} cycles to settle", fontsize=8, color="#5b6675")
-        patches = [Patch(facecolor=region.colour, edgecolor="#8a919c", linewidth=0.5) for region in present]
-        handles, labels = axes.get_legend_handles_labels()
-        figure.legend(
-            [*patches, *handles],
-            [*(region.name for region in present), *labels],
-            loc="outside lower center",
-            ncols=4,
-            fontsize=8,
-            columnspacing=1.2,
-            handletextpad=0.6,
-        )
-        over_frequency, over_amplitude = figure.add_subplot(grid[1, 0]), figure.add_subplot(grid[1, 1])
-        _draw_curves(
-            over_frequency,
-            response.frequency_ratio,
-            response.amplitude.T,
-            response.order.T,
-            response.amplitude_ratio,
-            "A",
-        )
-        over_frequency.set_xlabel("Ω = ω / p")
-        over_frequency.set_ylabel("largest |θ| / α")
-        _draw_curves(
-            over_amplitude, response.amplitude_ratio, response.amplitude, response.order, response.frequency_ratio, "Ω"
-        )
-        over_amplitude.set_xlabel("A = a / (g tan α)")
-        return figure
+    figure = blank_figure(6.6)
+    grid = figure.add_gridspec(2, 2, height_ratios=(1.7, 1.0))
+    axes = figure.add_subplot(grid[0, :])
+    present = _draw_regions(axes, response)
+    scale_axes(axes, response.frequency_ratio, response.amplitude_ratio, points)
+    draw_points(axes, points, prefix="measured: ")
+    settled = f"{options['model']} model; {words_of_restitution(options)}; {words_of_sine(options)}"
+    axes.set_title(f"{settled}, {options['settling']} cycles to settle", fontsize=8, color="#5b6675")
+    patches = [Patch(facecolor=region.colour, edgecolor="#8a919c", linewidth=0.5) for region in present]
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(
+        [*patches, *handles],
+        [*(region.name for region in present), *labels],
+        loc="outside lower center",
+        ncols=4,
+        fontsize=8,
+        columnspacing=1.2,
+        handletextpad=0.6,
+    )
+    over_frequency, over_amplitude = figure.add_subplot(grid[1, 0]), figure.add_subplot(grid[1, 1])
+    _draw_curves(
+        over_frequency,
+        response.frequency_ratio,
+        response.amplitude.T,
+        response.order.T,
+        response.amplitude_ratio,
+        "A",
+    )
+    over_frequency.set_xlabel("Ω = ω / p")
+    over_frequency.set_ylabel("largest |θ| / α")
+    _draw_curves(
+        over_amplitude, response.amplitude_ratio, response.amplitude, response.order, response.frequency_ratio, "Ω"
+    )
+    over_amplitude.set_xlabel("A = a / (g tan α)")
+    return figure
 
 
 def _draw_regions(axes: Axes, response: SteadyResponse) -> list[Orders]:

@@ -26,6 +26,7 @@ LOGARITHMIC = 6.0
 """Amplitudes that span more than this factor are drawn on a logarithmic axis."""
 
 
+@styled()
 def stability_map(
     charts: StabilityMap | Sequence[StabilityMap], points: Sequence[MapPoint] = (), *, axes: Axes | None = None
 ) -> Figure:
@@ -59,41 +60,40 @@ def stability_map(
     charts = [charts] if isinstance(charts, StabilityMap) else list(charts)
     if not charts:
         raise ValueError("no map was given; at least one was expected")
-    with styled():
-        own = axes is None
-        if axes is None:
-            axes = blank_figure(4.4).subplots()
-        first = charts[0]
-        scale_axes(axes, first.frequency_ratio, first.amplitude_ratio, points)
-        axes.grid(False)
-        axes.pcolormesh(
-            cell_edges(first.frequency_ratio),
-            cell_edges(first.amplitude_ratio),
-            first.overturning_fraction.T,
-            cmap=SHADE,
-            vmin=0.0,
-            vmax=1.0,
-            rasterized=True,
-            zorder=0,
+    own = axes is None
+    if axes is None:
+        axes = blank_figure(4.4).subplots()
+    first = charts[0]
+    scale_axes(axes, first.frequency_ratio, first.amplitude_ratio, points)
+    axes.grid(False)
+    axes.pcolormesh(
+        cell_edges(first.frequency_ratio),
+        cell_edges(first.amplitude_ratio),
+        first.overturning_fraction.T,
+        cmap=SHADE,
+        vmin=0.0,
+        vmax=1.0,
+        rasterized=True,
+        zorder=0,
+    )
+    for chart in charts:
+        _limits(axes, chart)
+    draw_points(axes, points, prefix="measured: ")
+    figure = cast(Figure, axes.get_figure(root=True))
+    if own:
+        axes.set_title(_words(charts), fontsize=8, color="#5b6675")
+        handles, labels = axes.get_legend_handles_labels()
+        shade = Patch(facecolor=SHADE(1.0), label=f"overturned, share of cell ({first.options['model']})")
+        figure.legend(
+            handles=[shade, *handles],
+            labels=[str(shade.get_label()), *labels],
+            loc="outside lower center",
+            ncols=3,
+            fontsize=8,
+            columnspacing=1.4,
+            handletextpad=0.6,
         )
-        for chart in charts:
-            _limits(axes, chart)
-        draw_points(axes, points, prefix="measured: ")
-        figure = cast(Figure, axes.get_figure(root=True))
-        if own:
-            axes.set_title(_words(charts), fontsize=8, color="#5b6675")
-            handles, labels = axes.get_legend_handles_labels()
-            shade = Patch(facecolor=SHADE(1.0), label=f"overturned, share of cell ({first.options['model']})")
-            figure.legend(
-                handles=[shade, *handles],
-                labels=[str(shade.get_label()), *labels],
-                loc="outside lower center",
-                ncols=3,
-                fontsize=8,
-                columnspacing=1.4,
-                handletextpad=0.6,
-            )
-        return figure
+    return figure
 
 
 def _limits(axes: Axes, chart: StabilityMap) -> None:

@@ -47,6 +47,7 @@ class EstimateGroup(NamedTuple):
     rows: Sequence[EstimateRow]
 
 
+@styled()
 def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float | None = None) -> Figure:
     """
     Draw points with intervals, a row an estimate, groups below each other.
@@ -72,30 +73,29 @@ def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float | N
     titles = sum(bool(group.title) for group in groups)
     body = count * ROW + titles * GROUP + (MARGIN if rigid is None else GROUP)
     height = TOP + body + BOTTOM
-    with styled():
-        figure = Figure(figsize=(WIDTH, height))
-        axes = figure.add_axes((LEFT / WIDTH, BOTTOM / height, (WIDTH - LEFT - RIGHT) / WIDTH, body / height))
-        low, high = _limits([row for group in groups for row in group.rows])
-        axes.set_xlim(low, high)
-        axes.set_ylim(body, 0)
-        axes.tick_params(axis="y", left=False, labelleft=False)
-        axes.grid(visible=False, axis="y")
-        place = 0.05
-        for group in groups:
-            if group.title:
-                _write(axes, place + GROUP / 2, group.title, -LEFT + 0.1, weight="bold")
-                place += GROUP
-            for row in group.rows:
-                _draw_row(axes, place + ROW / 2, row)
-                place += ROW
-        if not any(np.isfinite(row.value) for group in groups for row in group.rows):
-            axes.set_xticks([])
-        else:
-            axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
-            if rigid is not None:
-                _draw_rigid(axes, rigid)
-        axes.set_xlabel("coefficient of restitution e")
-        return figure
+    figure = Figure(figsize=(WIDTH, height))
+    axes = figure.add_axes((LEFT / WIDTH, BOTTOM / height, (WIDTH - LEFT - RIGHT) / WIDTH, body / height))
+    low, high = _limits([row for group in groups for row in group.rows])
+    axes.set_xlim(low, high)
+    axes.set_ylim(body, 0)
+    axes.tick_params(axis="y", left=False, labelleft=False)
+    axes.grid(visible=False, axis="y")
+    place = 0.05
+    for group in groups:
+        if group.title:
+            _write(axes, place + GROUP / 2, group.title, -LEFT + 0.1, weight="bold")
+            place += GROUP
+        for row in group.rows:
+            _draw_row(axes, place + ROW / 2, row)
+            place += ROW
+    if not any(np.isfinite(row.value) for group in groups for row in group.rows):
+        axes.set_xticks([])
+    else:
+        axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
+        if rigid is not None:
+            _draw_rigid(axes, rigid)
+    axes.set_xlabel("coefficient of restitution e")
+    return figure
 
 
 def _draw_row(axes: Axes, place: float, row: EstimateRow) -> None:

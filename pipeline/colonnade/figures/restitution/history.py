@@ -21,6 +21,7 @@ SMALLEST_RESIDUAL = 1e-2
 """No axis of residuals is narrower than ± this, in 10⁻³ α: rounding does not look like a finding."""
 
 
+@styled()
 def fitted_history(
     measured: Curve | None, fitted: Curve, residual: Curve, *, model: str, left_out: Sequence[tuple[float, float]] = ()
 ) -> Figure:
@@ -49,19 +50,18 @@ def fitted_history(
     """
     if not fitted.time.size:
         raise ValueError("the fitted history has no sample; at least one was expected")
-    with styled():
-        figure, axes = stacked_panels([ANGLE_HEIGHT, RESIDUAL_HEIGHT])
-        shown = [curve for curve in (measured, fitted) if curve is not None]
-        draw_angle(axes[0], measured, {}, limit_of(shown))
-        axes[0].plot(*envelope(fitted), label=f"fitted, {model} model", **model_style(model))
-        _draw_residual(axes[1], residual)
-        for start, end in left_out:
-            for one in axes:
-                one.axvspan(start, end, color="#8a919c", alpha=0.15, linewidth=0, label="not fitted")
-        axes[0].set_xlim(*time_limits(shown))
-        axes[-1].set_xlabel("time (s)")
-        legend_above(figure, axes[:1])
-        return figure
+    figure, axes = stacked_panels([ANGLE_HEIGHT, RESIDUAL_HEIGHT])
+    shown = [curve for curve in (measured, fitted) if curve is not None]
+    draw_angle(axes[0], measured, {}, limit_of(shown))
+    axes[0].plot(*envelope(fitted), label=f"fitted, {model} model", **model_style(model))
+    _draw_residual(axes[1], residual)
+    for start, end in left_out:
+        for one in axes:
+            one.axvspan(start, end, color="#8a919c", alpha=0.15, linewidth=0, label="not fitted")
+    axes[0].set_xlim(*time_limits(shown))
+    axes[-1].set_xlabel("time (s)")
+    legend_above(figure, axes[:1])
+    return figure
 
 
 def _draw_residual(axes: Axes, residual: Curve) -> None:

@@ -55,6 +55,7 @@ class Level(NamedTuple):
     name: str
 
 
+@styled()
 def impact_restitution(
     series: Sequence[ImpactSeries],
     *,
@@ -84,24 +85,23 @@ def impact_restitution(
     """
     if not series:
         raise ValueError("no free vibration was given; at least one series of impacts was expected")
-    with styled():
-        figure, (axes,) = stacked_panels([HEIGHT])
-        fastest = max((float(np.nanmax(one.velocity, initial=0.0)) for one in series), default=0.0) or 1.0
-        axes.set_xlim(0, 1.05 * fastest)
-        for index, one in enumerate(series):
-            _draw_impacts(axes, one, MARKS[index % len(MARKS)], named=1 < len(series) <= MOST_NAMED)
-        if level is not None and np.isfinite(level.value):
-            _draw_level(axes, level)
-        axes.set_ylim(*_limits(series, level))
-        if rigid is not None:
-            _draw_rigid(axes, rigid)
-        if not any(np.isfinite(one.restitution).any() for one in series):
-            axes.text(0.5, 0.5, "no impacts", transform=axes.transAxes, ha="center", va="center")
-        axes.yaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
-        axes.set_xlabel("angular velocity before the impact (rad/s)")
-        axes.set_ylabel("e of each impact")
-        legend_above(figure, [axes])
-        return figure
+    figure, (axes,) = stacked_panels([HEIGHT])
+    fastest = max((float(np.nanmax(one.velocity, initial=0.0)) for one in series), default=0.0) or 1.0
+    axes.set_xlim(0, 1.05 * fastest)
+    for index, one in enumerate(series):
+        _draw_impacts(axes, one, MARKS[index % len(MARKS)], named=1 < len(series) <= MOST_NAMED)
+    if level is not None and np.isfinite(level.value):
+        _draw_level(axes, level)
+    axes.set_ylim(*_limits(series, level))
+    if rigid is not None:
+        _draw_rigid(axes, rigid)
+    if not any(np.isfinite(one.restitution).any() for one in series):
+        axes.text(0.5, 0.5, "no impacts", transform=axes.transAxes, ha="center", va="center")
+    axes.yaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
+    axes.set_xlabel("angular velocity before the impact (rad/s)")
+    axes.set_ylabel("e of each impact")
+    legend_above(figure, [axes])
+    return figure
 
 
 def _draw_impacts(axes: Axes, impacts: ImpactSeries, mark: str, *, named: bool) -> None:

@@ -34,6 +34,7 @@ class Region(NamedTuple):
     covariance: Array
 
 
+@styled()
 def joint_region(
     regions: Sequence[Region], *, levels: Sequence[float] = (0.5, 0.95), fixed: tuple[float, float, float] | None = None
 ) -> Figure:
@@ -60,43 +61,42 @@ def joint_region(
     """
     if not regions:
         raise ValueError("no fit was given; at least one with the critical angle freed was expected")
-    with styled():
-        figure = blank_figure(3.0)
-        axes = figure.subplots()
-        for region in regions:
-            for level in levels:
-                outline = _ellipse(region, level)
-                axes.plot(*outline, label=f"{level:.0%}", color=FIT["color"], linewidth=0.6 + 0.8 * level)
-                axes.fill(*outline, color=FIT["color"], alpha=0.1, linewidth=0)
-            axes.plot(*region.centre, "o", color=FIT["color"], markersize=4)
-            axes.annotate(
-                region.title,
-                (float(region.centre[0]), float(region.centre[1])),
-                xytext=(5, 4),
-                textcoords="offset points",
-                fontsize=8,
-            )
-        axes.margins(0.06)
-        axes.autoscale_view()
-        axes.axhline(1.0, label="α as given", **LIMIT)
-        if fixed is not None:
-            value, low, high = fixed
-            axes.errorbar(
-                [value],
-                [1.0],
-                xerr=[[value - low], [high - value]],
-                fmt="D",
-                color=MEASURED["color"],
-                markersize=4,
-                elinewidth=1.1,
-                label="e with α as given",
-            )
-        axes.xaxis.set_major_locator(MaxNLocator(nbins=6))
-        axes.yaxis.set_major_locator(MaxNLocator(nbins=6))
-        axes.set_xlabel("coefficient of restitution e")
-        axes.set_ylabel("α fitted / α given")
-        legend_outside(figure, [axes])
-        return figure
+    figure = blank_figure(3.0)
+    axes = figure.subplots()
+    for region in regions:
+        for level in levels:
+            outline = _ellipse(region, level)
+            axes.plot(*outline, label=f"{level:.0%}", color=FIT["color"], linewidth=0.6 + 0.8 * level)
+            axes.fill(*outline, color=FIT["color"], alpha=0.1, linewidth=0)
+        axes.plot(*region.centre, "o", color=FIT["color"], markersize=4)
+        axes.annotate(
+            region.title,
+            (float(region.centre[0]), float(region.centre[1])),
+            xytext=(5, 4),
+            textcoords="offset points",
+            fontsize=8,
+        )
+    axes.margins(0.06)
+    axes.autoscale_view()
+    axes.axhline(1.0, label="α as given", **LIMIT)
+    if fixed is not None:
+        value, low, high = fixed
+        axes.errorbar(
+            [value],
+            [1.0],
+            xerr=[[value - low], [high - value]],
+            fmt="D",
+            color=MEASURED["color"],
+            markersize=4,
+            elinewidth=1.1,
+            label="e with α as given",
+        )
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=6))
+    axes.yaxis.set_major_locator(MaxNLocator(nbins=6))
+    axes.set_xlabel("coefficient of restitution e")
+    axes.set_ylabel("α fitted / α given")
+    legend_outside(figure, [axes])
+    return figure
 
 
 def _ellipse(region: Region, level: float) -> tuple[Array, Array]:

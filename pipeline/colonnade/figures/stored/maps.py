@@ -1,10 +1,15 @@
-"""Pictures of maps: the sine tests of a specimen over frequency and amplitude."""
+"""Pictures of maps: measured sine tests, computed stability and steady responses over frequency and amplitude."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
+from colonnade.dynamics.maps.chart import StabilityMap
+from colonnade.dynamics.maps.steady import SteadyResponse
 from colonnade.figures.maps.measured_map import measured_map
+from colonnade.figures.maps.response_orders import response_orders
+from colonnade.figures.maps.stability_map import stability_map
 from colonnade.figures.output import Picture
 from colonnade.identification.response.boundaries import MapPoint
 
@@ -18,4 +23,28 @@ def tested(identity: str, points: Sequence[MapPoint]) -> Picture:
         identity,
         "Sine tests by outcome over frequency ratio Ω and amplitude ratio A",
         f"{len(points)} tests: {described}.",
+    )
+
+
+def computed(specimen: str, charts: Sequence[StabilityMap], points: Sequence[MapPoint]) -> Picture:
+    """Draw the stability maps of a specimen, one a model, with its measured sine tests."""
+    models = [str(chart.options["model"]) for chart in charts]
+    return Picture(
+        stability_map(charts, points),
+        f"map-{specimen}-{'-'.join(models)}",
+        f"Stability map of {specimen}, {' and '.join(models)} model",
+        f"Outcomes over frequency ratio Ω and amplitude ratio A, with {len(points)} measured points.",
+    )
+
+
+def responses(
+    specimen: str, response: SteadyResponse, points: Sequence[MapPoint], options: Mapping[str, Any]
+) -> Picture:
+    """Draw the steady responses of a specimen by their order, with its measured sine tests."""
+    model = str(options["model"])
+    return Picture(
+        response_orders(response, points, options),
+        f"response-{specimen}-{model}",
+        f"Steady responses of {specimen}, {model} model",
+        f"Orders over frequency ratio Ω and amplitude ratio A, with {len(points)} measured points.",
     )

@@ -1,0 +1,46 @@
+import re
+from pathlib import Path
+
+import matplotlib
+import pytest
+
+from colonnade.dynamics.models.registry import MODELS
+from colonnade.figures.style import WIDTH, blank_figure, model_style, styled
+
+PROJECT = Path(__file__).resolve().parents[2]
+OUTPUT = {"savefig": "figures/output.py", "rcParams": "figures/style.py", "rc_context": "figures/style.py"}
+
+
+@pytest.mark.parametrize("name", OUTPUT)
+def test_figures_are_written_and_styled_in_one_place(name):
+    sources = [*(PROJECT / "pipeline").rglob("*.py"), *(PROJECT / "reports").rglob("*.py")]
+    found = [path.as_posix() for path in sources if re.search(rf"\b{name}\b", path.read_text(encoding="utf-8"))]
+    assert [path.endswith(OUTPUT[name]) for path in found] == [True]
+
+
+def test_pyplot_with_its_state_is_not_used():
+    sources = [*(PROJECT / "pipeline").rglob("*.py"), *(PROJECT / "reports").rglob("*.py")]
+    assert not [path for path in sources if "pyplot" in path.read_text(encoding="utf-8")]
+
+
+def test_each_model_has_a_line_of_its_own():
+    lines = [model_style(model) for model in MODELS]
+    assert len({line["color"] for line in lines}) == len({str(line["linestyle"]) for line in lines}) == len(lines)
+
+
+def test_a_thinner_line_keeps_colour_and_dash():
+    usual, thin = model_style("linear"), model_style("linear", 0.5)
+    assert thin == usual | {"linewidth": 0.5 * usual["linewidth"]}
+
+
+def test_the_style_holds_while_drawing_and_not_after():
+    before = matplotlib.rcParams["font.size"]
+    with matplotlib.rc_context({"font.size": 20}):
+        with styled():
+            assert matplotlib.rcParams["font.size"] == 9
+        assert matplotlib.rcParams["font.size"] == 20
+    assert matplotlib.rcParams["font.size"] == before
+
+
+def test_every_figure_has_the_common_width():
+    assert blank_figure(2.5).get_size_inches().tolist() == [WIDTH, 2.5]
