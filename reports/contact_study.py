@@ -18,7 +18,7 @@ import numpy as np
 from colonnade import figures
 from colonnade.dynamics.contact.law import ContactLaw
 from contact_model import convergence, damping, disturbed, drawings, space, speed
-from contact_model.free import prism_body
+from contact_model.free import PRISM
 from contact_model.observed import measure_observed
 from contact_model.page import page
 from contact_model.summary import summary
@@ -73,7 +73,7 @@ PARTS: dict[str, Callable[[ContactLaw, int], Any]] = {
 
 def measure(only: list[str], kept: dict[str, Any], workers: int) -> dict[str, Any]:
     """Measure parts anew and keep the others."""
-    law = ContactLaw(**kept["law"]) if "law" in kept else space.calibrated("5 × 5", prism_body("5 × 5"))
+    law = ContactLaw(**kept["law"]) if "law" in kept else space.calibrated(PRISM)
     today = date.today().isoformat()
     dates = kept.get("dates", {}) | dict.fromkeys(only, today)
     return kept | {"law": asdict(law)} | {part: PARTS[part](law, workers) for part in only} | {"dates": dates}

@@ -9,10 +9,11 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from colonnade.dynamics.contact.body import ContactBody
-from colonnade.dynamics.contact.calibration import calibrate
 from colonnade.dynamics.contact.elastic.model import meshed_body
 from colonnade.dynamics.contact.elastic.reduction import rigid_on_nodes
 from colonnade.dynamics.contact.start import standing
+from colonnade.errors import StageError
+from colonnade.stages.contact import calibrate_specimen
 from contact_model.free import (
     GRAVITY,
     MASS,
@@ -21,18 +22,15 @@ from contact_model.free import (
     RELEASE,
     SIZES,
     TARGET,
+    inputs_of,
     law_for,
     prism_body,
     vibrate,
-    with_modes,
 )
 from contact_model.unreduced import BulkViscosity, ExplicitRun, explicit_step, run_explicit
 
 STEPS = (1e-4, 1e-5, 1e-6)
 BODIES = ("5 × 5", *MESHES)
-MULTIPLES = (1.0, 10.0, 3.0, 0.3, 0.1, 0.03, 0.01)
-"""Of the default stiffness, in the order in which they are tried."""
-FRACTIONS = (0.1, 0.4, 1.0, 2.0, 3.0, 4.0)
 PAPER = {
     ("coarse", 1e-4): (1.70, 25),
     ("coarse", 1e-5): (0.25, 200),
@@ -44,27 +42,17 @@ PAPER = {
     ("fine", 1e-5): (0.40, 2700),
 }
 """Critical damping fraction and seconds of the paper's Table 2."""
-AROUND = (0.05, 0.2, 0.5, 0.8, 1.25)
-"""Of the fraction that 10 µs gave: those that are tried first with shorter steps, which follow more modes."""
 SCANNED = 1.2
-"""s, of a trial: three impacts."""
+"""s, of a run with the paper's fractions: three impacts."""
 LONG_STEP = 1e-4
 SOFT_DURATION = 1.6
 """s: a soft block takes longer until its first impact and the peak after it."""
-SHORT = 3
-"""Impacts of a calibration with a step below 10 µs."""
-LONG = 8
 
 
 def measure_table(bodies: tuple[str, ...] = BODIES, steps: tuple[float, ...] = STEPS, workers: int = 1) -> list[Any]:
-    """Calibrate each body at each step; a step below 10 µs starts from what 10 µs gave."""
-    coarser = [step for step in steps if step >= 1e-5]
+    """Calibrate each body at each step, as the program does."""
     pool = Parallel(n_jobs=workers)
-    cells = pool(delayed(_cell)(name, prism_body(name), step) for name in bodies for step in coarser)
-    near = {cell["body"]: cell for cell in cells if cell["step"] == min(coarser)}
-    finer = [step for step in steps if step < 1e-5]
-    cells += pool(delayed(_finer)(name, prism_body(name), step, near[name]) for name in bodies for step in finer)
-    return [dict(cell) for cell in cells]
+    return list(pool(delayed(_cell)(name, step) for step in steps for name in bodies))
 
 
 def measure_papers_fractions(cases: tuple[tuple[str, float], ...] = tuple(PAPER), workers: int = 1) -> list[Any]:
@@ -77,68 +65,28 @@ def _papers(name: str, body: ContactBody, step: float) -> dict[str, Any]:
     return asdict(vibrate(name, body, law_for(body, PAPER[name, step][0]), step, SCANNED))
 
 
-def _cell(name: str, body: ContactBody, step: float) -> dict[str, Any]:
-    """Scan damping fractions at one stiffness after the other, up to the first that brackets e, and close in."""
-    reached: tuple[float, float] | None = None
-    unstable = []
-    for multiple in MULTIPLES:
-        before = None
-        found = []
-        for fraction in FRACTIONS:
-            try:
-                run = vibrate(name, body, law_for(body, fraction, multiple=multiple), step, SCANNED)
-            except ValueError:
-                unstable.append(multiple)
-                break
-            found.append(run.restitution)
-            if before is not None and before[1] >= TARGET >= run.restitution:
-                ends = (before[0], fraction, 1.25 * fraction)
-                return _closed(name, body, step, multiple, ends, LONG) | {"reached": reached, "unstable": unstable}
-            before = fraction, run.restitution
-        if multiple == 1.0 and found:
-            reached = min(found), max(found)
-    return {"body": name, "step": step, "reached": reached, "unstable": unstable, "damping_fraction": None}
-
-
-def _finer(name: str, body: ContactBody, step: float, near: dict[str, Any]) -> dict[str, Any]:
-    """Close in around the damping fraction that a longer step gave."""
-    if near["damping_fraction"] is None:
-        return {"body": name, "step": step, "reached": None, "unstable": [], "damping_fraction": None}
-    centre = near["damping_fraction"]
-    fractions = tuple(share * centre for share in AROUND)
-    return _closed(name, body, step, near["multiple"], fractions, SHORT)
-
-
-def _closed(
-    name: str, body: ContactBody, step: float, multiple: float, fractions: tuple[float, ...], impacts: int
-) -> dict[str, Any]:
-    """Calibrate with the modes that the step follows at the largest of the fractions."""
-    law = law_for(body, fractions[-1], multiple=multiple)
-    kept = with_modes(body, law, step)
-    result = calibrate(
-        kept,
-        law,
-        TARGET,
-        gravity=GRAVITY,
-        step=step,
-        release=RELEASE,
-        impacts=impacts,
-        fractions=fractions,
-        vary_stiffness=False,
-    )
+def _cell(name: str, step: float) -> dict[str, Any]:
+    """Find the law of one body at one step; also the range of e that the default stiffness gives."""
+    inputs = inputs_of("rigid" if name == "5 × 5" else name, step)
+    try:
+        found = calibrate_specimen(inputs, TARGET)
+    except StageError:
+        return {"body": name, "step": step, "reached": [], "damping_fraction": None}
+    multiple = float(found.stiffnesses[int(np.nanargmin(np.abs(found.restitutions - TARGET)))])
+    own = found.restitutions[(found.stiffnesses == 1.0) & np.isfinite(found.restitutions)]
     return {
         "body": name,
         "step": step,
+        "reached": [float(own.min()), float(own.max())] if own.size else [],
         "multiple": multiple,
-        "stiffness": result.law.stiffness,
-        "damping_fraction": result.law.damping_fraction,
-        "effective_damping": result.effective_damping,
-        "restitution": result.restitution,
-        "agrees": result.agrees,
-        "modes": int(kept.frequencies.size),
-        "residual": result.residual,
-        "impacts": impacts,
-        "cost": 10.0 * result.cost,
+        "stiffness": found.law.stiffness,
+        "damping_fraction": found.law.damping_fraction,
+        "effective_damping": found.effective_damping,
+        "restitution": found.restitution,
+        "agrees": found.agrees,
+        "modes": int(found.body.frequencies.size),
+        "residual": found.residual,
+        "cost": 10.0 * found.cost,
     }
 
 

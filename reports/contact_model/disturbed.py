@@ -73,7 +73,7 @@ def measure_misfit(
     """Fit plane rocking to the rocking in space of prism, cylinder and cone after each disturbance."""
     whole, fine = bodies(), bodies(FINE)
     pool = Parallel(n_jobs=workers)
-    laws = dict(zip(whole, pool(delayed(calibrated)(name, body, STEP) for name, body in whole.items()), strict=True))
+    laws = dict(zip(whole, pool(delayed(calibrated)(BLOCKS[name], STEP) for name in whole), strict=True))
     jobs = []
     for release in releases:
         for kind, each in (SIZES if sizes is None else sizes).items():
@@ -86,7 +86,7 @@ def measure_misfit(
 def measure_controls(duration: float = 4.0, workers: int = 1) -> list[Any]:
     """Repeat what disturbs the cylinder with other steps, rings, nodes, stiffness and friction."""
     whole = bodies()["cylinder"]
-    law = calibrated("cylinder", whole, STEP)
+    law = calibrated(CYLINDER, STEP)
     variants: list[tuple[str, ContactBody, ContactLaw, float]] = [
         ("4 whole rings", whole, law, STEP),
         ("half the step", whole, law, 0.5 * STEP),

@@ -10,15 +10,17 @@ from typing import Any
 
 import numpy as np
 
+from colonnade.campaign.settings import ContactSettings, RestitutionSettings
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.calibration import free_restitution
 from colonnade.dynamics.contact.elastic.model import elastic_body
-from colonnade.dynamics.contact.elastic.reduction import keep_modes, keep_modes_for_step
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import STATIC_PENETRATION, ContactLaw
+from colonnade.dynamics.contact.modes import keep_modes, keep_modes_for_step
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import plane_block, simulate
+from colonnade.stages.contact import ContactInputs
 
 GRAVITY = 9.81
 MASS = 26.10
@@ -68,6 +70,17 @@ def prism_body(name: str) -> ContactBody:
         return elastic_body(SIZES, MASS, mesh=name)
     along, across = (int(number) for number in name.split(" × "))
     return rigid_body(PRISM, grid=(along, across))
+
+
+def inputs_of(mesh: str, step: float, block: Block = PRISM) -> ContactInputs:
+    """Give what the program calibrates by: "rigid" of any block, or a mesh of the prism, with the default settings."""
+    return ContactInputs(
+        block=block,
+        shape="prism",
+        sizes=tuple(sorted(SIZES.items())),
+        settings=ContactSettings(mesh=mesh, step=f"{step} s", friction=FRICTION),
+        lowest_amplitude=RestitutionSettings().lowest_amplitude,
+    )
 
 
 def law_for(body: ContactBody, fraction: float, *, multiple: float = 1.0, friction: float = FRICTION) -> ContactLaw:

@@ -47,8 +47,8 @@ def observed_lines(runs: list[Any]) -> list[str]:
     lines = [
         "### Two kinds of e",
         "",
-        "The e of this study and of the calibration is that of velocities just before and after each impact, 3 s at",
-        "10 µs. A block that bounces changes its energy beyond that instant, and what is identified from θ differs:",
+        "An e of velocities just before and after each impact, 3 s at 10 µs, is not the one that is identified from θ,",
+        "as by the calibration: a block that bounces changes its energy beyond that instant.",
         "",
         "| body | stiffness | ξ | e of the velocities | e identified from θ | time in the air | energy missing |",
         "|---|---|---|---|---|---|---|",

@@ -11,8 +11,9 @@ from scipy.spatial.transform import Rotation
 from colonnade.arrays import Array
 from colonnade.dynamics.contact.elastic.assembly import ElasticBody, assemble
 from colonnade.dynamics.contact.elastic.mesh import prism_mesh
-from colonnade.dynamics.contact.elastic.reduction import keep_modes, reduce_body
+from colonnade.dynamics.contact.elastic.reduction import reduce_body
 from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.modes import keep_modes
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.start import Start
 from colonnade.dynamics.motion import Motion

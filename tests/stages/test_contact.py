@@ -7,6 +7,7 @@ import xarray as xr
 from colonnade.campaign.settings import ContactSettings
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.calibration import TOLERANCE, VELOCITY_RATIO, free_restitution
+from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.identification.restitution.identify import identify_restitution
@@ -72,3 +73,20 @@ def test_a_law_says_which_e_it_gives(law):
     refused = calibrated(0.976, damping_fraction=0.3, lowest_amplitude=0.45)
     assert refused.attrs["contact_restitution_source"] == VELOCITY_RATIO
     assert float(refused["contact_restitution"]) == float(refused["contact_velocity_ratio"])
+
+
+def test_each_law_keeps_the_modes_that_the_step_follows_with_it():
+    read = calibrating.ContactInputs(
+        block=PRISM,
+        shape="prism",
+        sizes=(("depth", 0.086), ("height", 0.456), ("width", 0.086)),
+        settings=ContactSettings(mesh="coarse", step="5 us"),
+        lowest_amplitude=0.02,
+    )
+    whole = rigid_body(PRISM)
+    slight, strong = (
+        calibrating.body_of(read, ContactLaw.stiff(whole, PRISM.gravity, damping_fraction=fraction))
+        for fraction in (0.1, 2.0)
+    )
+    assert slight.frequencies.size > strong.frequencies.size
+    np.testing.assert_array_equal(strong.frequencies, slight.frequencies[: strong.frequencies.size])

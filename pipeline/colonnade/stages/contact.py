@@ -15,6 +15,7 @@ from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.calibration import VELOCITY_RATIO, Calibration, calibrate, free_restitution
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.modes import keep_modes_for_step
 from colonnade.errors import StageError
 from colonnade.findings import warning
 from colonnade.identification.restitution.identify import identify_restitution
@@ -22,9 +23,6 @@ from colonnade.stages.parts.inputs import Inputs
 
 IDENTIFIED = "identified"
 """What a restitution is that was identified from a rocking angle."""
-
-DAMPED = 0.4
-"""Critical damping fraction, the paper's, for which the modes of an elastic specimen are chosen."""
 
 
 class ContactInputs(Inputs):
@@ -76,16 +74,46 @@ def contact(specimen: xr.Dataset, inputs: ContactInputs) -> xr.Dataset:
     StageError
         If the specimen cannot be meshed, or the step is too long for the contact.
     """
+    found = calibrate_specimen(inputs, float(specimen["restitution"]))
+    reason = found.reason if inputs.settings.damping_fraction == "auto" else ""
+    return _described(found, reason).assign(law_variables(found.body, found.law, inputs.block.gravity))
+
+
+def calibrate_specimen(inputs: ContactInputs, restitution: float) -> Calibration:
+    """
+    Find the law of contact with which a specimen rocks freely with a restitution: the one rule for it.
+
+    Parameters
+    ----------
+    inputs : ContactInputs
+    restitution : float
+        e that is asked for.
+
+    Returns
+    -------
+    found : Calibration
+        With a damping fraction given in the settings, that law and what it gives.
+
+    Raises
+    ------
+    StageError
+        As `contact`.
+    """
     settings = inputs.settings
     given = settings.damping_fraction != "auto"
-    body = body_of(inputs)
-    law = _law(body, inputs, float(settings.damping_fraction) if given else 0.0)
-    target = float(specimen["restitution"])
+    body = _whole_body(inputs)
+    law = ContactLaw.stiff(
+        body,
+        inputs.block.gravity,
+        damping_fraction=float(settings.damping_fraction) if given else 0.0,
+        friction=settings.friction,
+        penetration=settings.penetration,
+    )
     try:
-        found = calibrate(
+        return calibrate(
             body,
             law,
-            target,
+            restitution,
             gravity=inputs.block.gravity,
             step=settings.step,
             fractions=(law.damping_fraction,) if given else None,
@@ -94,7 +122,6 @@ def contact(specimen: xr.Dataset, inputs: ContactInputs) -> xr.Dataset:
         )
     except ValueError as error:
         raise StageError(f"processing.predict.contact: {error}") from error
-    return _described(found, "" if given else found.reason).assign(law_variables(body, found.law, inputs.block.gravity))
 
 
 def identified(history: ContactHistory, *, lowest_amplitude: float) -> tuple[float, str]:
@@ -147,16 +174,24 @@ def law_of(calibrated: xr.Dataset) -> ContactLaw:
     )
 
 
-@lru_cache(maxsize=4)
-def body_of(inputs: ContactInputs) -> ContactBody:
+def body_of(inputs: ContactInputs, law: ContactLaw) -> ContactBody:
     """
-    Build the body of the contact model; meshing takes its time, so the last few are kept.
+    Build the body of the contact model, with the modes that the step follows with a law.
 
     Raises
     ------
     StageError
-        If a body without dimensions is to be meshed.
+        If a body without dimensions is to be meshed, or the step is too long for the law.
     """
+    try:
+        return keep_modes_for_step(_whole_body(inputs), law, inputs.settings.step)
+    except ValueError as error:
+        raise StageError(f"processing.predict.contact.step: {error}") from error
+
+
+@lru_cache(maxsize=4)
+def _whole_body(inputs: ContactInputs) -> ContactBody:
+    """Build the body with all its modes; meshing takes its time, so the last few are kept."""
     settings, sizes = inputs.settings, dict(inputs.sizes)
     if settings.mesh == "rigid":
         from colonnade.dynamics.contact.nodes import rigid_body
@@ -168,30 +203,13 @@ def body_of(inputs: ContactInputs) -> ContactBody:
             f'"{inputs.shape}" and has no dimensions to mesh. mesh = "rigid" was expected.'
         )
     from colonnade.dynamics.contact.elastic.model import elastic_body
-    from colonnade.dynamics.contact.elastic.reduction import keep_modes_for_step
 
-    body = elastic_body(
+    return elastic_body(
         sizes,
         inputs.block.mass,
         mesh=settings.mesh,
         modulus=settings.modulus,
         poisson_ratio=settings.poisson_ratio,
-    )
-    # The modes that stay are those that a step follows whatever the damping that calibration comes to.
-    fraction = DAMPED if settings.damping_fraction == "auto" else float(settings.damping_fraction)
-    try:
-        return keep_modes_for_step(body, _law(body, inputs, fraction), settings.step)
-    except ValueError as error:
-        raise StageError(f"processing.predict.contact.step: {error}") from error
-
-
-def _law(body: ContactBody, inputs: ContactInputs, fraction: float) -> ContactLaw:
-    return ContactLaw.stiff(
-        body,
-        inputs.block.gravity,
-        damping_fraction=fraction,
-        friction=inputs.settings.friction,
-        penetration=inputs.settings.penetration,
     )
 
 
@@ -212,7 +230,7 @@ def _described(found: Calibration, reason: str) -> xr.Dataset:
         {name: ((), value) for name, value in scalars.items()}
         | {name: ("trial", np.asarray(values)) for name, values in tried.items()},
         attrs={
-            "body": found.body,
+            "body": found.body.description,
             "contact_restitution_source": found.source,
             "warnings": [warning("contact law", reason)] if reason else [],
         },

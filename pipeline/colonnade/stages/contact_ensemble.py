@@ -78,7 +78,7 @@ def contact_ensemble(
     beginning = begin(rocking, inputs.prediction, identified)
     space, ranges, law = inputs.space, inputs.settings, law_of(contact)
     plan = ContactPlan(
-        body_of(space),
+        body_of(space, law),
         law,
         friction=_about(law.friction, ranges.friction * law.friction),
         damping_fraction=_about(law.damping_fraction, ranges.damping_fraction * law.damping_fraction),

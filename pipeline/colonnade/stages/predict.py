@@ -133,12 +133,13 @@ def sides(specimen: xr.Dataset) -> tuple[float, float]:
 def _in_space(beginning: Beginning, contact: xr.Dataset, inputs: ContactInputs) -> ContactHistory:
     from colonnade.dynamics.contact.simulate import simulate
 
-    settings = inputs.settings
+    settings, law = inputs.settings, law_of(contact)
+    body = body_of(inputs, law)
     try:
         return simulate(
-            body_of(inputs),
+            body,
             beginning.motion,
-            law=law_of(contact),
+            law=law,
             gravity=inputs.block.gravity,
             step=settings.step,
             theta0=beginning.theta0,

@@ -172,7 +172,8 @@ def _space(campaign: Campaign, layout: Layout, specimen: str) -> InSpace:
             f"{specimen}: its law of contact is not known yet. Run `colonnade calibrate` first, which finds it."
         )
     read = contact.ContactInputs.of(campaign, specimen)
-    return InSpace(contact.body_of(read), contact.law_of(law), read.settings.step)
+    own = contact.law_of(law)
+    return InSpace(contact.body_of(read, own), own, read.settings.step)
 
 
 def _around(values: Sequence[float], usual: tuple[float, float]) -> tuple[float, float]:

@@ -49,6 +49,13 @@ def test_a_restitution_out_of_reach_is_told_with_what_can_be_had():
     assert "0.9000 was asked for" in found.reason
 
 
+@pytest.mark.parametrize(("restitution", "harder"), [(0.90, True), (0.999, False)])
+def test_a_smaller_e_is_sought_with_a_harder_contact_first_a_larger_one_with_a_softer(restitution, harder):
+    found = calibrate(BODY, LAW, restitution, step=STEP, impacts=1, fractions=(0.1, 0.4))
+    others = [each for each in dict.fromkeys(found.stiffnesses.tolist()) if each != 1.0]
+    assert (others[0] > 1.0) is harder
+
+
 def test_a_step_that_no_fraction_allows_is_refused():
     with pytest.raises(ValueError, match=r"step is 0\.001 s; at most .* s was expected"):
         calibrate(BODY, LAW, 0.976, step=1e-3, vary_stiffness=False)

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from math import acosh, ceil, exp, log, nan
+from math import acosh, ceil, exp, isnan, log, nan
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.modes import keep_modes, keep_modes_for_step
 from colonnade.dynamics.contact.simulate import plane_block, simulate
 from colonnade.dynamics.contact.stability import longest_step
 
@@ -23,12 +24,14 @@ Identify = Callable[[ContactHistory], tuple[float, str]]
 VELOCITY_RATIO = "velocity-ratio"
 """What a restitution is that is the mean velocity ratio of the impacts."""
 
-FRACTIONS = (0.0, 0.01, 0.03, 0.1, 0.3, 1.0)
-"""Critical damping fractions that are tried first; e falls along most of them, and rises again where ξ is large."""
+FRACTIONS = (0.0, 0.01, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0)
+"""Critical damping fractions that are tried first; e falls along most of them, and rises again where ξ is large. The
+paper's fractions of elastic meshes reach 2.6."""
 
-STIFFNESSES = (1.0, 0.3, 0.1, 3.0, 0.03, 10.0, 0.01)
-"""Multiples of the law's stiffness, tried in this order until one can give the restitution: a softer contact, into
-which more nodes sink at a time, takes less at an impact."""
+SOFTER_FIRST = (0.3, 0.1, 3.0, 0.03, 10.0, 0.01)
+HARDER_FIRST = (3.0, 10.0, 0.3, 0.1, 0.03, 0.01)
+"""Multiples of the law's stiffness, tried in this order if the law's own cannot give the restitution. A softer
+contact, into which more nodes sink at a time, takes less at an impact; for a smaller e a harder one comes first."""
 
 TOLERANCE = 2e-4
 """Of e, within which a calibration agrees; e of neighbouring fractions scatters by about as much."""
@@ -71,8 +74,8 @@ class Calibration:
         Seconds of computing for a second of motion, of the runs after the first, which may have compiled.
     residual : float
         Of the energy balance in the run with the law, over the largest energy.
-    body : str
-        Description of the body.
+    body : ContactBody
+        With the modes that the run with the law kept.
     """
 
     law: ContactLaw
@@ -87,7 +90,7 @@ class Calibration:
     step: float
     cost: float
     residual: float
-    body: str
+    body: ContactBody
 
     @property
     def agrees(self) -> bool:
@@ -100,7 +103,7 @@ class Calibration:
         if self.agrees:
             return ""
         return (
-            f"The contact of this body ({self.body}) gives e from {np.nanmin(self.restitutions):.4f} to "
+            f"The contact of this body ({self.body.description}) gives e from {np.nanmin(self.restitutions):.4f} to "
             f"{np.nanmax(self.restitutions):.4f} for critical damping fractions from {self.fractions.min():g} to "
             f"{self.fractions.max():g} and {self.stiffnesses.min():g} to {self.stiffnesses.max():g} times its "
             f"stiffness; {self.target:.4f} was asked for. The nearest is taken: e = {self.restitution:.4f} at "
@@ -147,8 +150,9 @@ def calibrate(
     Parameters
     ----------
     body : ContactBody
+        With all its modes; with a step given, each run keeps those that the step follows with its own law.
     law : ContactLaw
-        Its damping fraction is sought; its stiffness is changed only where no fraction gives e (`STIFFNESSES`).
+        Its damping fraction is sought; its stiffness is changed only where no fraction gives e.
     restitution : float
         e between 0 and 1, as identified from measured free rocking.
     gravity : float, optional
@@ -185,11 +189,12 @@ def calibrate(
             "to 1 and at least one impact were expected"
         )
     runs = _Runs(body, law, gravity, step, release, impacts, restitution, identify)
-    for stiffness in STIFFNESSES if vary_stiffness else (1.0,):
-        bracket = _bracket(runs.at(stiffness), restitution, FRACTIONS if fractions is None else fractions)
-        if bracket is not None:
-            _close_in(runs.at(stiffness), restitution, *bracket)
-            break
+    tried = FRACTIONS if fractions is None else fractions
+    if not runs.reach(1.0, tried) and vary_stiffness:
+        order = HARDER_FIRST if runs.lowest() > restitution else SOFTER_FIRST
+        for stiffness in order:
+            if runs.reach(stiffness, tried):
+                break
     return runs.result()
 
 
@@ -216,18 +221,28 @@ class _Runs:
         self._found: dict[tuple[float, float], tuple[float, str, ContactHistory]] = {}
         self._costs: list[float] = []
 
-    def at(self, stiffness: float) -> Callable[[float], float]:
-        """Restitution as a function of the damping fraction, at a multiple of the stiffness."""
-        return lambda fraction: self._run(stiffness, fraction)
+    def reach(self, stiffness: float, fractions: Sequence[float]) -> bool:
+        """Close in on the restitution at a multiple of the stiffness, if two of the fractions bracket it."""
+        run = partial(self._run, stiffness)
+        bracket = _bracket(run, self._target, fractions)
+        if bracket is not None:
+            _close_in(run, self._target, *bracket)
+        return bracket is not None
+
+    def lowest(self) -> float:
+        """Give the smallest restitution so far; NaN without any."""
+        return min((value for value, _, _ in self._found.values() if not isnan(value)), default=nan)
 
     def _run(self, stiffness: float, fraction: float) -> float:
         if (stiffness, fraction) not in self._found:
             law = replace(self._law, stiffness=stiffness * self._law.stiffness, damping_fraction=fraction)
-            if self._step is not None and self._step > longest_step(self._body, law):
+            try:
+                body = self._body if self._step is None else keep_modes_for_step(self._body, law, self._step)
+            except ValueError:
                 return nan
             began = time.process_time()
             history = simulate(
-                self._body,
+                body,
                 law=law,
                 gravity=self._gravity,
                 theta0=self._theta0,
@@ -242,7 +257,7 @@ class _Runs:
         """Take the run whose restitution is nearest."""
         values = np.array([value for value, _, _ in self._found.values()])
         if self._step is not None and values.size == 0:
-            longest = longest_step(self._body, self._law)
+            longest = longest_step(keep_modes(self._body, 0.0), self._law)
             raise ValueError(
                 f"step is {self._step:.4g} s; at most {longest:.4g} s was expected: beyond it the contact of this body "
                 f"({self._body.description}) is unstable. Take a shorter step or a softer contact."
@@ -266,7 +281,7 @@ class _Runs:
             step=history.step,
             cost=float(np.median(self._costs[1:] or self._costs)),
             residual=history.energies.relative_residual,
-            body=self._body.description,
+            body=history.body,
         )
 
 

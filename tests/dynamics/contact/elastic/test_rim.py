@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.elastic.model import elastic_body
-from colonnade.dynamics.contact.elastic.reduction import keep_modes
+from colonnade.dynamics.contact.elastic.model import meshed_body
+from colonnade.dynamics.contact.elastic.reduction import reduce_body
 from colonnade.dynamics.contact.elastic.rim import refine_rim
 from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.modes import keep_modes
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 
@@ -22,7 +23,7 @@ ALPHA = CYLINDER.critical_angle
 @pytest.fixture(scope="module")
 def meshed():
     """The coarse mesh of the cylinder with the eight nodes of its rim."""
-    return elastic_body(SIZES, CYLINDER.mass, mesh="coarse", around=8)
+    return reduce_body(meshed_body(SIZES, CYLINDER.mass, mesh="coarse"))
 
 
 def test_area_mass_and_stiffness_are_spread_and_the_meshs_nodes_stay(meshed):
