@@ -15,8 +15,6 @@ from colonnade.campaign.syntax.identifier import Identifier, identifier
 from colonnade.campaign.syntax.table import Table, problem, refuse
 from colonnade.errors import nearest
 
-GENERAL_FORMAT = "delimited"
-
 
 class FileOptions(BaseModel):
     """
@@ -55,7 +53,7 @@ class Align(BaseModel):
 
 
 def _file_options(value: object) -> FileOptions:
-    from colonnade.readers.registry import formats
+    from colonnade.readers.registry import MOST_GENERAL, formats
 
     if not isinstance(value, Mapping):
         raise ValueError(
@@ -66,7 +64,7 @@ def _file_options(value: object) -> FileOptions:
     known = formats()
     if name is not None and (not isinstance(name, str) or name not in known):
         raise refuse("file", [problem(f"Unknown format {shown(name)}.{nearest(str(name), known)}", "format")])
-    chosen = known[name or GENERAL_FORMAT]
+    chosen = known[name or MOST_GENERAL]
     try:
         chosen.options.model_validate(options)
     except ValidationError as error:

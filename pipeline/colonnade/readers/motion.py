@@ -14,7 +14,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.errors import ReadError, UnitError
 from colonnade.readers import registry
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.clock import rising_share
+from colonnade.readers.text.clock import equal_step, rising_share
 from colonnade.readers.text.delimited_header import DelimitedOptions, read_header
 from colonnade.validation import described, number, text, whole
 
@@ -133,19 +133,10 @@ def _column(recording: Recording, column: str | int | None) -> tuple[RecordedCha
     times = rising[0].values if chosen.time is None and rising else chosen.time
     if times is None:
         return chosen, None
-    step = _step(times)
+    step = equal_step(times, UNEVEN)
     if step is None:
         raise ReadError(
             f"{recording.path.name}: the times are not equally spaced. "
             "A base motion has equal steps: resample it first."
         )
     return chosen, step
-
-
-def _step(times: Array) -> float | None:
-    """Mean step of times that rise in equal steps, else None."""
-    steps = np.diff(times)
-    if steps.size == 0 or not np.isfinite(steps).all():
-        return None
-    mean = float((times[-1] - times[0]) / steps.size)
-    return mean if mean > 0 and np.abs(steps - mean).max() <= UNEVEN * mean else None

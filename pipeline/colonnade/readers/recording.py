@@ -70,6 +70,19 @@ class RecordedChannel:
                 f"{self.name} has {self.values.size} values at {self.time.size} times; as many were expected"
             )
 
+    def in_seconds(self, unit: str | None = None) -> tuple[Array, str]:
+        """
+        Give its values as times, s, and say how they are understood.
+
+        In a unit that is given, else its own, else in seconds, as in one that is none of time; a clock has its times.
+        """
+        if self.is_clock and self.time is not None:
+            return self.time, "timestamps"
+        unit = unit or self.unit
+        factor = TIME_UNITS.get((unit or "s").casefold(), 1.0)
+        how = f"in {unit}" if unit else "without a unit, taken as seconds"
+        return (self.values if factor == 1.0 else self.values * factor), how
+
 
 @dataclass(frozen=True)
 class Window:
@@ -178,6 +191,39 @@ class Recording:
     def _hinted(self) -> str:
         return f" {self.hint}" if self.hint else ""
 
+    def clock(self, column: str | int, unit: str | None = None) -> tuple[RecordedChannel, Array, str]:
+        """
+        Find the channel that is given as a clock.
+
+        Parameters
+        ----------
+        column : str or int
+            As for `channel`.
+        unit : str, optional
+            Of the times; by default as `RecordedChannel.in_seconds` says.
+
+        Returns
+        -------
+        clock : RecordedChannel
+        times : ndarray, shape (n,)
+            s.
+        how : str
+            How its values are understood.
+
+        Raises
+        ------
+        ReadError
+            If it is missing or holds no number.
+        """
+        clock = self.channel(column)
+        times, how = clock.in_seconds(unit)
+        if not np.isfinite(times).any():
+            raise ReadError(
+                f'{self.path.name}: column "{clock.heading}" holds no number, so it cannot be the clock. '
+                "Name a column of times, or leave `time` out and give `sampling_rate`."
+            )
+        return clock, times, how
+
     def on_clock(self, column: str | int, time_column: str | int) -> RecordedChannel:
         """
         Give a channel with the times of another column of the same file.
@@ -185,25 +231,15 @@ class Recording:
         Parameters
         ----------
         column, time_column : str or int
-            As for `channel`. If the reader has not recognised the time column as a clock, its values are taken
-            as times in its unit, or in seconds if it has none.
+            As for `channel` and `clock`.
 
         Raises
         ------
         ReadError
-            If either is not there, or the time column holds no number.
+            If either is missing, or the time column holds no number.
         """
-        channel, clock = self.channel(column), self.channel(time_column)
-        if clock.is_clock and clock.time is not None:
-            time = clock.time
-        else:
-            time = clock.values * TIME_UNITS.get((clock.unit or "s").casefold(), 1.0)
-        if not np.isfinite(time).any():
-            raise ReadError(
-                f'{self.path.name}: column "{clock.heading}" holds no number, so it cannot be the clock of '
-                f'"{channel.heading}". Name a column of times, or leave `time` out and give `sampling_rate`.'
-            )
-        return replace(channel, time=time)
+        _, times, _ = self.clock(time_column)
+        return replace(self.channel(column), time=times)
 
 
 def _plain(name: str) -> str:

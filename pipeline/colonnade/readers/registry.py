@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cache
-from importlib.metadata import EntryPoint, entry_points
+from importlib import import_module
+from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
@@ -14,17 +15,24 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from colonnade.errors import ReadError, nearest, quoted
 from colonnade.readers.bounded import process as bounded
+from colonnade.readers.bounded.bounds import bounds_of
+from colonnade.readers.bounded.messages import Request
 from colonnade.readers.irregular import irregular
 from colonnade.readers.recording import Recording, Window
 
+OWN = (
+    *("strong_motion.bhrc", "binary.catman", "strong_motion.cosmos", "text.delimited", "diadem.file", "excel.workbook"),
+    *("binary.famos", "text.lvm", "matlab.file", "binary.mdf", "text.mts", "hdf5.netcdf", "strong_motion.peer"),
+    *("tdms.file", "binary.uff", "waveform.file"),
+)
+"""Modules of this folder that read a format, and say so by their `FORMAT`."""
 GROUP = "colonnade.formats"
-"""Entry points of this group are formats; other packages may add theirs."""
+"""Entry points of this group are the formats that other packages add."""
+MOST_GENERAL = "delimited"
+"""The format that takes almost any text: every other one is asked before it."""
 
 LONG_FILE = 100_000_000
 """Bytes from which on a file is not read further than it is needed."""
-
-# Known without an installed package too. It takes almost any text, so every other format is asked before it.
-MOST_GENERAL = EntryPoint(name="delimited", value="colonnade.readers.text.delimited:FORMAT", group=GROUP)
 
 
 @dataclass(frozen=True)
@@ -67,7 +75,7 @@ class Format:
     recognise : callable
         Path -> Recognition, from the head of the file.
     read : callable
-        (Path, options) -> Recording; raises ReadError.
+        (Path, options) -> Recording, which is refused if no channel has values; raises ReadError.
     options : type of Options
         What can be said about a file of this format; all of it optional.
     read_window : callable or None
@@ -95,9 +103,10 @@ class Format:
 @cache
 def formats() -> dict[str, Format]:
     """All formats by name, in the order in which they are asked about a file; the most general one last."""
-    special = {point.name: point for point in entry_points(group=GROUP) if point.name != MOST_GENERAL.name}
-    points = [special[name] for name in sorted(special)] + [MOST_GENERAL]
-    return {point.name: point.load() for point in points}
+    own: list[Format] = [import_module(f"colonnade.readers.{module}").FORMAT for module in OWN]
+    known = {format.name: format for format in own}
+    known |= {point.name: point.load() for point in entry_points(group=GROUP) if point.name not in known}
+    return {name: known[name] for name in sorted(known, key=lambda name: (name == MOST_GENERAL, name))}
 
 
 def read(
@@ -133,13 +142,14 @@ def read(
     path = Path(path)
     if kind := irregular(path):
         raise ReadError(f"{path.name}: this is {kind}; a raw file was expected.")
-    chosen, evidence = _named(format) if format is not None else _recognised(path)
+    chosen, evidence = (_named(format), ()) if format is not None else _recognised(path)
     checked = check_options(chosen, options or {}, where=path.name)
     if chosen.in_process:
         recording = _guarded(chosen, path, checked, window)
     else:
-        recording = bounded.read(_asked(chosen, path, checked, within), window)
-    return recording if evidence is None else _with_note(recording, evidence)
+        request = _request(chosen, path, checked, within, window)
+        recording = bounded.read(request, has_companions=chosen.companions is not None)
+    return replace(recording, notes=(*evidence, *recording.notes))
 
 
 def companions(
@@ -171,21 +181,20 @@ def companions(
         chosen = next((each for each in several if _recognition(each, path).yes), None)
     if chosen is None:
         return ()
-    return bounded.companions(_asked(chosen, path, check_options(chosen, options or {}, where=path.name), within))
+    return bounded.companions(_request(chosen, path, check_options(chosen, options or {}, where=path.name), within))
 
 
 def companions_here(path: Path, format: str, options: Mapping[str, Any]) -> tuple[str, ...]:
     """Names of the other files that a raw file is in, found in this process."""
-    chosen, _ = _named(format)
-    checked = check_options(chosen, options, where=path.name)
-    with _refusing(chosen, path):
-        return () if chosen.companions is None else chosen.companions(path, checked)
+    chosen = _named(format)
+    with refusing(path, f'"{format}"'):
+        return () if chosen.companions is None else chosen.companions(path, chosen.options(**options))
 
 
 def read_here(path: Path, format: str, options: Mapping[str, Any], window: Window | None) -> Recording:
     """Read a raw file in this process, whatever its format; `read` says the rest."""
-    chosen, _ = _named(format)
-    return _guarded(chosen, path, check_options(chosen, options, where=path.name), window)
+    chosen = _named(format)
+    return _guarded(chosen, path, chosen.options(**options), window)
 
 
 def check_options(format: Format, options: Mapping[str, Any], where: str) -> BaseModel:
@@ -214,22 +223,33 @@ def check_options(format: Format, options: Mapping[str, Any], where: str) -> Bas
         raise ReadError("\n".join(problems)) from error
 
 
-def _asked(format: Format, path: Path, options: BaseModel, within: Path | None) -> bounded.Asked:
+def _request(
+    format: Format, path: Path, options: BaseModel, within: Path | None, window: Window | None = None
+) -> Request:
     told = options.model_dump(mode="json", exclude_unset=True)
     folder = path.resolve().parent if within is None else within.resolve()
-    return bounded.Asked(path.absolute(), format.name, told, folder, has_companions=format.companions is not None)
+    return Request("recording", str(path.absolute()), str(folder), format.name, told, window, bounds_of(path))
 
 
 def _guarded(format: Format, path: Path, options: BaseModel, window: Window | None) -> Recording:
-    with _refusing(format, path):
+    with refusing(path, f'"{format.name}"'):
         if window is not None and format.read_window is not None and path.stat().st_size > LONG_FILE:
-            return format.read_window(path, options, window)
-        return format.read(path, options)
+            recording = format.read_window(path, options, window)
+        else:
+            recording = format.read(path, options)
+    if not any(channel.values.size for channel in recording.channels):
+        left_out = (note for note in recording.notes if "left out" in note)
+        known = "; ".join([*recording.warnings, *left_out][:5])
+        raise ReadError(
+            f'{path.name}: read as "{format.name}", no channel holds numbers{f" ({known})" if known else ""}. The file '
+            "is damaged, was cut off or is of another format, or nothing was recorded. Copy it from the recorder again."
+        )
+    return recording
 
 
 @contextmanager
-def _refusing(format: Format, path: Path) -> Iterator[None]:
-    """Turn whatever a parser stumbles over in a file into a message of what to do."""
+def refusing(path: Path, kind: str) -> Iterator[None]:
+    """Turn whatever a parser stumbles over, in a file that is read as a kind, into a message of what to do."""
     try:
         yield
     except (ReadError, MemoryError):
@@ -238,8 +258,8 @@ def _refusing(format: Format, path: Path) -> Iterator[None]:
         if isinstance(error, OSError) and error.errno is not None:
             raise ReadError(_unreachable(path, error)) from error
         raise ReadError(
-            f'{path.name}: it cannot be read as "{format.name}" ({_told(error)}). The file is damaged, was cut off, or '
-            "is of a version that is not known here. Copy it from the recorder again, or export it as text."
+            f"{path.name}: it cannot be read as {kind} ({_told(error)}). The file is damaged, was cut off, or is of a "
+            "version that is not known here. Copy it from the recorder again, or export it as text."
         ) from error
 
 
@@ -249,15 +269,16 @@ def _told(error: Exception) -> str:
     return f"{type(error).__name__}: {said}" if said else type(error).__name__
 
 
-def _named(name: str) -> tuple[Format, None]:
+def _named(name: str) -> Format:
     if name not in formats():
         raise ReadError(f'Unknown format "{name}".{nearest(name, formats())}')
-    return formats()[name], None
+    return formats()[name]
 
 
-def _recognised(path: Path) -> tuple[Format, str]:
+def _recognised(path: Path) -> tuple[Format, tuple[str]]:
+    """Find the format of a file, with the reason."""
     refusals = []
-    if _is_empty(path):
+    if path.is_file() and path.stat().st_size == 0:
         raise ReadError(
             f"{path.name}: the file is empty (0 bytes): nothing was recorded, or a copy was interrupted. Put the "
             "recording in its place."
@@ -265,7 +286,7 @@ def _recognised(path: Path) -> tuple[Format, str]:
     for format in formats().values():
         recognition = _recognition(format, path)
         if recognition.yes:
-            return format, f'format "{format.name}" ({recognition.reason})'
+            return format, (f'format "{format.name}" ({recognition.reason})',)
         if recognition.is_known:
             raise ReadError(f"{path.name}: {recognition.reason}")
         refusals.append(f"  {format.name}: {recognition.reason}")
@@ -274,13 +295,6 @@ def _recognised(path: Path) -> tuple[Format, str]:
         f"{path.name}: no format recognises this file.\n" + "\n".join(reversed(refusals)) + "\n"
         '  If it is one of these nevertheless, say so: file = {format = "…"}.'
     )
-
-
-def _is_empty(path: Path) -> bool:
-    try:
-        return path.is_file() and path.stat().st_size == 0
-    except OSError:
-        return False  # the first format that opens it says why
 
 
 def _recognition(format: Format, path: Path) -> Recognition:
@@ -293,10 +307,6 @@ def _recognition(format: Format, path: Path) -> Recognition:
         if isinstance(error, OSError) and error.errno is not None:
             raise ReadError(_unreachable(path, error)) from error
         return Recognition(False, f"it could not be looked at ({_told(error)})")
-
-
-def _with_note(recording: Recording, note: str) -> Recording:
-    return replace(recording, notes=(note, *recording.notes))
 
 
 def _unreachable(path: Path, error: OSError) -> str:

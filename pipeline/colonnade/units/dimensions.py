@@ -42,7 +42,8 @@ def expected(dimension: str, value: float | None = None) -> str:
 
 def article(dimension: str) -> str:
     """Name a dimension with its article."""
-    return f"{'an' if dimension[0] in 'aei' else 'a'} {words(dimension)}"
+    name = words(dimension)
+    return f"{'an' if name[0] in 'aei' else 'a'} {name}"
 
 
 def words(dimension: str) -> str:

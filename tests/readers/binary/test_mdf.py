@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import gc
-import sys
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ import numpy as np
 import pytest
 from asammdf.blocks import mdf_v3, mdf_v4, v2_v3_blocks, v4_blocks
 
+from colonnade.cli import invoke
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read, read_here
 
@@ -288,14 +288,32 @@ def test_a_file_that_was_not_closed_says_so(written: Callable[..., Path]) -> Non
 
 
 def test_a_damaged_file_is_told_with_what_to_do(
-    written: Callable[..., Path], monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+    written: Callable[..., Path], capfd: pytest.CaptureFixture[str]
 ) -> None:
     path = written("mdf")
     path.write_bytes(path.read_bytes()[:150])
-    complaints: list[object] = []
-    monkeypatch.setattr(sys, "unraisablehook", complaints.append)
-    with pytest.raises(ReadError, match=r"record.mf4: asammdf cannot read it .* copy it from the recorder again"):
-        read_here(path, "mdf", {}, None)
-    gc.collect()
-    assert complaints == []  # of what asammdf leaves half built
-    assert capfd.readouterr().err == ""
+    with pytest.raises(ReadError, match=r'record.mf4: it cannot be read as "mdf" .* Copy it from the recorder again'):
+        read(path)
+    assert capfd.readouterr().err == ""  # asammdf's own words stay in the process that reads
+
+
+def test_two_workers_read_mdf_at_once_and_a_damaged_file_fails_its_own_test_alone(tmp_path: Path) -> None:
+    example = Path(__file__).parents[3] / "raw_schema" / "examples" / "mdf"
+    (tmp_path / "raw").mkdir()
+    content = (example / "raw" / "free-01.mf4").read_bytes()
+    text = (example / "campaign.toml").read_text(encoding="utf-8")
+    head, test, body = text.partition("[[tests]]")
+    for number in (1, 2, 3):
+        (tmp_path / "raw" / f"free-0{number}.mf4").write_bytes(content if number < 3 else content[:9000])
+        head += test + body.replace("free-01", f"free-0{number}") + "\n"
+    (tmp_path / "campaign.toml").write_text(head, encoding="utf-8")
+    assert invoke(["ingest", "--workers", "2", str(tmp_path)]) == 1
+    summary = json.loads((tmp_path / "processed" / "summary.json").read_text(encoding="utf-8"))
+    assert {name: record["status"] for name, record in summary["tests"].items()} == {
+        "free-01": "pending",
+        "free-02": "pending",
+        "free-03": "failed",
+    }
+    assert "free-03.mf4: it cannot be read" in summary["tests"]["free-03"]["reason"]
+    for number in (1, 2):
+        assert (tmp_path / "processed" / "tests" / f"free-0{number}" / "recorded.nc").is_file()

@@ -55,7 +55,7 @@ def test_numbers_that_are_cut_off_are_told(written: Callable[..., Path], is_bina
 def test_a_file_without_functions_of_time_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "record.uff"
     path.write_text("    -1\n    58\n" + "too short\n" * 3, encoding="ascii")
-    with pytest.raises(ReadError, match=r"holds no function of time .*data set 58 at byte 7 is damaged"):
+    with pytest.raises(ReadError, match=r"no channel holds numbers .*data set 58 at byte 7 is damaged"):
         read(path)
 
 

@@ -6,9 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as some
 
-from colonnade.readers.recording import Recording
+from colonnade.errors import ReadError
+from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import read
+from colonnade.readers.text.clock import equal_step, given_clock, may_be_clock, rising_share
 
 
 def recorded(folder: Path, text: str) -> Recording:
@@ -62,3 +66,55 @@ def test_a_first_column_with_a_name_is_what_its_name_says(tmp_path: Path) -> Non
     assert not any(
         channel.is_clock for channel in recorded(tmp_path, "ramp\ttop\tx\n" + rows(np.arange(60) / 200)).channels
     )
+
+
+VECTORS = Recording(
+    Path("a.mat"),
+    "matlab",
+    (
+        RecordedChannel("t", None, np.arange(4.0) * 5),
+        RecordedChannel("top", None, np.arange(4.0)),
+        RecordedChannel("other", None, np.arange(3.0)),
+        RecordedChannel("off", None, np.full(3, np.nan)),
+    ),
+)
+
+
+def test_the_clock_that_was_named_is_that_of_all_as_long_as_it() -> None:
+    clocks = given_clock(VECTORS, "t", "ms")
+    clock, top, other, _ = clocks.applied(VECTORS).channels
+    assert clock.is_clock
+    assert not top.is_clock
+    np.testing.assert_allclose(top.time, [0, 0.005, 0.01, 0.015])
+    assert other.time is None
+    assert clocks.warnings == ('2 channels are not as long as "t": no clock',)
+
+
+def test_a_clock_without_a_number_is_refused() -> None:
+    with pytest.raises(ReadError, match=r'a.mat: column "off" holds no number, so it cannot be the clock. Name a col'):
+        given_clock(VECTORS, "off", None)
+
+
+@given(
+    begin=some.floats(-1e3, 1e3), step=some.floats(1e-4, 10), count=some.integers(2, 200), off=some.floats(-0.4, 0.4)
+)
+def test_times_in_equal_steps_have_a_step_within_their_rounding(
+    begin: float, step: float, count: int, off: float
+) -> None:
+    times = begin + step * np.arange(count)
+    assert equal_step(times, 1e-3) == pytest.approx(step, rel=1e-3)
+    assert rising_share(times) == 1
+    late = times.copy()
+    late[-1] += off * step
+    if count > 2 and abs(off) > 0.01:
+        assert equal_step(late, 1e-3) is None
+
+
+@pytest.mark.parametrize("values", [[], [1.0], [0, 1, np.nan], [0, 1, 1], [0, 2, 1], [0, 1, np.inf]], ids=str)
+def test_what_does_not_rise_in_equal_steps_has_no_step(values: list[float]) -> None:
+    assert equal_step(np.array(values), 0.1) is None
+
+
+def test_a_column_that_may_be_a_clock_is_hinted_at() -> None:
+    assert 'set time = "x" if that is one: it rises in equal steps of 2' in may_be_clock("x", np.arange(9) * 2.0)
+    assert may_be_clock("x", np.arange(9.0) ** 2) == ""

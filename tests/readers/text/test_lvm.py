@@ -126,7 +126,7 @@ def test_special_blocks_are_no_samples(tmp_path: Path) -> None:
         pytest.param(
             header("No") + "\nChannels\t2\nSamples\t3\t3\n", "ends within its header", id="within a segment's"
         ),
-        pytest.param(header("No") + segment([]), "no rows of numbers", id="before the first row"),
+        pytest.param(header("No") + segment([]), "no channel holds numbers", id="before the first row"),
         pytest.param(header("No", ";") + segment(["\t1\t2"]), 'Decimal_Separator is ";"', id="another decimal sign"),
     ],
 )

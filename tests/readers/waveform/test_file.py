@@ -135,7 +135,7 @@ def test_a_name_with_signs_of_a_pattern_is_just_a_name(tmp_path: Path) -> None:
 def test_a_sac_file_that_was_cut_off_is_refused(tmp_path: Path) -> None:
     path = stored(tmp_path / "r.sac", "SAC", trace("ACC", np.ones(1000), 100))
     path.write_bytes(path.read_bytes()[:2000])
-    with pytest.raises(ReadError, match=r"r.sac: ObsPy cannot read it as SAC .* cut off"):
+    with pytest.raises(ReadError, match=r"r.sac: it cannot be read as SAC .* cut off"):
         read(path)
 
 

@@ -196,7 +196,7 @@ def _first_reason(refusal: str, name: str) -> str:
     """Keep of a refusal what shows that a file is not a recording, or which extra reads it."""
     lines = [line.strip() for line in refusal.removeprefix(f"{name}: ").splitlines() if line.strip()]
     extra = next((line for line in lines if "pip install" in line), None)
-    general = next((line for line in lines[1:] if line.startswith(f"{MOST_GENERAL.name}: ")), None)
+    general = next((line for line in lines[1:] if line.startswith(f"{MOST_GENERAL}: ")), None)
     return extra or (f"{lines[0].rstrip('.')} ({general})" if general else lines[0])
 
 

@@ -89,7 +89,7 @@ def read(path: Path, options: Options) -> Recording:
     Raises
     ------
     ReadError
-        If its headers are not whole, or it holds no numbers.
+        If its headers are not whole.
     """
     try:
         content = np.memmap(path, dtype=np.uint8, mode="r")
@@ -109,14 +109,13 @@ def read(path: Path, options: Options) -> Recording:
         values, told = values_at(content, stored)
         warnings += told + _without_overflows(header.name, values)
         channels.append(_on_clock(header, values, channels))
-    if not any(channel.values.size for channel in channels):
-        raise ReadError(f"{path.name}: its headers tell of {len(headers)} channels, but none of them holds a number.")
     sizes = ", ".join(sorted({header.precision[-1] for header in numeric}))
     notes = [f"catman version {version}, values of {sizes} bytes"]
     clocks = [f'clock: "{channel.name}"' for channel in channels if channel.is_clock]
     notes += clocks or ["clock: the step in each channel's header"]
     notes += [f'no numbers in "{header.name}": left out' for header in headers if not header.is_numeric]
-    return Recording(path, "catman", tuple(channels), numeric[0].began, tuple(notes), tuple(warnings))
+    start = numeric[0].began if numeric else None
+    return Recording(path, "catman", tuple(channels), start, tuple(notes), tuple(warnings))
 
 
 def _headers(fields: _Fields) -> tuple[int, int, list[ChannelHeader]]:

@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.errors import ReadError
 from colonnade.readers.binary.magic import by_mark
 from colonnade.readers.binary.stored_numbers import Bytes, StoredNumbers, values_at
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
@@ -105,14 +104,7 @@ def recognise(path: Path) -> Recognition:
 
 
 def read(path: Path, options: Options) -> Recording:
-    """
-    Read an imc FAMOS file.
-
-    Raises
-    ------
-    ReadError
-        If a block is damaged before the first channel, or no channel holds numbers.
-    """
+    """Read an imc FAMOS file."""
     content = np.memmap(path, dtype=np.uint8, mode="r")
     file = _File()
     for place, key, block in _blocks(content, file):
@@ -123,9 +115,6 @@ def read(path: Path, options: Options) -> Recording:
     if file.awaits_channel:
         file.warnings.append("the last data set has no channel: the file was cut off")
     channels, starts = _channels(content, file)
-    if not channels:
-        told = "; ".join(file.warnings[:3]) or "no block CS with values was found"
-        raise ReadError(f"{path.name}: no channel holds numbers ({told}). The file was cut off or is damaged.")
     notes = ["clock: each channel's own start and step" if starts else "no clock: x is no time"]
     if not all(component.is_plain for component in file.components):
         notes.append("a data set of pairs (x, y): both are channels, neither is taken for a clock")

@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-import gc
-import logging
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
-from traceback import clear_frames
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array
-from colonnade.errors import ReadError
 from colonnade.readers.binary.magic import by_mark
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import Format, Options, Recognition
@@ -50,24 +43,13 @@ def recognise(path: Path) -> Recognition:
 
 
 def read(path: Path, options: Options) -> Recording:
-    """
-    Read an MDF file; each group of channels keeps its own clock.
-
-    Raises
-    ------
-    ReadError
-        If asammdf cannot read it, or no channel holds numbers.
-    """
+    """Read an MDF file; each group of channels keeps its own clock."""
     with path.open("rb") as stream:
         finished = stream.read(8) == SIGNATURES[0]
         stream.seek(0)
-        with _quiet(path):
-            recording, texts = _content(path, stream)
+        recording, texts = _content(path, stream)
     warnings = [] if finished else ["the recorder did not close the file: its end may be missing"]
     warnings += [f'"{name}" is left out: {reason}' for name, reason in recording.left_out] + list(recording.warnings)
-    if not recording.channels:
-        because = f" ({warnings[0]})" if warnings else ""
-        raise ReadError(f"{path.name}: no channel of the MDF file holds numbers{because}.")
     notes = (f"no numbers in {', '.join(texts[:8])}: left out",) if texts else ()
     return replace(recording, notes=recording.notes + notes, warnings=tuple(warnings))
 
@@ -117,11 +99,7 @@ def _asammdf() -> Any:
     import asammdf
     from asammdf.blocks import mdf_v3, mdf_v4, v2_v3_blocks, v4_blocks
 
-    replaced = {
-        "evaluate": _never,
-        "lambdify": None,
-        "NamedTemporaryFile": lambda *rest, **settings: BytesIO(),
-    }
+    replaced = {"evaluate": _never, "lambdify": None, "NamedTemporaryFile": lambda *rest, **settings: BytesIO()}
     for module in (mdf_v3, mdf_v4, v2_v3_blocks, v4_blocks):
         for name in replaced.keys() & vars(module).keys():
             setattr(module, name, replaced[name])
@@ -232,31 +210,6 @@ def _formula(conversion: Any) -> str | None:
     referenced = (getattr(conversion, "referenced_blocks", None) or {}).values()
     inner = (_formula(each) for each in referenced if not isinstance(each, bytes) and each is not None)
     return next((formula for formula in inner if formula is not None), None)
-
-
-@contextmanager
-def _quiet(path: Path) -> Iterator[None]:
-    """Turn what asammdf raises into one message, without its log and what its half-built objects say as they go."""
-    logger, hook = logging.getLogger("asammdf"), sys.unraisablehook
-    was_disabled = logger.disabled
-    logger.disabled, sys.unraisablehook = True, lambda unraisable: None
-    try:
-        yield
-    except MemoryError:
-        raise
-    except Exception as error:
-        said = f"{type(error).__name__}: {' '.join(str(error).split())[:200]}"
-        cause: BaseException | None = error
-        while cause is not None:
-            clear_frames(cause.__traceback__)
-            cause = cause.__context__
-        gc.collect()
-        raise ReadError(
-            f"{path.name}: asammdf cannot read it ({said}). The file was cut off or is damaged; copy it from the "
-            "recorder again."
-        ) from None
-    finally:
-        logger.disabled, sys.unraisablehook = was_disabled, hook
 
 
 FORMAT = Format(

@@ -107,9 +107,6 @@ def read(path: Path, options: Options) -> Recording:
             f"{path.name}: a universal file without functions: it holds data sets {held}, but no data set 58, which is "
             'the one with recorded histories. Export the time histories ("functions at nodal DOF", data set 58).'
         )
-    if not channels:
-        told = "; ".join([*warnings, *notes][:3])
-        raise ReadError(f"{path.name}: it holds no function of time{f' ({told})' if told else ''}.")
     names = [channel.name for channel in channels]
     if len(set(names)) < len(names):
         notes.append("several functions have one name: tell them apart by number")

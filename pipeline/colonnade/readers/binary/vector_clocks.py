@@ -6,12 +6,13 @@ import re
 from datetime import datetime, timedelta
 
 import numpy as np
+from pydantic import Field
 
 from colonnade.arrays import Array
-from colonnade.errors import ReadError
 from colonnade.readers.binary.vectors import Column
-from colonnade.readers.recording import TIME_UNITS, Recording
-from colonnade.readers.text.clock import RISING_SHARE, TIME_NAME, Clocks, in_seconds, rising_share
+from colonnade.readers.recording import TIME_UNITS, TimeUnit
+from colonnade.readers.registry import Options
+from colonnade.readers.text.clock import RISING_SHARE, TIME_NAME, Clocks, even_times, may_be_clock, rising_share
 
 PLAIN_NAME = re.compile(r"t|time", re.IGNORECASE)
 OTHER_NAME = re.compile(
@@ -19,54 +20,20 @@ OTHER_NAME = re.compile(
 )
 STEP_NAMES = frozenset(("dt", "ts", "deltat", "delta_t", "sampletime", "sample_time", "tsample", "samplinginterval"))
 RATE_NAMES = frozenset(
-    (
-        "fs",
-        "samplingrate",
-        "sampling_rate",
-        "samplerate",
-        "sample_rate",
-        "samplefrequency",
-        "samplingfrequency",
-        "fsamp",
-    )
+    ("fs", "fsamp", *(f"{word}{what}" for word in ("sample", "sampling") for what in ("rate", "_rate", "frequency")))
 )
 DATENUM = (693_962.0, 767_011.0)
 """Days of MATLAB's calendar from 1900 to 2100."""
 DAY = 86400.0
-EQUAL = 1e-3
-"""Largest difference of steps, over their mean, in what rises in equal steps."""
 
 
-def given_clock(recording: Recording, column: str | int, unit: str | None) -> Clocks:
-    """
-    Take the channel that an option names as the clock of those as long as it.
+class ClockOptions(Options):
+    """What can be said about a file of vectors."""
 
-    Parameters
-    ----------
-    recording : Recording
-    column : str or int
-        As for `Recording.channel`.
-    unit : str or None
-        Of the times; the channel's own otherwise.
-
-    Raises
-    ------
-    ReadError
-        If there is no such channel, or it holds no number.
-    """
-    clock = recording.channel(column)
-    seconds, how = in_seconds(clock, unit or clock.unit)
-    if not np.isfinite(seconds).any():
-        raise ReadError(
-            f"{recording.path.name}: {clock.heading} holds no number, so it cannot be the clock. Name a channel of "
-            "times, or leave `time` out."
-        )
-    number = next(index for index, channel in enumerate(recording.channels) if channel is clock)
-    times = tuple(seconds if channel.values.size == seconds.size else None for channel in recording.channels)
-    others = sum(time is None for time in times)
-    what = "1 channel is" if others == 1 else f"{others} channels are"
-    warnings = (f"{what} not as long as {clock.heading}: no clock",) if others else ()
-    return Clocks(frozenset((number,)), times, (f"clock: {clock.heading}, as given ({how})",), warnings)
+    time: str | int | None = Field(
+        default=None, description="Channel, by name or number from 1, that is the clock of all that are as long as it."
+    )
+    time_unit: TimeUnit | None = Field(default=None, description="Unit of the times.")
 
 
 def find_clocks(columns: list[Column], scalars: dict[str, float], unit: str | None = None) -> Clocks:
@@ -101,7 +68,7 @@ def find_clocks(columns: list[Column], scalars: dict[str, float], unit: str | No
         notes += [note] if note else [f"no clock for {columns[without[0]].path}{_hint(columns, without)}"]
         if step is not None:
             for number in without:
-                times[number] = step * np.arange(columns[number].values.size, dtype=np.float64)
+                times[number] = even_times(columns[number].values.size, step)
     return Clocks(frozenset(found), tuple(times), tuple(notes), tuple(warnings), start)
 
 
@@ -170,9 +137,6 @@ def _constant_step(scalars: dict[str, float]) -> tuple[float | None, str]:
 
 def _hint(columns: list[Column], without: list[int]) -> str:
     """Hint at a vector that may be a clock nevertheless."""
-    for number in without:
-        steps = np.diff(np.asarray(columns[number].values, dtype=np.float64))
-        if steps.size > 1 and np.all(steps > 0) and np.ptp(steps) < EQUAL * steps.mean():
-            path = columns[number].path
-            return f'; set time = "{path}" if that is one: it rises in equal steps of {steps.mean():g}'
-    return ": no vector as long as it has a name of times and rises; give `time` or `sampling_rate`"
+    hints = (may_be_clock(columns[number].path, columns[number].values.astype(np.float64)) for number in without)
+    no_hint = ": no vector as long as it has a name of times and rises; give `time` or `sampling_rate`"
+    return next(filter(None, hints), no_hint)

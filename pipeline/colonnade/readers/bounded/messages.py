@@ -11,10 +11,10 @@ import json
 from dataclasses import asdict, dataclass
 from datetime import datetime
 from pathlib import Path
-from typing import IO, Any, Literal
+from typing import IO, Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt
+from pydantic import AfterValidator, BaseModel, ConfigDict, NonNegativeInt
 
 from colonnade.arrays import Array
 from colonnade.readers.bounded.bounds import Bounds
@@ -26,6 +26,14 @@ BEGUN = b"begun\n"
 """Said when all is imported and the file is opened: from here on time counts."""
 
 _STRICT = ConfigDict(extra="forbid", frozen=True)
+
+
+def _whole(text: str) -> str:
+    return text.encode("utf-8", errors="replace").decode("utf-8")
+
+
+Text = Annotated[str, AfterValidator(_whole)]
+"""Text without halves of characters, which a damaged file may have and UTF-8 has not."""
 
 
 class BrokenAnswerError(Exception):
@@ -78,9 +86,9 @@ class Column(BaseModel):
 
     model_config = _STRICT
 
-    name: str
-    unit: str | None
-    heading: str
+    name: Text
+    unit: Text | None
+    heading: Text
     is_clock: bool
     values: NonNegativeInt
     time: NonNegativeInt | None
@@ -110,12 +118,16 @@ class Answer(BaseModel):
     companions: tuple[str, ...] = ()
     format: str = ""
     start: datetime | None = None
-    notes: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = ()
-    hint: str = ""
-    left_out: tuple[tuple[str, str], ...] = ()
+    notes: tuple[Text, ...] = ()
+    warnings: tuple[Text, ...] = ()
+    hint: Text = ""
+    left_out: tuple[tuple[Text, Text], ...] = ()
     columns: tuple[Column, ...] = ()
-    sizes: tuple[NonNegativeInt, ...] = Field(default=())
+    sizes: tuple[NonNegativeInt, ...] = ()
+
+
+_SAME = ("format", "start", "notes", "warnings", "hint", "left_out")
+"""What an answer and a recording both have."""
 
 
 def send(stream: IO[bytes], answer: Answer, arrays: list[Array]) -> None:
@@ -139,26 +151,17 @@ def told(recording: Recording) -> tuple[Answer, list[Array]]:
 
     columns = tuple(
         Column(
-            name=_sendable(channel.name),
-            unit=None if channel.unit is None else _sendable(channel.unit),
-            heading=_sendable(channel.heading),
+            name=channel.name,
+            unit=channel.unit,
+            heading=channel.heading,
             is_clock=channel.is_clock,
             values=number(channel.values),
             time=None if channel.time is None else number(channel.time),
         )
         for channel in recording.channels
     )
-    answer = Answer(
-        format=recording.format,
-        start=recording.start,
-        notes=tuple(map(_sendable, recording.notes)),
-        warnings=tuple(map(_sendable, recording.warnings)),
-        hint=_sendable(recording.hint),
-        left_out=tuple((_sendable(name), _sendable(reason)) for name, reason in recording.left_out),
-        columns=columns,
-        sizes=tuple(array.size for array in arrays),
-    )
-    return answer, arrays
+    same = {name: getattr(recording, name) for name in _SAME}
+    return Answer(**same, columns=columns, sizes=tuple(array.size for array in arrays)), arrays
 
 
 def receive(stream: IO[bytes], largest: int) -> tuple[Answer, list[Array]]:
@@ -222,18 +225,4 @@ def recording_of(path: Path, answer: Answer, arrays: list[Array]) -> Recording:
         )
     except (IndexError, ValueError) as error:
         raise BrokenAnswerError("the answer does not fit together") from error
-    return Recording(
-        path,
-        answer.format,
-        channels,
-        answer.start,
-        answer.notes,
-        answer.warnings,
-        hint=answer.hint,
-        left_out=answer.left_out,
-    )
-
-
-def _sendable(text: str) -> str:
-    """Text without halves of characters, which a damaged file may have and UTF-8 has not."""
-    return text.encode("utf-8", errors="replace").decode("utf-8")
+    return Recording(path, channels=channels, **{name: getattr(answer, name) for name in _SAME})

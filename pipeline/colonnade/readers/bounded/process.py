@@ -11,9 +11,8 @@ import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path, PureWindowsPath
-from typing import Any, Literal
 
 import colonnade
 from colonnade.arrays import Array
@@ -21,7 +20,7 @@ from colonnade.errors import ReadError
 from colonnade.readers.bounded import messages
 from colonnade.readers.bounded.bounds import MEGABYTE, bounds_of
 from colonnade.readers.bounded.messages import Answer, BrokenAnswerError, EndedError, Request
-from colonnade.readers.recording import Recording, Window
+from colonnade.readers.recording import Recording
 
 START = 120.0
 """Seconds within which the process has to have imported what it needs."""
@@ -38,40 +37,16 @@ _COMMAND = "import sys; sys.path[:] = sys.argv[1:]; from colonnade.readers.bound
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS", "NUMEXPR_MAX_THREADS")
 
 
-@dataclass(frozen=True)
-class Asked:
-    """
-    A raw file and how it is to be read.
-
-    Attributes
-    ----------
-    path : Path
-        Absolute.
-    format : str
-        Name of its format.
-    options : dict
-        Of that format, as JSON can hold them.
-    folder : Path
-        Of which files may be read; resolved.
-    has_companions : bool
-        Whether a file of that format may be in several.
-    """
-
-    path: Path
-    format: str
-    options: dict[str, Any]
-    folder: Path
-    has_companions: bool
-
-    def request(self, wanted: Literal["recording", "companions"], window: Window | None, *others: Path) -> Request:
-        """What is sent; the sizes of the other files count too."""
-        bounds = bounds_of(self.path, *others)
-        return Request(wanted, str(self.path), str(self.folder), self.format, self.options, window, bounds)
-
-
-def read(asked: Asked, window: Window | None) -> Recording:
+def read(request: Request, *, has_companions: bool) -> Recording:
     """
     Read a raw file in the bounded process.
+
+    Parameters
+    ----------
+    request : Request
+        For the recording, with the bounds of its file alone.
+    has_companions : bool
+        Whether a file of that format may be in several; the sizes of the others count too.
 
     Raises
     ------
@@ -79,35 +54,35 @@ def read(asked: Asked, window: Window | None) -> Recording:
         If the format refuses the file, reading it crashes, swells or does not end, or a part of it is a link to
         elsewhere.
     """
-    others = companions(asked) if asked.has_companions else ()
+    path, others = Path(request.path), companions(request) if has_companions else ()
     for other in others:
-        if not (to := other.resolve()).is_relative_to(asked.folder):
+        if not (to := other.resolve()).is_relative_to(request.within):
             raise ReadError(
-                f"{asked.path.name}: its values are in {other.name}, which is a link to {to}, outside {asked.folder}. "
+                f"{path.name}: its values are in {other.name}, which is a link to {to}, outside {request.within}. "
                 "It is not followed. Copy the file itself there."
             )
-    request = asked.request("recording", window, *others)
+    request = replace(request, bounds=bounds_of(path, *others))
     answer, arrays = _answer(request)
     try:
-        return messages.recording_of(asked.path, answer, arrays)
+        return messages.recording_of(path, answer, arrays)
     except BrokenAnswerError:
         raise _crash(request, 0) from None
 
 
-def companions(asked: Asked) -> tuple[Path, ...]:
+def companions(request: Request) -> tuple[Path, ...]:
     """
-    Find the other files that a raw file is in; all are beside it, whatever it says.
+    Find the other files that a raw file is in; all are in its folder, whatever it says.
 
     Raises
     ------
     ReadError
         If what it says of them cannot be read.
     """
-    request = asked.request("companions", None)
+    request = replace(request, wanted="companions")
     names = _answer(request)[0].companions
     if any(name in ("", "..") or name != PureWindowsPath(name).name or "\0" in name for name in names):
         raise _crash(request, 0)
-    return tuple(asked.path.with_name(name) for name in dict.fromkeys(names))
+    return tuple(Path(request.path).with_name(name) for name in dict.fromkeys(names))
 
 
 def _answer(request: Request) -> tuple[Answer, list[Array]]:
@@ -115,8 +90,7 @@ def _answer(request: Request) -> tuple[Answer, list[Array]]:
     name, bounds = Path(request.path).name, request.bounds
     answer, arrays = _ask(request)
     if answer.exit_code is not None:
-        failure = _failure(request, answer.exit_code, [])
-        raise failure from failure.__cause__
+        raise _failure(request, answer.exit_code, [])
     if answer.out_of_memory:
         raise ReadError(
             f"{name}: reading it takes more than {bounds.memory // MEGABYTE} MB of memory, far more than a file "
@@ -124,8 +98,7 @@ def _answer(request: Request) -> tuple[Answer, list[Array]]:
             "or export it as text."
         )
     if answer.refusal:
-        cause = None if answer.error_number is None else _of_the_machine(answer.error_number)
-        raise ReadError(answer.refusal) from cause
+        raise _refusal(answer.refusal, answer.error_number)
     return answer, arrays
 
 
@@ -160,22 +133,19 @@ class _Reader:
                 self.requests.write(request.line())
                 self.requests.flush()
                 begun = self.answers.readline(len(messages.BEGUN)) == messages.BEGUN
-            if not begun:
-                raise EndedError
-            with self._deadline(request.bounds.elapsed, late):
-                return messages.receive(self.answers, request.bounds.memory)
+            if begun:
+                with self._deadline(request.bounds.elapsed, late):
+                    return messages.receive(self.answers, request.bounds.memory)
         except (OSError, EndedError):
-            code = self.end()
-            failure = _failure(request, code, late) if begun else _no_start(request)
-            raise failure from failure.__cause__
-        except BrokenAnswerError:
-            self.kill()
-            self.end()
-            raise _crash(request, 0) from None
-        except BaseException:
+            pass  # its exit code says why
+        except BaseException as error:
             self.kill()  # what is still to come would be taken for the next answer
             self.end()
+            if isinstance(error, BrokenAnswerError):
+                raise _crash(request, 0) from None
             raise
+        code = self.end()
+        raise _failure(request, code, late) if begun else _no_start(request)
 
     @contextmanager
     def _deadline(self, seconds: float, late: list[float]) -> Iterator[None]:
@@ -248,23 +218,21 @@ if hasattr(os, "register_at_fork"):
 
 
 def _failure(request: Request, code: int, late: list[float]) -> ReadError:
-    """What to tell where a file had no answer."""
+    """What to say of a file that had no answer."""
     name = Path(request.path).name
     if late or code == OUT_OF_TIME:
         spent = f"{late[0]:.0f} s" if late else f"{request.bounds.processor} s of processor time"
-        error = ReadError(
+        return _refusal(
             f"{name}: reading it was stopped after {spent}, far more than a file of its size takes: it is damaged, or "
-            "was made to keep the machine busy. Copy it from the recorder again, or export it as text."
+            "was made to keep the machine busy. Copy it from the recorder again, or export it as text.",
+            errno.ETIMEDOUT if late else None,
         )
-        error.__cause__ = _of_the_machine(errno.ETIMEDOUT) if late else None
-        return error
     if code == STOPPED:
-        error = ReadError(
+        return _refusal(
             f"{name}: the system stopped the process that read it, most often because memory ran out. Run again with "
-            "less else open, or with fewer workers."
+            "less else open, or with fewer workers.",
+            errno.ENOMEM,
         )
-        error.__cause__ = _of_the_machine(errno.ENOMEM)
-        return error
     return _crash(request, code)
 
 
@@ -278,14 +246,15 @@ def _crash(request: Request, code: int) -> ReadError:
 
 
 def _no_start(request: Request) -> ReadError:
-    error = ReadError(
+    return _refusal(
         f"{Path(request.path).name}: the process that reads binary files could not be started, so the file was not "
-        "looked at. Run again with less else open."
+        "looked at. Run again with less else open.",
+        errno.EAGAIN,
     )
-    error.__cause__ = _of_the_machine(errno.EAGAIN)
-    return error
 
 
-def _of_the_machine(number: int) -> OSError:
-    """An error of the machine, after which a file is tried again."""
-    return OSError(number, os.strerror(number))
+def _refusal(text: str, number: int | None) -> ReadError:
+    """Refuse a file; with the machine's error, by number, if that is the cause: after it the file is tried again."""
+    refusal = ReadError(text)
+    refusal.__cause__ = None if number is None else OSError(number, os.strerror(number))
+    return refusal

@@ -40,7 +40,7 @@ def read(path: Path, options: Options) -> Recording:
     Raises
     ------
     ReadError
-        If the header is damaged, a file with the values is not beside it, or no channel holds numbers.
+        If the header is damaged, or a file with the values is not in its folder.
     """
     is_text, described, warnings = _described(path)
     channels = []
@@ -50,24 +50,16 @@ def read(path: Path, options: Options) -> Recording:
         warnings += told
         time = even_times(values.size, stored.step, stored.begin) if stored.step else None
         channels.append(RecordedChannel(stored.name, stored.unit or None, values, time))
-    if not any(channel.values.size for channel in channels):
-        told_reason = f" ({warnings[0]})" if warnings else ""
-        raise ReadError(f"{path.name}: no channel holds numbers{told_reason}.")
-    header = "header .DAT" if is_text else "header .TDM"
-    recording = Recording(path, "diadem", tuple(channels), notes=(header,), warnings=tuple(warnings))
-    if any(channel.time is not None for channel in channels):
-        return replace(recording, notes=(header, "clock: each channel's own increment"))
+    notes = ["header .DAT" if is_text else "header .TDM"]
+    if is_clocked := any(channel.time is not None for channel in channels):
+        notes.append("clock: each channel's own increment")
+    recording = Recording(path, "diadem", tuple(channels), notes=tuple(notes), warnings=tuple(warnings))
+    if is_clocked or not channels:
+        return recording
     clocks = find_clocks(recording.channels, ("number",) * len(channels))
-    sizes = (channel.values.size for channel in channels)
-    times = (
-        time if time is None or time.size == size else None for time, size in zip(clocks.times, sizes, strict=True)
-    )
-    return replace(
-        recording,
-        channels=replace(clocks, times=tuple(times)).applied(recording.channels),
-        notes=(header, *clocks.notes),
-        warnings=(*warnings, *clocks.warnings),
-    )
+    each = zip(clocks.times, channels, strict=True)
+    times = tuple(time if time is None or time.size == channel.values.size else None for time, channel in each)
+    return replace(clocks, times=times).applied(recording)
 
 
 def companions(path: Path, options: Options) -> tuple[str, ...]:

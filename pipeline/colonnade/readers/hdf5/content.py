@@ -12,15 +12,7 @@ from numpy.typing import NDArray
 
 from colonnade.errors import ReadError
 from colonnade.readers.binary.unpacking import Unpacking, UnreadableError
-from colonnade.readers.hdf5.opening import (
-    DAMAGE,
-    DEEPEST,
-    MOST_PARTS,
-    address,
-    expect_numbers_here,
-    member,
-    open_hdf5,
-)
+from colonnade.readers.hdf5 import opening
 
 if TYPE_CHECKING:
     import h5py
@@ -125,7 +117,7 @@ def read_hdf5(path: Path) -> Content:
         As `open_hdf5`.
     """
     content = Content()
-    with open_hdf5(path) as file:
+    with opening.open_hdf5(path) as file:
         content.attributes = _attributes(_items(file.attrs))
         unpacking = Unpacking(path.stat().st_size)
         for place, item in _datasets(file, "", content, ()):
@@ -133,7 +125,7 @@ def read_hdf5(path: Path) -> Content:
                 _take(place, item, content, unpacking)
             except UnreadableError as reason:
                 content.left_out[place] = str(reason)
-            except DAMAGE as error:
+            except opening.DAMAGE as error:
                 content.warnings.append(f"{place} is damaged, or packed in a way that cannot be unpacked here: {error}")
     return content
 
@@ -144,23 +136,25 @@ def _datasets(
     """Go through all datasets that lie in the file itself; `around` are the addresses of the groups they lie in."""
     import h5py
 
-    own = address(group)
-    if own in around or len(around) > DEEPEST:
-        content.left_out[above] = "it holds itself" if own in around else f"it lies more than {DEEPEST} groups deep"
+    own = opening.address(group)
+    if own in around or len(around) > opening.DEEPEST:
+        content.left_out[above] = (
+            "it holds itself" if own in around else f"it lies more than {opening.DEEPEST} groups deep"
+        )
         return
     try:
-        names = list(group)[:MOST_PARTS]
-    except DAMAGE as error:
+        names = list(group)[: opening.MOST_PARTS]
+    except opening.DAMAGE as error:
         content.warnings.append(f'group "{above or "/"}" is damaged and not read: {error}')
         return
     for name in names:
         place = f"{above}/{name}" if above else name
         try:
-            item = member(group, name)
+            item = opening.member(group, name)
         except UnreadableError as reason:
             content.left_out[place] = str(reason)
             continue
-        except DAMAGE as error:
+        except opening.DAMAGE as error:
             content.warnings.append(f"{place} is damaged and not read: {error}")
             continue
         if isinstance(item, h5py.Group):
@@ -171,7 +165,7 @@ def _datasets(
 
 def _take(place: str, dataset: h5py.Dataset, content: Content, unpacking: Unpacking) -> None:
     """Add a dataset; a table gives each of its columns of numbers."""
-    expect_numbers_here(dataset)
+    opening.expect_numbers_here(dataset)
     if dataset.dtype.kind not in "fiub" and not (dataset.dtype.names and dataset.ndim == 1):
         raise UnreadableError("it holds no numbers")
     unpacking.take(dataset.nbytes)

@@ -14,12 +14,12 @@ from pydantic import Field
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.binary.magic import HDF5, by_mark, head
-from colonnade.readers.binary.vector_clocks import find_clocks, given_clock
+from colonnade.readers.binary.vector_clocks import ClockOptions, find_clocks
 from colonnade.readers.binary.vectors import Column, named, recorded
 from colonnade.readers.hdf5.content import Variable, read_classic, read_hdf5
-from colonnade.readers.recording import TIME_UNITS, Recording, TimeUnit
-from colonnade.readers.registry import Format, Options, Recognition
-from colonnade.readers.text.clock import Clocks
+from colonnade.readers.recording import TIME_UNITS, Recording
+from colonnade.readers.registry import Format, Recognition
+from colonnade.readers.text.clock import Clocks, given_clock
 
 CLASSIC = (b"CDF\x01", b"CDF\x02", b"CDF\x05")
 MOST_COLUMNS = 1000
@@ -28,14 +28,10 @@ SINCE = re.compile(r"(?P<unit>\w+)\s+since\s+(?P<moment>.+)", re.IGNORECASE)
 DAYS = {"d": 86400.0, "day": 86400.0, "days": 86400.0, "ns": 1e-9, "nanosecond": 1e-9, "nanoseconds": 1e-9}
 
 
-class NetcdfOptions(Options):
+class NetcdfOptions(ClockOptions):
     """What can be said about a NetCDF or HDF5 file."""
 
     group: str | None = Field(default=None, description="The only group that is read, with those in it.")
-    time: str | int | None = Field(
-        default=None, description="Variable, by name or number from 1, that is the clock of those as long as it."
-    )
-    time_unit: TimeUnit | None = Field(default=None, description="Unit of the times.")
 
 
 def recognise(path: Path) -> Recognition:
@@ -69,13 +65,8 @@ def read(path: Path, options: NetcdfOptions) -> Recording:
         clocks = _by_coordinates(columns, variables, clocks, options.time_unit)
     else:
         clocks = given_clock(recording, options.time, options.time_unit)
-    return replace(
-        recording,
-        channels=clocks.applied(recording.channels),
-        start=clocks.start,
-        notes=(*clocks.notes, *left_out),
-        warnings=(*content.warnings, *infinite, *clocks.warnings),
-    )
+    recording = clocks.applied(replace(recording, warnings=(*content.warnings, *infinite)))
+    return replace(recording, notes=(*recording.notes, *left_out))
 
 
 def _columns(variables: list[Variable]) -> tuple[list[Column], list[str]]:

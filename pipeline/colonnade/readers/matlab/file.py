@@ -9,28 +9,25 @@ from pydantic import Field
 
 from colonnade.errors import ReadError, nearest
 from colonnade.readers.binary.magic import HDF5, head, look
-from colonnade.readers.binary.vector_clocks import find_clocks, given_clock
+from colonnade.readers.binary.vector_clocks import ClockOptions, find_clocks
 from colonnade.readers.binary.vectors import named, recorded
 from colonnade.readers.matlab.bristol import lacking_channels, numbered_channels
 from colonnade.readers.matlab.columns import find_columns
 from colonnade.readers.matlab.tree import Node, Tree
 from colonnade.readers.matlab.version_5 import read_v5
 from colonnade.readers.matlab.version_73 import read_v73
-from colonnade.readers.recording import Recording, TimeUnit
-from colonnade.readers.registry import Format, Options, Recognition
+from colonnade.readers.recording import Recording
+from colonnade.readers.registry import Format, Recognition
+from colonnade.readers.text.clock import given_clock
 
 MARK = b"MATLAB "
 USER_BLOCK = 512
 """Bytes before HDF5's own start in a file of version 7.3."""
 
 
-class MatlabOptions(Options):
+class MatlabOptions(ClockOptions):
     """What can be said about a MATLAB file; all of it is found where it is not said."""
 
-    time: str | int | None = Field(
-        default=None, description="Vector, by name or number from 1, that is the clock of those as long as it."
-    )
-    time_unit: TimeUnit | None = Field(default=None, description="Unit of the times.")
     variables: tuple[str, ...] = Field(default=(), description="Variables that are read; all of them otherwise.")
 
 
@@ -77,13 +74,8 @@ def read(path: Path, options: MatlabOptions) -> Recording:
         clocks = find_clocks(columns, {**found.scalars, **scalars}, options.time_unit)
     else:
         clocks = given_clock(recording, options.time, options.time_unit)
-    return replace(
-        recording,
-        channels=clocks.applied(recording.channels),
-        start=clocks.start,
-        notes=(*notes, *clocks.notes, *left_out),
-        warnings=(*warnings, *clocks.warnings, *infinite),
-    )
+    recording = clocks.applied(replace(recording, notes=tuple(notes), warnings=(*warnings, *infinite)))
+    return replace(recording, notes=(*recording.notes, *left_out))
 
 
 def _chosen(path: Path, tree: Tree, wanted: tuple[str, ...]) -> dict[str, Node]:

@@ -8,15 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from colonnade.readers.binary.unpacking import Unpacking, UnreadableError
-from colonnade.readers.hdf5.opening import (
-    DAMAGE,
-    DEEPEST,
-    MOST_PARTS,
-    address,
-    expect_numbers_here,
-    member,
-    open_hdf5,
-)
+from colonnade.readers.hdf5 import opening
 from colonnade.readers.matlab.tree import Node, Numbers, Tree, object_reason
 
 if TYPE_CHECKING:
@@ -37,7 +29,7 @@ def read_v73(path: Path) -> Tree:
         If it was cut off or is damaged.
     """
     tree = Tree()
-    with open_hdf5(path) as file:
+    with opening.open_hdf5(path) as file:
         reader = _Reader(file, tree, path.stat().st_size)
         for name in file:
             if not name.startswith("#"):  # "#refs#" and "#subsystem#" are MATLAB's own
@@ -64,28 +56,28 @@ class _Reader:
     def _child(self, parent: h5py.Group, name: str, path: str, depth: int) -> Node | None:
         """Read what a group holds under a name."""
         try:
-            return self._node(member(parent, name), path, depth)
+            return self._node(opening.member(parent, name), path, depth)
         except UnreadableError as reason:
             self._tree.left_out[path] = str(reason)
-        except DAMAGE as error:
+        except opening.DAMAGE as error:
             self._tree.warnings.append(f"variable {path} is damaged and not read: {error}")
         return None
 
     def _node(self, item: Any, path: str, depth: int) -> Node:
         import h5py
 
-        if depth > DEEPEST:
-            raise UnreadableError(f"it holds structs and cells in one another, more than {DEEPEST} levels")
+        if depth > opening.DEEPEST:
+            raise UnreadableError(f"it holds structs and cells in one another, more than {opening.DEEPEST} levels")
         self._parts += 1
-        if self._parts > MOST_PARTS:
-            raise UnreadableError(f"the file has more parts than the {MOST_PARTS} that are read")
+        if self._parts > opening.MOST_PARTS:
+            raise UnreadableError(f"the file has more parts than the {opening.MOST_PARTS} that are read")
         matlab_class = item.attrs.get("MATLAB_class", b"")
         matlab_class = matlab_class.decode("latin-1") if isinstance(matlab_class, bytes) else str(matlab_class)
         if "MATLAB_object_decode" in item.attrs:
             raise UnreadableError(object_reason(matlab_class or "?"))
         if matlab_class == "function_handle":
             raise UnreadableError("it is a function, and nothing in a recording is executed")
-        own = address(item)
+        own = opening.address(item)
         if own in self._above:
             raise UnreadableError("it holds itself")
         self._above.add(own)
@@ -128,7 +120,7 @@ class _Reader:
         return [name for name in names if name in group] or list(group)
 
     def _dataset(self, dataset: h5py.Dataset, matlab_class: str, path: str, depth: int) -> Node:
-        expect_numbers_here(dataset)
+        opening.expect_numbers_here(dataset)
         if dataset.attrs.get("MATLAB_empty", 0):
             return "" if matlab_class == "char" else np.empty((0, 0))
         if dataset.dtype.kind == "O":
@@ -148,8 +140,8 @@ class _Reader:
 
         if h5py.check_ref_dtype(dataset.dtype) is not h5py.Reference:
             raise UnreadableError("it holds no numbers")
-        if dataset.size > MOST_PARTS:
-            raise UnreadableError(f"it has {dataset.size} parts, more than the {MOST_PARTS} that are read")
+        if dataset.size > opening.MOST_PARTS:
+            raise UnreadableError(f"it has {dataset.size} parts, more than the {opening.MOST_PARTS} that are read")
         cells: list[Any] = []
         for number, reference in enumerate(dataset[()].ravel().tolist(), 1):
             place = f"{path}{{{number}}}"

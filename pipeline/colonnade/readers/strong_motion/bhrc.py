@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
 import numpy as np
 
-from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import Format, Options, Recognition
@@ -32,25 +29,6 @@ REALS_WIDTH = 13
 PER_ROW = 10
 
 
-@dataclass(frozen=True)
-class Component:
-    """One of the components, as far as it is there; `rate` is the header's nominal one, in Hz."""
-
-    name: str
-    unit: str
-    points: int
-    duration: float
-    rate: float
-    values: Array
-    line: int
-    warnings: tuple[str, ...]
-
-    @property
-    def step(self) -> float:
-        """Time step, s: that of the nominal rate; of the duration, from first to last point, if no rate is given."""
-        return 1 / self.rate if 0 < self.rate < np.inf else self.duration / (self.points - 1)
-
-
 def recognise(path: Path) -> Recognition:
     """Say whether the head is that of a BHRC record."""
     head = first_lines(path, 13)
@@ -66,68 +44,63 @@ def read(path: Path, options: Options) -> Recording:
     Raises
     ------
     ReadError
-        If a header is not whole or in a unit that is not known, or no numbers follow.
+        If a header is in a unit that is not known.
     """
-    with NumberedLines(path) as lines:
-        begun: list[int] = []
-        components = list(_components(path, lines, begun))
-    if not any(component.values.size for component in components):
-        raise ReadError(f"{path.name}: no component with numbers was found: the file was cut off.")
-    channels = tuple(
-        RecordedChannel(
-            component.name, component.unit, component.values, even_times(component.values.size, component.step)
-        )
-        for component in components
-    )
-    notes = [
-        f'"{component.name}": {component.points} points at {1 / component.step:.6g} Hz, '
-        + ("the header's rate" if component.rate > 0 else "from the header's duration")
-        + f" (line {component.line})"
-        for component in components
-    ]
-    warnings = [warning for component in components for warning in (*component.warnings, *_contradiction(component))]
-    warnings += [f"the header that begins on line {line} is not whole: the file was cut off" for line in begun]
-    return Recording(path, "bhrc", channels, notes=tuple(notes), warnings=tuple(warnings))
-
-
-def _contradiction(component: Component) -> list[str]:
-    """Tell of a rate and a duration that do not belong together; they may differ by a step or two."""
-    lasts = component.points * component.step
-    if abs(lasts - component.duration) <= max(2 * component.step, 0.01 * component.duration):
-        return []
-    return [
-        f'"{component.name}": {component.points} points at the header\'s {component.rate:g} Hz last {lasts:g} s, '
-        f"and the header says {component.duration:g} s: one of them is wrong; the rate is taken"
-    ]
-
-
-def _components(path: Path, lines: NumberedLines, begun: list[int]) -> Iterator[Component]:
-    """Read component after component; the line of a header without numbers stays among the begun."""
+    channels: list[RecordedChannel] = []
+    notes: list[str] = []
+    warnings: list[str] = []
+    begun = 0
     name, size = "", None
-    for number, line in lines.rest():
-        if line.startswith(FIRST_LINE):
-            begun[:] = [number]
-        elif found := COMPONENT.match(line):
-            name = found["name"]
-        elif found := SIZE.match(line):
-            size = found
-        elif (found := UNITS.match(line)) and size is not None:
-            unit, factor = KNOWN_UNITS.get(found["unit"].casefold(), ("", 1.0))
-            points, duration = int(size["points"]), float(size["duration"])
-            if not unit or points < 2 or not duration > 0:
-                raise ReadError(
-                    f"{path.name}: the header above line {number} gives {points} points, {duration:g} s, unit "
-                    f'"{found["unit"]}"; two points or more and a unit among {", ".join(KNOWN_UNITS)} were expected.'
-                )
-            list(islice(lines.rest(), WHOLE_ROWS))
-            reals, _ = read_running(islice(lines.rest(), REAL_ROWS), width=REALS_WIDTH)
-            values, warnings = read_running(islice(lines.rest(), -(-points // PER_ROW)), width=REALS_WIDTH)
-            values = factor * values[:points]
-            warnings += shortage(f'"{name}": the header', points, values.size)
-            rate = float(reals[RATE]) if reals.size > RATE else float("nan")
-            yield Component(name, unit, points, duration, rate, values, number, tuple(warnings))
-            begun.clear()
-            size = None
+    with NumberedLines(path) as lines:
+        for number, line in lines.rest():
+            if line.startswith(FIRST_LINE):
+                begun = number
+            elif found := COMPONENT.match(line):
+                name = found["name"]
+            elif found := SIZE.match(line):
+                size = int(found["points"]), float(found["duration"])
+            elif (found := UNITS.match(line)) and size is not None:
+                channels.append(_component(path, lines, name, found["unit"], *size, notes, warnings))
+                begun, size = 0, None
+    if begun:
+        warnings.append(f"the header that begins on line {begun} is not whole: the file was cut off")
+    return Recording(path, "bhrc", tuple(channels), notes=tuple(notes), warnings=tuple(warnings))
+
+
+def _component(
+    path: Path,
+    lines: NumberedLines,
+    name: str,
+    written: str,
+    points: int,
+    duration: float,
+    notes: list[str],
+    warnings: list[str],
+) -> RecordedChannel:
+    """Read a component from the line of its units on; the step is that of its rate, else of its duration."""
+    number = lines.number
+    unit, factor = KNOWN_UNITS.get(written.casefold(), ("", 1.0))
+    if not unit or points < 2 or not duration > 0:
+        raise ReadError(
+            f"{path.name}: the header above line {number} gives {points} points, {duration:g} s, unit "
+            f'"{written}"; two points or more and a unit among {", ".join(KNOWN_UNITS)} were expected.'
+        )
+    lines.skip(WHOLE_ROWS)
+    reals, _ = read_running(islice(lines.rest(), REAL_ROWS), width=REALS_WIDTH)
+    rate = float(reals[RATE]) if reals.size > RATE else float("nan")
+    step = 1 / rate if 0 < rate < np.inf else duration / (points - 1)
+    values, told = read_running(islice(lines.rest(), -(-points // PER_ROW)), width=REALS_WIDTH)
+    values = factor * values[:points]
+    by = "the header's rate" if rate > 0 else "from the header's duration"
+    notes.append(f'"{name}": {points} points at {1 / step:.6g} Hz, {by} (line {number})')
+    warnings += [*told, *shortage(f'"{name}": the header', points, values.size)]
+    lasts = points * step
+    if abs(lasts - duration) > max(2 * step, 0.01 * duration):  # they may differ by a step or two
+        warnings.append(
+            f'"{name}": {points} points at the header\'s {rate:g} Hz last {lasts:g} s, and the header says '
+            f"{duration:g} s: one of them is wrong; the rate is taken"
+        )
+    return RecordedChannel(name, unit, values, even_times(values.size, step))
 
 
 FORMAT = Format(

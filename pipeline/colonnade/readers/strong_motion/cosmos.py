@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from itertools import islice
 from pathlib import Path
@@ -15,6 +15,7 @@ from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import Format, Options, Recognition
+from colonnade.readers.strong_motion.spelling import spelled
 from colonnade.readers.text.clock import even_times, moment_after
 from colonnade.readers.text.lines.numbered import NumberedLines, first_lines
 from colonnade.readers.text.lines.running import read_running, shortage
@@ -36,7 +37,6 @@ DATA = re.compile(
 )
 STEP = 61
 """Place, from 0, of the time step in ms among the real header values (COSMOS 1.20, Table 9, value 62)."""
-UNITS = {"cm/sec2": "cm/s^2", "cm/sec/sec": "cm/s^2", "cm/sec": "cm/s"}
 START = re.compile(
     r"start time\s*:\s*(\d{1,4})/(\d{1,4})/(\d{1,4}),?\s+(\d{1,2}):(\d{1,2}):([\d.]+)\s*(\w*)", re.IGNORECASE
 )
@@ -45,17 +45,12 @@ COMPONENT = re.compile(r"^Sta\s+Cha\w*[\s:]*(?P<name>.*?)\s*(?:\(Rcrdr|Location|
 
 @dataclass(frozen=True)
 class Part:
-    """A record within a file: one channel's text and numbers, as far as they are there."""
+    """A record within a file: one channel, as far as it is there, its component, a note, and when it starts."""
 
+    channel: RecordedChannel
     component: str
-    quantity: str
-    unit: str
-    points: int
-    step: float
-    values: Array
-    line: int
+    note: str
     start: datetime | None
-    warnings: tuple[str, ...]
 
 
 def recognise(path: Path) -> Recognition:
@@ -73,30 +68,31 @@ def read(path: Path, options: Options) -> Recording:
     Raises
     ------
     ReadError
-        If a header is not whole or gives no time step, or no numbers follow.
+        If a header is not whole or gives no time step.
     """
     with NumberedLines(path) as lines:
         strays: list[str] = []
-        parts = list(_parts(path, lines, strays))
-    if not any(part.values.size for part in parts):
-        raise ReadError(f"{path.name}: there are headers, but no numbers below them: the file was cut off.")
+        warnings: list[str] = []
+        parts = list(_parts(path, lines, strays, warnings))
     starts = [part.start for part in parts if part.start is not None]
     # A damaged header may lack its zone.
     start = min(starts) if len({moment.tzinfo for moment in starts}) == 1 else None
     channels: list[RecordedChannel] = []
     notes: list[str] = []
-    warnings = [f"{stray} does not belong to a channel: the file may have been cut off there" for stray in strays[:1]]
+    told = [f"{stray} does not belong to a channel: the file may have been cut off there" for stray in strays[:1]]
     for part in parts:
-        delay = 0.0 if part.start is None or start is None else (part.start - start).total_seconds()
-        names = [channel.name for channel in channels]
-        name = part.quantity if part.quantity not in names else f"{part.quantity} {part.component or len(parts)}"
-        channels.append(RecordedChannel(name, part.unit, part.values, even_times(part.values.size, part.step, delay)))
-        notes.append(f'"{name}": {part.points} points, step {part.step:g} s, {part.component} (line {part.line})')
-        warnings += part.warnings
-    return Recording(path, "cosmos", tuple(channels), start, tuple(notes), tuple(warnings))
+        name = part.channel.name
+        if name in [channel.name for channel in channels]:
+            name = f"{name} {part.component or len(parts)}"
+        time = part.channel.time
+        if time is not None and part.start is not None and start is not None:
+            time = time + (part.start - start).total_seconds()
+        channels.append(replace(part.channel, name=name, heading=name, time=time))
+        notes.append(f'"{name}": {part.note}')
+    return Recording(path, "cosmos", tuple(channels), start, tuple(notes), (*told, *warnings))
 
 
-def _parts(path: Path, lines: NumberedLines, strays: list[str]) -> Iterator[Part]:
+def _parts(path: Path, lines: NumberedLines, strays: list[str], warnings: list[str]) -> Iterator[Part]:
     """Read channel after channel; lines between them are added to the strays."""
     while (line := lines.peek()) is not None:
         found = FIRST_LINE.search(line)
@@ -119,7 +115,7 @@ def _parts(path: Path, lines: NumberedLines, strays: list[str]) -> Iterator[Part
                 values, _ = read_running(below, width=int(block["width"]))
                 reals = values if block["kind"].casefold() == "real" else reals
             elif comments := COMMENTS.match(line):
-                list(islice(lines.rest(), int(comments["lines"])))
+                lines.skip(int(comments["lines"]))
             elif data := DATA.match(line):
                 break
             elif line.strip():
@@ -128,10 +124,12 @@ def _parts(path: Path, lines: NumberedLines, strays: list[str]) -> Iterator[Part
                 )
         if data is None:
             raise ReadError(f"{path.name}: the file ends within the headers, on line {lines.number}: it was cut off.")
-        yield _part(path, lines, texts, reals, data)
+        yield _part(path, lines, texts, reals, data, warnings)
 
 
-def _part(path: Path, lines: NumberedLines, texts: list[str], reals: Array, data: re.Match[str]) -> Part:
+def _part(
+    path: Path, lines: NumberedLines, texts: list[str], reals: Array, data: re.Match[str], warnings: list[str]
+) -> Part:
     """Read a channel's numbers."""
     line = lines.number
     points, width = int(data["points"]), int(data["width"])
@@ -139,9 +137,9 @@ def _part(path: Path, lines: NumberedLines, texts: list[str], reals: Array, data
     if not 0 < step < np.inf:
         raise ReadError(f"{path.name}: the real header values above line {line} give no time step (value {STEP + 1}).")
     rows = -(-points // int(data["count"] or 1))
-    values, warnings = read_running(islice(lines.rest(), rows), width=width)
+    values, told = read_running(islice(lines.rest(), rows), width=width)
     values = values[:points]
-    warnings += shortage(f"line {line}", points, values.size)
+    warnings += [*told, *shortage(f"line {line}", points, values.size)]
     seconds = float(data["seconds"] or "nan")
     if abs(points * step - seconds) > max(1.0, 0.02 * seconds):
         warnings.append(
@@ -149,18 +147,10 @@ def _part(path: Path, lines: NumberedLines, texts: list[str], reals: Array, data
             "the step is in doubt"
         )
     component = next((found["name"] for text in texts if (found := COMPONENT.match(text))), "")
-    unit = data["unit"].casefold()
-    return Part(
-        " ".join(component.split()),
-        data["quantity"].casefold(),
-        UNITS.get(unit, unit),
-        points,
-        step,
-        values,
-        line,
-        _start(texts),
-        tuple(warnings),
-    )
+    component = " ".join(component.split())
+    times = even_times(values.size, step)
+    channel = RecordedChannel(data["quantity"].casefold(), spelled(data["unit"]), values, times)
+    return Part(channel, component, f"{points} points, step {step:g} s, {component} (line {line})", _start(texts))
 
 
 def _start(texts: list[str]) -> datetime | None:

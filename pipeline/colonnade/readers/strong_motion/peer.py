@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from colonnade.errors import ReadError
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import Format, Options, Recognition
+from colonnade.readers.strong_motion.spelling import spelled
 from colonnade.readers.text.clock import even_times
 from colonnade.readers.text.lines.numbered import NumberedLines, first_lines
 from colonnade.readers.text.lines.running import read_running, shortage
@@ -29,31 +29,14 @@ UNITS = re.compile(
     re.IGNORECASE,
 )
 QUANTITIES = (("ACCEL", "acceleration"), ("VELOCITY", "velocity"), ("DISPL", "displacement"))
-SPELLINGS = {
-    "cm/sec": "cm/s",
-    **dict.fromkeys(("cm/sec2", "cm/sec^2", "cm/sec/sec", "cm/s/s", "cm/s2"), "cm/s^2"),
-    "m/s2": "m/s^2",
-}
-
-
-@dataclass(frozen=True)
-class Header:
-    """What is above the numbers: lines taken, points, step in s, quantity, unit, title."""
-
-    lines: int
-    points: int
-    step: float
-    quantity: str
-    unit: str | None
-    title: str
 
 
 def recognise(path: Path) -> Recognition:
     """Say whether one of the first lines gives NPTS and DT."""
-    header = _header(first_lines(path, HEADER_LINES))
-    if header is None:
+    above, _ = _header(path)
+    if not above:
         return Recognition(False, f"none of the first {HEADER_LINES} lines gives NPTS and DT")
-    return Recognition(True, f"line {header.lines} gives NPTS and DT")
+    return Recognition(True, f"line {len(above)} gives NPTS and DT")
 
 
 def read(path: Path, options: Options) -> Recording:
@@ -65,60 +48,39 @@ def read(path: Path, options: Options) -> Recording:
     ReadError
         If NPTS and DT are not given or no numbers follow.
     """
-    header = _header(first_lines(path, HEADER_LINES))
-    if header is None:
+    above, size = _header(path)
+    if size is None:
         raise ReadError(
             f"{path.name}: none of the first {HEADER_LINES} lines gives the number of points and the step; "
             '"NPTS=  2999, DT= .01000 SEC" was expected.'
         )
-    if not 0 < header.step < np.inf:
-        raise ReadError(f"{path.name}: line {header.lines} gives a time step of {header.step:g} s.")
+    line, points, step = len(above), int(size["points"]), float(size["step"])
+    if not 0 < step < np.inf:
+        raise ReadError(f"{path.name}: line {line} gives a time step of {step:g} s.")
     with NumberedLines(path) as lines:
-        for _ in range(header.lines):
-            lines.take()
+        lines.skip(line)
         values, warnings = read_running(lines.rest())
     if not np.isfinite(values).any():
-        raise ReadError(f"{path.name}: no numbers follow line {header.lines}: the file was cut off.")
-    warnings += shortage("the header", header.points, values.size)
-    if values.size > header.points:
-        warnings.append(
-            f"the header announces {header.points} points and {values.size} are there: all of them are read"
-        )
-    time = even_times(values.size, header.step)
-    notes = (
-        f"{header.points} points, step {header.step:g} s (line {header.lines})",
-        f'{header.quantity} in {header.unit or "an unknown unit"}: "{header.title}"',
-    )
-    channel = RecordedChannel(header.quantity, header.unit, values, time)
+        raise ReadError(f"{path.name}: no numbers follow line {line}: the file was cut off.")
+    warnings += shortage("the header", points, values.size)
+    if values.size > points:
+        warnings.append(f"the header announces {points} points and {values.size} are there: all of them are read")
+    quantity = next((name for word, name in QUANTITIES if word in " ".join(above).upper()), "values")
+    unit = next((spelled(found[1]) for each in above if (found := UNITS.search(each))), None)
+    title = " ".join(above[min(1, line - 1)].split())[:80]
+    notes = (f"{points} points, step {step:g} s (line {line})", f'{quantity} in {unit or "an unknown unit"}: "{title}"')
+    channel = RecordedChannel(quantity, unit, values, even_times(values.size, step))
     return Recording(path, "peer", (channel,), notes=notes, warnings=tuple(warnings))
 
 
-def _header(lines: list[str]) -> Header | None:
+def _header(path: Path) -> tuple[list[str], re.Match[str] | None]:
+    """Lines down to the one that gives points and step, and what it says; no line if none does."""
+    lines = first_lines(path, HEADER_LINES)
     for number, line in enumerate(lines, 1):
         for spelling in SIZES:
             if found := spelling.search(line):
-                above = lines[:number]
-                return Header(
-                    number, int(found["points"]), float(found["step"]), _quantity(above), _unit(above), _title(above)
-                )
-    return None
-
-
-def _quantity(lines: list[str]) -> str:
-    text = " ".join(lines).upper()
-    return next((name for word, name in QUANTITIES if word in text), "values")
-
-
-def _unit(lines: list[str]) -> str | None:
-    found = next((match for line in lines if (match := UNITS.search(line))), None)
-    if found is None:
-        return None
-    spelled = found[1].casefold()
-    return SPELLINGS.get(spelled, spelled)
-
-
-def _title(lines: list[str]) -> str:
-    return " ".join(lines[min(1, len(lines) - 1)].split())[:80]
+                return lines[:number], found
+    return [], None
 
 
 FORMAT = Format(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 from colonnade.readers.text.header_claims import header_claims
@@ -17,23 +16,6 @@ LINE_NUMBER = slice(72, 74)
 """Columns in which USC numbers the lines of its header."""
 
 SPECTRA = re.compile(r"response (?:and|spectr)", re.IGNORECASE)
-
-
-@dataclass(frozen=True)
-class Network:
-    """
-    A network's own format.
-
-    Attributes
-    ----------
-    name : str
-        As people know it.
-    looks : callable
-        Lines of the head -> whether they are this format's.
-    """
-
-    name: str
-    looks: Callable[[list[str]], bool]
 
 
 def foreign_format(path: Path) -> str:
@@ -52,12 +34,12 @@ def foreign_format(path: Path) -> str:
     lines = first_lines(path, HEADER_LINES)
     if len(lines) < 2:
         return ""
-    network = next((network for network in NETWORKS if network.looks(lines)), None)
-    if network is None:
+    network = next((name for name, looks in NETWORKS.items() if looks(lines)), "")
+    if not network:
         return ""
     if SPECTRA.search(lines[0]):
         return (
-            f"this is a strong-motion file in the format of {network.name} with response spectra, not with a motion. "
+            f"this is a strong-motion file in the format of {network} with response spectra, not with a motion. "
             "Download volume 1 or 2 of the same record."
         )
     claims = header_claims("\n".join(lines))
@@ -65,17 +47,17 @@ def foreign_format(path: Path) -> str:
     says += [f"accelerations in {claims.unit}"] if claims.unit else []
     kept = f" Its header gives {' and '.join(says)}: keep that." if says else ""
     return (
-        f"this is a strong-motion record in the format of {network.name}, which is not read here. Download the record "
+        f"this is a strong-motion record in the format of {network}, which is not read here. Download the record "
         "as COSMOS V1 or V2, miniSEED or SAC if the network offers it; or convert it (gmprocess of the USGS reads this "
         "format), or export it as text with a column of times and one of accelerations, with names and units above."
         + kept
     )
 
 
-def _starts(pattern: str, line: int = 0) -> Callable[[list[str]], bool]:
-    """Whether a line, from 0, starts so, whatever its case."""
+def _starts(pattern: str) -> Callable[[list[str]], bool]:
+    """Whether the first line starts so, whatever its case."""
     expression = re.compile(pattern, re.IGNORECASE)
-    return lambda lines: len(lines) > line and expression.match(lines[line]) is not None
+    return lambda lines: expression.match(lines[0]) is not None
 
 
 def _holds(pattern: str, within: int) -> Callable[[list[str]], bool]:
@@ -111,17 +93,15 @@ def _is_esm(lines: list[str]) -> bool:
     return lines[0].startswith("EVENT_NAME:") and any(line.startswith("SAMPLING_INTERVAL_S:") for line in lines)
 
 
-NETWORKS = (
-    Network("SMC (United States Geological Survey)", _is_smc),
-    Network("USC (University of Southern California)", _is_usc),
-    Network("GeoNet (New Zealand)", _starts(r".*corrected accelerogram.*(?:GNS|Geological (?:&|and) Nuclear)\b")),
-    Network("CSMIP/DMG (California Strong Motion Instrumentation Program)", _is_csmip),
-    Network("ESM/ITACA (DYNA, Engineering Strong Motion database)", _is_esm),
-    Network(
-        "CWA/CWB (Central Weather Administration of Taiwan)", _starts(r"#\s*(?:Earthquake Information|StationCode)")
-    ),
-    Network("NSMN/AFAD (Turkey)", _starts(r".*STRONG GROUND MOTION RECORDS? OF T")),
-    Network("UNAM (Mexico, Archivo Estándar de Aceleración)", _holds(r"ARCHIVO EST.{1,2}NDAR DE ACELERACI", 12)),
-    Network("RENADIC (Universidad de Chile)", _holds(r"UNIVERSIDAD DE CHILE\s*-\s*RENADIC", 12)),
-)
-"""In the order in which they are asked: USC writes what CSMIP writes, and more."""
+NETWORKS: dict[str, Callable[[list[str]], bool]] = {
+    "SMC (United States Geological Survey)": _is_smc,
+    "USC (University of Southern California)": _is_usc,
+    "GeoNet (New Zealand)": _starts(r".*corrected accelerogram.*(?:GNS|Geological (?:&|and) Nuclear)\b"),
+    "CSMIP/DMG (California Strong Motion Instrumentation Program)": _is_csmip,
+    "ESM/ITACA (DYNA, Engineering Strong Motion database)": _is_esm,
+    "CWA/CWB (Central Weather Administration of Taiwan)": _starts(r"#\s*(?:Earthquake Information|StationCode)"),
+    "NSMN/AFAD (Turkey)": _starts(r".*STRONG GROUND MOTION RECORDS? OF T"),
+    "UNAM (Mexico, Archivo Estándar de Aceleración)": _holds(r"ARCHIVO EST.{1,2}NDAR DE ACELERACI", 12),
+    "RENADIC (Universidad de Chile)": _holds(r"UNIVERSIDAD DE CHILE\s*-\s*RENADIC", 12),
+}
+"""Name, as people know it, and what tells from the lines of the head; in this order, as USC writes more than CSMIP."""

@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.readers.binary.vector_clocks import given_clock
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.clock import Clocks, find_clocks
+from colonnade.readers.text.clock import Clocks, find_clocks, given_clock
 
 EARLIEST_START = np.datetime64("1970-01-01", "us")
 """LabVIEW writes 1904-01-01 where no start is known."""
@@ -130,8 +129,8 @@ def on_clocks(path: Path, columns: list[Column], time: str | int | None, time_un
             clocks.notes + given.notes,
             clocks.warnings,
         )
-    notes = (*clocks.notes, *_summary(columns, clocks.times))
-    return replace(recording, channels=clocks.applied(recording.channels), notes=notes, warnings=clocks.warnings)
+    recording = clocks.applied(recording)
+    return replace(recording, notes=(*recording.notes, *_summary(columns, clocks.times)))
 
 
 def _start(column: Column) -> np.datetime64 | None:

@@ -14,9 +14,10 @@ from pydantic import Field
 
 from colonnade.errors import ReadError, nearest
 from colonnade.readers.binary.magic import by_mark
-from colonnade.readers.binary.values import as_values
-from colonnade.readers.recording import RecordedChannel, Recording, TimeUnit, Window
-from colonnade.readers.registry import Format, Options, Recognition
+from colonnade.readers.binary.vector_clocks import ClockOptions
+from colonnade.readers.binary.vectors import as_values
+from colonnade.readers.recording import RecordedChannel, Recording, Window
+from colonnade.readers.registry import Format, Recognition
 from colonnade.readers.tdms.clocks import NO_TIMING, Column, beginnings, on_clocks, waveform
 from colonnade.readers.tdms.segments import missing_samples, walk
 from colonnade.readers.text.heading import take_apart
@@ -31,14 +32,10 @@ MUCH = 1 << 16
 """Bytes from which on a read is held against what the file has."""
 
 
-class TdmsOptions(Options):
+class TdmsOptions(ClockOptions):
     """What can be said about a TDMS file."""
 
     group: str | None = Field(default=None, description="The only group that is read; all of them otherwise.")
-    time: str | int | None = Field(
-        default=None, description="Channel that is the clock of those as long as it, whatever their properties say."
-    )
-    time_unit: TimeUnit | None = Field(default=None, description="Unit of that channel.")
 
 
 def recognise(path: Path) -> Recognition:
@@ -53,7 +50,7 @@ def read(path: Path, options: TdmsOptions) -> Recording:
     Raises
     ------
     ReadError
-        If it is not TDMS, is damaged, holds no numbers, or lacks the group or channel that the options name.
+        If it is not TDMS, is damaged, or lacks the group or channel that the options name.
     """
     return _recording(path, options, None)
 
@@ -88,8 +85,6 @@ def _recording(path: Path, options: TdmsOptions, window: Window | None) -> Recor
             parts = [slice(None)] * len(channels)
         columns, warnings = _columns(channels, file, parts, options.group)
     warnings = missing_samples(ending, file) + warnings
-    if not columns:
-        raise ReadError(f"{path.name}: no channel holds numbers. {'; '.join(warnings + notes)}".rstrip())
     recording = on_clocks(path, columns, options.time, options.time_unit)
     return replace(recording, notes=(*recording.notes, *notes), warnings=(*warnings, *recording.warnings))
 

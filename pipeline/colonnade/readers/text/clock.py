@@ -9,14 +9,14 @@ from datetime import datetime, timedelta
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.readers.recording import TIME_UNITS, RecordedChannel
+from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 
 TIME_NAME = re.compile(
     r"(?:t|time|zeit|messzeit|laufzeit|time\W?stamp|date\W?time|elapsed(?:\W?time)?|temps|tiempo|tempo|tid|χρόνοσ|χρονοσ"
     r"|seconds|sekunden|sec)(?:[\s_#-]*\d+)?(?:\s+-\s.*)?"
 )
-LOOKED_AT = 1000
-"""Values at the start of a column that show whether it may be a clock at all."""
+EQUAL = 1e-3
+"""Largest difference of a step from the mean, as a share of it, in what rises in equal steps."""
 
 FEWEST_STEPS = 4
 LONGEST_STEP = 0.5
@@ -48,12 +48,38 @@ class Clocks:
     warnings: tuple[str, ...]
     start: datetime | None = None
 
-    def applied(self, channels: tuple[RecordedChannel, ...]) -> tuple[RecordedChannel, ...]:
-        """Give each channel its times."""
-        return tuple(
+    def applied(self, recording: Recording) -> Recording:
+        """Give each channel its times, and add how they were found."""
+        channels = tuple(
             replace(channel, time=time, is_clock=number in self.columns)
-            for number, (channel, time) in enumerate(zip(channels, self.times, strict=True))
+            for number, (channel, time) in enumerate(zip(recording.channels, self.times, strict=True))
         )
+        return replace(
+            recording,
+            channels=channels,
+            start=self.start or recording.start,
+            notes=(*recording.notes, *self.notes),
+            warnings=(*recording.warnings, *self.warnings),
+        )
+
+
+def given_clock(recording: Recording, column: str | int, unit: str | None) -> Clocks:
+    """
+    Take the channel that an option names as the clock of those as long as it.
+
+    Parameters
+    ----------
+    recording : Recording
+    column, unit
+        As for `Recording.clock`, which says what is refused.
+    """
+    clock, seconds, how = recording.clock(column, unit)
+    number = next(index for index, channel in enumerate(recording.channels) if channel is clock)
+    times = tuple(seconds if channel.values.size == seconds.size else None for channel in recording.channels)
+    others = sum(time is None for time in times)
+    what = "1 channel is" if others == 1 else f"{others} channels are"
+    warnings = (f'{what} not as long as "{clock.heading}": no clock',) if others else ()
+    return Clocks(frozenset((number,)), times, (f'clock: "{clock.heading}", as given ({how})',), warnings)
 
 
 def find_clocks(channels: tuple[RecordedChannel, ...], kinds: tuple[str, ...]) -> Clocks:
@@ -80,13 +106,13 @@ def find_clocks(channels: tuple[RecordedChannel, ...], kinds: tuple[str, ...]) -
                 "it is not used as one"
             )
             continue
-        clocks[index], how = (channel.values, "timestamps") if kind == "time" else in_seconds(channel, channel.unit)
+        clocks[index], how = (channel.values, "timestamps") if kind == "time" else channel.in_seconds()
         notes.append(f'clock: column {index + 1}, "{channel.heading}" ({how}; rising)')
     if not clocks and kinds[0] == "number" and (step := _nameless_clock(channels[0])):
         clocks[0] = channels[0].values
         notes.append(f"clock: column 1, which has no name and rises in equal steps of {step:.6g}, taken as seconds")
     if not clocks:
-        hint = _rising_in_equal_steps(channels)
+        hint = may_be_clock(channels[0].heading, channels[0].values)
         notes.append("no clock: no rising column has a name or unit of time" + hint)
         return Clocks(frozenset(), (None,) * len(channels), tuple(notes), tuple(warnings))
     if len(clocks) > 1:
@@ -103,13 +129,6 @@ def _looks_like_clock(channel: RecordedChannel, kind: str, *, is_first: bool) ->
     by_unit = channel.unit is not None and channel.unit.casefold() in TIME_UNITS
     named = TIME_NAME.fullmatch(channel.name.casefold()) is not None
     return (named and channel.unit is None) or (by_unit and (named or is_first))
-
-
-def in_seconds(channel: RecordedChannel, unit: str | None) -> tuple[Array, str]:
-    """Convert a column of times to seconds, and say how; a unit that is none of time counts as seconds."""
-    factor = TIME_UNITS.get((unit or "s").casefold(), 1.0)
-    how = f"in {unit}" if unit else "without a unit, taken as seconds"
-    return (channel.values if factor == 1.0 else channel.values * factor), how
 
 
 def even_times(count: int, step: float, begin: float = 0.0) -> Array:
@@ -134,6 +153,22 @@ def rising_share(values: Array) -> float:
     return float((steps > 0).mean()) if steps.size else 0.0
 
 
+def equal_step(values: Array, tolerance: float) -> float | None:
+    """Mean step of values that rise in equal steps, within a share of the mean; None if they do not."""
+    steps = np.diff(values)
+    if not steps.size or not (steps > 0).all():
+        return None
+    mean = float((values[-1] - values[0]) / steps.size)
+    return mean if np.abs(steps - mean).max() <= tolerance * mean else None
+
+
+def may_be_clock(heading: str, values: Array) -> str:
+    """Hint at a column that is not taken for a clock and rises in equal steps; empty if it does not."""
+    known = values[np.isfinite(values)]
+    step = equal_step(known, EQUAL) if known.size > 2 else None
+    return "" if step is None else f'; set time = "{heading}" if that is one: it rises in equal steps of {step:g}'
+
+
 def _nameless_clock(first: RecordedChannel) -> float:
     """
     Step of a first column without name and unit that can only be times in seconds; 0 if it cannot.
@@ -149,15 +184,3 @@ def _nameless_clock(first: RecordedChannel) -> float:
     even = first.values[0] + step * np.arange(first.values.size)
     # Rounded times are off by less than a step.
     return step if step < LONGEST_STEP and float(np.abs(first.values - even).max()) < step else 0.0
-
-
-def _rising_in_equal_steps(channels: tuple[RecordedChannel, ...]) -> str:
-    """Hint at a first column that may be a clock nevertheless."""
-    first = channels[0]
-    for values in (first.values[:LOOKED_AT], first.values):
-        steps = np.diff(values[np.isfinite(values)])
-        if not np.all(steps > 0):
-            return ""
-    if steps.size > 1 and np.ptp(steps) < 1e-3 * steps.mean():
-        return f'; set time = "{first.heading}" if that is one: it rises in equal steps of {steps.mean():g}'
-    return ""

@@ -106,7 +106,7 @@ def _recording(header: Header, rows: Rows, options: DelimitedOptions) -> Recordi
     """Say what the rows mean."""
     path, heading, kinds = header.path, header.heading, header.form.kinds
     is_cut = rows.reaches_end and ends_within_line(path)
-    mended = mend(rows, header.form, heading.headings, is_cut=is_cut)
+    mended = mend(rows, heading.headings, is_cut=is_cut)
     columns = [
         past_midnight(column) if kind == "time" else column for column, kind in zip(mended.columns, kinds, strict=True)
     ]

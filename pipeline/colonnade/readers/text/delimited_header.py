@@ -13,13 +13,7 @@ from colonnade.readers.text.first_sample import column_kinds, find_first_sample
 from colonnade.readers.text.header_claims import HeaderClaims, header_claims
 from colonnade.readers.text.heading import Heading, HeadingLines, describe_columns, find_heading, unread_numbers
 from colonnade.readers.text.lines.cells import COMMENT_SIGNS, MISSING, WHITESPACE, Dialect
-from colonnade.readers.text.lines.encoding import (
-    Encoding,
-    detect_encoding,
-    head_lines,
-    known_encoding,
-    looks_binary,
-)
+from colonnade.readers.text.lines.encoding import Encoding, TextOptions, detect_encoding, head_lines, looks_binary
 from colonnade.readers.text.lines.faults import RowForm
 from colonnade.readers.text.row_layout import Named
 from colonnade.readers.text.sniffing import sniff
@@ -35,7 +29,7 @@ def _delimiter(text: str) -> str:
     return character
 
 
-class DelimitedOptions(TableOptions):
+class DelimitedOptions(TextOptions, TableOptions):
     """What can be said about a delimited text file; all of it is sniffed if it is not given."""
 
     delimiter: Annotated[str, AfterValidator(_delimiter)] | None = Field(
@@ -44,9 +38,6 @@ class DelimitedOptions(TableOptions):
     decimal: Literal[".", ","] | None = Field(default=None, description="Decimal sign.")
     thousands: Literal[".", ",", " ", "'"] | None = Field(
         default=None, description="Sign between groups of three digits."
-    )
-    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
-        default=None, description='Of the text, such as "utf-8", "utf-16", "latin-1".'
     )
     skip_rows: int = Field(default=0, ge=0, description="Lines at the top of the file that are not looked at.")
     comment: str | None = Field(default=None, min_length=1, description="What starts a line that is not a sample.")

@@ -4,21 +4,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
-from typing import Annotated
 
 import numpy as np
-from pydantic import AfterValidator, Field
 
 from colonnade.arrays import Array
-from colonnade.errors import ReadError
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.registry import Format, Options, Recognition
+from colonnade.readers.registry import Format, Recognition
 from colonnade.readers.text.clock import even_times, moment_after
 from colonnade.readers.text.heading import take_apart
-from colonnade.readers.text.lines.encoding import known_encoding
+from colonnade.readers.text.lines.encoding import TextOptions
 from colonnade.readers.text.lines.numbered import NumberedLines, first_lines
 from colonnade.readers.text.lines.rows import filled_length
 from colonnade.readers.text.lvm_segments import Preamble, Segment, read_preamble, read_segments
@@ -29,36 +25,8 @@ SINCE_EPOCH = 1e9
 """Seconds: larger x-values count from LabVIEW's epoch, not from the start of the recording."""
 
 
-class LvmOptions(Options):
-    """What can be said about a LabVIEW measurement file."""
-
-    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
-        default=None, description='Of the text, such as "utf-8" or "latin-1".'
-    )
-
-
-@dataclass(frozen=True)
-class SegmentColumn:
-    """
-    A column's samples in one segment.
-
-    Attributes
-    ----------
-    name : str
-    unit : str or None
-    values : ndarray, shape (n,)
-    times : ndarray, shape (n,), or None
-        Seconds since `began`; None if x is not a time.
-    began : datetime or None
-    is_clock : bool
-    """
-
-    name: str
-    unit: str | None
-    values: Array
-    times: Array | None
-    began: datetime | None
-    is_clock: bool
+Piece = tuple[RecordedChannel, datetime | None]
+"""A column's samples in one segment, and when it began; their times, if x is a time, count from there."""
 
 
 def recognise(path: Path) -> Recognition:
@@ -69,7 +37,7 @@ def recognise(path: Path) -> Recognition:
     return Recognition(False, f'the first line is not "{SIGNATURE}"')
 
 
-def read(path: Path, options: LvmOptions) -> Recording:
+def read(path: Path, options: TextOptions) -> Recording:
     """
     Read a LabVIEW measurement file.
 
@@ -78,24 +46,21 @@ def read(path: Path, options: LvmOptions) -> Recording:
     Raises
     ------
     ReadError
-        If a header is not whole, or no rows of numbers follow.
+        If a header is not whole.
     """
     with NumberedLines(path, options.encoding) as lines:
         preamble = read_preamble(path, lines)
         segments, warnings = read_segments(path, lines, preamble)
-    if not any(segment.columns[0].size for segment in segments):
-        raise ReadError(f"{path.name}: there are headers, but no rows of numbers below them: the file was cut off.")
     for segment in segments:
         warnings += _too_short(segment)
-    pieces: dict[tuple[int, str], list[SegmentColumn]] = {}
+    pieces: dict[tuple[int, str], list[Piece]] = {}
     for segment in segments:
         for column, piece in _columns(segment, preamble):
-            pieces.setdefault((column, piece.name), []).append(piece)
-    origin = next((piece for same in pieces.values() for piece in same if piece.times is not None), None)
+            pieces.setdefault((column, piece[0].name), []).append(piece)
+    timed = ((piece.time, began) for same in pieces.values() for piece, began in same if piece.time is not None)
+    first, origin = next(timed, (np.empty(0), None))
+    start = moment_after(origin, float(first[0])) if first.size else None
     channels = tuple(_joined(same, origin, preamble) for same in pieces.values())
-    start = None
-    if origin is not None and origin.times is not None and origin.times.size:
-        start = moment_after(origin.began, float(origin.times[0]))
     return Recording(
         path, "lvm", channels, start, notes=_notes(preamble, segments), warnings=tuple(dict.fromkeys(warnings))
     )
@@ -113,7 +78,7 @@ def _too_short(segment: Segment) -> list[str]:
     return []
 
 
-def _columns(segment: Segment, preamble: Preamble) -> Iterator[tuple[int, SegmentColumn]]:
+def _columns(segment: Segment, preamble: Preamble) -> Iterator[tuple[int, Piece]]:
     """Take a segment's columns apart, each with its number."""
     clock = 0
     for column, name in enumerate(segment.names):
@@ -136,7 +101,7 @@ def _columns(segment: Segment, preamble: Preamble) -> Iterator[tuple[int, Segmen
                 began = moment_after(LABVIEW_EPOCH, float(times[0]))
                 times = times - times[0]
         unit = "s" if is_clock else segment.entry("Y_Unit_Label", column) or take_apart(name)[1]
-        yield column, SegmentColumn(name, unit, values, times, began, is_clock)
+        yield column, (RecordedChannel(name, unit, values, times, is_clock=is_clock), began)
 
 
 def _even_times(segment: Segment, preamble: Preamble, column: int, count: int) -> Array | None:
@@ -146,25 +111,23 @@ def _even_times(segment: Segment, preamble: Preamble, column: int, count: int) -
     return even_times(count, step, begin) if step > 0 and np.isfinite(begin) else None
 
 
-def _joined(pieces: list[SegmentColumn], origin: SegmentColumn | None, preamble: Preamble) -> RecordedChannel:
+def _joined(pieces: list[Piece], origin: datetime | None, preamble: Preamble) -> RecordedChannel:
     """Join a channel's pieces, on the clock of the recording's first sample."""
-    first = pieces[0]
-    values = np.concatenate([piece.values for piece in pieces])
+    first, _ = pieces[0]
+    values = np.concatenate([piece.values for piece, _ in pieces])
+    name = take_apart(first.name)[0]
     times: list[Array] = []
-    shift = 0.0
-    before: Array | None = None
-    for piece in pieces:
-        if piece.times is None or origin is None:
-            return RecordedChannel(take_apart(first.name)[0], first.unit, values, heading=first.name)
+    shift, end = 0.0, np.inf
+    for piece, began in pieces:
+        if piece.time is None:
+            return RecordedChannel(name, first.unit, values, heading=first.name)
         # x-values that go on where the segment before ended count from its beginning, not from this one's.
-        follows = before is not None and before.size > 0 and bool((piece.times[:1] > before[-1:]).any())
-        goes_on = preamble.clocks != "no" and follows
-        if not goes_on and piece.began is not None and origin.began is not None:
-            shift = (piece.began - origin.began).total_seconds()
-        times.append(piece.times + shift)
-        before = piece.times
-    time = np.concatenate(times)
-    return RecordedChannel(take_apart(first.name)[0], first.unit, values, time, first.name, first.is_clock)
+        goes_on = preamble.clocks != "no" and bool((piece.time[:1] > end).any())
+        if not goes_on and began is not None and origin is not None:
+            shift = (began - origin).total_seconds()
+        times.append(piece.time + shift)
+        end = float(piece.time[-1]) if piece.time.size else np.inf
+    return RecordedChannel(name, first.unit, values, np.concatenate(times), first.name, first.is_clock)
 
 
 def _moment(date: str, time: str) -> datetime | None:
@@ -196,7 +159,7 @@ FORMAT = Format(
     name="lvm",
     summary="LabVIEW measurement text, in segments with headers.",
     suffixes=(".lvm",),
-    options=LvmOptions,
+    options=TextOptions,
     recognise=recognise,
     read=read,
     in_process=True,

@@ -124,7 +124,7 @@ def _segment(
         found = _padded(found, dialect, len(names))
     form = RowForm(dialect, ("number",) * len(names), remark=True, by_instrument=True, ragged=True)
     rows = read_rows(path, pieces_of_lines(found), form)
-    mended = mend(rows, form, names, is_cut=lines.peek() is None and ends_within_line(path))
+    mended = mend(rows, names, is_cut=lines.peek() is None and ends_within_line(path))
     warnings += mended.warnings
     return Segment(entries, names, line, mended.columns)
 

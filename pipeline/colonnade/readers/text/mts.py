@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated
 
 import numpy as np
-from pydantic import AfterValidator, Field
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
-from colonnade.readers.registry import Format, Options, Recognition
+from colonnade.readers.registry import Format, Recognition
 from colonnade.readers.text.clock import RISING_SHARE, moment_after, rising_share
 from colonnade.readers.text.heading import looks_like_unit
 from colonnade.readers.text.lines.cells import WHITESPACE, Dialect, is_timestamp
 from colonnade.readers.text.lines.damage import mend
-from colonnade.readers.text.lines.encoding import ends_within_line, known_encoding
+from colonnade.readers.text.lines.encoding import TextOptions, ends_within_line
 from colonnade.readers.text.lines.faults import RowForm
 from colonnade.readers.text.lines.numbered import NumberedLines, first_lines
 from colonnade.readers.text.lines.pieces import pieces_of_lines
@@ -30,23 +29,12 @@ from colonnade.readers.text.lines.rows import read_rows
 SIGNATURE = "MTS793|"
 DELIMITERS = {"0": WHITESPACE, "1": ",", "2": "\t"}
 """Of the fifth field of the first line: plain, Lotus, Excel (MPT manual, "How to parse the MPT specimen data file")."""
-
-
-class MtsOptions(Options):
-    """What can be said about an MTS 793 text."""
-
-    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
-        default=None, description='Of the text, such as "latin-1".'
-    )
-
-
-@dataclass(frozen=True)
-class Declared:
-    """What the first line says: language, dialect, and the sign within dates."""
-
-    language: str
-    dialect: Dialect
-    date_sign: str
+DATES = {
+    ".": ("%d.%m.%Y %H:%M:%S",),
+    "/": ("%m/%d/%Y %I:%M:%S %p", "%m/%d/%Y %H:%M:%S"),
+    "-": ("%Y-%m-%d %H:%M:%S",),
+}
+"""Forms of a date with time, by the sign within dates; that with / only in the language ENU is read in one way only."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +72,7 @@ def recognise(path: Path) -> Recognition:
     return Recognition(False, f'the first line does not start with "{SIGNATURE}"')
 
 
-def read(path: Path, options: MtsOptions) -> Recording:
+def read(path: Path, options: TextOptions) -> Recording:
     """
     Read an MTS 793 text.
 
@@ -98,8 +86,8 @@ def read(path: Path, options: MtsOptions) -> Recording:
     """
     warnings: list[str] = []
     with NumberedLines(path, options.encoding) as lines:
-        declared = _declared(path, lines.take() or "", lines.encoding)
-        blocks = [block for block in _blocks(path, lines, declared, warnings) if block.size]
+        dialect, dates = _declared(path, lines.take() or "", lines.encoding)
+        blocks = [block for block in _blocks(path, lines, dialect, dates, warnings) if block.size]
     if not blocks:
         raise ReadError(
             f"{path.name}: no block of numbers was found: a line of names, one of units, then rows of numbers were "
@@ -118,11 +106,11 @@ def read(path: Path, options: MtsOptions) -> Recording:
             f"{len(series)} blocks with different columns: block {longest + 1}, the longest with {max(lengths)} rows, "
             f'is taken; columns of the others are called "block {2 if longest == 0 else 1}: …"'
         )
-    notes = _notes(declared, series, channels)
+    notes = _notes(dialect, series, channels)
     return Recording(path, "mts", tuple(channels), start, notes, tuple(warnings))
 
 
-def _notes(declared: Declared, series: list[list[Block]], channels: list[RecordedChannel]) -> tuple[str, ...]:
+def _notes(dialect: Dialect, series: list[list[Block]], channels: list[RecordedChannel]) -> tuple[str, ...]:
     blocks = []
     for number, same in enumerate(series, 1):
         pieces = f", in {len(same)} pieces of the same columns" if len(same) > 1 else ""
@@ -130,15 +118,15 @@ def _notes(declared: Declared, series: list[list[Block]], channels: list[Recorde
         blocks.append(f"block {number}: {rows} rows below line {same[0].line + 1}{pieces}")
     clocks = ", ".join(f'"{channel.heading}"' for channel in channels if channel.is_clock)
     return (
-        f"encoding {declared.dialect.encoding}",
+        f"encoding {dialect.encoding}",
         "delimiter and decimal sign as the first line declares them",
         *blocks,
         f"clock: {clocks}" if clocks else "no clock: no rising column in s",
     )
 
 
-def _declared(path: Path, line: str, encoding: str) -> Declared:
-    """Take the first line apart: program, language, version, delimiter, decimal sign, signs of date and time."""
+def _declared(path: Path, line: str, encoding: str) -> tuple[Dialect, tuple[str, ...]]:
+    """Take the first line apart: how numbers are written, and the forms that a date may have."""
     fields = line.strip().strip('"').split("|")
     if len(fields) < 8 or fields[4] not in DELIMITERS or fields[5] not in (".", ","):
         raise ReadError(
@@ -146,15 +134,18 @@ def _declared(path: Path, line: str, encoding: str) -> Declared:
             "expected, with a delimiter 0, 1 or 2. Export the file from the machine again."
         )
     delimiter = DELIMITERS[fields[4]]
-    return Declared(fields[2], Dialect(encoding, delimiter, fields[5], quoted=delimiter == ","), fields[6])
+    dates = DATES.get(fields[6], ()) if fields[6] != "/" or fields[2] == "ENU" else ()
+    return Dialect(encoding, delimiter, fields[5], quoted=delimiter == ","), dates
 
 
-def _blocks(path: Path, lines: NumberedLines, declared: Declared, warnings: list[str]) -> Iterator[Block]:
+def _blocks(
+    path: Path, lines: NumberedLines, dialect: Dialect, dates: tuple[str, ...], warnings: list[str]
+) -> Iterator[Block]:
     """Find each line above a block, `… Time: 10.0 Sec …`, that has names, units and numbers below it."""
-    dialect = declared.dialect
     for _, line in lines.rest():
         title = _cells(line, dialect)
-        if _seconds(title, dialect) is None:
+        seconds = _seconds(title, dialect)
+        if seconds is None:
             continue
         names = _cells(lines.take() or "", dialect)
         units = _cells(lines.peek() or "", dialect)
@@ -170,9 +161,9 @@ def _blocks(path: Path, lines: NumberedLines, declared: Declared, warnings: list
         form = RowForm(dialect, ("number",) * len(names), by_instrument=True)
         rows = ((number, row.rstrip("\t ")) for number, row in lines.until(lambda row: not _is_row(row, dialect)))
         found = read_rows(path, pieces_of_lines(rows), form)
-        mended = mend(found, form, names, is_cut=lines.peek() is None and ends_within_line(path))
+        mended = mend(found, names, is_cut=lines.peek() is None and ends_within_line(path))
         warnings += mended.warnings
-        yield Block(line_of_names, tuple(names), tuple(units), mended.columns, _origin(title, declared))
+        yield Block(line_of_names, tuple(names), tuple(units), mended.columns, _origin(title[-1], seconds, dates))
 
 
 def _is_row(line: str, dialect: Dialect) -> bool:
@@ -197,22 +188,11 @@ def _seconds(title: list[str], dialect: Dialect) -> float | None:
     return None
 
 
-def _origin(title: list[str], declared: Declared) -> datetime | None:
-    """Date and time of the running time's zero, if the date can be read in one way only."""
-    seconds = _seconds(title, declared.dialect)
-    if seconds is None or not title:
-        return None
-    text = title[-1]
-    forms = {
-        ".": ("%d.%m.%Y %H:%M:%S",),
-        "/": ("%m/%d/%Y %I:%M:%S %p", "%m/%d/%Y %H:%M:%S") if declared.language == "ENU" else (),
-        "-": ("%Y-%m-%d %H:%M:%S",),
-    }
-    for form in forms.get(declared.date_sign, ()):
-        try:
+def _origin(text: str, seconds: float, dates: tuple[str, ...]) -> datetime | None:
+    """Date and time of the running time's zero, so many seconds before the date that is written."""
+    for form in dates:
+        with suppress(ValueError):
             return moment_after(datetime.strptime(text, form), -seconds)
-        except ValueError:
-            continue
     return None
 
 
@@ -244,7 +224,7 @@ FORMAT = Format(
     name="mts",
     summary="Text of MTS 793 testing machines (MPT, Basic TestWare), in blocks.",
     suffixes=(".dat", ".txt"),
-    options=MtsOptions,
+    options=TextOptions,
     recognise=recognise,
     read=read,
     in_process=True,

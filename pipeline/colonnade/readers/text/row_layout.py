@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array
-from colonnade.readers.text.clock import RISING_SHARE, rising_share
+from colonnade.readers.text.clock import RISING_SHARE, equal_step, rising_share
 from colonnade.readers.text.header_claims import HeaderClaims
 from colonnade.readers.text.lines.rows import filled_length
 
@@ -216,5 +216,5 @@ def _are_pairs(table: NDArray[np.float64]) -> bool:
     """Whether every second column holds times in equal steps, which run on from row to row."""
     if table.shape[1] < 4 or table.shape[1] % 2 or not np.isfinite(table).all():
         return False
-    steps = np.diff(table[:, 0::2].ravel())
-    return bool(steps.size > 1 and (steps > 0).all() and np.abs(steps - steps.mean()).max() < 0.1 * steps.mean())
+    times = table[:, 0::2].ravel()
+    return times.size > 2 and equal_step(times, 0.1) is not None

@@ -8,14 +8,13 @@ from datetime import datetime
 from pathlib import Path
 from typing import Literal, Self
 
-import numpy as np
 from pydantic import Field, model_validator
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.recording import RecordedChannel, Recording, TimeUnit
 from colonnade.readers.registry import Options
-from colonnade.readers.text.clock import Clocks, find_clocks, in_seconds
+from colonnade.readers.text.clock import Clocks, find_clocks, given_clock
 from colonnade.readers.text.header_claims import HeaderClaims
 from colonnade.readers.text.heading import Heading, HeadingLines
 from colonnade.readers.text.row_layout import Named, Verdict, judge
@@ -91,39 +90,27 @@ class Table:
             If the column of times that the options name is missing or holds no number.
         """
         heading = self.heading
+        each = zip(heading.names, heading.units, self.columns, heading.headings, self.kinds, strict=True)
         channels = tuple(
-            RecordedChannel(name, unit, values, heading=head)
-            for name, unit, values, head in zip(
-                heading.names, heading.units, self.columns, heading.headings, strict=True
-            )
+            RecordedChannel(name, unit, values, values if kind == "time" else None, head, kind == "time")
+            for name, unit, values, head, kind in each
         )
         recording = Recording(self.path, self.format, channels, self.start)
         clocks = self._clocks(recording, options)
         if len(channels) == 1 and not clocks.columns:
-            channels = (replace(channels[0], unit=channels[0].unit or claims.unit),)
+            recording = replace(recording, channels=(replace(channels[0], unit=channels[0].unit or claims.unit),))
             clocks = Clocks(frozenset(), (claims.times(channels[0].values.size),), (claims.clock_note,), ())
-        return replace(recording, channels=clocks.applied(channels), notes=clocks.notes, warnings=clocks.warnings)
+        return clocks.applied(recording)
 
     def _clocks(self, recording: Recording, options: TableOptions) -> Clocks:
         """Times of the channels: by the column that was given, else by those found."""
         found = find_clocks(recording.channels, self.kinds)
         if options.time is None:
             return found
-        clock = recording.channel(options.time)
-        if not np.isfinite(clock.values).any():
-            raise ReadError(
-                f'{self.path.name}: column "{clock.heading}" holds no number, so it cannot be the clock. '
-                "Name a column of times, or leave `time` out."
-            )
-        index = next(number for number, channel in enumerate(recording.channels) if channel is clock)
-        if self.kinds[index] == "time":
-            time, how = clock.values, "timestamps"
-        else:
-            time, how = in_seconds(clock, options.time_unit or clock.unit)
-        times = [own if number in found.columns else time for number, own in enumerate(found.times)]
-        times[index] = time
-        note = f'clock: "{clock.heading}", as given ({how})'
-        return Clocks(found.columns | {index}, tuple(times), (note,), ())
+        given = given_clock(recording, options.time, options.time_unit)
+        others = found.columns - given.columns
+        times = tuple((found if number in others else given).times[number] for number in range(len(given.times)))
+        return replace(given, columns=found.columns | given.columns, times=times)
 
 
 def layout_of(

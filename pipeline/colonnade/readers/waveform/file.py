@@ -14,7 +14,7 @@ from pydantic import Field
 from colonnade.arrays import Array
 from colonnade.errors import ReadError, nearest
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.registry import Format, Options, Recognition
+from colonnade.readers.registry import Format, Options, Recognition, refusing
 from colonnade.readers.text.clock import even_times
 from colonnade.readers.waveform.companions import companions_of
 from colonnade.readers.waveform.kinds import kind_of_waveform
@@ -108,19 +108,10 @@ def _stream(path: Path, kind: str) -> tuple[Any, list[str]]:
     from colonnade.readers.waveform.plugins import reader_of
 
     settings = {"round_sampling_interval": False} if kind == "SAC" else {}
-    try:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            # Not by obspy.read, which takes a name as a pattern, and would unpack an archive whatever its size.
-            stream = reader_of(kind)(str(path.resolve()), **settings)
-    except MemoryError:
-        raise
-    except Exception as error:
-        said = " ".join(str(error).split())[:200]
-        raise ReadError(
-            f"{path.name}: ObsPy cannot read it as {kind} ({type(error).__name__}: {said}). The file was cut off or is "
-            "damaged; copy it from the recorder again."
-        ) from error
+    with refusing(path, kind), warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        # Not by obspy.read, which takes a name as a pattern, and would unpack an archive whatever its size.
+        stream = reader_of(kind)(str(path.resolve()), **settings)
     told = dict.fromkeys(f"ObsPy: {' '.join(str(warning.message).split())}" for warning in caught)
     return stream, [text for text in told if "eprecat" not in text]
 

@@ -17,7 +17,7 @@ FORM = RowForm(Dialect("utf-8", ";", "."), ("number", "number", "number"))
 
 def mended(*texts: str, form: RowForm = FORM, is_cut: bool = False) -> Mended:
     rows = read_rows(Path("a.csv"), pieces_of_lines(enumerate(texts, 1)), form)
-    return mend(rows, form, ["a", "b", "c"], is_cut=is_cut)
+    return mend(rows, ["a", "b", "c"], is_cut=is_cut)
 
 
 def test_lines_that_are_not_samples_are_left_out_and_listed() -> None:

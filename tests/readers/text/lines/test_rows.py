@@ -23,7 +23,7 @@ def found(*texts: str, form: RowForm = INSTRUMENT) -> Rows:
 
 
 def mended(*texts: str, form: RowForm = INSTRUMENT, is_cut: bool = False) -> Mended:
-    return mend(found(*texts, form=form), form, ["a", "b"], is_cut=is_cut)
+    return mend(found(*texts, form=form), ["a", "b"], is_cut=is_cut)
 
 
 @pytest.mark.parametrize("rows_at_once", [2, 20_000], ids=["in pieces", "at once"])
@@ -33,7 +33,7 @@ def test_columns_and_lines_come_out_whatever_the_size_of_the_pieces(
     monkeypatch.setattr(pieces, "ROWS_AT_ONCE", rows_at_once)
     rows = found(*(f"{row}.5\t{-row}" for row in range(5)))
     assert [column.tolist() for column in rows.columns] == [[0.5, 1.5, 2.5, 3.5, 4.5], [0, -1, -2, -3, -4]]
-    assert [(row.row, row.line, row.text) for row in rows.tail(INSTRUMENT.dialect)[-2:]] == [
+    assert [(row.row, row.line, row.text) for row in rows.tail()[-2:]] == [
         (3, 14, "3.5\t-3"),
         (4, 15, "4.5\t-4"),
     ]
@@ -92,4 +92,4 @@ def test_no_rows_are_empty_columns() -> None:
 
 def test_lines_are_counted_on_where_they_were_not_taken_in_a_row() -> None:
     rows = read_rows(Path("a.txt"), pieces_of_lines([(5, "1\t2"), (9, "x\t4"), (10, "5\t6")]), INSTRUMENT)
-    assert "on line 9" in mend(rows, INSTRUMENT, ["a", "b"]).warnings[0]
+    assert "on line 9" in mend(rows, ["a", "b"]).warnings[0]

@@ -36,7 +36,7 @@ class Mended:
     warnings: tuple[str, ...]
 
 
-def mend(rows: Rows, form: RowForm, headings: Sequence[str], *, is_cut: bool = False) -> Mended:
+def mend(rows: Rows, headings: Sequence[str], *, is_cut: bool = False) -> Mended:
     """
     Take out of the columns what is wrong with their rows.
 
@@ -48,16 +48,15 @@ def mend(rows: Rows, form: RowForm, headings: Sequence[str], *, is_cut: bool = F
     ----------
     rows : Rows
         Their columns are changed.
-    form : RowForm
     headings : sequence of str
         Of the columns.
     is_cut : bool
         Whether the rows end with the file, and that within a line.
     """
-    tail = rows.tail(form.dialect) if is_cut else []
+    tail, form = rows.tail() if is_cut else [], rows.form
     faults = {fault: list(found) for fault, found in rows.faults.items()}
     if tail:
-        _take_cut_line(faults, rows, form)
+        _take_cut_line(faults, rows)
     gone = sum(len(faults.get(fault, ())) for fault in ("comment", "text", "cut"))
     ending = _ending(faults.get("short", []), rows.size - gone)
     faults["short"] = faults.get("short", [])[: -len(ending) or None]
@@ -65,7 +64,7 @@ def mend(rows: Rows, form: RowForm, headings: Sequence[str], *, is_cut: bool = F
     blanked = _marked(faults, rows.size, "struck out", "long", "short")
     notes, warnings = _reported(faults, ending, len(headings))
     number_cut, message = _unfinished_number(tail, form) if tail else (False, "")
-    absent = _report_missing(rows, [*ending, *tail[-1:]], left_out | blanked, form, headings)
+    absent = _report_missing(rows, [*ending, *tail[-1:]], left_out | blanked, headings)
     if number_cut:
         rows.columns[-1][-1] = np.nan
     columns = []
@@ -80,12 +79,12 @@ def mend(rows: Rows, form: RowForm, headings: Sequence[str], *, is_cut: bool = F
     )
 
 
-def _take_cut_line(faults: dict[Fault, list[Row]], rows: Rows, form: RowForm) -> None:
+def _take_cut_line(faults: dict[Fault, list[Row]], rows: Rows) -> None:
     """Judge the last line, which has no line end: only the delimiter at the very end of it may be lacking."""
     short = faults.get("short", [])
     if short and short[-1].row == rows.size - 1:
         last = short.pop()
-        if len(last.cells) < len(form.kinds) or last.cells[-1] == "":
+        if len(last.cells) < len(rows.form.kinds) or last.cells[-1] == "":
             faults["cut"] = [last]
 
 
@@ -151,12 +150,12 @@ def _unfinished_number(tail: list[Row], form: RowForm) -> tuple[bool, str]:
     return False, f"the last line, {last.line}, has no line end; its last number is taken as complete"
 
 
-def _report_missing(rows: Rows, others: list[Row], damaged: Mask, form: RowForm, headings: Sequence[str]) -> list[str]:
+def _report_missing(rows: Rows, others: list[Row], damaged: Mask, headings: Sequence[str]) -> list[str]:
     """Say for each column of numbers how many cells hold none, and where the first of them is."""
     groups: dict[tuple[int, int], list[int]] = {}
-    for number, (column, kind) in enumerate(zip(rows.columns, form.kinds, strict=True)):
+    for number, (column, kind) in enumerate(zip(rows.columns, rows.form.kinds, strict=True)):
         absent = np.isnan(column) & ~damaged
-        if form.ragged:
+        if rows.form.ragged:
             absent[filled_length(column) :] = False
         count = int(absent.sum())
         if count and (kind != "text" or count < rows.size - damaged.sum()):

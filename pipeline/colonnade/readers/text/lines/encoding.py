@@ -6,7 +6,11 @@ import codecs
 from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
-from typing import TextIO
+from typing import Annotated, TextIO
+
+from pydantic import AfterValidator, Field
+
+from colonnade.readers.registry import Options
 
 HEAD_BYTES = 1 << 18
 """As much of a file as is looked at to find out how it is written."""
@@ -82,6 +86,14 @@ def known_encoding(name: str) -> str:
         return codecs.lookup(name).name
     except LookupError:
         raise ValueError('unknown encoding; give for example "utf-8", "utf-16" or "latin-1"') from None
+
+
+class TextOptions(Options):
+    """What can be said about any text."""
+
+    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
+        default=None, description='Of the text, such as "utf-8", "utf-16", "latin-1"; found if it is not given.'
+    )
 
 
 def open_text(path: Path, encoding: str) -> TextIO:

@@ -71,11 +71,15 @@ class NumberedLines:
             self.number += 1
         return line
 
+    def skip(self, count: int) -> None:
+        """Pass over so many lines."""
+        for _ in range(count):
+            self.take()
+
     def until(self, stops: Callable[[str], bool]) -> Iterator[tuple[int, str]]:
         """Take lines, with their numbers, up to the first that stops; it can still be looked at."""
         while (line := self.peek()) is not None and not stops(line):
-            self._ahead = None
-            self.number += 1
+            self.take()
             yield self.number, line
 
     def rest(self) -> Iterator[tuple[int, str]]:

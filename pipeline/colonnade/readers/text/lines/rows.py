@@ -38,41 +38,93 @@ class Rows:
 
     Attributes
     ----------
+    form : RowForm
+        How they are written.
+    size : int
+        Number of the rows.
     columns : list of ndarray, shape (n,)
         NaN without a number; seconds from the first for columns of timestamps.
     faults : dict of str to list of Row
         Rows that are not as they should be, in their order.
     without_number : dict of int to Row
         By its number in the columns, the first other row without a number in a column.
-    last : tuple of (int, Piece)
-        The last pieces, with the number of the first row of each.
-    start : datetime or None
-        Of the first timestamp that has a date.
     skipped : int
         Rows of the file before the first of these.
     reaches_end : bool
         Whether the file's last row is among them.
     """
 
-    columns: list[Array]
-    faults: dict[Fault, list[Row]]
-    without_number: dict[int, Row]
-    last: tuple[tuple[int, Piece], ...]
-    start: datetime | None = None
+    form: RowForm
+    size: int = 0
+    columns: list[Array] = field(default_factory=list)
+    faults: dict[Fault, list[Row]] = field(default_factory=dict)
+    without_number: dict[int, Row] = field(default_factory=dict)
     skipped: int = 0
     reaches_end: bool = True
+    _last: deque[tuple[int, Piece]] = field(default_factory=lambda: deque(maxlen=2))
+
+    def __post_init__(self) -> None:
+        kinds = self.form.kinds
+        # A column's pieces are joined one column at a time, so that little is held twice.
+        self._pieces: list[list[Array]] = [[] for _ in kinds]
+        self._clocks = {column: Timestamps() for column, kind in enumerate(kinds) if kind == "time"}
+        self._complete = set(range(len(kinds)))
 
     @property
-    def size(self) -> int:
-        """Number of the rows."""
-        return self.columns[0].size
+    def start(self) -> datetime | None:
+        """The first timestamp that has a date."""
+        return next((clock.start for clock in self._clocks.values() if clock.start is not None), None)
 
-    def tail(self, dialect: Dialect) -> list[Row]:
+    def tail(self) -> list[Row]:
         """Cut the last rows, up to `TAIL`, into cells again."""
+        dialect = self.form.dialect
         lines = [
-            (first + number, *found) for first, piece in self.last for number, found in enumerate(piece.rows(dialect))
+            (first + number, *found) for first, piece in self._last for number, found in enumerate(piece.rows(dialect))
         ]
         return [Row(row, line, text, dialect.split(text)) for row, line, text in lines[-TAIL:]]
+
+    def add(self, piece: Piece, frame: pd.DataFrame) -> None:
+        """Add a piece, cut into cells, to the columns; look at the rows of it that may not be as they should be."""
+        kinds = self.form.kinds
+        columns = [
+            self._clocks[column].seconds(frame[column])
+            if kind == "time"
+            else numbers_of(frame[column], self.form.dialect)
+            for column, kind in enumerate(kinds)
+        ]
+        absent = [np.isnan(values) for values in columns]
+        self._look(piece, _doubtful(frame, absent, self.form), absent)
+        for pieces, values in zip(self._pieces, columns, strict=True):
+            pieces.append(values)
+        self._last.append((self.size, piece))
+        self.size += len(frame)
+
+    def _look(self, piece: Piece, doubtful: Mask, absent: list[Mask]) -> None:
+        """Find the faults of doubtful rows, and the first row without a number in each column that had all so far."""
+        lacking = {column for column in self._complete if absent[column].any()}
+        if not doubtful.any() and not lacking:
+            return
+        sought = set(np.flatnonzero(doubtful).tolist())
+        sought.update(*(np.flatnonzero(absent[column] & ~doubtful)[:1].tolist() for column in lacking))
+        for number, (line, text) in enumerate(piece.rows(self.form.dialect)):
+            if number not in sought:
+                continue
+            sought.remove(number)
+            row = Row(self.size + number, line, text, self.form.dialect.split(text))
+            empty = [column for column, missing in enumerate(absent) if missing[number]]
+            fault = fault_of(row, self.form, has_number=len(empty) < len(absent)) if doubtful[number] else None
+            if fault is not None:
+                self.faults.setdefault(fault, []).append(row)
+            elif not lacking.isdisjoint(empty):
+                self.without_number[row.row] = row
+                lacking.difference_update(empty)
+                self._complete.difference_update(empty)
+            if not sought:
+                return
+
+    def join(self) -> None:
+        """Make a column of its pieces."""
+        self.columns = side_by_side(_joined, self._pieces)
 
 
 @dataclass(frozen=True)
@@ -124,26 +176,26 @@ def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm, stretch: Stret
     """
     from pandas.errors import ParserError, ParserWarning
 
-    taken = _Taken(form)
-    skipped, reaches_end = 0, True
+    taken = Rows(form)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", ParserWarning)  # pandas only warns when it drops cells
             with closing(_cut(pieces, form)) as frames:
                 for piece, frame in frames:
-                    place = 0 if stretch is None else stretch.place(frame, skipped + taken.size, form.dialect)
+                    place = 0 if stretch is None else stretch.place(frame, taken.skipped + taken.size, form.dialect)
                     if place < 0 and not taken.size:
-                        skipped += len(frame)
+                        taken.skipped += len(frame)
                         continue
                     if place > 0 and taken.size:
-                        reaches_end = False
+                        taken.reaches_end = False
                         break
                     taken.add(piece, frame)
     except (ParserError, ParserWarning) as error:
         raise ReadError(
             f"{path.name}: its lines cannot be cut into cells ({str(error).strip()}). Look for lines unlike the others."
         ) from error
-    return taken.joined(skipped, reaches_end)
+    taken.join()
+    return taken
 
 
 def _cut(pieces: Iterable[Piece], form: RowForm) -> Generator[tuple[Piece, pd.DataFrame], None, None]:
@@ -220,71 +272,6 @@ class _Stream(TextIOBase):
         """Give all that is left."""
         text, self._text = self._text, ""
         return text
-
-
-@dataclass
-class _Taken:
-    """What was read so far; a column's pieces are joined one column at a time, so that little is held twice."""
-
-    form: RowForm
-    size: int = 0
-    columns: list[list[Array]] = field(default_factory=list)
-    faults: dict[Fault, list[Row]] = field(default_factory=dict)
-    without_number: dict[int, Row] = field(default_factory=dict)
-    clocks: dict[int, Timestamps] = field(default_factory=dict)
-    last: deque[tuple[int, Piece]] = field(default_factory=lambda: deque(maxlen=2))
-    complete: set[int] = field(default_factory=set)
-
-    def __post_init__(self) -> None:
-        self.columns = [[] for _ in self.form.kinds]
-        self.clocks = {column: Timestamps() for column, kind in enumerate(self.form.kinds) if kind == "time"}
-        self.complete = set(range(len(self.form.kinds)))
-
-    def add(self, piece: Piece, frame: pd.DataFrame) -> None:
-        """Add a piece, cut into cells, to the columns; look at the rows of it that may not be as they should be."""
-        kinds = self.form.kinds
-        columns = [
-            self.clocks[column].seconds(frame[column])
-            if kind == "time"
-            else numbers_of(frame[column], self.form.dialect)
-            for column, kind in enumerate(kinds)
-        ]
-        absent = [np.isnan(values) for values in columns]
-        self._look(piece, _doubtful(frame, absent, self.form), absent)
-        for pieces, values in zip(self.columns, columns, strict=True):
-            pieces.append(values)
-        self.last.append((self.size, piece))
-        self.size += len(frame)
-
-    def _look(self, piece: Piece, doubtful: Mask, absent: list[Mask]) -> None:
-        """Find the faults of doubtful rows, and the first row without a number in each column that had all so far."""
-        lacking = {column for column in self.complete if absent[column].any()}
-        if not doubtful.any() and not lacking:
-            return
-        sought = set(np.flatnonzero(doubtful).tolist())
-        sought.update(*(np.flatnonzero(absent[column] & ~doubtful)[:1].tolist() for column in lacking))
-        for number, (line, text) in enumerate(piece.rows(self.form.dialect)):
-            if number not in sought:
-                continue
-            sought.remove(number)
-            row = Row(self.size + number, line, text, self.form.dialect.split(text))
-            empty = [column for column, missing in enumerate(absent) if missing[number]]
-            fault = fault_of(row, self.form, has_number=len(empty) < len(absent)) if doubtful[number] else None
-            if fault is not None:
-                self.faults.setdefault(fault, []).append(row)
-            elif not lacking.isdisjoint(empty):
-                self.without_number[row.row] = row
-                lacking.difference_update(empty)
-                self.complete.difference_update(empty)
-            if not sought:
-                return
-
-    def joined(self, skipped: int, reaches_end: bool) -> Rows:
-        """Join the pieces."""
-        starts = [clock.start for clock in self.clocks.values() if clock.start is not None]
-        columns = side_by_side(_joined, self.columns)
-        start, last = starts[0] if starts else None, tuple(self.last)
-        return Rows(columns, self.faults, self.without_number, last, start, skipped, reaches_end)
 
 
 def _doubtful(frame: pd.DataFrame, absent: Sequence[Mask], form: RowForm) -> Mask:

@@ -1,0 +1,50 @@
+"""Vectors become channels: their names, and infinities that are none of their values."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as some
+from hypothesis.extra.numpy import arrays
+
+from colonnade.readers.binary.vectors import Column, as_values, named, recorded
+
+COLUMNS = named(
+    [
+        Column("run.t", ("run",), np.arange(4) * 5),
+        Column("run.top", ("run",), np.array([0.0, np.inf, 2.0, 3.0])),
+        Column("other.top", ("other",), np.arange(3.0)),
+    ]
+)
+
+
+def test_columns_are_called_by_the_last_part_of_their_path_if_that_is_clear() -> None:
+    assert [column.name for column in COLUMNS] == ["t", "run.top", "other.top"]
+
+
+def test_a_channel_has_the_path_for_its_heading_and_infinite_values_are_missing() -> None:
+    recording, warnings = recorded(Path("a.mat"), "matlab", COLUMNS)
+    assert [channel.heading for channel in recording.channels] == ["run.t", "run.top", "other.top"]
+    assert warnings == ["run.top: 1 value is infinite, the first at sample 2: taken as missing"]
+    np.testing.assert_array_equal(recording.channels[1].values, [0, np.nan, 2, 3])
+
+
+@given(arrays(np.float64, some.integers(0, 50), elements=some.floats(allow_nan=True, allow_infinity=True)))
+def test_only_infinities_are_changed_and_they_are_counted(numbers: np.ndarray) -> None:
+    values, warning = as_values(numbers)
+    infinite = np.isinf(numbers)
+    np.testing.assert_array_equal(values[~infinite], numbers[~infinite])
+    assert np.isnan(values[infinite]).all()
+    assert bool(warning) == bool(infinite.any())
+    if warning:
+        assert warning.startswith(f"{infinite.sum()} value")
+        assert f"at sample {int(np.argmax(infinite)) + 1}:" in warning
+
+
+@given(arrays(some.sampled_from([np.bool_, np.int8, np.uint64, np.float32]), some.integers(0, 20)))
+def test_numbers_of_any_type_become_values(numbers: np.ndarray) -> None:
+    values, _ = as_values(numbers)
+    assert values.dtype == np.float64
+    assert values.shape == numbers.shape

@@ -1,0 +1,85 @@
+"""What a process gives up before it opens a stranger's file; each test binds a process of its own."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from colonnade.readers.bounded.enclosure import own_folders
+
+on_linux = pytest.mark.skipif(sys.platform != "linux", reason="only Linux binds a process so far")
+
+
+def came_of(code: str, *arguments: object) -> str:
+    """What a process prints, or the last line of what it says as it fails."""
+    told = subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True)
+    return told.stdout.strip() if told.returncode == 0 else told.stderr.strip().splitlines()[-1]
+
+
+def test_the_folders_of_python_and_its_packages_are_never_the_whole_disk() -> None:
+    folders = own_folders()
+    assert Path(folders[0].anchor) not in folders
+    assert any(Path(subprocess.__file__).is_relative_to(folder) for folder in folders)
+    assert any(Path(pytest.__file__).is_relative_to(folder) for folder in folders)
+
+
+WATCH = """
+import os, sys
+from pathlib import Path
+from colonnade.readers.bounded.enclosure import watch
+watch([Path(sys.argv[1])])
+print({})
+"""
+
+
+@pytest.mark.parametrize(
+    ("deed", "told"),
+    [
+        ("open(sys.argv[1] + '/inside').read()", "inside"),
+        ("open(sys.argv[1] + '/../outside').read()", "opening a file outside the campaign's folder was refused"),
+        ("open(sys.argv[1] + '/inside', 'a')", "writing a file was refused"),
+        ("open(os.devnull, 'w').write('x')", "1"),
+        ("os.system('true')", "os.system was refused, as reading never needs it"),
+        ("os.remove(sys.argv[1] + '/inside')", "os.remove was refused"),
+        ("watch([Path(sys.argv[1]).parent]) or open(sys.argv[1] + '/../outside').read()", "outside"),
+    ],
+    ids=["inside", "outside", "writing", "nothing", "a program", "removing", "the next file's folder"],
+)
+def test_python_code_may_only_read_and_only_in_some_folders(tmp_path: Path, deed: str, told: str) -> None:
+    (tmp_path / "campaign").mkdir()
+    (tmp_path / "campaign" / "inside").write_text("inside")
+    (tmp_path / "outside").write_text("outside")
+    assert told in came_of(WATCH.format(deed), tmp_path / "campaign")
+
+
+def test_a_link_that_leads_outside_is_outside(tmp_path: Path) -> None:
+    (tmp_path / "campaign").mkdir()
+    (tmp_path / "outside").write_text("outside")
+    (tmp_path / "campaign" / "link").symlink_to(tmp_path / "outside")
+    assert "outside the campaign's folder" in came_of(
+        WATCH.format("open(sys.argv[1] + '/link').read()"), tmp_path / "campaign"
+    )
+
+
+LIMIT = """
+import sys
+from colonnade.readers.bounded.bounds import Bounds
+from colonnade.readers.bounded.enclosure import limit
+limit(Bounds(int(sys.argv[1]), 60, 60.0))
+print(len(bytearray(100_000_000)))
+"""
+
+
+@on_linux
+def test_memory_is_bounded_beyond_what_the_process_has() -> None:
+    assert came_of(LIMIT, 300_000_000) == "100000000"
+    assert came_of(LIMIT, 50_000_000) == "MemoryError"
+
+
+@on_linux
+def test_a_limit_that_holds_already_is_kept() -> None:
+    code = "import resource; resource.setrlimit(resource.RLIMIT_DATA, (90_000_000,) * 2)" + LIMIT
+    assert "MemoryError" in came_of(code, 10**12)

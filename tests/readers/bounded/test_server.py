@@ -1,0 +1,76 @@
+"""The process that reads: one answer for each request, in order, whatever comes of it."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from colonnade.readers import registry
+from colonnade.readers.bounded import messages, server
+from colonnade.readers.bounded.bounds import bounds_of
+from colonnade.readers.bounded.messages import Answer, Request
+
+
+def request(path: Path, format: str = "delimited", **options: object) -> Request:
+    return Request("recording", str(path), str(path.parent), format, dict(options), None, bounds_of(path))
+
+
+@pytest.fixture
+def table(tmp_path: Path) -> Path:
+    path = tmp_path / "a.csv"
+    path.write_text("t [s];top [mm]\n0;1\n1;2\n2;4\n", encoding="ascii")
+    return path
+
+
+def answers(*requests: Request) -> list[Answer]:
+    """What is answered, without the process in between."""
+    said = io.BytesIO()
+
+    def handle(request: Request, _: object, stream: io.BytesIO) -> None:
+        messages.send(stream, *server._answer(request))
+
+    server.serve(io.BytesIO(b"".join(each.line() for each in requests)), said, handle)  # type: ignore[arg-type]
+    said.seek(0)
+    return [messages.receive(said, 10_000)[0] for _ in requests]
+
+
+def test_each_request_has_its_answer_in_order(table: Path) -> None:
+    read, missing, again = answers(request(table), request(table.with_name("b.csv")), request(table))
+    assert [column.name for column in read.columns] == ["t", "top"]
+    assert "there is no such file" in missing.refusal
+    assert missing.error_number == 2
+    assert again == read
+
+
+def test_a_refusal_without_an_error_of_the_machine_is_the_files_own(table: Path) -> None:
+    table.write_text("words\n", encoding="ascii")
+    (refused,) = answers(request(table))
+    assert refused.refusal.startswith("a.csv: no rows of numbers were found")
+    assert (refused.error_number, refused.out_of_memory) == (None, False)
+
+
+def test_what_swells_says_so(table: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def swell(path: Path, options: object) -> None:
+        raise MemoryError
+
+    swelling = replace(registry.formats()["delimited"], read=swell)
+    monkeypatch.setattr(registry, "formats", lambda: {"delimited": swelling})
+    assert answers(request(table))[0].out_of_memory
+
+
+def test_a_format_that_is_in_one_file_has_no_companions(table: Path) -> None:
+    (found,) = answers(replace(request(table), wanted="companions"))
+    assert found.companions == ()
+    assert not found.refusal
+
+
+def test_what_a_format_needs_is_imported_before_its_file_is_opened(
+    table: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    imported: list[str] = []
+    monkeypatch.setattr(server, "import_module", imported.append)
+    answers(request(table), request(table, "tdms"), request(table, "unknown"))
+    assert imported == list(registry.formats()["tdms"].modules)

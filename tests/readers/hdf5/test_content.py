@@ -1,0 +1,85 @@
+"""What a NetCDF or HDF5 file holds: variables of all groups, and why the rest is left out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.hdf5.content import read_classic, read_hdf5
+
+
+def test_variables_come_with_their_groups_and_attributes(tmp_path: Path) -> None:
+    path = tmp_path / "a.h5"
+    with h5py.File(path, "w") as file:
+        file["run/deep/top"] = np.arange(5.0)
+        file["run/deep/top"].attrs["units"] = np.bytes_("mm")
+        file["time"] = np.arange(5.0)
+        file["time"].make_scale("time")
+        file["run/deep/top"].dims[0].attach_scale(file["time"])
+        file.attrs["rate"] = np.array([200.0])
+    content = read_hdf5(path)
+    top, time = content.variables
+    assert (top.path, top.groups, top.dimensions) == ("run/deep/top", ("run", "deep"), ("time",))
+    assert top.attributes == {"units": "mm"}
+    assert time.dimensions == ("time",)
+    assert content.attributes == {"rate": 200.0}
+    assert content.left_out == {}
+
+
+def test_a_table_gives_a_variable_a_column_of_numbers(tmp_path: Path) -> None:
+    path = tmp_path / "a.h5"
+    with h5py.File(path, "w") as file:
+        file["log"] = np.array([(1, 2.5, b"x")] * 3, dtype=[("n", "i4"), ("v", "f8"), ("s", "S1")])
+    content = read_hdf5(path)
+    assert [each.path for each in content.variables] == ["log/n", "log/v"]
+    assert content.left_out == {"log/s": "it holds no numbers"}
+
+
+def test_what_is_not_read_is_left_out_with_its_reason(tmp_path: Path) -> None:
+    path = tmp_path / "a.h5"
+    with h5py.File(path, "w") as file:
+        file["text"] = "words"
+        file["soft"] = h5py.SoftLink("/text")
+        file["run/top"] = np.arange(3.0)
+        file["run/circle"] = file["run"]
+        file.create_dataset("huge", (1 << 37,), "f8", chunks=(1 << 20,), compression="gzip")
+    left_out = read_hdf5(path).left_out
+    assert left_out.keys() == {"text", "soft", "run/circle", "huge"}
+    assert left_out["run/circle"] == "it holds itself"
+    assert "it is not unpacked" in left_out["huge"]
+
+
+def test_a_damaged_variable_costs_no_other(tmp_path: Path) -> None:
+    path = tmp_path / "a.h5"
+    with h5py.File(path, "w") as file:
+        file["sound"] = np.arange(5.0)
+        file.create_dataset("packed", data=np.arange(10_000.0), chunks=True, compression="gzip", fletcher32=True)
+    content = bytearray(path.read_bytes())
+    content[-40:-8] = bytes(32)
+    path.write_bytes(content)
+    found = read_hdf5(path)
+    assert "sound" in [each.path for each in found.variables]
+    assert any(warning.startswith("packed is damaged") for warning in found.warnings) or len(found.variables) == 2
+
+
+def test_classic_netcdf_is_read_and_its_text_left_out(tmp_path: Path) -> None:
+    from scipy.io import netcdf_file
+
+    path = tmp_path / "a.nc"
+    with netcdf_file(path, "w") as file:
+        file.createDimension("n", 4)
+        file.createVariable("top", "f4", ("n",))[:] = np.arange(4)
+        file.createVariable("who", "c", ("n",))[:] = b"abcd"
+        file.variables["top"].units = "mm"
+    content = read_classic(path)
+    (top,) = content.variables
+    assert (top.path, top.dimensions, top.attributes) == ("top", ("n",), {"units": "mm"})
+    assert top.values.dtype.isnative
+    assert content.left_out == {"who": "it holds text"}
+    path.write_bytes(b"CDF\x05" + path.read_bytes()[4:])
+    with pytest.raises(ReadError, match=r"variant CDF-5, which is not read. Convert it: nccopy -k nc4 a.nc"):
+        read_classic(path)

@@ -1,0 +1,72 @@
+"""Columns among the variables of a MATLAB file: vectors, matrices, structs, cells."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as some
+
+from colonnade.readers.matlab.columns import MOST_COLUMNS, find_columns
+
+VECTOR = np.arange(50.0).reshape(-1, 1)
+
+
+def test_vectors_in_structs_and_cells_have_the_path_that_matlab_would_write() -> None:
+    found = find_columns({"x": VECTOR, "run": {"top": VECTOR, "inner": {"t": VECTOR}}, "c": [VECTOR, "text", VECTOR]})
+    assert [column.path for column in found.columns] == ["x", "run.top", "run.inner.t", "c{1}", "c{3}"]
+    assert [column.scope for column in found.columns][1:3] == [("run",), ("run", "run.inner")]
+
+
+def test_an_array_of_structs_is_counted_in_round_brackets() -> None:
+    found = find_columns({"s": [{"v": VECTOR}, {"v": VECTOR}]})
+    assert [column.path for column in found.columns] == ["s(1).v", "s(2).v"]
+
+
+@pytest.mark.parametrize(
+    ("shape", "beside", "count"),
+    [((50, 3), True, 3), ((3, 50), True, 3), ((40, 60), False, 40), ((60, 40), False, 40), ((50, 60), True, 60)],
+    ids=["columns", "rows", "wide", "tall", "as long as the vector"],
+)
+def test_a_matrix_has_its_samples_along_the_vector_else_along_its_longer_side(
+    shape: tuple[int, int], beside: bool, count: int
+) -> None:
+    variables = {"m": np.zeros(shape), **({"t": VECTOR} if beside else {})}
+    columns = [column for column in find_columns(variables).columns if column.path.startswith("m[")]
+    assert len(columns) == count
+    assert {column.values.size for column in columns} == {max(shape) if not beside else 50}
+
+
+def test_names_and_units_beside_the_numbers_are_theirs() -> None:
+    found = find_columns(
+        {
+            "one": {"values": VECTOR, "label": " top ", "unit": "mm"},
+            "many": {"data": np.zeros((50, 2)), "colheaders": ["a [V]", "b"]},
+        }
+    )
+    assert [(column.name, column.unit) for column in found.columns] == [("top", "mm"), ("a", "V"), ("b", None)]
+
+
+def test_single_numbers_are_kept_and_what_is_no_table_is_left_out() -> None:
+    found = find_columns(
+        {"fs": np.array([[200.0]]), "cube": np.zeros((2, 3, 4)), "wide": np.zeros((MOST_COLUMNS + 2, MOST_COLUMNS + 1))}
+    )
+    assert found.scalars == {"fs": 200.0}
+    assert found.columns == []
+    assert found.left_out["cube"].startswith("it has 3 dimensions")
+    assert "more than the 1000 channels" in found.left_out["wide"]
+
+
+NODES = some.recursive(
+    some.just("text") | some.tuples(some.integers(0, 4), some.integers(0, 4)).map(np.zeros),
+    lambda inner: some.lists(inner, max_size=3) | some.dictionaries(some.sampled_from("abc"), inner, max_size=3),
+    max_leaves=8,
+)
+
+
+@given(some.dictionaries(some.sampled_from("xyz"), NODES))
+def test_any_nest_of_variables_gives_columns_of_several_numbers(variables: dict[str, object]) -> None:
+    found = find_columns(variables)  # type: ignore[arg-type]
+    assert all(column.values.ndim == 1 and column.values.size > 0 for column in found.columns)
+    paths = [column.path for column in found.columns]
+    assert len(set(paths)) == len(paths)

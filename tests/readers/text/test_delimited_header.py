@@ -1,0 +1,94 @@
+"""What is known of a delimited text from its head, before its samples are read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as some
+from pydantic import ValidationError
+
+from colonnade.errors import ReadError
+from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
+
+ROWS = "".join(f"{number},0;{number},25;{-number},5\n" for number in range(30))
+
+
+def header(path: Path, text: str, encoding: str = "utf-8", **options: object) -> Header:
+    path.write_bytes(text.encode(encoding))
+    return read_header(path, DelimitedOptions.model_validate(options))
+
+
+def test_the_head_gives_dialect_names_units_and_claims(tmp_path: Path) -> None:
+    found = header(tmp_path / "a.csv", "Prüfung 3, interval 0.01 s\nZeit;Weg\xa0oben;ACC\ns;mm;g\n" + ROWS, "cp1252")
+    dialect = found.form.dialect
+    assert (dialect.delimiter, dialect.decimal, dialect.encoding) == (";", ",", "cp1252")
+    assert found.heading.units == ("s", "mm", "g")
+    assert (found.heading.first, found.named) == (3, "names")
+    assert found.claims.step == 0.01
+
+
+def test_empty_columns_at_the_end_are_no_columns(tmp_path: Path) -> None:
+    found = header(tmp_path / "a.csv", "a;b;\n" + "1;2;\n" * 20)
+    assert (found.form.kinds, found.form.trailing) == (("number", "number"), 1)
+
+
+def test_words_between_single_blanks_may_be_a_sentence(tmp_path: Path) -> None:
+    rows = "1.5 2.5 3.5\n" * 20
+    assert header(tmp_path / "a.txt", "three plain words\n" + rows).named == "words"
+    assert header(tmp_path / "a.txt", "three plain words\n" + rows, names_row=1).named == "names"
+    assert header(tmp_path / "a.txt", rows).named == ""
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "told"),
+    [
+        ("\n \n", {}, "the file is empty"),
+        ("\x01\x02\x03" * 100, {}, "not printable"),
+        ("only words\n" * 5, {}, "no rows of numbers were found in the 5 lines looked at"),
+        ("a b\n1 2\n", {"delimiter": ";", "decimal": ","}, "with delimiter = ';', decimal = ','"),
+    ],
+    ids=["empty", "binary", "words", "as given"],
+)
+def test_a_text_without_rows_is_refused_with_the_reason(
+    tmp_path: Path, text: str, options: dict[str, object], told: str
+) -> None:
+    with pytest.raises(ReadError, match=told):
+        header(tmp_path / "a.csv", text, **options)
+
+
+def test_text_in_another_encoding_than_given_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(ReadError, match="utf-32"):
+        read_header(tmp_path / "a.csv", DelimitedOptions(encoding="utf-32"))
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"delimiter": "ab"}, {"delimiter": "1"}, {"decimal": ".", "thousands": "."}, {"encoding": "utf-99"}, {"x": 1}],
+    ids=str,
+)
+def test_an_option_that_cannot_be_is_refused(options: dict[str, object]) -> None:
+    with pytest.raises(ValidationError):
+        DelimitedOptions.model_validate(options)
+
+
+@pytest.mark.parametrize(("word", "sign"), [("tab", "\t"), ("Semicolon", ";"), ("spaces", " "), ("|", "|")])
+def test_a_delimiter_may_be_a_word(word: str, sign: str) -> None:
+    assert DelimitedOptions(delimiter=word).delimiter == sign
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60, deadline=None)
+@given(
+    some.lists(some.text("abc 1.5;,\t#", max_size=20), max_size=4),
+    some.sampled_from([";", ",", "\t"]),
+    some.integers(2, 5),
+)
+def test_whatever_is_above_the_rows_these_are_found(
+    tmp_path: Path, above: list[str], delimiter: str, width: int
+) -> None:
+    rows = [delimiter.join(f"{row + column}.5" for column in range(width)) for row in range(200)]
+    found = header(tmp_path / "a.csv", "\n".join([*above, *rows, ""]))
+    assert len(found.form.kinds) == width
+    assert found.heading.first <= len(above) + 1
