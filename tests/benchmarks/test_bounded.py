@@ -16,7 +16,7 @@ from colonnade.readers.registry import formats, read
 TIMES = 10
 EXAMPLES = Path(__file__).parents[2] / "raw_schema" / "examples"
 BOUNDED = sorted(name for name, format in formats().items() if not format.in_process)
-MOST = 4.0
+MOST = 6.0
 """Processor time of a file, as a multiple of that of starting a bare Python, which takes some 15 ms."""
 
 
