@@ -14,14 +14,16 @@ from scipy.integrate import solve_ivp
 
 import paper_schemes as schemes
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.plane import linear, nonlinear
-from colonnade.dynamics.plane.harmonic_march import Sides, run
+from colonnade.dynamics.plane.harmonic_march import Watch, run
 from colonnade.dynamics.plane.harmonic_nonlinear import empty_series
+from colonnade.dynamics.plane.nonlinear import by_series
+from colonnade.dynamics.plane.sampled_march import propagate
+from colonnade.dynamics.plane.sides import sides_of
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
 RESTITUTION, REST = 0.976, 1e-6
-SIDES = np.full(2, ALPHA), np.full(2, P), np.full(2, RESTITUTION)
+SIDES = sides_of(PRISM, (RESTITUTION, RESTITUTION), REST)
 INTERVAL = 0.002
 
 pytestmark = pytest.mark.slow
@@ -43,8 +45,8 @@ def _seconds(function, times):
     return best
 
 
-def _exact(base, engine=linear, **options):
-    return engine.propagate(base, INTERVAL, *SIDES, REST, 0.0, 0.0, **options)
+def _exact(base, series=None):
+    return propagate(base, INTERVAL, SIDES, 0.0, 0.0, series)
 
 
 def _solve_ivp(base):
@@ -83,12 +85,12 @@ def test_the_exact_engine_beside_solve_ivp_and_the_papers_runge_kutta(capsys):
     steps = round(INTERVAL / schemes.PAPERS_STEP)
 
     def papers(base):
-        return schemes.integrate(base, INTERVAL, *SIDES, REST, 0.0, 0.0, steps, schemes.PAPERS_REFINEMENT, False)
+        return schemes.integrate(base, INTERVAL, *SIDES[:3], REST, 0.0, 0.0, steps, schemes.PAPERS_REFINEMENT, False)
 
     rows = []
     for base in records:
         # The Taylor series of the linearised equation share no formula with the exact solution.
-        reference = _exact(base, nonlinear, linearised=True)[0]
+        reference = _exact(base, by_series(np.zeros_like(base), True))[0]
         angles, _, impact_times, _, overturning_time = _exact(base)
         assert impact_times.size >= 50
         assert np.isnan(overturning_time)
@@ -119,10 +121,7 @@ def test_the_exact_engine_beside_a_bare_pass_over_the_samples(capsys):
     base = np.sin(2 * np.pi * 4 * moment) * ALPHA
     written = np.empty_like(base)
     bare = _seconds(lambda: np.multiply(base, 2.0, out=written), 200)
-    costs = {
-        level: _seconds(lambda level=level: linear.propagate(level * base, 0.002, *SIDES, REST, 0.0, 0.0), 30)
-        for level in (0.9, 1.5)
-    }
+    costs = {level: _seconds(lambda level=level: _exact(level * base), 30) for level in (0.9, 1.5)}
     with capsys.disabled():
         print(f"\nbare pass: {1e9 * bare / base.size:.2f} ns a sample", end="")
         for level, cost in costs.items():
@@ -174,12 +173,9 @@ class Heyoka:
 
 
 def _harmonic(omega, level, end, impacts):
-    critical, p, restitution = SIDES
-    sides = Sides(critical, p, restitution, np.zeros(1), REST)
     edges = np.array([0.0, end / P, end / P])
-    forcing, none = (omega * P, 0.0, level), np.empty((0, 2))
-    watch = (0.0, 1e-3, 1.0)
-    _, _, count = run(forcing, edges, None, sides, watch, none, impacts, empty_series())
+    watch = Watch(0.0, 1e-3, 1.0, np.empty((0, 2)), impacts)
+    _, _, count = run((omega * P, 0.0, level), edges, None, SIDES, watch, empty_series())
     return impacts[:count] * [P, 1 / P]
 
 

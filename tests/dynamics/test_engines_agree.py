@@ -13,7 +13,9 @@ from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.plane import linear, nonlinear
+from colonnade.dynamics.plane.nonlinear import by_series
+from colonnade.dynamics.plane.sampled_march import propagate
+from colonnade.dynamics.plane.sides import sides_of
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P, GRAVITY = PRISM.critical_angle, PRISM.p, PRISM.gravity
@@ -30,9 +32,8 @@ def _record(seed, duration=40 / P):
     return base * rng.uniform(1.2, 3.0) * ALPHA / np.abs(base).max(), rng.uniform(0.8, 0.99)
 
 
-def _exact(base, restitution, engine=linear, **options):
-    sides = np.ones(2)
-    return engine.propagate(base, INTERVAL, ALPHA * sides, P * sides, restitution * sides, REST, 0.0, 0.0, **options)
+def _exact(base, restitution, series=None):
+    return propagate(base, INTERVAL, sides_of(PRISM, (restitution, restitution), REST), 0.0, 0.0, series)
 
 
 def _horizon(base, restitution):
@@ -123,7 +124,7 @@ def _heyoka():
 
 
 def _series(base, restitution, horizon):
-    return _exact(base, restitution, nonlinear, linearised=True)[0][:horizon]
+    return _exact(base, restitution, by_series(np.zeros_like(base), True))[0][:horizon]
 
 
 PEERS = {

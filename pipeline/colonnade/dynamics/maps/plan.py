@@ -168,8 +168,6 @@ def plan_map(
         If an argument is out of its range, an axis does not increase or the model is not known.
     """
     instance("block", block, Block)
-    if motion is not None:
-        instance("motion", motion, Motion)
     if space is None:
         plane_model_of(model)
     check_ramp_shape(ramp_shape)
@@ -182,17 +180,8 @@ def plan_map(
     cycles = number("cycles", cycles, f"at least one cycle and at most {MOST_CYCLES}", low=1.0, high=MOST_CYCLES)
     ramp = number("ramp", ramp, f"a number of cycles from 0 for none to {MOST_CYCLES}", low=0.0, high=MOST_CYCLES)
     phase = number("phase", phase, "a finite angle in rad")
-    finest = STEPS_A_WIDTH * float(amplitudes[-1] - amplitudes[0]) / MOST_STEPS
-    width = number("width", width, f"a width in A, at least {finest:.3g} for the scan to end,", above=0.0, low=finest)
-    edge = number("edge", edge, f"a number in A, at least {LEAST_EDGE:g},", low=LEAST_EDGE)
-    if not edge <= width:
-        raise ValueError(f"edge is {edge} and width {width}; 0 < edge ≤ width was expected, in units of A")
-    if (motion is None) != (motion_frequency is None):
-        raise ValueError("A motion and its motion_frequency (Hz) come together; one of the two was given")
-    if motion is not None and not motion.peak > 0:
-        raise ValueError("The motion has no acceleration at all, so it cannot be scaled to an A")
-    if motion_frequency is not None:
-        motion_frequency = number("motion_frequency", motion_frequency, "a positive number of Hz", above=0.0)
+    width, edge = _widths(width, edge, float(amplitudes[-1] - amplitudes[0]))
+    motion_frequency = _frequency(motion, motion_frequency)
     return MapPlan(
         block,
         e,
@@ -209,6 +198,29 @@ def plan_map(
         motion_frequency,
         space,
     )
+
+
+def _widths(width: float, edge: float, height: float) -> tuple[float, float]:
+    """Check the least width of a limit and the closeness of its edges on a map whose A go over `height`."""
+    finest = STEPS_A_WIDTH * height / MOST_STEPS
+    width = number("width", width, f"a width in A, at least {finest:.3g} for the scan to end,", above=0.0, low=finest)
+    edge = number("edge", edge, f"a number in A, at least {LEAST_EDGE:g},", low=LEAST_EDGE)
+    if not edge <= width:
+        raise ValueError(f"edge is {edge} and width {width}; 0 < edge ≤ width was expected, in units of A")
+    return width, edge
+
+
+def _frequency(motion: Motion | None, frequency: float | None) -> float | None:
+    """Check a recorded base motion and its frequency, Hz; None without a motion."""
+    if motion is not None:
+        instance("motion", motion, Motion)
+    if (motion is None) != (frequency is None):
+        raise ValueError("A motion and its motion_frequency (Hz) come together; one of the two was given")
+    if motion is None:
+        return None
+    if not motion.peak > 0:
+        raise ValueError("The motion has no acceleration at all, so it cannot be scaled to an A")
+    return number("motion_frequency", frequency, "a positive number of Hz", above=0.0)
 
 
 def _axis(name: str, values: ArrayLike, fewest: int) -> Array:

@@ -9,5 +9,4 @@ LINEAR = PlaneModel(
     line=Line("#d1490f", "dashed", 1.1),
     is_linearised=True,
     is_default=True,
-    propagator="colonnade.dynamics.plane.linear",
 )

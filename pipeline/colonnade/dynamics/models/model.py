@@ -99,19 +99,11 @@ class Model(ABC):
 
 @dataclass(frozen=True, kw_only=True)
 class PlaneModel(Model):
-    """
-    A model of rocking in the plane.
-
-    Attributes
-    ----------
-    propagator : str
-        Module of its `propagate` under a sampled motion without vertical acceleration.
-    """
+    """A model of rocking in the plane."""
 
     in_space: bool = False
     members: int = 100
     map_points: tuple[int, int] = (100, 150)
-    propagator: str
 
     def run(self, case: Case) -> History:
         """Run it; see `plane.run`."""

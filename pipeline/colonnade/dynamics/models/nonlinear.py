@@ -8,5 +8,4 @@ NONLINEAR = PlaneModel(
     name="nonlinear",
     line=Line("#0b6bb0", "dash-dotted", 1.1),
     is_default=True,
-    propagator="colonnade.dynamics.plane.nonlinear",
 )

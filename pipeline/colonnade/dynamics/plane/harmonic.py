@@ -13,14 +13,14 @@ from colonnade.arrays import Array, Codes
 from colonnade.dynamics.block import Block, Sided, pair
 from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.models.registry import DEFAULT, plane_model_of
-from colonnade.dynamics.restitution_law import RestitutionLaw, restitution_table
+from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.errors import nearest
 from colonnade.validation import sided, text
 
 if TYPE_CHECKING:
-    from colonnade.dynamics.plane.harmonic_march import Sides
     from colonnade.dynamics.plane.harmonic_nonlinear import Series
+    from colonnade.dynamics.plane.sides import Sides
 
 Restitution = tuple[float, float] | RestitutionLaw
 """e of impacts that end an arc at θ < 0, and at θ > 0; or e over the speed of the impact."""
@@ -184,7 +184,7 @@ def harmonic_run(
         If A is not positive, e is not between 0 and 1 or the model is not known.
     """
     # Its kernels are compiled on import.
-    from colonnade.dynamics.plane.harmonic_march import run
+    from colonnade.dynamics.plane.harmonic_march import Watch, run
 
     plane_model_of(model)
     if not (isfinite(amplitude_ratio) and amplitude_ratio > 0):
@@ -193,8 +193,8 @@ def harmonic_run(
     e = restitution_up_to(block, restitution, amplitude_ratio)
     edges, smooth, sides, work = _settings(block, motion, e, model)
     forcing = (motion.omega, motion.phase, amplitude_ratio * tan(block.critical_angle))
-    watch = (peaks_from, inf, interval)
-    overturned, peak, count = run(forcing, edges, smooth, sides, watch, history, impacts, work)
+    watch = Watch(peaks_from, inf, interval, history, impacts)
+    overturned, peak, count = run(forcing, edges, smooth, sides, watch, work)
     outcome = OUTCOMES[2 if overturned else 1 if peak > NO_ROCKING_RATIO else 0]
     kept = impacts[: min(count, largest_count)]
     return HarmonicRun(outcome, peak, history[:, 0], history[:, 1], kept[:, 0], kept[:, 1])
@@ -215,14 +215,12 @@ def _settings(
     block: Block, motion: Harmonic, restitution: Restitution, model: str
 ) -> tuple[Array, bool | None, Sides, Series | None]:
     """Put what every run of a motion has in common into the form that the kernels take."""
-    from colonnade.dynamics.plane.harmonic_march import Sides
     from colonnade.dynamics.plane.harmonic_nonlinear import empty_series
+    from colonnade.dynamics.plane.sides import sides_of
 
-    alpha, p = np.array([(side.critical_angle, block.side_p(side)) for side in block.sides]).T
-    speeds, values = restitution_table(restitution)
     return (
         np.array(motion.edges),
         True if motion.ramp_shape == "cosine" else None,
-        Sides(alpha.copy(), p.copy(), values, speeds, DEFAULT_REST_ANGLE),
+        sides_of(block, restitution, DEFAULT_REST_ANGLE),
         None if plane_model_of(model).is_linearised else empty_series(),
     )

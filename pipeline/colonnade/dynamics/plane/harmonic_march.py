@@ -10,9 +10,10 @@ import numpy as np
 from colonnade.arrays import Array, Codes
 from colonnade.dynamics.kernel import kernel
 from colonnade.dynamics.plane.envelope import Piece, level_at, piece_between
-from colonnade.dynamics.plane.harmonic_linear import closed_arc
+from colonnade.dynamics.plane.harmonic_linear import State, closed_arc
 from colonnade.dynamics.plane.harmonic_nonlinear import Series, series_arc
 from colonnade.dynamics.plane.impact import comes_to_rest, holding_moment, restitution_of, survives_free_rocking
+from colonnade.dynamics.plane.sides import Sides
 from colonnade.dynamics.plane.uplift import harmonic_uplift, uplift_threshold
 
 Triple = tuple[float, float, float]
@@ -21,19 +22,29 @@ NO_ROCKING, ROCKING, OVERTURNED = 0, 1, 2
 """Codes of outcomes."""
 
 
-class Sides(NamedTuple):
+class Watch(NamedTuple):
     """
-    The block on its sides θ < 0 and θ > 0: α (rad) and p (rad/s), shape (2,); e as of `restitution_of`.
+    What is wanted of a run.
 
-    After an impact whose next arc, under the base acceleration of that instant, would not rise above `rest_angle` α,
-    the block is at rest until the base acceleration uplifts it again.
+    Attributes
+    ----------
+    since : float
+        s, from when on peaks count.
+    floor : float
+        |θ|/α above which peaks need not be exact.
+    interval : float
+        s, of the samples.
+    samples : ndarray, shape (n, 2)
+        Filled with θ (rad) and ω (rad/s) from time 0 on; a block past return lies at ±π/2 in the end.
+    impacts : ndarray, shape (m, 2)
+        Filled with time (s) and angular velocity before (rad/s) of the first m impacts.
     """
 
-    critical: Array
-    p: Array
-    restitution: Array
-    speeds: Array
-    rest_angle: float
+    since: float
+    floor: float
+    interval: float
+    samples: Array
+    impacts: Array
 
 
 class Part(NamedTuple):
@@ -70,9 +81,7 @@ def run(
     edges: Array,
     smooth: bool | None,
     sides: Sides,
-    watch: Triple,
-    samples: Array,
-    impacts: Array,
+    watch: Watch,
     work: Series | None,
 ) -> tuple[bool, float, int]:
     """
@@ -87,12 +96,7 @@ def run(
     smooth : True or None
         Rise and fall are half a cosine; linear with None.
     sides : Sides
-    watch : tuple of float
-        Time (s) from which peaks count, |θ|/α above which they need not be exact, and interval of samples (s).
-    samples : ndarray, shape (n, 2)
-        Filled with θ (rad) and ω (rad/s) from time 0 on; a block past return lies at ±π/2 in the end.
-    impacts : ndarray, shape (m, 2)
-        Filled with time (s) and angular velocity before (rad/s) of the first m impacts.
+    watch : Watch
     work : Series or None
         Of the full equation; None for the linear one, in closed form.
 
@@ -103,7 +107,7 @@ def run(
     peak, count : float, int
         Largest |θ|/α under the motion up to overturning, where `watch` counts it; number of impacts.
     """
-    samples[:] = 0.0
+    watch.samples[:] = 0.0
     march = March(0.0, 0.0, 1.0, True, False, False, 0.0, 0, 0)
     begin, reached = 0.0, 0.0
     for number in range(3):
@@ -112,117 +116,117 @@ def run(
         if edges[number] > begin:
             piece = piece_between(beginning, reached, edges[number] - begin, smooth)
             part = Part(begin, edges[number], piece, number == 2)
-            march = _through(march, part, forcing, smooth, sides, watch, samples, impacts, work)
+            march = _through(march, part, forcing, smooth, sides, watch, work)
             begin = edges[number]
         if march.has_ended:
             break
     if march.is_resting or march.is_past:
         return march.is_past, march.peak, march.impact_count
-    stands = survives_free_rocking(
-        march.height,
-        march.rate,
-        1 if march.side > 0.0 else 0,
-        sides.critical,
-        sides.p,
-        sides.restitution,
-        sides.speeds,
-        work is None,
-    )
+    here = 1 if march.side > 0.0 else 0
+    stands = survives_free_rocking(march.height, march.rate, here, sides, work is None)
     return not stands, march.peak, march.impact_count
 
 
 @kernel
 def _through(
-    march: March,
-    part: Part,
-    forcing: Triple,
-    smooth: bool | None,
-    sides: Sides,
-    watch: Triple,
-    samples: Array,
-    impacts: Array,
-    work: Series | None,
+    march: March, part: Part, forcing: Triple, smooth: bool | None, sides: Sides, watch: Watch, work: Series | None
 ) -> March:
     """Follow the block to the end of a part; arguments as for `run`."""
-    height, rate, side, is_resting, is_past, _has_ended, peak, count, taken = march
-    (omega, phase, level), (watched, floor, interval) = forcing, watch
-    critical, p, piece = sides.critical, sides.p, part.piece
-    here, now = 1 if side > 0.0 else 0, part.begin
-    sine, cosine = sin(omega * now + phase), cos(omega * now + phase)
-    while now < part.end:
+    height, rate, side, is_resting, is_past, has_ended, peak, count, taken = march
+    here, now, linearised = 1 if side > 0.0 else 0, part.begin, work is None
+    state = _phased(height, rate, forcing, now)
+    while now < part.end and not has_ended:
         # At rest, up to the uplift; samples of that time stay zero.
         if is_resting:
-            negative, positive = (
-                uplift_threshold(critical[0], work is None),
-                uplift_threshold(critical[1], work is None),
-            )
-            now, side = harmonic_uplift(now, part.end, part.begin, omega, phase, piece, negative, positive)
-            while taken < samples.shape[0] and taken * interval <= min(now, part.end):
+            now, side = _uplift(now, part, forcing, sides.critical, linearised)
+            while taken < watch.samples.shape[0] and taken * watch.interval <= min(now, part.end):
                 taken += 1
             if side == 0.0:
                 break
-            is_resting, here, height, rate = False, 1 if side > 0.0 else 0, 0.0, 0.0
-            sine, cosine = sin(omega * now + phase), cos(omega * now + phase)
+            is_resting, here = False, 1 if side > 0.0 else 0
+            state = _phased(0.0, 0.0, forcing, now)
 
         # One step: as far as the model's own arc goes, to the next sample or to the impact.
-        stop = min(part.end, taken * interval) if taken < samples.shape[0] else part.end
-        since, remaining = now - part.begin, p[here] * (stop - now)
-        is_watched = now >= watched and not is_past
-        if work is None:
-            landed, x, top, (height, rate, sine, cosine) = closed_arc(
-                (height, rate, sine, cosine),
-                side,
-                critical[here],
-                p[here],
-                omega,
-                piece,
-                since,
-                smooth,
-                remaining,
-                is_watched and peak <= floor,
-            )
-        else:
-            landed, x, top, height, rate = series_arc(
-                height,
-                rate,
-                side,
-                critical[here],
-                p[here],
-                omega,
-                omega * now + phase,
-                piece,
-                since,
-                smooth,
-                remaining,
-                is_watched and peak <= floor,
-                work,
-            )
+        stop = min(part.end, taken * watch.interval) if taken < watch.samples.shape[0] else part.end
+        begun, remaining = now, sides.p[here] * (stop - now)
+        is_watched = now >= watch.since and not is_past
+        is_top_wanted = is_watched and peak <= watch.floor
+        landed, x, top, state = _arc(state, side, sides, forcing, now, part, smooth, remaining, is_top_wanted, work)
         if is_watched:
-            peak = max(peak, top / critical[here])
-        now = stop if x == remaining else now + x / p[here]
+            peak = max(peak, top / sides.critical[here])
+        now = stop if x == remaining else now + x / sides.p[here]
 
+        # The impact: what it leaves, and on which side the block goes on.
         if landed:
-            if count < impacts.shape[0]:
-                impacts[count, 0], impacts[count, 1] = now, side * rate * p[here]
+            if count < watch.impacts.shape[0]:
+                watch.impacts[count, 0], watch.impacts[count, 1] = now, side * state[1] * sides.p[here]
             count += 1
-            phased = sine if work is None else sin(omega * now + phase)
-            pull = level_at(piece, now - part.begin)[0] * phased
-            there, e = 1 - here, restitution_of(sides.restitution, sides.speeds, here, rate * p[here])
-            height, rate = 0.0, max(0.0, -e * rate * p[here] / p[there])
-            side, here = -side, there
-            holding = holding_moment(critical[here], 1.0, side * pull, work is None)
-            is_resting = comes_to_rest(0.5 * rate * rate, critical[here], holding, sides.rest_angle)
+            sine = state[2] if linearised else sin(forcing[0] * now + forcing[1])
+            pull = level_at(part.piece, now - part.begin)[0] * sine
+            rate, is_resting = _rebound(state[1], here, pull, sides, linearised)
+            side, here, state = -side, 1 - here, (0.0, rate, state[2], state[3])
             continue
+
         # Past return, only its samples are left to be followed, until it lies.
-        most = level_at(piece, since)[0] if part.is_fall else level
-        is_past = is_past or _never_returns(height - critical[here], rate, most, work is None)
-        if is_past and (taken >= samples.shape[0] or height >= 0.5 * pi):
-            samples[taken:, 0] = side * 0.5 * pi
-            return March(height, rate, side, False, True, True, peak, count, taken)
-        if taken < samples.shape[0] and now >= taken * interval:
-            samples[taken, 0], samples[taken, 1] = side * height, side * rate * p[here]
+        most = level_at(part.piece, begun - part.begin)[0] if part.is_fall else forcing[2]
+        is_past = is_past or _never_returns(state[0] - sides.critical[here], state[1], most, linearised)
+        has_ended = is_past and (taken >= watch.samples.shape[0] or state[0] >= 0.5 * pi)
+        if has_ended:
+            watch.samples[taken:, 0] = side * 0.5 * pi
+        elif taken < watch.samples.shape[0] and now >= taken * watch.interval:
+            watch.samples[taken, 0], watch.samples[taken, 1] = side * state[0], side * state[1] * sides.p[here]
             taken += 1
-    return March(height, rate, side, is_resting, is_past, False, peak, count, taken)
+    return March(state[0], state[1], side, is_resting, is_past, has_ended, peak, count, taken)
+
+
+@kernel
+def _phased(height: float, rate: float, forcing: Triple, now: float) -> State:
+    """Put a height and its rate together with the sine and cosine of the motion's phase."""
+    angle = forcing[0] * now + forcing[1]
+    return height, rate, sin(angle), cos(angle)
+
+
+@kernel
+def _uplift(now: float, part: Part, forcing: Triple, critical: Array, linearised: bool) -> tuple[float, float]:
+    """Find when a block at rest uplifts before the end of a part, and to which side; (inf, 0) where it stays."""
+    negative, positive = uplift_threshold(critical[0], linearised), uplift_threshold(critical[1], linearised)
+    return harmonic_uplift(now, part.end, part.begin, forcing[0], forcing[1], part.piece, negative, positive)
+
+
+@kernel
+def _arc(
+    state: State,
+    side: float,
+    sides: Sides,
+    forcing: Triple,
+    now: float,
+    part: Part,
+    smooth: bool | None,
+    remaining: float,
+    is_top_wanted: bool,
+    work: Series | None,
+) -> tuple[bool, float, float, State]:
+    """Follow an arc by the model's own kernel; results as of `closed_arc`."""
+    here, since = 1 if side > 0.0 else 0, now - part.begin
+    critical, p, omega = sides.critical[here], sides.p[here], forcing[0]
+    if work is None:
+        return closed_arc(state, side, critical, p, omega, part.piece, since, smooth, remaining, is_top_wanted)
+    height, rate, sine, cosine = state
+    angle = omega * now + forcing[1]
+    landed, x, top, height, rate = series_arc(
+        height, rate, side, critical, p, omega, angle, part.piece, since, smooth, remaining, is_top_wanted, work
+    )
+    return landed, x, top, (height, rate, sine, cosine)
+
+
+@kernel
+def _rebound(rate: float, here: int, pull: float, sides: Sides, linearised: bool) -> tuple[float, bool]:
+    """Give dh/dx after an impact that ends an arc on side `here`, and whether the block then rests; a/g is `pull`."""
+    critical, p, there = sides.critical, sides.p, 1 - here
+    e = restitution_of(sides.restitution, sides.speeds, here, rate * p[here])
+    leaving = max(0.0, -e * rate * p[here] / p[there])
+    holding = holding_moment(critical[there], 1.0, (2.0 * there - 1.0) * pull, linearised)
+    return leaving, comes_to_rest(0.5 * leaving * leaving, critical[there], holding, sides.rest_angle)
 
 
 @kernel
@@ -244,9 +248,9 @@ def column(
 ) -> Codes:
     """Codes of the outcomes under many levels; the block has not rocked where |θ|/α stays at or below `no_rocking`."""
     outcomes = np.empty(levels.size, dtype=np.int8)
-    none, watch = np.empty((0, 2)), (0.0, no_rocking, 1.0)
+    watch = Watch(0.0, no_rocking, 1.0, np.empty((0, 2)), np.empty((0, 2)))
     for index in range(levels.size):
         forcing = (omega, phase, levels[index])
-        overturned, peak, _count = run(forcing, edges, smooth, sides, watch, none, none, work)
+        overturned, peak, _count = run(forcing, edges, smooth, sides, watch, work)
         outcomes[index] = OVERTURNED if overturned else ROCKING if peak > no_rocking else NO_ROCKING
     return outcomes

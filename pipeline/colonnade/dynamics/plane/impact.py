@@ -8,6 +8,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.kernel import kernel
+from colonnade.dynamics.plane.sides import Sides
 
 
 @kernel
@@ -46,36 +47,45 @@ def comes_to_rest(risen: float, critical: float, holding: float, rest_angle: flo
 
 
 @kernel
+def rebound(
+    velocity: float, here: int, weight: float, pull: float, sides: Sides, linearised: bool
+) -> tuple[float, bool]:
+    """
+    Give the angular velocity (rad/s) after an impact that ends an arc on side `here`, and whether the block then rests.
+
+    `weight` is 1 + v/g and `pull` a/g of the base at that instant.
+    """
+    there = 1 - here
+    leaving = restitution_of(sides.restitution, sides.speeds, here, velocity) * velocity
+    holding = holding_moment(sides.critical[there], weight, (2.0 * there - 1.0) * pull, linearised)
+    risen = leaving * leaving / (2.0 * sides.p[there] * sides.p[there])
+    if comes_to_rest(risen, sides.critical[there], holding, sides.rest_angle):
+        return 0.0, True
+    return leaving, False
+
+
+@kernel
 def _hill(lean: float) -> float:
     """Potential over m g R at lean = α − |θ|; 0 where the centre of mass is above the pole."""
     return -2.0 * sin(0.5 * lean) ** 2
 
 
 @kernel
-def survives_free_rocking(
-    height: float,
-    rate: float,
-    here: int,
-    critical: Array,
-    p: Array,
-    restitution: Array,
-    speeds: Array,
-    linearised: bool,
-) -> bool:
+def survives_free_rocking(height: float, rate: float, here: int, sides: Sides, linearised: bool) -> bool:
     """
     Tell whether a block that rocks on side `here`, left on a base at rest, comes back to stand.
 
     `height` is |θ|, `rate` its velocity over p. What is left after one impact decides both sides: every later impact
     only takes energy.
     """
-    there = 1 - here
+    there, critical, p = 1 - here, sides.critical, sides.p
     if linearised:
         # h − α = C eˣ + D e⁻ˣ: outwards for good if C > 0; else the energy gives the velocity of the impact.
         beyond = height - critical[here]
         if beyond + rate > 0.0:
             return False
         arriving = p[here] * sqrt(max(rate * rate - beyond * beyond + critical[here] ** 2, 0.0))
-        after = restitution_of(restitution, speeds, here, arriving) * arriving
+        after = restitution_of(sides.restitution, sides.speeds, here, arriving) * arriving
         return bool(after <= p[there] * critical[there])
     # The energy tells whether the block passes α, outwards, or from beyond it back inwards.
     energy = 0.5 * rate * rate + _hill(critical[here] - height)
@@ -83,5 +93,5 @@ def survives_free_rocking(
     if (passed and (rate >= 0.0 or energy <= 0.0)) or (not passed and rate > 0.0 and energy > 0.0):
         return False
     arriving = p[here] * sqrt(max(2.0 * (energy - _hill(critical[here])), 0.0))
-    after = restitution_of(restitution, speeds, here, arriving) * arriving / p[there]
+    after = restitution_of(sides.restitution, sides.speeds, here, arriving) * arriving / p[there]
     return bool(0.5 * after * after + _hill(critical[there]) <= 0.0)

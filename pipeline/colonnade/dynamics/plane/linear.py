@@ -15,11 +15,17 @@ Nothing is integrated step by step; only the times of impacts (θ = 0) and of up
 from __future__ import annotations
 
 from math import log, pi, sinh, sqrt
+from typing import NamedTuple
 
 import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.kernel import kernel
+from colonnade.dynamics.plane.sides import Sides
+from colonnade.dynamics.plane.step import Step
+
+LONGEST_SAMPLE = 0.5
+"""In x = p t: the bounds of longer samples exclude too few impacts for whole samples to be tried."""
 
 SHORTEST_ARC = 1e-4
 """Turning points closer than this (in p t) to an arc's start are rounding, not motion: such an arc rises 1e-9 α."""
@@ -137,54 +143,106 @@ def _impact(
 
 
 @kernel
-def _uplift(start: float, end: float, base: float, rate: float, thresholds: Array) -> tuple[float, float]:
+def closed_step(
+    base: Array,
+    sample: int,
+    dt: float,
+    elapsed: float,
+    angle: float,
+    velocity: float,
+    here: int,
+    sides: Sides,
+    largest: float,
+) -> Step:
     """
-    Find when in [start, end] a block at rest uplifts, and to which side; (inf, 0) where it stays.
+    Follow an arc to its impact or to the end of the sample.
 
-    a/g is base + rate t; it uplifts to θ < 0 where that is above the first threshold, to θ > 0 where −a/g is above
-    the second, both strictly.
+    Parameters
+    ----------
+    base : ndarray, shape (n,)
+        a/g at the samples.
+    sample, dt, elapsed : int, float, float
+        Where the step begins: `elapsed` (s) into a sample of the length `dt`.
+    angle, velocity, here : float, float, int
+        θ (rad), ω (rad/s) and the side there.
+    sides : Sides
+    largest : float
+        Largest |a/g| of the motion.
     """
-    for k in range(2):
-        sign = 1.0 - 2.0 * k
-        if sign * (base + rate * start) > thresholds[k]:
-            return start, -sign
-    for k in range(2):
-        sign = 1.0 - 2.0 * k
-        if sign * (base + rate * end) > thresholds[k]:
-            return max(start, min(end, (sign * thresholds[k] - base) / rate)), -sign
-    return np.inf, 0.0
+    critical, p, side = sides.critical[here], sides.p[here], 2.0 * here - 1.0
+    change = base[sample + 1] - base[sample]
+    end = p * (dt - elapsed)
+    pull = critical * side + (base[sample] + change * (elapsed / dt))
+    slope, scaled = change / (p * dt), velocity / p
+    x = _impact(end, side, angle, scaled, pull, slope, critical, largest)
+    end_angle, end_scaled = _state(min(x, end), angle, scaled, pull, slope)
+    if x <= end:
+        return Step(True, elapsed + x / p, 0.0, end_scaled * p, np.nan, False)
+    # Only what is above α at the end of a sample can have passed for good.
+    passed, height = np.nan, side * end_angle
+    if height > critical and not side * angle > critical:
+        passed = dt * sample + elapsed + _passing(end, side, angle, scaled, pull, slope, critical) / p
+    never_returns = height > critical + largest and side * end_scaled > 0.0
+    return Step(False, dt, end_angle, end_scaled * p, passed, never_returns)
 
 
 @kernel
-def _restitution(restitution: Array, speeds: Array | None, here: int, velocity: float) -> float:
-    """Give e of an impact that ends an arc on side `here`."""
-    if speeds is None:
-        return float(restitution[here])
-    speed, first = abs(velocity), here * speeds.size
-    above = int(np.searchsorted(speeds, speed))
-    if above == 0 or above == speeds.size:
-        return float(restitution[first + min(above, speeds.size - 1)])
-    share = (speed - speeds[above - 1]) / (speeds[above] - speeds[above - 1])
-    lower, upper = restitution[first + above - 1], restitution[first + above]
-    return float(lower + share * (upper - lower))
+def _passing(end: float, side: float, angle: float, scaled: float, pull: float, slope: float, critical: float) -> float:
+    """Find where in [0, end] the block last passes α outwards; beyond it the angle is above α up to the end."""
+    low = 0.0
+    for point in _turning_points(angle, scaled, pull, slope):
+        inside = SHORTEST_ARC < point < end
+        if inside and side * _state(point, angle, scaled, pull, slope)[0] < critical:
+            low = point
+    return _crossing(low, end, angle, scaled, pull, slope, side * critical)
+
+
+class WholeSamples(NamedTuple):
+    """
+    What it takes to pass over whole samples on either side, shapes (2, 8) and (2, 4).
+
+    `factors`: coefficients of θ and ω/p over a sample, and of what α and a/g at its start and end take off each;
+    `bounds`: α, and what excludes an impact inside a sample, see `_march`.
+    """
+
+    factors: Array
+    bounds: Array
 
 
 @kernel
-def survives_free_rocking(
-    angle: float, velocity: float, critical: Array, p: Array, restitution: Array, speeds: Array | None = None
-) -> bool:
-    """Tell whether the block, left from this state on a base at rest, comes back to stand (closed form)."""
-    if angle == 0.0 and velocity == 0.0:
-        return True
-    side = 1.0 if angle > 0.0 or (angle == 0.0 and velocity > 0.0) else -1.0
-    here = 1 if side > 0.0 else 0
-    beyond, outward = side * angle - critical[here], side * velocity / p[here]
-    if beyond + outward > 0.0:
-        return False
-    impact = p[here] * sqrt(max(outward * outward - beyond * beyond + critical[here] ** 2, 0.0))
-    there = 1 - here
-    # What is left after one impact decides both sides: every later impact only takes energy.
-    return bool(_restitution(restitution, speeds, here, impact) * impact <= p[there] * critical[there])
+def whole_samples(sides: Sides, dt: float, largest: float) -> WholeSamples:
+    """Prepare for samples of the length `dt` under a motion of at most `largest` a/g."""
+    factors, bounds = np.empty((2, 8)), np.empty((2, 4))
+    for k in range(2):
+        step, critical = sides.p[k] * dt, sides.critical[k]
+        rise, excess = _growth(step)
+        c, s, mean, mean_rate = 1.0 + rise, step + excess, excess / step, rise / step
+        factors[k] = np.array([c, s, rise * critical, s * critical, rise - mean, s - mean_rate, mean, mean_rate])
+        limit, most = 0.25 * step**2, critical + largest
+        bounds[k] = np.array([critical, limit, limit * most, 0.5 * step * most])
+    return WholeSamples(factors, bounds)
+
+
+@kernel
+def undisturbed(
+    angles: Array,
+    velocities: Array,
+    base: Array,
+    sample: int,
+    here: int,
+    is_resting: bool,
+    dt: float,
+    sides: Sides,
+    whole: WholeSamples,
+) -> int:
+    """Pass over the samples in which nothing happens, filling in their state; return the last that is reached."""
+    if is_resting:
+        return _still(base, sample, sides.critical[0], sides.critical[1])
+    if sides.p[here] * dt < LONGEST_SAMPLE:
+        return _march(
+            angles, velocities, base, sample, 2.0 * here - 1.0, sides.p[here], whole.bounds[here], whole.factors[here]
+        )
+    return sample
 
 
 @kernel
@@ -196,7 +254,7 @@ def _march(
 
     A chord lies above a curve by at most x²/8 times its largest second derivative: where both ends are higher than
     that, there is no impact between them; nor where it leaves the one end, or comes to the other, faster than
-    (α + largest) x/2. `factors` and `bounds` are those of `_whole_sample`.
+    (α + largest) x/2. `factors` and `bounds` are those of `WholeSamples` on this side.
     """
     c, s, held, held_rate, now, now_rate, then, then_rate = factors
     critical, limit, floor, quick = bounds
@@ -216,17 +274,6 @@ def _march(
 
 
 @kernel
-def _whole_sample(step: float, critical: float, largest: float) -> tuple[Array, Array]:
-    """Coefficients of θ and ω/p over a sample, of what α, a/g at its start and at its end take off each; bounds."""
-    rise, excess = _growth(step)
-    c, s, mean, mean_rate = 1.0 + rise, step + excess, excess / step, rise / step
-    factors = np.array([c, s, rise * critical, s * critical, rise - mean, s - mean_rate, mean, mean_rate])
-    return factors, np.array(
-        [critical, 0.25 * step**2, 0.25 * step**2 * (critical + largest), 0.5 * step * (critical + largest)]
-    )
-
-
-@kernel
 def _still(base: Array, sample: int, negative: float, positive: float) -> int:
     """Last sample up to which a block at rest at `sample` stays so."""
     if not -positive <= base[sample] <= negative:
@@ -237,148 +284,17 @@ def _still(base: Array, sample: int, negative: float, positive: float) -> int:
 
 
 @kernel
-def propagate(
-    base: Array,
-    dt: float,
-    critical: Array,
-    p: Array,
-    restitution: Array,
-    rest_angle: float,
-    angle: float,
-    velocity: float,
-    speeds: Array | None = None,
-) -> tuple[Array, Array, Array, Array, float]:
-    """
-    Propagate the block over the samples of a base motion.
-
-    Parameters
-    ----------
-    base : ndarray, shape (n,)
-        Base acceleration over gravity, a/g.
-    dt : float
-        Sampling interval, s.
-    critical, p, restitution : ndarray, shape (2,)
-        α (rad), p (rad/s) and e on the sides θ < 0 and θ > 0; e belongs to the impact that ends an arc on that side.
-    rest_angle : float
-        As a fraction of α. After an impact whose next arc, under the base acceleration of that instant, would not rise
-        above it, the block is at rest until the base acceleration uplifts it again.
-    angle, velocity : float
-        Initial θ (rad) and ω (rad/s).
-    speeds : ndarray, shape (m,), optional
-        With it `restitution`, shape (2 m,), is e at these |ω| (rad/s) before an impact, linear between them, on the
-        one side and then on the other.
-
-    Returns
-    -------
-    angles, velocities : ndarray, shape (n,)
-        θ (rad) and ω (rad/s) at the samples. A block past return goes on by the equation until it lies at ±π/2.
-    impact_times, impact_velocities : ndarray, shape (m,)
-        s; rad/s just before each impact.
-    overturning_time : float
-        s, when |θ| passed α for good; NaN where the block came back within the record.
-    """
-    count = base.size
-    angles, velocities = np.zeros(count), np.zeros(count)
-    impact_times, impact_velocities = np.empty(64), np.empty(64)
-    impacts = 0
-    largest = max(base.max(), -base.min())
-    passed, overturning_time = np.nan, np.nan
-    resting = angle == 0.0 and velocity == 0.0
-    side = 1.0 if angle > 0.0 or (angle == 0.0 and velocity > 0.0) else -1.0
-    here = 1 if side > 0.0 else 0
-    if side * angle > critical[here]:
-        passed = 0.0
-
-    steps = p * dt
-    factors, bounds = np.empty((2, 8)), np.empty((2, 4))
-    for k in range(2):
-        factors[k], bounds[k] = _whole_sample(steps[k], critical[k], largest)
-
-    angles[0], velocities[0] = angle, velocity
-    sample = 0
-    while sample < count - 1:
-        reached = sample
-        if resting:
-            reached = _still(base, sample, critical[0], critical[1])
-        elif steps[here] < 0.5:
-            reached = _march(angles, velocities, base, sample, side, p[here], bounds[here], factors[here])
-        if reached > sample:
-            sample, angle, velocity = reached, angles[reached], velocities[reached]
-            continue
-
-        # Something may happen inside this sample: walk through it event by event.
-        a0, change, elapsed = base[sample], base[sample + 1] - base[sample], 0.0
-        while True:
-            if resting:
-                x, direction = _uplift(elapsed, dt, a0, change / dt, critical)
-                angle, velocity = 0.0, 0.0
-                if direction == 0.0:
-                    break
-                elapsed, side, resting = x, direction, False
-                here = 1 if side > 0.0 else 0
-                if elapsed >= dt:
-                    break
-            now = a0 + change * (elapsed / dt)
-            end = p[here] * (dt - elapsed)
-            pull = critical[here] * side + now
-            slope = change / steps[here]
-            scaled = velocity / p[here]
-            x = _impact(end, side, angle, scaled, pull, slope, critical[here], largest)
-            stop = min(x, end)
-            end_angle, end_scaled = _state(stop, angle, scaled, pull, slope)
-            threshold = critical[here]
-            if x > end and side * end_angle > threshold:
-                if not side * angle > threshold:
-                    # The last outward pass: beyond it the angle is above α up to the end of the sample.
-                    low = 0.0
-                    for point in _turning_points(angle, scaled, pull, slope):
-                        inside = SHORTEST_ARC < point < end
-                        if inside and side * _state(point, angle, scaled, pull, slope)[0] < threshold:
-                            low = point
-                    passing = _crossing(low, end, angle, scaled, pull, slope, side * threshold)
-                    passed = dt * sample + elapsed + passing / p[here]
-                if side * end_angle > threshold + largest and side * end_scaled > 0.0:
-                    overturning_time = passed
-            if x > end:
-                angle, velocity = end_angle, end_scaled * p[here]
-                break
-            elapsed += x / p[here]
-            arriving = end_scaled * p[here]
-            if impacts == impact_times.size:
-                impact_times = np.concatenate((impact_times, np.empty(impacts)))
-                impact_velocities = np.concatenate((impact_velocities, np.empty(impacts)))
-            impact_times[impacts], impact_velocities[impacts] = dt * sample + elapsed, arriving
-            impacts += 1
-            angle, velocity = 0.0, _restitution(restitution, speeds, here, arriving) * arriving
-            side, here = -side, 1 - here
-            holding = critical[here] + side * (a0 + change * (elapsed / dt))
-            risen = velocity * velocity / (2.0 * p[here] * p[here])
-            if holding >= 0.0 and risen <= rest_angle * critical[here] * holding:
-                resting, velocity = True, 0.0
-        sample += 1
-        angles[sample], velocities[sample] = angle, velocity
-        if not np.isnan(overturning_time):
-            _fall(angles, velocities, sample, base, dt, side, critical[here], p[here])
-            break
-
-    if np.isnan(overturning_time) and not survives_free_rocking(angle, velocity, critical, p, restitution, speeds):
-        overturning_time = passed if side * angle > critical[here] else dt * (count - 1)
-    return angles, velocities, impact_times[:impacts].copy(), impact_velocities[:impacts].copy(), overturning_time
-
-
-@kernel
-def _fall(
-    angles: Array, velocities: Array, sample: int, base: Array, dt: float, side: float, critical: float, p: float
-) -> None:
-    """Go on from `sample` past return: by the equation until the block lies at ±π/2, then still."""
-    step = p * dt
+def fall(
+    angles: Array, velocities: Array, sample: int, base: Array, dt: float, here: int, critical: float, p: float
+) -> int:
+    """Go on from `sample` past return by the equation; return the sample from which the block lies at ±π/2."""
+    step, side = p * dt, 2.0 * here - 1.0
     while side * angles[sample] < 0.5 * pi:
         if sample == base.size - 1:
-            return
+            return base.size
         change = base[sample + 1] - base[sample]
         pull = critical * side + base[sample]
         angle, scaled = _state(step, angles[sample], velocities[sample] / p, pull, change / step)
         sample += 1
         angles[sample], velocities[sample] = angle, scaled * p
-    angles[sample:] = side * 0.5 * pi
-    velocities[sample:] = 0.0
+    return sample

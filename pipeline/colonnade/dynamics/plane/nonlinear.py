@@ -13,12 +13,15 @@ missed. The same kernels solve the linearised equation, ψ'' = u(x) ψ + b(x), w
 
 from __future__ import annotations
 
-from math import cos, pi, sin, sqrt, tan
+from math import cos, pi, sin, sqrt
+from typing import NamedTuple
 
 import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.kernel import kernel
+from colonnade.dynamics.plane.sides import Sides
+from colonnade.dynamics.plane.step import Step
 
 ORDER = 18
 """Most terms of a series; short steps need fewer."""
@@ -146,179 +149,81 @@ def _landing(height: Array, low: float, high: float) -> float:
     return x
 
 
-@kernel
-def _restitution(restitution: Array, speeds: Array | None, here: int, velocity: float) -> float:
-    """Give e of an impact that ends an arc on side `here`."""
-    if speeds is None:
-        return float(restitution[here])
-    speed, first = abs(velocity), here * speeds.size
-    above = int(np.searchsorted(speeds, speed))
-    if above == 0 or above == speeds.size:
-        return float(restitution[first + min(above, speeds.size - 1)])
-    share = (speed - speeds[above - 1]) / (speeds[above] - speeds[above - 1])
-    lower, upper = restitution[first + above - 1], restitution[first + above]
-    return float(lower + share * (upper - lower))
-
-
-@kernel
-def _hill(angle: float, linearised: bool) -> float:
-    """Potential over m g R at ψ; 0 where the centre of mass is above the pole."""
-    return -0.5 * angle * angle if linearised else -2.0 * sin(0.5 * angle) ** 2
-
-
-@kernel
-def survives_free_rocking(
-    angle: float,
-    velocity: float,
-    critical: Array,
-    p: Array,
-    restitution: Array,
-    speeds: Array | None = None,
-    linearised: bool = False,
-) -> bool:
-    """Tell whether the block, left from this state on a base at rest, comes back to stand (by its energy)."""
-    if angle == 0.0 and velocity == 0.0:
-        return True
-    side = 1.0 if angle > 0.0 or (angle == 0.0 and velocity > 0.0) else -1.0
-    here = 1 if side > 0.0 else 0
-    there = 1 - here
-    outward = side * velocity / p[here]
-    beyond = side * angle > critical[here]
-    energy = 0.5 * outward * outward + _hill(critical[here] - side * angle, linearised)
-    if (beyond and (outward >= 0.0 or energy <= 0.0)) or (not beyond and outward > 0.0 and energy > 0.0):
-        return False
-    arriving = p[here] * sqrt(max(2.0 * (energy - _hill(critical[here], linearised)), 0.0))
-    after = _restitution(restitution, speeds, here, arriving) * arriving / p[there]
-    return bool(0.5 * after * after + _hill(critical[there], linearised) <= 0.0)
-
-
-@kernel
-def _uplift(start: float, end: float, first: Array, last: Array) -> tuple[float, int]:
+class BySeries(NamedTuple):
     """
-    Find when in [start, end] a block at rest uplifts, and on which side; (inf, 0) where it stays.
+    What the solution by series needs beyond the closed form.
 
-    `first` and `last` are the moments about the poles, over m g R cos α, that uplift it to θ < 0 and to θ > 0, at the
-    ends of [0, end]; they change linearly.
+    Attributes
+    ----------
+    vertical : ndarray, shape (n,)
+        Vertical acceleration of the base over gravity, above −1.
+    is_linearised : bool
+        Whether the linearised equation is solved.
+    work : ndarray, shape (3, `ORDER` + 1)
+        Room for the series of one step after the other.
     """
-    instant, chosen = np.inf, 0
-    for k in range(2):
-        now = first[k] + (last[k] - first[k]) * (start / end)
-        if now > 0.0:
-            return start, k
-        if last[k] > 0.0:
-            crossing = max(start, min(end, end * -first[k] / (last[k] - first[k])))
-            if crossing < instant:
-                instant, chosen = crossing, k
-    return instant, chosen
+
+    vertical: Array
+    is_linearised: bool
+    work: Array
+
+
+def by_series(vertical: Array, is_linearised: bool) -> BySeries:
+    """Prepare the solution by series; arguments as of `BySeries`."""
+    return BySeries(vertical, is_linearised, np.empty((3, ORDER + 1)))
 
 
 @kernel
-def propagate(
+def series_step(
     base: Array,
+    sample: int,
     dt: float,
-    critical: Array,
-    p: Array,
-    restitution: Array,
-    rest_angle: float,
+    elapsed: float,
     angle: float,
     velocity: float,
-    speeds: Array | None = None,
-    vertical: Array | None = None,
-    linearised: bool = False,
-) -> tuple[Array, Array, Array, Array, float]:
-    """
-    Propagate the block over the samples of a base motion; arguments and results as `linear.propagate`.
+    here: int,
+    sides: Sides,
+    series: BySeries,
+) -> Step:
+    """Follow an arc by one series: to its impact, to the end of the sample or as far as the series goes."""
+    critical, p, side = sides.critical[here], sides.p[here], 2.0 * here - 1.0
+    a0, change = base[sample], base[sample + 1] - base[sample]
+    u0, u1 = 1.0 + series.vertical[sample], 1.0 + series.vertical[sample + 1]
+    bound = LARGEST_SINE * max(abs(u0), abs(u1)) + max(abs(a0), abs(base[sample + 1]))
 
-    `vertical` is the vertical acceleration of the base over gravity, shape (n,), above −1. A block that reaches ±π/2
-    lies there and has overturned.
-    """
-    count = base.size
-    angles, velocities = np.empty(count), np.empty(count)
-    impact_times, impact_velocities = np.empty(64), np.empty(64)
-    impacts = 0
-    work = np.empty((3, ORDER + 1))
-    passed, overturning_time = np.nan, np.nan
-    resting = angle == 0.0 and velocity == 0.0
-    side = 1.0 if angle > 0.0 or (angle == 0.0 and velocity > 0.0) else -1.0
-    here = 1 if side > 0.0 else 0
-    if side * angle > critical[here]:
-        passed = 0.0
-    # Per unit of u, what holds the block down on either side: against b, and against rising.
-    thresholds, grips, leans = critical.copy(), critical.copy(), np.ones(2)
-    if not linearised:
-        for k in range(2):
-            thresholds[k], grips[k], leans[k] = tan(critical[k]), sin(critical[k]), cos(critical[k])
-    first, last = np.empty(2), np.empty(2)
+    # The series of ψ = α s − θ over a step on which it converges quickly.
+    remaining, scaled = p * (dt - elapsed), side * velocity / p
+    step = min(remaining, LONGEST_STEP / max(1.0, abs(velocity) / p, 0.5 * sqrt(bound)))
+    slope, lift_slope = change / (p * dt), (u1 - u0) / (p * dt)
+    now, lift = a0 + change * (elapsed / dt), u0 + (u1 - u0) * (elapsed / dt)
+    terms = _expand(
+        series.work,
+        critical * side - angle,
+        -side * scaled,
+        now,
+        slope,
+        lift,
+        lift_slope,
+        step,
+        series.is_linearised,
+    )
+    # From ψ to the height s θ above the base: without the cancellation of α s − ψ near it.
+    height = series.work[0, :terms]
+    height *= -side
+    height[0] = side * angle
+    before = height[0]
 
-    angles[0], velocities[0] = angle, velocity
-    for sample in range(count - 1):
-        a0, change = base[sample], base[sample + 1] - base[sample]
-        u0, u1 = 1.0, 1.0
-        if vertical is not None:
-            u0, u1 = 1.0 + vertical[sample], 1.0 + vertical[sample + 1]
-        lifting = u1 - u0
-        bound = LARGEST_SINE * max(abs(u0), abs(u1)) + max(abs(a0), abs(base[sample + 1]))
-        elapsed = 0.0
-        while elapsed < dt:
-            if resting:
-                first[0], first[1] = a0 - thresholds[0] * u0, -a0 - thresholds[1] * u0
-                last[0], last[1] = a0 + change - thresholds[0] * u1, -a0 - change - thresholds[1] * u1
-                instant, here_next = _uplift(elapsed, dt, first, last)
-                if instant == np.inf:
-                    break
-                elapsed, here, resting = instant, here_next, False
-                side = 2.0 * here - 1.0
-                angle, velocity = 0.0, 0.0
-                if elapsed >= dt:
-                    break
-            remaining = p[here] * (dt - elapsed)
-            step = min(remaining, LONGEST_STEP / max(1.0, abs(velocity) / p[here], 0.5 * sqrt(bound)))
-            slope, lift_slope = change / (p[here] * dt), lifting / (p[here] * dt)
-            now, lift = a0 + change * (elapsed / dt), u0 + lifting * (elapsed / dt)
-            scaled = side * velocity / p[here]
-            terms = _expand(
-                work, critical[here] * side - angle, -side * scaled, now, slope, lift, lift_slope, step, linearised
-            )
-            # From ψ to the height s θ above the base: without the cancellation of α s − ψ near it.
-            height = work[0, :terms]
-            height *= -side
-            height[0] = side * angle
-            before = height[0]
-            x = _first_landing(height, step, bound, abs(slope) + LARGEST_SINE * abs(lift_slope))
-            stop = min(x, step)
-            value, climb, _curve = _value(height, stop)
-            angle, velocity = side * value, side * climb * p[here]
-            if value > critical[here] and not before > critical[here]:
-                passed = dt * sample + elapsed + _passing(height, stop, critical[here]) / p[here]
-            if x > step:
-                elapsed = dt if step == remaining else elapsed + step / p[here]
-                if side * angle >= 0.5 * pi:
-                    overturning_time = passed
-                    break
-                continue
-            elapsed += x / p[here]
-            if impacts == impact_times.size:
-                impact_times = np.concatenate((impact_times, np.empty(impacts)))
-                impact_velocities = np.concatenate((impact_velocities, np.empty(impacts)))
-            impact_times[impacts], impact_velocities[impacts] = dt * sample + elapsed, velocity
-            impacts += 1
-            velocity, angle, side = _restitution(restitution, speeds, here, velocity) * velocity, 0.0, -side
-            here = 1 - here
-            share = elapsed / dt
-            holding = grips[here] * (u0 + lifting * share) + side * (a0 + change * share) * leans[here]
-            risen = velocity * velocity / (2.0 * p[here] * p[here])
-            if holding >= 0.0 and risen <= rest_angle * critical[here] * holding:
-                resting, velocity = True, 0.0
-        if not np.isnan(overturning_time):
-            angles[sample + 1 :], velocities[sample + 1 :] = side * 0.5 * pi, 0.0
-            break
-        angles[sample + 1], velocities[sample + 1] = (0.0, 0.0) if resting else (angle, velocity)
-
-    if np.isnan(overturning_time) and not survives_free_rocking(
-        angle, velocity, critical, p, restitution, speeds, linearised
-    ):
-        overturning_time = passed if side * angle > critical[here] else dt * (count - 1)
-    return angles, velocities, impact_times[:impacts].copy(), impact_velocities[:impacts].copy(), overturning_time
+    # To the impact, or to the end of the step.
+    x = _first_landing(height, step, bound, abs(slope) + LARGEST_SINE * abs(lift_slope))
+    stop = min(x, step)
+    value, climb, _curve = _value(height, stop)
+    if x <= step:
+        return Step(True, elapsed + x / p, 0.0, side * climb * p, np.nan, False)
+    passed = np.nan
+    if value > critical and not before > critical:
+        passed = dt * sample + elapsed + _passing(height, stop, critical) / p
+    reached = dt if step == remaining else elapsed + step / p
+    return Step(False, reached, side * value, side * climb * p, passed, value >= 0.5 * pi)
 
 
 @kernel

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.history import History
 from colonnade.dynamics.motion import Motion, at_rest
-from colonnade.dynamics.restitution_law import RestitutionLaw, restitution_table
+from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.validation import sided
 
 if TYPE_CHECKING:
@@ -22,9 +21,6 @@ LARGEST_ACCELERATION = 1e6
 
 LONGEST_SAMPLE = 300.0
 """In p dt; hyperbolic functions of more leave the range of floating-point numbers."""
-
-BY_SERIES = "colonnade.dynamics.plane.nonlinear"
-"""Kernels that know vertical motion, of the linearised equation too."""
 
 
 def run(model: PlaneModel, case: Case) -> History:
@@ -63,25 +59,22 @@ def _law(
 
 
 def _propagated(model: PlaneModel, case: Case, motion: Motion, law: RestitutionLaw | tuple[float, float]) -> History:
-    block, sides = case.block, case.block.sides
-    # The engine is compiled on import: only the one that is asked for.
-    engine = model.propagator if motion.vertical is None else BY_SERIES
-    options: dict[str, Any] = {}
-    if engine == BY_SERIES:
+    # The kernels are decorated on import.
+    from colonnade.dynamics.plane.nonlinear import by_series
+    from colonnade.dynamics.plane.sampled_march import propagate
+    from colonnade.dynamics.plane.sides import sides_of
+
+    block, series = case.block, None
+    if not (model.is_linearised and motion.vertical is None):
         vertical = np.zeros_like(motion.acceleration) if motion.vertical is None else motion.vertical / block.gravity
-        options = {"vertical": vertical, "linearised": model.is_linearised}
-    speeds, values = restitution_table(law)
-    angle, velocity, impact_times, impact_velocities, overturning_time = import_module(engine).propagate(
+        series = by_series(vertical, model.is_linearised)
+    angle, velocity, impact_times, impact_velocities, overturning_time = propagate(
         motion.acceleration / block.gravity,
         motion.dt,
-        np.array([side.critical_angle for side in sides]),
-        np.array([block.side_p(side) for side in sides]),
-        values,
-        case.rest_angle,
+        sides_of(block, law, case.rest_angle),
         case.theta0,
         case.omega0,
-        speeds=speeds,
-        **options,
+        series,
     )
     e = law(np.abs(impact_velocities)) if isinstance(law, RestitutionLaw) else np.where(impact_velocities > 0.0, *law)
     return History(

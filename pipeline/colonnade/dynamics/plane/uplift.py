@@ -10,6 +10,8 @@ from colonnade.arrays import Array
 from colonnade.dynamics.kernel import kernel
 from colonnade.dynamics.plane.envelope import Piece, level_at
 
+Pair = tuple[float, float]
+
 HALVINGS = 60
 """Of an interval: down to rounding."""
 
@@ -21,7 +23,26 @@ def uplift_threshold(critical: float, linearised: bool) -> float:
 
 
 @kernel
-def sampled_uplift(start: float, end: float, first: Array, last: Array) -> tuple[float, int]:
+def level_uplift(start: float, end: float, base: float, rate: float, thresholds: Array) -> tuple[float, int]:
+    """
+    Find when in [start, end] a block at rest on a base that moves along x only uplifts, and on which side.
+
+    a/g is base + rate t; it uplifts to θ < 0 (side 0) where that is above the first threshold, to θ > 0 (side 1) where
+    −a/g is above the second, both strictly; (inf, 0) where it stays.
+    """
+    for k in range(2):
+        sign = 1.0 - 2.0 * k
+        if sign * (base + rate * start) > thresholds[k]:
+            return start, k
+    for k in range(2):
+        sign = 1.0 - 2.0 * k
+        if sign * (base + rate * end) > thresholds[k]:
+            return max(start, min(end, (sign * thresholds[k] - base) / rate)), k
+    return np.inf, 0
+
+
+@kernel
+def sampled_uplift(start: float, end: float, first: Pair, last: Pair) -> tuple[float, int]:
     """
     Find when in [start, end] a block at rest uplifts, and on which side; (inf, 0) where it stays.
 

@@ -1,0 +1,33 @@
+"""The block as the kernels of the plane models take it: what each of its two sides is."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.restitution_law import RestitutionLaw, restitution_table
+
+
+class Sides(NamedTuple):
+    """
+    The block on its sides θ < 0 and θ > 0: α (rad) and p (rad/s), shape (2,); e as of `restitution_of`.
+
+    After an impact whose next arc, under the base acceleration of that instant, would not rise above `rest_angle` α,
+    the block is at rest until the base acceleration uplifts it again.
+    """
+
+    critical: Array
+    p: Array
+    restitution: Array
+    speeds: Array
+    rest_angle: float
+
+
+def sides_of(block: Block, restitution: tuple[float, float] | RestitutionLaw, rest_angle: float) -> Sides:
+    """Put a block, its restitution and its rule of rest into the form that the kernels take."""
+    speeds, values = restitution_table(restitution)
+    critical = np.array([side.critical_angle for side in block.sides])
+    return Sides(critical, np.array([block.side_p(side) for side in block.sides]), values, speeds, rest_angle)
