@@ -176,9 +176,7 @@ def rebuild(document: Path) -> None:
     measured = f"{begin}\n\n{table(biases)}\n\n![Bias of peaks and of e over the cut-off]({FIGURE})\n\n{end}"
     document.write_text(re.sub(f"{begin}.*{end}", lambda _: measured, text, flags=re.DOTALL), encoding="utf-8")
     title = "Bias of peaks and of e over the cut-off of the low-pass"
-    described = (
-        "From 10 Hz on, small peaks have errors of at most 0.1 % of α and e of 1e-5; at 5 Hz peaks miss 1 % of α."
-    )
+    described = "From 10 Hz on, small peaks have errors of at most 0.1 % of α and e of 1e-5; at 5 Hz peaks miss 1 %."
     text = to_svg(draw(biases), identity="filter-bias", title=title, description=described)
     document.with_name(FIGURE).write_text(text, encoding="utf-8")
 
