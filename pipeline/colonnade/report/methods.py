@@ -80,7 +80,8 @@ class Used:
             self._note(f"cut-off on the {place}", wording.quantity(cutoff, "Hz") if isfinite(cutoff) else "", test)
         for stage, model in stored.datasets:
             self._note("source of e", stored.text(stage, "restitution_source", model), test)
-        self._note("method of e", stored.text("restitution", "method"), test)
+        if isfinite(stored.value("restitution", "restitution")):
+            self._note("method of e", stored.text("restitution", "method"), test)
         self._note("separation", stored.text("rocking", "separation"), test)
         self.versions |= stored.versions
 

@@ -172,7 +172,7 @@ def _contact(pooled: Stored) -> list[tuple[str, str]]:
         ),
         ("mean velocity ratio of the same impacts", number(value("contact_velocity_ratio"), 4)),
         ("step", quantity(value("contact_step"), "µs")),
-        ("energy that is missing after it", f"{100 * value('energy_residual'):.2g} % of the largest"),
+        ("largest gap in the energy balance", f"{100 * value('energy_residual'):.2g} % of the largest energy"),
     ]
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from math import isnan, nan
+from pathlib import PurePosixPath
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.summary import PredictionSummary
@@ -67,7 +69,7 @@ def of_test(campaign: Campaign, row: TestRow, stored: Stored) -> TestPage:
         departures=stored.texts(pictures.STAGE, "departures"),
         peaks=list(zip(*(stored.array(pictures.STAGE, name).tolist() for name in peaks), strict=True)),
         channels=channels.of_test(stored),
-        notes=list(filter(None, stored.text("ingest", "notes").split("; "))),
+        notes=_notes(stored),
         review=stored.texts("ingest", "review") or list(campaign.review(test.id).sentences),
         pictures=_pictures(row, stored, block),
     )
@@ -89,6 +91,12 @@ def _pictures(row: TestRow, stored: Stored, block: Block) -> dict[str, Picture |
     }
 
 
+def _notes(stored: Stored) -> list[str]:
+    """Split the notes on the files, each of which begins with the name of its file; a note may hold a semicolon."""
+    names = "|".join(re.escape(PurePosixPath(path).name) for path in stored.raw_files)
+    return list(filter(None, re.split(f"; (?=(?:{names}): )", stored.text("ingest", "notes"))))
+
+
 def _done(row: TestRow) -> list[Fact]:
     test = row.test
     return [
@@ -99,7 +107,7 @@ def _done(row: TestRow) -> list[Fact]:
         ("frequency", quantity(test.frequency, "Hz")),
         ("Ω = ω/p", number(row.record.frequency_ratio, 4)),
         ("A = a/(g tan α)", number(row.record.amplitude_ratio, 4)),
-        ("part of the file", _interval(test.window) or "all of it"),
+        ("part of the file", _interval(test.window) or "all"),
         ("zero from", _interval(test.zero) if isinstance(test.zero, tuple) else test.zero),
         ("notes", test.notes or ""),
     ]
@@ -110,11 +118,11 @@ def _found(row: TestRow, stored: Stored, scale: float | None) -> list[Fact]:
     error = quantity(stored.median("rocking", "rocking_angle_standard_error"), "mrad", 2)
     return [
         (
-            "largest |θ|, with the release" if is_free else "largest |θ|",
+            "largest |θ|, release included" if is_free else "largest |θ|",
             quantity(abs(stored.value("rocking", "peak_angle")), "mrad", 4),
         ),
-        ("released from |θ|/α", number(row.record.release_ratio)),
-        ("predictions are driven by", driven_by(stored) if is_free else ""),
+        ("released at |θ|/α", number(row.record.release_ratio)),
+        ("predictions use", driven_by(stored) if is_free else ""),
         ("overturned at", quantity(stored.value("rocking", "overturning_time"), "s", 4)),
         ("peak base acceleration", acceleration(row.record.pga)),
         ("standard error of θ", error),
@@ -138,12 +146,12 @@ def verdict_sentence(model: str, predicted: PredictionSummary) -> str:
     rank = predicted.within_spread
     within = is_within(nan if rank is None else rank)
     if within is None:
-        return f"{name}: predicted up to {until}; not ranked, as that needs {FEWEST} runs and a measured angle."
+        return f"{name}: predicted up to {until}; not ranked: that needs {FEWEST} runs and a measured angle."
     said = [f"{rank:.0%} of the runs are closer to their median"]
     if predicted.peak_rank is not None:
-        said.append(f"{predicted.peak_rank:.0%} of them stay below its peak")
+        said.append(f"{predicted.peak_rank:.0%} stay below the measured peak")
     if predicted.overturning_probability:
-        said.append(f"{predicted.overturning_probability:.0%} of them overturn")
+        said.append(f"{predicted.overturning_probability:.0%} overturn")
     where = "within" if within else "outside"
     return f"{name}: the measured angle is {where} its own spread up to {until} ({'; '.join(said)})."
 

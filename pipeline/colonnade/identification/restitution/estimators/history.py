@@ -160,8 +160,8 @@ class LinearHistory(WholeHistory):
     name = "history-linear"
     label = "whole history, linear"
     description = (
-        "free rocking by the linearised equation, with one e, laid through all samples by least squares; its errors by "
-        "the noise's own spectrum"
+        "free rocking by the linearised equation, with one e, fitted to all samples by least squares; its errors "
+        "follow from the spectrum of the noise"
     )
     model = "linear"
 

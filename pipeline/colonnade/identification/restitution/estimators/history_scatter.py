@@ -110,7 +110,7 @@ class ScatteredHistory(Estimator[ScatteredFit]):
         "stationary, white or of power 1/f, and low-passed as given"
     )
     description = (
-        "nonlinear free rocking in which e of each impact departs from one mean, with a drifting zero, and noise that "
+        "nonlinear free rocking in which e of each impact varies about one mean, with a drifting zero, and noise that "
         "is white or of power 1/f; the interval is a mixture over all scatters of e by their restricted likelihood"
     )
     references = ("patterson",)
