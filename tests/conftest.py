@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import os
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
+from filelock import FileLock
 from hypothesis import settings
 
 os.environ.setdefault("MPLBACKEND", "Agg")
@@ -76,3 +79,40 @@ def as_reported() -> Callable[[Path, str], None]:
             assert found["peak_ratio"]["measured"] == expected, test
 
     return check
+
+
+@pytest.fixture(scope="session")
+def filled_campaign(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, Any]:
+    """A small virtual campaign and its layout after one real run, which all processes of the tests share; look only."""
+    from colonnade.campaign import load
+    from colonnade.store.layout import Layout
+
+    shared = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        shared = shared.parent
+    folder = shared / "small-campaign"
+    with FileLock(shared / "small-campaign.lock"):
+        if not (folder / "processed" / "summary.json").is_file():
+            _small_campaign().run_small_campaign(folder)
+    return load(folder), Layout(folder)
+
+
+@pytest.fixture(scope="session")
+def empty_campaign(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, Any]:
+    """The same campaign before anything was run."""
+    from colonnade.campaign import load
+    from colonnade.store.layout import Layout
+
+    folder = tmp_path_factory.mktemp("empty") / "campaign"
+    _small_campaign().write_small_campaign(folder)
+    return load(folder), Layout(folder)
+
+
+def _small_campaign() -> Any:
+    """Import `small_campaign.py`, which is next to this file and in no package."""
+    spec = importlib.util.spec_from_file_location("small_campaign", Path(__file__).with_name("small_campaign.py"))
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from colonnade.report import build
+from colonnade.store.layout import Layout
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 QUIET = (
@@ -47,8 +48,10 @@ def browse(tmp_path: Path, page: Path, *arguments: str) -> subprocess.CompletedP
 
 
 @pytest.fixture(scope="module")
-def folder(filled_campaign) -> Path:
-    return build(*filled_campaign).parent
+def folder(filled_campaign, tmp_path_factory) -> Path:
+    campaign, layout = filled_campaign[0], Layout(tmp_path_factory.mktemp("browsed"))
+    shutil.copytree(filled_campaign[1].processed, layout.processed)
+    return build(campaign, layout).parent
 
 
 @pytest.mark.parametrize("width", [360, 1200], ids=["on a telephone", "on a desk"])

@@ -1,7 +1,7 @@
 """What the page of a test says of a model's spread: the one verdict, with the horizon up to which it holds."""
 
 from colonnade.campaign.summary import PredictionSummary
-from colonnade.report.tests_page import verdict_sentence
+from colonnade.report.tests_page import _notes, verdict_sentence
 
 
 def predicted(horizon, rank, peak_rank, overturning):
@@ -14,17 +14,23 @@ def test_a_rank_within_the_limit_is_within_and_one_above_it_outside():
     told = verdict_sentence("linear", predicted(3.42, 0.95, 0.5, 0.0))
     assert told == (
         "Linear model: the measured angle is within its own spread up to 3.42 s (95% of the runs are closer to their "
-        "median; 50% of them stay below its peak)."
+        "median; 50% stay below the measured peak)."
     )
     told = verdict_sentence("linear", predicted(3.42, 0.96, 1.0, 0.12))
     assert "is outside its own spread" in told
-    assert "12% of them overturn" in told
+    assert "12% overturn" in told
 
 
 def test_without_runs_enough_there_is_a_horizon_and_no_verdict():
     told = verdict_sentence("contact", predicted(3.42, None, None, 0.0))
-    assert told == "Contact model: predicted up to 3.42 s; not ranked, as that needs 20 runs and a measured angle."
+    assert told == "Contact model: predicted up to 3.42 s; not ranked: that needs 20 runs and a measured angle."
 
 
 def test_without_runs_nothing_is_said():
     assert verdict_sentence("linear", PredictionSummary()) == ""
+
+
+def test_a_note_on_a_file_may_hold_a_semicolon(reported):
+    notes = _notes(reported["span-2.0"][1])
+    assert notes[-1] == 'span-2.0.csv: clock: column 1, "Time" (in s; rising)'
+    assert all(note.startswith("span-2.0.csv: ") for note in notes)

@@ -1,0 +1,128 @@
+"""A small virtual campaign with all that a report can meet, and its results from one real run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from scipy.signal import butter, sosfiltfilt
+
+from colonnade.campaign import load
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
+from colonnade.laboratory.instruments import Transducer
+from colonnade.laboratory.programme import write
+from colonnade.laboratory.table import TableMotion, ramped_sine, recorded
+from colonnade.workflow import run
+
+SCRIPT = "<script>alert('title')</script>"
+MARKUP = '<img src=x onerror="alert(1)"> & 5 < 6'
+STRONG = "sine-3hz-too-strong-for-the-block-1"
+LATER = "later"
+RATE = 250.0
+
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+STATUE = Block.measured(mass=80.0, pole_distance=0.61, critical_angle=(0.21, 0.23), inertia=41.2)
+SPECIMENS = {
+    "prism": Specimen(
+        {"shape": "prism", "width": "86 mm", "depth": "86 mm", "height": "456 mm", "mass": "26.10 kg", "scale": 20},
+        PRISM,
+        0.93,
+    ),
+    "statue": Specimen(
+        {
+            "shape": "measured",
+            "mass": "80 kg",
+            "pole_distance": "610 mm",
+            "critical_angle": ["0.21 rad", "0.23 rad"],
+            "inertia": "41.2 kg m^2",
+            "restitution": 0.9,
+        },
+        STATUE,
+        0.9,
+    ),
+}
+ON_SPECIMEN = (
+    Transducer("top", "LVDT <1>", "displacement", "specimen", 0.100, "mm", at=(0.043, 0.0, 0.440)),
+    Transducer("bottom", "LVDT 2", "displacement", "specimen", 0.010, "mm", at=(0.043, 0.0, 0.020)),
+)
+ON_TABLE = (Transducer("table_acceleration", "ACC", "acceleration", "table", 19.6133, "m/s^2"),)
+SETTINGS = """
+[processing]
+lowpass = "25 Hz"
+
+[processing.predict.ensemble]
+members = 20
+"""
+REVIEW = f"""
+schema = 1
+
+[[flag]]
+test = "span-2.5"
+channel = "top"
+window = ["6.0 s", "6.1 s"]
+as = "suspect"
+who = "N. N."
+when = 2013-04-26
+why = '{MARKUP}'
+"""
+
+
+def _shaking(strength: float) -> TableMotion:
+    time = np.arange(1200) / 200.0
+    noise = np.random.default_rng(7).normal(size=time.size)
+    shaking = sosfiltfilt(butter(2, [1, 8], "bandpass", fs=200, output="sos"), noise)
+    shaking *= np.clip(time / 1.0, 0, 1) * np.exp(-np.clip(time - 3, 0, None) / 0.6)
+    return recorded(Motion(strength * shaking / np.abs(shaking).max(), 1 / 200.0), start=1.0)
+
+
+def _plan() -> Plan:
+    frame = Setup({MAIN: Recorder((*ON_SPECIMEN, *ON_TABLE), RATE)})
+    watched = Setup({MAIN: Recorder(ON_TABLE, RATE)})
+    free = [
+        Trial(name, "free-vibration", "frame", 9.0, theta0=share * PRISM.critical_angle, release=1.0, specimen="prism")
+        for name, share in (("free-01", 0.5), ("free-refused", 0.45))
+    ]
+    spans = [
+        Trial(
+            f"span-{span}",
+            "earthquake",
+            "frame",
+            6.5,
+            table=_shaking(1.35 * span),
+            spikes=3 if span == 2.0 else 0,
+            entry={"span": span, "motion": f"El Centro 1940 NS {MARKUP}", "time_scale": 0.2236},
+            specimen="prism",
+        )
+        for span in (2.0, 2.5, 3.0)
+    ]
+    sine = ramped_sine(3.0, 7.0, start=1.0, cycles=12, ramp=2)
+    sines = [
+        Trial(name, "sine", "frame", 6.5, table=sine, entry={"frequency": "3 Hz", **entry}, specimen="prism")
+        for name, entry in ((STRONG, {"notes": MARKUP, "zero": "start"}), ("sine-dead", {}), (LATER, {}))
+    ]
+    seen = {"observed_outcome": "not-overturned"}
+    statue = Trial("watched", "earthquake", "watched", 6.5, table=_shaking(2.0), entry=seen, specimen="statue")
+    return Plan(
+        campaign="prism-2013",
+        title=f"Rocking of a solid steel prism {SCRIPT}",
+        specimens=SPECIMENS,
+        setups={"frame": frame, "watched": watched},
+        trials=(*free, *spans, *sines, statue),
+    )
+
+
+def write_small_campaign(folder: Path) -> None:
+    """Shake the virtual table; one raw file is empty."""
+    write(_plan(), folder)
+    with (folder / "campaign.toml").open("a", encoding="utf-8") as campaign_file:
+        campaign_file.write(SETTINGS)
+    (folder / "review.toml").write_text(REVIEW, encoding="utf-8")
+    (folder / "raw" / "sine-dead.csv").write_text("", encoding="utf-8")
+
+
+def run_small_campaign(folder: Path) -> None:
+    """Run it but for one test: tests are done, refused, overturned, failed, not run, or seen but not measured."""
+    write_small_campaign(folder)
+    run(folder, only=[name for name in load(folder).tests if name != LATER], until="compare", workers=1)
