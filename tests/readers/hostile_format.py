@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+from colonnade.errors import ReadError
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import Format, Options, Recognition
 
@@ -44,6 +45,14 @@ def crash(victim: str) -> None:
 
 def abort(victim: str) -> None:
     os.abort()
+
+
+def stumble(victim: str) -> None:
+    raise ValueError(f"half a block\nat byte {victim}")
+
+
+def refuse(victim: str) -> None:
+    raise ReadError("free-01.hostile: its rate is 0 Hz. Give sampling_rate.")
 
 
 def swell(victim: str) -> float:
@@ -123,7 +132,22 @@ def chatter(victim: str) -> None:
 DEEDS = {
     deed.__name__: deed
     for deed in (
-        *(crash, abort, swell, swell_natively, spin, sleep, look, look_natively, write, write_natively, remove, spawn),
+        *(
+            crash,
+            abort,
+            stumble,
+            refuse,
+            swell,
+            swell_natively,
+            spin,
+            sleep,
+            look,
+            look_natively,
+            write,
+            write_natively,
+            remove,
+            spawn,
+        ),
         *(spawn_natively, call, call_natively, unpickle, lie, chatter),
     )
 }

@@ -16,9 +16,9 @@ import xlwt
 
 from colonnade.errors import ReadError
 from colonnade.readers.binary.stored_numbers import beside
+from colonnade.readers.clock import even_times
 from colonnade.readers.diadem.tdm import channels_in_tdm
 from colonnade.readers.registry import read
-from colonnade.readers.text.clock import even_times
 
 TIME = np.arange(60) * 0.01
 

@@ -59,3 +59,22 @@ def test_another_column_can_be_the_clock() -> None:
 def test_times_have_to_be_as_many_as_values() -> None:
     with pytest.raises(ValueError, match="2 values at 1 times"):
         RecordedChannel("a", None, VALUES, VALUES[:1])
+
+
+@pytest.mark.parametrize(
+    ("channel", "unit", "times", "how"),
+    [
+        (RecordedChannel("t", "ms", VALUES), None, [0.001, 0.002], "in ms"),
+        (RecordedChannel("t", "ms", VALUES), "min", [60, 120], "in min"),
+        (RecordedChannel("t", None, VALUES), None, [1, 2], "without a unit, taken as seconds"),
+        (RecordedChannel("t", "mm", VALUES), None, [1, 2], "in mm"),
+        (RecordedChannel("t", "ms", VALUES, 5 * VALUES, is_clock=True), None, [5, 10], "timestamps"),
+    ],
+    ids=["its unit", "a unit that is given", "no unit", "no unit of time", "a clock"],
+)
+def test_values_are_times_in_the_unit_that_is_known(
+    channel: RecordedChannel, unit: str | None, times: list[float], how: str
+) -> None:
+    seconds, said = channel.in_seconds(unit)
+    np.testing.assert_allclose(seconds, times)
+    assert said == how

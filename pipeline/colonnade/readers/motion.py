@@ -13,8 +13,8 @@ from colonnade.arrays import Array
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import ReadError, UnitError
 from colonnade.readers import registry
+from colonnade.readers.clock import equal_step, rising_share
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.clock import equal_step, rising_share
 from colonnade.readers.text.delimited_header import DelimitedOptions, read_header
 from colonnade.validation import described, number, text, whole
 

@@ -83,6 +83,18 @@ def test_a_crash_fails_its_own_file_alone(do: Deed, deed: str, name: str) -> Non
         assert do().channels[0].values[1] == server  # only the copy was lost
 
 
+def test_an_exception_is_told_with_its_message_and_a_refusal_as_it_is(do: Deed) -> None:
+    with pytest.raises(ReadError) as stumbled:
+        do("stumble", 17)
+    assert 'free-01.hostile: it cannot be read as "hostile" (ValueError: half a block at byte 17).' in str(
+        stumbled.value
+    )
+    with pytest.raises(ReadError) as refused:
+        do("refuse")
+    assert str(refused.value) == "free-01.hostile: its rate is 0 Hz. Give sampling_rate."
+    assert do().channels
+
+
 @on_linux
 def test_what_swells_is_stopped_at_its_bound(do: Deed, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(bounds, "MEMORY", 200_000_000)

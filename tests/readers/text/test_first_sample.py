@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from colonnade.readers.text.first_sample import column_kinds, find_first_sample, is_sample
-from colonnade.readers.text.lines.cells import Dialect
+from colonnade.readers.text.first_sample import column_kinds, find_first_sample
+from colonnade.readers.text.lines.cells import Dialect, is_sample
 
 SEMICOLON = Dialect("utf-8", ";", ".")
 LINES = ["Test 7; 3", "Time;x;state", "10:15:00;1;on", "10:15:01;OVL;on", "10:15:02;3;off"]

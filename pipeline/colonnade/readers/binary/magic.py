@@ -9,31 +9,27 @@ from colonnade.readers.registry import Recognition
 HEAD = 640
 """As many bytes as say what a file is: HDF5's signature may stand behind 512 bytes of another header."""
 HDF5 = b"\x89HDF\r\n\x1a\n"
+ZIP = b"PK\x03\x04"
 OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
-_PICKLES = (b"\x02", b"\x03", b"\x04", b"\x05")
-_KNOWN = (
-    (b"version https://git-lfs", "it is a pointer of git-lfs, not the file itself: fetch that with `git lfs pull`"),
-    (b"TDSm", "it is LabVIEW TDMS"),
-    (b"TDSh", "it is a .tdms_index, which LabVIEW writes beside the .tdms and which holds no samples: give the .tdms"),
-    (b"MATLAB 5.0", "it is a MATLAB file"),
-    (b"MATLAB 7.3", "it is a MATLAB file of version 7.3"),
-    (b"CDF\x01", "it is NetCDF"),
-    (b"CDF\x02", "it is NetCDF"),
-    (b"CDF\x05", "it is NetCDF"),
-    (HDF5, "it is HDF5"),
-    (OLE, "it is a document of an old Office program"),
-    (b"PK\x03\x04", "it is a zip archive or an Office document"),
-    (b"\x1f\x8b", "it is compressed with gzip: unpack it first"),
-    (b"%PDF", "it is a PDF"),
-    (
-        b"\x93NUMPY",
-        "it is a NumPy file, which is not read, as such a file may hold a program: save the numbers as text",
+NETCDF = (b"CDF\x01", b"CDF\x02", b"CDF\x05")
+"""Marks of NetCDF in its classic forms."""
+_KNOWN: dict[bytes | tuple[bytes, ...], str] = {
+    b"version https://git-lfs": "it is a pointer of git-lfs, not the file itself: fetch that with `git lfs pull`",
+    b"TDSm": "it is LabVIEW TDMS",
+    b"TDSh": "it is a .tdms_index, which LabVIEW writes beside the .tdms and which holds no samples: give the .tdms",
+    b"MATLAB 5.0": "it is a MATLAB file",
+    b"MATLAB 7.3": "it is a MATLAB file of version 7.3",
+    NETCDF: "it is NetCDF",
+    HDF5: "it is HDF5",
+    OLE: "it is a document of an old Office program",
+    ZIP: "it is a zip archive or an Office document",
+    b"\x1f\x8b": "it is compressed with gzip: unpack it first",
+    b"%PDF": "it is a PDF",
+    b"\x93NUMPY": "it is a NumPy file, which is not read, as such a file may hold a program: save the numbers as text",
+    (b"\x80\x02", b"\x80\x03", b"\x80\x04", b"\x80\x05"): (
+        "it is a Python pickle, a program that runs when it is opened: never read"
     ),
-    *(
-        (b"\x80" + version, "it is a Python pickle, a program that runs when it is opened: never read")
-        for version in _PICKLES
-    ),
-)
+}
 _WEB_PAGE = (b"<!doctype html", b"<html", b"<head")
 
 
@@ -68,7 +64,7 @@ def look(first: bytes) -> str:
         return "its first bytes are all zero, as a copy or a recorder that was interrupted leaves them"
     if first.lstrip(b"\xef\xbb\xbf \t\r\n").lower().startswith(_WEB_PAGE):
         return "it is a web page, not a recording: download it again, by the link to the file itself"
-    return next((what for mark, what in _KNOWN if first.startswith(mark)), "")
+    return next((what for mark, what in _KNOWN.items() if first.startswith(mark)), "")
 
 
 def by_mark(path: Path, marks: tuple[bytes, ...], expected: str) -> Recognition:

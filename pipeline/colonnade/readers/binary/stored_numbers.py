@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.text.clock import even_times
+from colonnade.readers.clock import even_times
 
 Bytes = NDArray[np.uint8]
 LONGEST_NAME = 80

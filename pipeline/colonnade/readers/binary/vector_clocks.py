@@ -10,9 +10,9 @@ from pydantic import Field
 
 from colonnade.arrays import Array
 from colonnade.readers.binary.vectors import Column
+from colonnade.readers.clock import RISING_SHARE, TIME_NAME, Clocks, even_times, may_be_clock, rising_share
 from colonnade.readers.recording import TIME_UNITS, TimeUnit
 from colonnade.readers.registry import Options
-from colonnade.readers.text.clock import RISING_SHARE, TIME_NAME, Clocks, even_times, may_be_clock, rising_share
 
 PLAIN_NAME = re.compile(r"t|time", re.IGNORECASE)
 OTHER_NAME = re.compile(

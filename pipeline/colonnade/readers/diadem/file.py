@@ -6,22 +6,21 @@ from dataclasses import replace
 from pathlib import Path
 
 from colonnade.errors import ReadError
+from colonnade.readers.binary.magic import ZIP
 from colonnade.readers.binary.stored_numbers import StoredNumbers, beside, name_beside, read_stored
+from colonnade.readers.clock import even_times, find_clocks
 from colonnade.readers.diadem.dat import SIGNATURE, channels_in_dat
 from colonnade.readers.diadem.tdm import channels_in_tdm
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import Format, Options, Recognition
-from colonnade.readers.text.clock import even_times, find_clocks
 from colonnade.readers.text.lines.numbered import first_lines
-
-PACKED = b"PK\x03\x04"
 
 
 def recognise(path: Path) -> Recognition:
     """Say whether a file is the header of a DIAdem data set."""
     with path.open("rb") as stream:
         head = stream.read(4096)
-    if head.startswith(PACKED) and b"header.xml" in head[:200]:
+    if head.startswith(ZIP) and b"header.xml" in head[:200]:
         return Recognition(True, "an archive with the header.xml of a .TDM")
     if head.lstrip(b"\xef\xbb\xbf").startswith(b"<?xml") and b"<usi:tdm" in head:
         return Recognition(True, "XML of a .TDM")
@@ -71,7 +70,7 @@ def companions(path: Path, options: Options) -> tuple[str, ...]:
 def _described(path: Path) -> tuple[bool, list[StoredNumbers], list[str]]:
     """Whether the header is a .DAT, what it says of its channels, and what there is to warn of."""
     with path.open("rb") as stream:
-        is_text = not stream.read(5).startswith((PACKED, b"<?xml", b"\xef\xbb\xbf<?"))
+        is_text = not stream.read(5).startswith((ZIP, b"<?xml", b"\xef\xbb\xbf<?"))
     described, warnings = channels_in_dat(path) if is_text else channels_in_tdm(path)
     if not described:
         raise ReadError(f"{path.name}: the header describes no channel: it was cut off, or nothing was recorded.")

@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import Field
 
 from colonnade.errors import ReadError, nearest
-from colonnade.readers.binary.magic import OLE, head, look
+from colonnade.readers.binary.magic import OLE, ZIP, head, look
 from colonnade.readers.excel import guard
 from colonnade.readers.excel.cells import CellColumn, column_kinds, find_block, take_column
 from colonnade.readers.recording import Recording
@@ -28,7 +28,6 @@ from colonnade.readers.text.table import Table, TableOptions, layout_of
 if TYPE_CHECKING:
     from python_calamine import CalamineSheet
 
-ZIP = b"PK\x03\x04"
 LARGE, LOOKED_AT = 1_000_000, 1000
 """Cells of a sheet beyond which its first rows are looked at before the others, and how many rows these are."""
 LINES = Dialect("utf-8", delimiter="\t", decimal=".")

@@ -13,15 +13,14 @@ from pydantic import Field
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.binary.magic import HDF5, by_mark, head
+from colonnade.readers.binary.magic import HDF5, NETCDF, by_mark, head
 from colonnade.readers.binary.vector_clocks import ClockOptions, find_clocks
 from colonnade.readers.binary.vectors import Column, named, recorded
+from colonnade.readers.clock import Clocks, given_clock
 from colonnade.readers.hdf5.content import Variable, read_classic, read_hdf5
 from colonnade.readers.recording import TIME_UNITS, Recording
 from colonnade.readers.registry import Format, Recognition
-from colonnade.readers.text.clock import Clocks, given_clock
 
-CLASSIC = (b"CDF\x01", b"CDF\x02", b"CDF\x05")
 MOST_COLUMNS = 1000
 """Of one variable; a wider one is no table of channels."""
 SINCE = re.compile(r"(?P<unit>\w+)\s+since\s+(?P<moment>.+)", re.IGNORECASE)
@@ -36,7 +35,7 @@ class NetcdfOptions(ClockOptions):
 
 def recognise(path: Path) -> Recognition:
     """Say whether a file is NetCDF or HDF5, by its first bytes."""
-    return by_mark(path, (*CLASSIC, HDF5), "the mark of NetCDF or HDF5")
+    return by_mark(path, (*NETCDF, HDF5), "the mark of NetCDF or HDF5")
 
 
 def read(path: Path, options: NetcdfOptions) -> Recording:
@@ -51,7 +50,7 @@ def read(path: Path, options: NetcdfOptions) -> Recording:
     recognition = recognise(path)
     if not recognition.yes:
         raise ReadError(f"{path.name}: {recognition.reason}.")
-    content = read_classic(path) if head(path).startswith(CLASSIC) else read_hdf5(path)
+    content = read_classic(path) if head(path).startswith(NETCDF) else read_hdf5(path)
     within = "" if options.group is None else options.group.strip("/") + "/"
     variables = [each for each in content.variables if each.path.startswith(within)]
     columns, left_out = _columns(variables)

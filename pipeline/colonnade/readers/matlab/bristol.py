@@ -7,8 +7,8 @@ import re
 import numpy as np
 
 from colonnade.readers.binary.vectors import Column
+from colonnade.readers.clock import RISING_SHARE, rising_share
 from colonnade.readers.matlab.tree import Node
-from colonnade.readers.text.clock import RISING_SHARE, rising_share
 
 DATA = re.compile(r"Channel_(\d+)_Data")
 

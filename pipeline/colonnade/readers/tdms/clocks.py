@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from colonnade.arrays import Array
+from colonnade.readers.clock import Clocks, find_clocks, given_clock
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.clock import Clocks, find_clocks, given_clock
 
 EARLIEST_START = np.datetime64("1970-01-01", "us")
 """LabVIEW writes 1904-01-01 where no start is known."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
-from colonnade.readers.text.lines.cells import SAMPLE_LINES, Dialect, kind_of, looks_like_numbers
+from colonnade.readers.text.lines.cells import SAMPLE_LINES, Dialect, is_sample, kind_of, looks_like_numbers
 
 LOOK_AHEAD = 10
 """Lines after a candidate that have to look like samples too, at least in this share:"""
@@ -71,19 +71,6 @@ def find_first_sample(lines: list[str], start: int, dialect: Dialect, kinds: lis
             if alike >= ALIKE * len(following):
                 return index
     return None
-
-
-def is_sample(line: str, dialect: Dialect, kinds: list[str]) -> bool:
-    """Whether a line holds something for each column, at least one number, and no text in a column of numbers."""
-    if dialect.is_comment(line):
-        return False
-    cells = dialect.split(line)
-    if len(cells) != len(kinds):
-        return False
-    found = [kind_of(cell, dialect) for cell in cells]
-    return "number" in found and all(
-        have == want or have == "missing" or want in ("text", "empty") for have, want in zip(found, kinds, strict=True)
-    )
 
 
 def _resembles_sample(line: str, dialect: Dialect, kinds: list[str]) -> bool:

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 
 from colonnade.arrays import Array
-from colonnade.readers.text.clock import even_times
+from colonnade.readers.clock import even_times
 
 _NUMBER = r"(\d*\.\d+|\d+\.?)"
 STEP = re.compile(

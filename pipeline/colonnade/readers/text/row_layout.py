@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array
-from colonnade.readers.text.clock import RISING_SHARE, equal_step, rising_share
+from colonnade.readers.clock import RISING_SHARE, equal_step, rising_share
 from colonnade.readers.text.header_claims import HeaderClaims
 from colonnade.readers.text.lines.rows import filled_length
 

@@ -13,9 +13,9 @@ from pydantic import Field
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError, nearest
+from colonnade.readers.clock import even_times
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import Format, Options, Recognition, refusing
-from colonnade.readers.text.clock import even_times
 from colonnade.readers.waveform.companions import companions_of
 from colonnade.readers.waveform.kinds import kind_of_waveform
 

@@ -156,3 +156,16 @@ def kind_of(cell: str, dialect: Dialect) -> str:
     if dialect.is_number(cell):
         return "number"
     return "time" if is_timestamp(cell) else "text"
+
+
+def is_sample(line: str, dialect: Dialect, kinds: list[str]) -> bool:
+    """Whether a line holds something for each column, at least one number, and no text in a column of numbers."""
+    if dialect.is_comment(line):
+        return False
+    cells = dialect.split(line)
+    if len(cells) != len(kinds):
+        return False
+    found = [kind_of(cell, dialect) for cell in cells]
+    return "number" in found and all(
+        have == want or have == "missing" or want in ("text", "empty") for have, want in zip(found, kinds, strict=True)
+    )

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from colonnade.readers.text.first_sample import is_sample
-from colonnade.readers.text.lines.cells import Dialect, kind_of, looks_like_numbers
+from colonnade.readers.text.lines.cells import Dialect, is_sample, kind_of, looks_like_numbers
 
 Fault = Literal["comment", "text", "cut", "struck out", "long", "short"]
 

@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as some
 
 from colonnade.errors import ReadError
+from colonnade.readers.clock import equal_step, given_clock, may_be_clock, rising_share
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import read
-from colonnade.readers.text.clock import equal_step, given_clock, may_be_clock, rising_share
 
 
 def recorded(folder: Path, text: str) -> Recording:
