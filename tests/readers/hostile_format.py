@@ -132,23 +132,8 @@ def chatter(victim: str) -> None:
 DEEDS = {
     deed.__name__: deed
     for deed in (
-        *(
-            crash,
-            abort,
-            stumble,
-            refuse,
-            swell,
-            swell_natively,
-            spin,
-            sleep,
-            look,
-            look_natively,
-            write,
-            write_natively,
-            remove,
-            spawn,
-        ),
-        *(spawn_natively, call, call_natively, unpickle, lie, chatter),
+        *(crash, abort, stumble, refuse, swell, swell_natively, spin, sleep, look, look_natively, write),
+        *(write_natively, remove, spawn, spawn_natively, call, call_natively, unpickle, lie, chatter),
     )
 }
 

@@ -91,8 +91,11 @@ def waveform(properties: Mapping[str, Any]) -> Waveform | None:
 
 def beginnings(waveforms: Sequence[Waveform | None]) -> list[float]:
     """Give the time of each channel's first sample from the earliest start in the file, s; NaN where none is known."""
-    zero = min((own.start for own in waveforms if own is not None and own.start is not None), default=None)
-    return [np.nan if own is None else own.offset + _late(own, zero) for own in waveforms]
+    zero = min(_starts(waveforms), default=EARLIEST_START)
+    return [
+        np.nan if own is None else own.offset + (0.0 if own.start is None else _seconds(own.start, zero))
+        for own in waveforms
+    ]
 
 
 def on_clocks(path: Path, columns: list[Column], time: str | int | None, time_unit: str | None) -> Recording:
@@ -115,10 +118,19 @@ def on_clocks(path: Path, columns: list[Column], time: str | int | None, time_un
     ReadError
         If there is no such channel, or it holds no number.
     """
-    zero = min((start for column in columns if (start := _start(column)) is not None), default=None)
+    waveforms = [column.waveform for column in columns]
     tracks: dict[tuple[float, float, int, int], Array] = {}
-    times = [_track(column, zero, tracks) for column in columns]
-    first = _first_sample(columns, times, zero)
+    times: list[Array | None] = []
+    for column, begin in zip(columns, beginnings(waveforms), strict=True):
+        own, size = column.waveform, column.channel.values.size
+        if own is None:
+            times.append(None)
+            continue
+        key = (begin, own.step, own.first, size)
+        if key not in tracks:  # channels with the same properties share their times
+            tracks[key] = begin + own.step * np.arange(own.first, own.first + size, dtype=np.float64)
+        times.append(tracks[key])
+    first = _first_sample(columns, times)
     clocks = _channels_of_times(columns, times)
     recording = Recording(path, "tdms", tuple(column.channel for column in columns), first)
     if time is not None:
@@ -133,44 +145,26 @@ def on_clocks(path: Path, columns: list[Column], time: str | int | None, time_un
     return replace(recording, notes=(*recording.notes, *_summary(columns, clocks.times)))
 
 
-def _start(column: Column) -> np.datetime64 | None:
-    return column.waveform.start if column.waveform else None
+def _starts(waveforms: Sequence[Waveform | None]) -> list[np.datetime64]:
+    return [own.start for own in waveforms if own is not None and own.start is not None]
 
 
 def _seconds(later: np.datetime64, earlier: np.datetime64) -> float:
     return float((later - earlier) / np.timedelta64(1, "us")) / 1e6
 
 
-def _late(own: Waveform, zero: np.datetime64 | None) -> float:
-    return _seconds(own.start, zero) if own.start is not None and zero is not None else 0.0
-
-
-def _track(
-    column: Column, zero: np.datetime64 | None, tracks: dict[tuple[float, float, int, int], Array]
-) -> Array | None:
-    """Times of a channel by its properties, s; channels with the same ones share the array."""
-    if column.waveform is None:
-        return None
-    begin = column.waveform.offset + _late(column.waveform, zero)
-    first = column.waveform.first
-    key = (begin, column.waveform.step, first, column.channel.values.size)
-    if key not in tracks:
-        tracks[key] = begin + column.waveform.step * np.arange(first, first + key[3], dtype=np.float64)
-    return tracks[key]
-
-
-def _first_sample(columns: list[Column], times: list[Array | None], zero: np.datetime64 | None) -> datetime | None:
+def _first_sample(columns: list[Column], times: list[Array | None]) -> datetime | None:
     """Date and time of the first sample, in UTC as TDMS keeps it."""
-    if zero is None:
-        moment = min((column.first for column in columns if column.first is not None), default=None)
+    dated = [
+        (column.waveform.start, float(time[0]))
+        for column, time in zip(columns, times, strict=True)
+        if column.waveform is not None and column.waveform.start is not None and time is not None
+    ]
+    if dated:
+        moment = min(start for start, _ in dated) + np.timedelta64(round(min(begin for _, begin in dated) * 1e6), "us")
     else:
-        offset = min(
-            float(time[0]) for column, time in zip(columns, times, strict=True) if _start(column) and time is not None
-        )
-        moment = zero + np.timedelta64(round(offset * 1e6), "us")
-    if moment is None:
-        return None
-    found = moment.astype("datetime64[us]").item()
+        moment = min((column.first for column in columns if column.first is not None), default=None)
+    found = None if moment is None else moment.astype("datetime64[us]").item()
     return found.replace(tzinfo=UTC) if isinstance(found, datetime) else None
 
 
@@ -222,8 +216,8 @@ def _summary(columns: list[Column], times: Sequence[Array | None]) -> list[str]:
         "by wf_increment"
         for step, count in steps.items()
     ]
-    starts = {start for column in columns if (start := _start(column)) is not None}
-    if len(starts) > 1:
+    starts = _starts([column.waveform for column in columns])
+    if min(starts, default=None) != max(starts, default=None):
         notes.append(
             f"channels start up to {_seconds(max(starts), min(starts)):.6g} s apart, by wf_start_time: "
             "each keeps a clock of its own"
