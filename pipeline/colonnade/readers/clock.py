@@ -156,7 +156,7 @@ def rising_share(values: Array) -> float:
 def equal_step(values: Array, tolerance: float) -> float | None:
     """Mean step of values that rise in equal steps, within a share of the mean; None if they do not."""
     steps = np.diff(values)
-    if not steps.size or not (steps > 0).all():
+    if not steps.size or not (steps > 0).all() or not np.isfinite(steps).all():
         return None
     mean = float((values[-1] - values[0]) / steps.size)
     return mean if np.abs(steps - mean).max() <= tolerance * mean else None
