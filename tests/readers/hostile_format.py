@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 
 from colonnade.errors import ReadError
+from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.registry import Format, Options, Recognition
 
 
 class Deed(Options):

@@ -14,8 +14,9 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers import registry
+from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import Recording
-from colonnade.readers.registry import Format, Options, Recognition, formats, read
+from colonnade.readers.registry import formats, read
 from colonnade.readers.text.delimited import FORMAT as DELIMITED
 
 

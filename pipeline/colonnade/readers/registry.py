@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import replace
 from functools import cache
 from importlib import import_module
 from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ValidationError
 
 from colonnade.errors import ReadError, nearest, quoted
 from colonnade.readers.bounded import process as bounded
 from colonnade.readers.bounded.bounds import bounds_of
 from colonnade.readers.bounded.messages import Request
+from colonnade.readers.format import Format, Recognition
 from colonnade.readers.irregular import irregular
 from colonnade.readers.recording import Recording, Window
+from colonnade.readers.refusal import in_one_line, refusing, unreachable
 
 OWN = (
     *("strong_motion.bhrc", "binary.catman", "strong_motion.cosmos", "text.delimited", "diadem.file", "excel.workbook"),
@@ -33,71 +35,6 @@ MOST_GENERAL = "delimited"
 
 LONG_FILE = 100_000_000
 """Bytes from which on a file is not read further than it is needed."""
-
-
-@dataclass(frozen=True)
-class Recognition:
-    """
-    Whether a file looks like a format's, with the reason, which is shown if no format takes it.
-
-    Attributes
-    ----------
-    yes : bool
-    reason : str
-    is_known : bool
-        Whether the file is known to be of a format that is not read here, as `reason` says: no other format is asked.
-    """
-
-    yes: bool
-    reason: str
-    is_known: bool = False
-
-
-class Options(BaseModel):
-    """What can be said about a file of a format; nothing has to be, and nothing can unless a format adds to it."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-@dataclass(frozen=True)
-class Format:
-    """
-    One raw format.
-
-    Attributes
-    ----------
-    name : str
-        As in `file = {format = "…"}`.
-    summary : str
-        One line for `show formats`.
-    suffixes : tuple of str
-        Usual file name endings, such as `.csv`; they are shown, never relied on.
-    recognise : callable
-        Path -> Recognition, from the head of the file.
-    read : callable
-        (Path, options) -> Recording, which is refused if no channel has values; raises ReadError.
-    options : type of Options
-        What can be said about a file of this format; all of it optional.
-    read_window : callable or None
-        (Path, options, Window) -> Recording that holds at least the window, in memory for little more than that.
-    modules : tuple of str
-        What `read` imports only then; the bounded process imports it once for all files.
-    companions : callable or None
-        (Path, options) -> names of the other files that hold a part of it, all in its folder; raises ReadError.
-    in_process : bool
-        Whether `read` runs in this process: text, taken apart by code of our own. All else is read in the bounded one.
-    """
-
-    name: str
-    summary: str
-    suffixes: tuple[str, ...]
-    recognise: Callable[[Path], Recognition]
-    read: Callable[[Path, Any], Recording]
-    options: type[Options] = Options
-    read_window: Callable[[Path, Any, Window], Recording] | None = None
-    modules: tuple[str, ...] = ()
-    companions: Callable[[Path, Any], tuple[str, ...]] | None = None
-    in_process: bool = False
 
 
 @cache
@@ -247,28 +184,6 @@ def _guarded(format: Format, path: Path, options: BaseModel, window: Window | No
     return recording
 
 
-@contextmanager
-def refusing(path: Path, kind: str) -> Iterator[None]:
-    """Turn whatever a parser stumbles over, in a file that is read as a kind, into a message of what to do."""
-    try:
-        yield
-    except (ReadError, MemoryError):
-        raise
-    except Exception as error:
-        if isinstance(error, OSError) and error.errno is not None:
-            raise ReadError(_unreachable(path, error)) from error
-        raise ReadError(
-            f"{path.name}: it cannot be read as {kind} ({_told(error)}). The file is damaged, was cut off, or is of a "
-            "version that is not known here. Copy it from the recorder again, or export it as text."
-        ) from error
-
-
-def _told(error: Exception) -> str:
-    """What a parser says of itself, in one line."""
-    said = " ".join(str(error).split())[:200]
-    return f"{type(error).__name__}: {said}" if said else type(error).__name__
-
-
 def _named(name: str) -> Format:
     if name not in formats():
         raise ReadError(f'Unknown format "{name}".{nearest(name, formats())}')
@@ -278,11 +193,12 @@ def _named(name: str) -> Format:
 def _recognised(path: Path) -> tuple[Format, tuple[str]]:
     """Find the format of a file, with the reason."""
     refusals = []
-    if path.is_file() and path.stat().st_size == 0:
-        raise ReadError(
-            f"{path.name}: the file is empty (0 bytes): nothing was recorded, or a copy was interrupted. Put the "
-            "recording in its place."
-        )
+    with suppress(OSError):  # the first format that opens it says why
+        if path.stat().st_size == 0:
+            raise ReadError(
+                f"{path.name}: the file is empty (0 bytes): nothing was recorded, or a copy was interrupted. Put the "
+                "recording in its place."
+            )
     for format in formats().values():
         recognition = _recognition(format, path)
         if recognition.yes:
@@ -305,17 +221,5 @@ def _recognition(format: Format, path: Path) -> Recognition:
         raise
     except Exception as error:
         if isinstance(error, OSError) and error.errno is not None:
-            raise ReadError(_unreachable(path, error)) from error
-        return Recognition(False, f"it could not be looked at ({_told(error)})")
-
-
-def _unreachable(path: Path, error: OSError) -> str:
-    if isinstance(error, FileNotFoundError):
-        there = sorted(entry.name for entry in path.parent.glob(f"*{path.suffix}")) if path.parent.is_dir() else []
-        folder = f"in {path.parent}" if path.parent.is_dir() else f", as there is no folder {path.parent}"
-        return f"{path.name}: there is no such file {folder}.{nearest(path.name, there)}".replace(" ,", ",")
-    if isinstance(error, IsADirectoryError):
-        return f"{path.name}: this is a folder; a raw file was expected."
-    return (
-        f"{path.name}: it cannot be opened ({error.strerror}). Check that you may read it and that its disk is there."
-    )
+            raise ReadError(unreachable(path, error)) from error
+        return Recognition(False, f"it could not be looked at ({in_one_line(error)})")

@@ -15,8 +15,8 @@ from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.binary.stored_numbers import Bytes, StoredNumbers, values_at
 from colonnade.readers.clock import RISING_SHARE, TIME_NAME, even_times, moment_after, rising_share
+from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
-from colonnade.readers.registry import Format, Options, Recognition
 
 VERSIONS = range(5010, 5100)
 RESERVED_TEXTS = 32

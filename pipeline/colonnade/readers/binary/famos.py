@@ -13,8 +13,8 @@ from colonnade.arrays import Array
 from colonnade.readers.binary.magic import by_mark
 from colonnade.readers.binary.stored_numbers import Bytes, StoredNumbers, values_at
 from colonnade.readers.clock import even_times, moment_after
+from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
-from colonnade.readers.registry import Format, Options, Recognition
 
 SIGNATURE = b"|CF,"
 NUMBERS = {1: "u1", 2: "i1", 3: "u2", 4: "i2", 5: "u4", 6: "i4", 7: "f4", 8: "f8", 11: "u2", 12: "u8", 14: "i8"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from colonnade.readers.registry import Recognition
+from colonnade.readers.format import Recognition
 
 HEAD = 640
 """As many bytes as say what a file is: HDF5's signature may stand behind 512 bytes of another header."""

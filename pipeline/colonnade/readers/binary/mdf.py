@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.readers.binary.magic import by_mark
+from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.registry import Format, Options, Recognition
 
 SIGNATURES = (b"MDF     ", b"UnFinMF ")
 """First bytes of a file that was closed, and of one that was not."""

@@ -14,8 +14,8 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
+from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
-from colonnade.readers.registry import Format, Options, Recognition
 from colonnade.readers.text.lines.running import read_running
 
 MARK = "-1"

@@ -11,8 +11,8 @@ from pydantic import Field
 from colonnade.arrays import Array
 from colonnade.readers.binary.vectors import Column
 from colonnade.readers.clock import RISING_SHARE, TIME_NAME, Clocks, even_times, may_be_clock, rising_share
+from colonnade.readers.format import Options
 from colonnade.readers.recording import TIME_UNITS, TimeUnit
-from colonnade.readers.registry import Options
 
 PLAIN_NAME = re.compile(r"t|time", re.IGNORECASE)
 OTHER_NAME = re.compile(

@@ -11,8 +11,8 @@ from colonnade.readers.binary.stored_numbers import StoredNumbers, beside, name_
 from colonnade.readers.clock import even_times, find_clocks
 from colonnade.readers.diadem.dat import SIGNATURE, channels_in_dat
 from colonnade.readers.diadem.tdm import channels_in_tdm
+from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.registry import Format, Options, Recognition
 from colonnade.readers.text.lines.numbered import first_lines
 
 

@@ -15,8 +15,9 @@ from colonnade.errors import ReadError, nearest
 from colonnade.readers.binary.magic import OLE, ZIP, head, look
 from colonnade.readers.excel import guard
 from colonnade.readers.excel.cells import CellColumn, column_kinds, find_block, take_column
+from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import Recording
-from colonnade.readers.registry import Format, Recognition
+from colonnade.readers.refusal import in_one_line
 from colonnade.readers.text.header_claims import header_claims
 from colonnade.readers.text.heading import describe_columns, find_heading
 from colonnade.readers.text.lines.cells import Dialect
@@ -165,7 +166,7 @@ def _sheet(path: Path, wanted: str | int | None) -> tuple[str, list[list[Any]], 
         if isinstance(error, (KeyboardInterrupt, SystemExit, MemoryError)):
             raise
         raise ReadError(
-            f"{path.name}: it cannot be opened as a workbook ({' '.join(str(error).split())[:150]}): it is damaged, "
+            f"{path.name}: it cannot be opened as a workbook ({in_one_line(error)}): it is damaged, "
             "protected by a password, or another kind of document. Save it again as .xlsx, or as CSV."
         ) from None
     name, rows = max(sheets, key=lambda sheet: _samples(sheet[1]), default=("", []))

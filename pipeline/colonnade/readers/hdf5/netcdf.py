@@ -17,9 +17,9 @@ from colonnade.readers.binary.magic import HDF5, NETCDF, by_mark, head
 from colonnade.readers.binary.vector_clocks import ClockOptions, find_clocks
 from colonnade.readers.binary.vectors import Column, named, recorded
 from colonnade.readers.clock import Clocks, given_clock
+from colonnade.readers.format import Format, Recognition
 from colonnade.readers.hdf5.content import Variable, read_classic, read_hdf5
 from colonnade.readers.recording import TIME_UNITS, Recording
-from colonnade.readers.registry import Format, Recognition
 
 MOST_COLUMNS = 1000
 """Of one variable; a wider one is no table of channels."""

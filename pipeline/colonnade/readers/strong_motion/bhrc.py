@@ -10,8 +10,8 @@ import numpy as np
 
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
+from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.registry import Format, Options, Recognition
 from colonnade.readers.text.lines.numbered import NumberedLines, first_lines
 from colonnade.readers.text.lines.running import read_running, shortage
 

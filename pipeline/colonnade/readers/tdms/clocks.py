@@ -160,11 +160,14 @@ def _first_sample(columns: list[Column], times: list[Array | None]) -> datetime 
         for column, time in zip(columns, times, strict=True)
         if column.waveform is not None and column.waveform.start is not None and time is not None
     ]
+    stamps = [column.first for column in columns if column.first is not None]
     if dated:
         moment = min(start for start, _ in dated) + np.timedelta64(round(min(begin for _, begin in dated) * 1e6), "us")
+    elif stamps:
+        moment = min(stamps)
     else:
-        moment = min((column.first for column in columns if column.first is not None), default=None)
-    found = None if moment is None else moment.astype("datetime64[us]").item()
+        return None
+    found = moment.astype("datetime64[us]").item()
     return found.replace(tzinfo=UTC) if isinstance(found, datetime) else None
 
 

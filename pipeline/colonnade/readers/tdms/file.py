@@ -16,8 +16,8 @@ from colonnade.errors import ReadError, nearest
 from colonnade.readers.binary.magic import by_mark
 from colonnade.readers.binary.vector_clocks import ClockOptions
 from colonnade.readers.binary.vectors import as_values
+from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import RecordedChannel, Recording, Window
-from colonnade.readers.registry import Format, Recognition
 from colonnade.readers.tdms.clocks import NO_TIMING, Column, beginnings, on_clocks, waveform
 from colonnade.readers.tdms.segments import missing_samples, walk
 from colonnade.readers.text.heading import take_apart

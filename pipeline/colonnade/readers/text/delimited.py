@@ -10,8 +10,8 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
+from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import TIME_UNITS, Recording, Window
-from colonnade.readers.registry import Format, Recognition
 from colonnade.readers.strong_motion.refused import foreign_format
 from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
 from colonnade.readers.text.lines.cells import WHITESPACE

@@ -11,8 +11,8 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.readers.clock import even_times, moment_after
+from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.registry import Format, Recognition
 from colonnade.readers.text.heading import take_apart
 from colonnade.readers.text.lines.encoding import TextOptions
 from colonnade.readers.text.lines.numbered import NumberedLines, first_lines

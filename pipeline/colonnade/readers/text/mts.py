@@ -15,8 +15,8 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.clock import RISING_SHARE, moment_after, rising_share
+from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
-from colonnade.readers.registry import Format, Recognition
 from colonnade.readers.text.heading import looks_like_unit
 from colonnade.readers.text.lines.cells import WHITESPACE, Dialect, is_timestamp
 from colonnade.readers.text.lines.damage import mend

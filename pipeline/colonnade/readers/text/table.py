@@ -13,8 +13,8 @@ from pydantic import Field, model_validator
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.clock import Clocks, find_clocks, given_clock
+from colonnade.readers.format import Options
 from colonnade.readers.recording import RecordedChannel, Recording, TimeUnit
-from colonnade.readers.registry import Options
 from colonnade.readers.text.header_claims import HeaderClaims
 from colonnade.readers.text.heading import Heading, HeadingLines
 from colonnade.readers.text.row_layout import Named, Verdict, judge

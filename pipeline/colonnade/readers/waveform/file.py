@@ -14,8 +14,9 @@ from pydantic import Field
 from colonnade.arrays import Array
 from colonnade.errors import ReadError, nearest
 from colonnade.readers.clock import even_times
+from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.registry import Format, Options, Recognition, refusing
+from colonnade.readers.refusal import refusing
 from colonnade.readers.waveform.companions import companions_of
 from colonnade.readers.waveform.kinds import kind_of_waveform
 

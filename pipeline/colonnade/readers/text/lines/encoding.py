@@ -10,7 +10,7 @@ from typing import Annotated, TextIO
 
 from pydantic import AfterValidator, Field
 
-from colonnade.readers.registry import Options
+from colonnade.readers.format import Options
 
 HEAD_BYTES = 1 << 18
 """As much of a file as is looked at to find out how it is written."""

@@ -1,0 +1,44 @@
+"""What is said of a file that cannot be opened, or that its parser stumbles over."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from colonnade.errors import ReadError, nearest
+
+
+@contextmanager
+def refusing(path: Path, kind: str) -> Iterator[None]:
+    """Turn whatever a parser stumbles over, in a file that is read as a kind, into a message of what to do."""
+    try:
+        yield
+    except (ReadError, MemoryError):
+        raise
+    except Exception as error:
+        if isinstance(error, OSError) and error.errno is not None:
+            raise ReadError(unreachable(path, error)) from error
+        raise ReadError(
+            f"{path.name}: it cannot be read as {kind} ({in_one_line(error)}). The file is damaged, was cut off, or is "
+            "of a version that is not known here. Copy it from the recorder again, or export it as text."
+        ) from error
+
+
+def in_one_line(error: BaseException) -> str:
+    """What a parser says of itself, in one line."""
+    said = " ".join(str(error).split())[:200]
+    return f"{type(error).__name__}: {said}" if said else type(error).__name__
+
+
+def unreachable(path: Path, error: OSError) -> str:
+    """Say why a file cannot be opened, with the nearest name if it is missing."""
+    if isinstance(error, FileNotFoundError):
+        there = sorted(entry.name for entry in path.parent.glob(f"*{path.suffix}")) if path.parent.is_dir() else []
+        folder = f"in {path.parent}" if path.parent.is_dir() else f", as there is no folder {path.parent}"
+        return f"{path.name}: there is no such file {folder}.{nearest(path.name, there)}".replace(" ,", ",")
+    if isinstance(error, IsADirectoryError):
+        return f"{path.name}: this is a folder; a raw file was expected."
+    return (
+        f"{path.name}: it cannot be opened ({error.strerror}). Check that you may read it and that its disk is there."
+    )
