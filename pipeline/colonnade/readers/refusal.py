@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,12 +18,13 @@ def refusing(path: Path, kind: str) -> Iterator[None]:
     except (ReadError, MemoryError):
         raise
     except Exception as error:
-        if isinstance(error, OSError) and error.errno is not None:
+        # A damaged file may send its parser to a place before its start.
+        if isinstance(error, OSError) and error.errno not in (None, errno.EINVAL):
             raise ReadError(unreachable(path, error)) from error
         raise ReadError(
             f"{path.name}: it cannot be read as {kind} ({in_one_line(error)}). The file is damaged, was cut off, or is "
             "of a version that is not known here. Copy it from the recorder again, or export it as text."
-        ) from error
+        ) from (None if isinstance(error, OSError) else error)
 
 
 def in_one_line(error: BaseException) -> str:
