@@ -19,7 +19,7 @@ from colonnade.stages import ensemble as running
 from colonnade.stages import ingest as ingesting
 from colonnade.stages import restitution as identifying
 from colonnade.stages import rocking as rocking_stage
-from colonnade.stages.parts.horizon import horizons_and_ranks
+from colonnade.stages.parts.rank import horizons_and_ranks
 from spread_verdicts.design import RESTITUTION_ERROR, campaign_text, draw
 
 MODEL = "nonlinear"

@@ -94,7 +94,7 @@ def test_the_prisms_outcomes_are_those_of_the_programme(prism: WrittenCampaign) 
         **dict.fromkeys(["span-2.0", "span-2.5", "span-3.0"], "rocking"),
     }
     assert prism.truth["specimens"]["prism"]["restitution"] == 0.976
-    assert json.loads(prism.truth_path.read_text()) == prism.truth
+    assert json.loads((prism.path.parent / "truth" / "truth.json").read_text()) == prism.truth
 
 
 def test_its_campaign_file_loads_with_the_block_that_was_simulated(prism: WrittenCampaign) -> None:

@@ -1,11 +1,12 @@
-"""Raw files as recorders write them: what every format has, and delimited text in several flavours."""
+"""Raw files as recorders write them: delimited text in several flavours, LabVIEW's and MATLAB's own."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
 
@@ -36,11 +37,9 @@ class Sheet:
 
 
 class FileFormat(Protocol):
-    """A way to write raw files."""
+    """A way to write raw files; `suffix` ends their names."""
 
-    @property
-    def suffix(self) -> str:
-        """Ending of its files' names."""
+    suffix: ClassVar[str]
 
     def declaration(self) -> Mapping[str, str]:
         """Keys of `file` in the campaign file; none where it is left to be sniffed."""
@@ -75,10 +74,7 @@ class Flavour:
     units_in_names: bool = False
     declared: bool = False
 
-    @property
-    def suffix(self) -> str:
-        """Ending of its files' names."""
-        return ".csv"
+    suffix: ClassVar[str] = ".csv"
 
     def declaration(self) -> Mapping[str, str]:
         """Keys of `file` in the campaign file; none where it is left to be sniffed."""
@@ -88,8 +84,17 @@ class Flavour:
         return said | {"time": self.heading(self.time_name, "s")}
 
     def content(self, sheet: Sheet) -> bytes:
-        """Bytes of a file."""
-        return delimited_text(sheet.time, sheet.columns, self).encode(self.encoding)
+        """Bytes of a file; four decimals of the times are written, six of the values."""
+        named = {self.time_name: ("s", sheet.time), **sheet.columns}
+        lines = [*self.preamble, self.delimiter.join(self.heading(name, unit) for name, (unit, _) in named.items())]
+        if not self.units_in_names:
+            lines.append(self.delimiter.join(unit for unit, _ in named.values()))
+        row = self.delimiter.join(["%.4f", *(["%.6f"] * len(sheet.columns))])
+        table = np.column_stack([values for _, values in named.values()])
+        samples = [row % tuple(values) for values in table.tolist()]
+        if self.decimal != ".":
+            samples = [sample.replace(".", self.decimal) for sample in samples]
+        return "\n".join([*lines, *samples, ""]).encode(self.encoding)
 
     def heading(self, name: str, unit: str) -> str:
         """Name of a column as it stands in the file."""
@@ -114,33 +119,68 @@ TABS = Flavour(delimiter="\t", preamble=("Data logger export",))
 """Tab-separated, names above a row of units, below one line of text."""
 
 
-def delimited_text(time: Array, columns: Mapping[str, tuple[str, Array]], flavour: Flavour) -> str:
-    """
-    Write out the columns of a recorder.
+MATLAB_HEADER = b"MATLAB 5.0 MAT-file, Platform: virtual shake table"
+"""First bytes of a MATLAB file; scipy would put the time of writing there, and no two files would be alike."""
 
-    Parameters
-    ----------
-    time : ndarray, shape (n,)
-        s, from the recorder's own zero.
-    columns : mapping of str to (str, ndarray of shape (n,))
-        Unit and values by name; six decimals are written.
-    flavour : Flavour
 
-    Returns
-    -------
-    text : str
-    """
-    named = {flavour.time_name: ("s", time), **columns}
-    names = [flavour.heading(name, unit) for name, (unit, _) in named.items()]
-    lines = [*flavour.preamble, flavour.delimiter.join(names)]
-    if not flavour.units_in_names:
-        lines.append(flavour.delimiter.join(unit for unit, _ in named.values()))
-    row = flavour.delimiter.join(["%.4f", *(["%.6f"] * len(columns))])
-    table = np.column_stack([values for _, values in named.values()])
-    samples = [row % tuple(values) for values in table.tolist()]
-    if flavour.decimal != ".":
-        samples = [sample.replace(".", flavour.decimal) for sample in samples]
-    return "\n".join([*lines, *samples, ""])
+@dataclass(frozen=True)
+class Tdms:
+    """LabVIEW's TDMS: one group, each channel with its unit and the properties of a waveform."""
+
+    group: str = "Messung"
+
+    suffix: ClassVar[str] = ".tdms"
+
+    def declaration(self) -> Mapping[str, str]:
+        """Return the keys of `file` in the campaign file."""
+        return {"format": "tdms", "group": self.group}
+
+    def content(self, sheet: Sheet) -> bytes:
+        """Return the bytes of a file."""
+        from nptdms import ChannelObject, GroupObject, RootObject, TdmsWriter
+
+        channels = [
+            ChannelObject(
+                self.group,
+                name,
+                values,
+                properties={
+                    "wf_start_time": sheet.begun,
+                    "wf_start_offset": 0.0,
+                    "wf_increment": 1.0 / sheet.sampling_rate_hz,
+                    "wf_samples": values.size,
+                    "unit_string": unit,
+                },
+            )
+            for name, (unit, values) in sheet.columns.items()
+        ]
+        stream = BytesIO()
+        with TdmsWriter(stream) as writer:
+            writer.write_segment([RootObject(), GroupObject(self.group), *channels])
+        return stream.getvalue()
+
+
+@dataclass(frozen=True)
+class Matlab:
+    """MATLAB's own files, version 5: the clock and each column a variable; it has no place for units."""
+
+    time_name: str = "time"
+
+    suffix: ClassVar[str] = ".mat"
+
+    def declaration(self) -> Mapping[str, str]:
+        """Return the keys of `file` in the campaign file."""
+        return {"format": "matlab", "time": self.time_name}
+
+    def content(self, sheet: Sheet) -> bytes:
+        """Return the bytes of a file."""
+        from scipy.io import savemat
+
+        variables = {self.time_name: sheet.time} | {name: values for name, (_, values) in sheet.columns.items()}
+        stream = BytesIO()
+        savemat(stream, variables, do_compression=True, oned_as="column")
+        written = stream.getvalue()
+        return MATLAB_HEADER.ljust(116) + written[116:]
 
 
 def put(path: Path, data: bytes) -> None:

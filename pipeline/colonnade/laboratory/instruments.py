@@ -8,12 +8,10 @@ from typing import Literal
 import numpy as np
 
 from colonnade import units
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Vector
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
 from colonnade.laboratory.table import TableMotion
-
-Vector = tuple[float, float, float]
 
 VOLTS = 10.0
 """Every chain puts out ±10 V."""

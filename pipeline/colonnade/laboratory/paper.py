@@ -9,9 +9,8 @@ import numpy as np
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory import ladder
-from colonnade.laboratory.binary_files import Matlab, Tdms
 from colonnade.laboratory.experiment import Plan, Setup, Specimen, Trial
-from colonnade.laboratory.files import COMMAS, FileFormat
+from colonnade.laboratory.files import COMMAS, FileFormat, Matlab, Tdms
 from colonnade.laboratory.programme import paper_prism
 from colonnade.laboratory.rig import bench, frame, prism_setups, shake_table, table_acceleration, table_displacement
 from colonnade.laboratory.trials import LENGTH_SCALE, Placed, earthquakes, free_vibrations, sine

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -26,13 +27,6 @@ SINES = (("sine-3Hz", 3.0, 0.80), ("sine-5Hz", 5.0, 1.50), ("sine-4Hz", 4.0, 1.8
 """Id, Hz, A: no rocking, rocking twice, overturning; each outcome holds for 15 % less and more of A."""
 
 
-class Programme(Protocol):
-    """Plans a campaign around an earthquake record."""
-
-    def __call__(self, name: str, record: Motion, *, seed: int) -> Plan:
-        """Plan it."""
-
-
 @dataclass(frozen=True)
 class WrittenCampaign:
     """
@@ -42,14 +36,12 @@ class WrittenCampaign:
     ----------
     path : Path
         Its campaign.toml.
-    truth_path : Path
-        Its truth.json; the true angle of each test is next to it.
     truth : dict
-        What truth.json holds: by specimen `restitution` and more, by test `outcome`, `peak_ratio` and more.
+        What truth/truth.json next to it holds: by specimen `restitution` and more, by test `outcome`, `peak_ratio` and
+        more. The true angle of each test is in the same folder.
     """
 
     path: Path
-    truth_path: Path
     truth: dict[str, Any]
 
 
@@ -58,7 +50,7 @@ def write_campaign(
     *,
     seed: int = 0,
     motion: Path | None = None,
-    programme: Programme | None = None,
+    programme: Callable[..., Plan] | None = None,
     workers: int | None = 1,
 ) -> WrittenCampaign:
     """
@@ -104,7 +96,7 @@ def write(plan: Plan, folder: Path | str, *, seed: int = 0, workers: int | None 
     records = run_tests(plan, folder, seed, workers)
     truth = write_truth(plan, records, folder, seed)
     put(folder / FILE_NAME, campaign_text(plan).encode())
-    return WrittenCampaign(folder / FILE_NAME, folder / "truth" / "truth.json", truth)
+    return WrittenCampaign(folder / FILE_NAME, truth)
 
 
 def prism_programme(name: str, record: Motion, *, seed: int = 0) -> Plan:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 
 LONGEST_BRIDGE = 5
 """Intervals; over a longer gap values are not interpolated but missing."""
@@ -36,7 +35,7 @@ def uniform_clock(start: float, stop: float, interval: float) -> Array:
     return start + interval * np.arange(max(count, 0), dtype=np.float64)
 
 
-def resample(time: Array, values: Array, onto: Array, interval: float) -> tuple[Array, NDArray[np.bool_]]:
+def resample(time: Array, values: Array, onto: Array, interval: float) -> tuple[Array, Mask]:
     """
     Bring values to another clock.
 

@@ -101,14 +101,14 @@ def find_rate(time: Array, reference: Array, values: Array, *, delay: float, ban
     weights = 1 / errors**2
     middle = float(np.average(middles, weights=weights))
     across = middles - middle
-    spread = float(weights @ across**2)
+    leverage = float(weights @ across**2)
     mean = float(np.average(delays, weights=weights))
-    slope = float(weights @ (across * delays)) / spread
+    slope = float(weights @ (across * delays)) / leverage
     misfit = float(weights @ (delays - mean - slope * across) ** 2) / (middles.size - 2)
     widened = float(np.sqrt(max(misfit, 1.0)))
     return ClockRate(
         slope,
-        widened / float(np.sqrt(spread)),
+        widened / float(np.sqrt(leverage)),
         mean,
         widened / float(np.sqrt(weights.sum())),
         middle,

@@ -5,10 +5,9 @@ from __future__ import annotations
 from math import acosh
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import signal
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 
 SMALL_AMPLITUDE = 0.02
 """|θ|/α whose rocking frequency, the highest of interest, sets the default cut-off."""
@@ -96,7 +95,7 @@ def second_derivative(values: Array, interval: float, cutoff_hz: float) -> Array
     return derivative
 
 
-def noise_below(values: Array, interval: float, cutoff_hz: float, order: int, counted: NDArray[np.bool_]) -> float:
+def noise_below(values: Array, interval: float, cutoff_hz: float, order: int, counted: Mask) -> float:
     """
     Standard deviation of what noise a low-pass leaves, taken the noise is white.
 
@@ -111,5 +110,5 @@ def noise_below(values: Array, interval: float, cutoff_hz: float, order: int, co
     """
     above = (values - lowpass(values, interval, cutoff_hz, order))[counted]
     kept = min(2 * cutoff_hz * interval, 0.9)
-    spread = 1.4826 * float(np.median(np.abs(above - np.median(above))))
-    return spread * float(np.sqrt(kept / (1 - kept)))
+    deviation = 1.4826 * float(np.median(np.abs(above - np.median(above))))
+    return deviation * float(np.sqrt(kept / (1 - kept)))

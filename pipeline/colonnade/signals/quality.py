@@ -9,8 +9,9 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from colonnade.arrays import Array, Mask
+from colonnade.arrays import Array, Codes, Mask
 from colonnade.findings import Finding, Severity
+from colonnade.signals.stretches import filled_in, stretches
 
 ENOUGH = 100_000
 """Samples from which a median is known well enough."""
@@ -83,7 +84,7 @@ class Verdict:
         return cls(Flag.GOOD, np.zeros(size, dtype=bool), "")
 
 
-def combine(verdicts: Iterable[Verdict], size: int) -> tuple[NDArray[np.int8], list[Finding]]:
+def combine(verdicts: Iterable[Verdict], size: int) -> tuple[Codes, list[Finding]]:
     """
     Merge verdicts into one flag a sample, the worst one, and the list of what was found.
 
@@ -142,9 +143,7 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
 def check_flat(time: Array, values: Array, *, duration: float) -> Verdict:
     """Flag stretches on which the value stays exactly the same for longer than `duration` (s)."""
     # Runs of steps without a change, each from the sample before its first step to that after its last.
-    still = np.zeros(values.size + 1, dtype=bool)
-    np.equal(values[1:], values[:-1], out=still[1:-1])
-    starts, stops = np.flatnonzero(still[1:] > still[:-1]), np.flatnonzero(still[1:] < still[:-1])
+    starts, stops = stretches(values[1:] == values[:-1])
     long = time[stops] - time[starts] > duration
     if not long.any():
         return Verdict.good(values.size)
@@ -207,12 +206,7 @@ def _filled(values: Array) -> Array | None:
     """Values with lines over the missing ones; None where there are too few of them."""
     if values.size >= 15 and is_finite(values):
         return values
-    finite = np.isfinite(values)
-    if finite.sum() < 15:
-        return None
-    if finite.all():
-        return values
-    return np.interp(np.arange(values.size), np.flatnonzero(finite), values[finite])
+    return filled_in(values) if np.isfinite(values).sum() >= 15 else None
 
 
 def _bend(before: Array, sample: Array, behind: Array) -> Array:
@@ -243,7 +237,7 @@ def _bent(values: Array, limit: float) -> NDArray[np.intp]:
 
 
 def _roughness(values: Array, places: NDArray[np.intp]) -> Array:
-    """Spread of the second difference around some of its places."""
+    """Size of the second difference around some of its places."""
     # The upper tenth, not the median: a motion recorded at few samples a period is rough now and then all along.
     bends = values.size - 2
     size = min(NEIGHBOURHOOD, bends)
@@ -253,12 +247,12 @@ def _roughness(values: Array, places: NDArray[np.intp]) -> Array:
         bend = _bend(values[:-2], values[1:-1], values[2:])
         return np.asarray(percentile_filter(bend, 90, size=size, mode="nearest")[places]) / 1.645
     half, rank = size // 2, int(0.9 * size)
-    spread = np.empty(places.size)
+    roughness = np.empty(places.size)
     for part in blocks(places.size, BLOCK // size):
         around = np.clip(places[part, None] + np.arange(-half, size - half), 0, bends - 1)
         bend = _bend(values[around], values[around + 1], values[around + 2])
-        spread[part] = np.partition(bend, rank, axis=1)[:, rank] / 1.645
-    return spread
+        roughness[part] = np.partition(bend, rank, axis=1)[:, rank] / 1.645
+    return roughness
 
 
 def _standing_out(values: Array, places: NDArray[np.intp], least: Array, width: int) -> Mask:
@@ -290,12 +284,12 @@ def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:
     share : float
         Smallest standard deviation over that of the reference.
     """
-    spread, expected = float(np.nanstd(values)), float(np.nanstd(reference))
-    if not spread < share * expected:
+    deviation, expected = float(np.nanstd(values)), float(np.nanstd(reference))
+    if not deviation < share * expected:
         return Verdict.good(values.size)
     reason = (
-        f"the channel is practically dead: its standard deviation is {spread:.3g}, that of the table's {expected:.3g} "
-        "in the same unit; look at its cable, sensor and range"
+        f"the channel is practically dead: its standard deviation is {deviation:.3g}, that of the table's "
+        f"{expected:.3g} in the same unit; look at its cable, sensor and range"
     )
     return Verdict(Flag.SUSPECT, np.ones(values.size, dtype=bool), reason, "dead channel", Severity.SERIOUS)
 

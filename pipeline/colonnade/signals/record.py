@@ -7,13 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Codes, Mask
 from colonnade.signals.clock import LONGEST_BRIDGE, resample, uniform_clock
 from colonnade.signals.filters import lowpass, noise_below
 from colonnade.signals.quality import Flag
 from colonnade.signals.timing import read_clock
-
-Flags = NDArray[np.int8]
 
 EMPTIEST = 100
 """Intervals a sample; a clock with fewer samples is not worth to be made even (nor would it fit into memory)."""
@@ -40,14 +38,14 @@ class Record:
 
     time: Array
     values: Array
-    missing: NDArray[np.bool_]
+    missing: Mask
     interval: float
     stamps: Array
-    flags: Flags
-    bad: NDArray[np.bool_]
+    flags: Codes
+    bad: Mask
 
 
-def even_record(stamps: Array, values: Array, flags: Flags) -> Record:
+def even_record(stamps: Array, values: Array, flags: Codes) -> Record:
     """
     Put a channel on an even clock.
 
@@ -94,7 +92,7 @@ def smoothed(record: Record, cutoff_hz: float, order: int) -> tuple[Array, float
     return lowpass(record.values, record.interval, cutoff_hz, order), noise
 
 
-def on_clock(record: Record, values: Array, clock: Array) -> tuple[Array, Flags]:
+def on_clock(record: Record, values: Array, clock: Array) -> tuple[Array, Codes]:
     """
     Bring values of a record's own clock to another one.
 

@@ -79,9 +79,9 @@ def read_clock(stamps: Array) -> Clock:
         even, interval = _even(kept, stamps[kept], resolution)
         misfit = float(np.abs(even - stamps[kept]).max())
         if 1e-6 * interval < misfit <= ROUNDING * resolution and (np.diff(even) > 0).all():
-            return Clock(_spread(kept, even, stamps.size), interval, resolution)
+            return Clock(_in_place(kept, even, stamps.size), interval, resolution)
     kept = _in_order(stamps, repeats=False)
-    return Clock(_spread(kept, stamps[kept], stamps.size), sampling_interval(stamps[kept]), 0.0)
+    return Clock(_in_place(kept, stamps[kept], stamps.size), sampling_interval(stamps[kept]), 0.0)
 
 
 def check_order(stamps: Array, clock: Clock) -> Verdict:
@@ -129,8 +129,8 @@ def check_jitter(clock: Clock, *, share: float, factor: float) -> Verdict:
         return Verdict.good(clock.time.size)
     where = np.zeros(clock.time.size, dtype=bool)
     where[kept[1:][uneven]] = True
-    spread = 1e3 * clock.interval * float(off[uneven].max())
-    reason = f"{counted(where)} up to {spread:.3g} ms off an even clock of {1e3 * clock.interval:.6g} ms"
+    largest = 1e3 * clock.interval * float(off[uneven].max())
+    reason = f"{counted(where)} up to {largest:.3g} ms off an even clock of {1e3 * clock.interval:.6g} ms"
     return Verdict(Flag.SUSPECT, where, reason, "time column")
 
 
@@ -153,7 +153,7 @@ def _steps(clock: Clock) -> tuple[NDArray[np.intp], Array, NDArray[np.intp]]:
     return kept, np.diff(clock.time[kept]) / clock.interval, np.diff(kept)
 
 
-def _spread(kept: NDArray[np.intp], times: Array, size: int) -> Array:
+def _in_place(kept: NDArray[np.intp], times: Array, size: int) -> Array:
     time = np.full(size, np.nan)
     time[kept] = times
     return time

@@ -12,9 +12,9 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import amplitude
 from colonnade.findings import MEASUREMENT, Finding, serious
 from colonnade.signals.metrics import nrmse
-from colonnade.stages.parts.horizon import horizons_and_ranks
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.peak import find_peak
+from colonnade.stages.parts.rank import horizons_and_ranks
 from colonnade.stages.parts.sine import Sine, sine
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,24 @@ from colonnade.stages.parts.inputs import Inputs
 
 HISTORIES = (LinearHistory, NonlinearHistory)
 """Estimators that give e for each model."""
+
+PEAKS = {
+    "peak_time": "time",
+    "peak_angle": "angle",
+    "peak_angle_standard_error": "standard_error",
+    "fitted_angle": "fitted_angle",
+    "peak_used": "used",
+}
+IMPACTS = {
+    "impact_time": "time",
+    "impact_time_standard_error": "time_standard_error",
+    "impact_velocity": "velocity",
+    "impact_restitution": "restitution",
+    "impact_restitution_standard_error": "restitution_standard_error",
+    "impact_used": "used",
+}
+HISTORY = {"fitted_elapsed": "time", "fitted_history": "angle", "history_residual": "residual"}
+"""Variables of a result by the attribute of the identification that they are."""
 
 
 class RestitutionInputs(Inputs):
@@ -73,9 +91,9 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
     return xr.Dataset(
         {
             **{name: ((), _number(value)) for name, value in _scalars(result).items()},
-            **_peaks(result),
-            **_impacts(result),
-            **_history(result),
+            **_along("peak", PEAKS, result.peaks),
+            **_along("impact", IMPACTS, result.impacts),
+            **_along("fitted_elapsed", HISTORY, result.history),
             **_region(freed),
             **_columns("estimate", "estimator", result.estimates),
             **_columns("restitution_history", "model", by_model),
@@ -164,36 +182,12 @@ def _scalars(result: Restitution) -> dict[str, float | None]:
     }
 
 
-def _peaks(result: Restitution) -> dict[str, Any]:
-    columns = {
-        "peak_time": result.peaks.time,
-        "peak_angle": result.peaks.angle,
-        "peak_angle_standard_error": result.peaks.standard_error,
-        "fitted_angle": result.peaks.fitted_angle,
-        "peak_used": result.peaks.used.astype(np.int8),
-    }
-    return {name: ("peak", values) for name, values in columns.items()}
-
-
-def _impacts(result: Restitution) -> dict[str, Any]:
-    columns = {
-        "impact_time": result.impacts.time,
-        "impact_time_standard_error": result.impacts.time_standard_error,
-        "impact_velocity": result.impacts.velocity,
-        "impact_restitution": result.impacts.restitution,
-        "impact_restitution_standard_error": result.impacts.restitution_standard_error,
-        "impact_used": result.impacts.used.astype(np.int8),
-    }
-    return {name: ("impact", values) for name, values in columns.items()}
-
-
-def _history(result: Restitution) -> dict[str, Any]:
-    if result.history is None:
-        return {}
+def _along(dimension: str, names: Mapping[str, str], found: Any) -> dict[str, Any]:
+    """Describe columns of a part of the result; flags as whole numbers, nothing of a part that is missing."""
+    columns = {} if found is None else {name: getattr(found, attribute) for name, attribute in names.items()}
     return {
-        "fitted_elapsed": ("fitted_elapsed", result.history.time),
-        "fitted_history": ("fitted_elapsed", result.history.angle),
-        "history_residual": ("fitted_elapsed", result.history.residual),
+        name: (dimension, values.astype(np.int8) if values.dtype == bool else values)
+        for name, values in columns.items()
     }
 
 

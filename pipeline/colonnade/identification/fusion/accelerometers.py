@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import pole_position
 from colonnade.identification.fusion.inertial import Accelerometer
@@ -103,7 +102,7 @@ def _solving(columns: Array, sigma: Array, block: Block) -> Array | None:
 
 
 def _from_angular(
-    angular: Array, noise: float, missing: NDArray[np.bool_], tilt: Array, tilt_error: float, interval: float
+    angular: Array, noise: float, missing: Mask, tilt: Array, tilt_error: float, interval: float
 ) -> tuple[Array, Array]:
     """Angle, rate and bias of θ̈ from θ̈ and the tilt."""
     middle = np.append((angular[1:] + angular[:-1]) / 2, 0.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Vector
 from colonnade.dynamics.block import Block
 from colonnade.identification.fusion.pose import PoseFit, fit_pose
 from colonnade.identification.fusion.sensors import Transducer
@@ -85,6 +85,6 @@ def _vectors(name: str, values: ArrayLike) -> Array:
     return vectors.reshape(-1, 3)
 
 
-def _vector(values: Array) -> tuple[float, float, float]:
+def _vector(values: Array) -> Vector:
     x, y, z = (float(each) for each in values)
     return x, y, z

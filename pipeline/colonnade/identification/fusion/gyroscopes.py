@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.identification.fusion.inertial import Gyroscope
 from colonnade.identification.fusion.smoother import smooth
+from colonnade.signals.stretches import stretches
 
 QUIET = 4.5
 """A specimen stands where a rate stays below this many times its noise; the noise alone does over some 10⁵ samples."""
@@ -85,11 +85,11 @@ def _middle(rate: Array) -> Array:
     return np.append((filled[1:] + filled[:-1]) / 2, 0.0)
 
 
-def _gap_lengths(missing: NDArray[np.bool_]) -> Array:
+def _gap_lengths(missing: Mask) -> Array:
     """Steps of the gap that each step is in, 0 outside; over a gap a rate is unknown as a whole, not step by step."""
     broken = missing | np.append(missing[1:], False)
     lengths = np.zeros(missing.size)
-    for start, stop in _stretches(broken):
+    for start, stop in zip(*stretches(broken), strict=True):
         lengths[start:stop] = stop - start
     return lengths
 
@@ -150,25 +150,21 @@ def upright(
     """
     shortest = max(round(duration / interval), 1)
     known = np.full(rate.size, np.nan)
-    runs = [run for run in _stretches(np.abs(rate) <= QUIET * noise) if run[1] - run[0] >= shortest]
-    if not runs:
+    starts, stops = stretches(np.abs(rate) <= QUIET * noise)
+    long = stops - starts >= shortest
+    if not long.any():
         return known, []
-    sure = slice(runs[-1][1] - shortest, runs[-1][1]) if from_end else slice(runs[0][0], runs[0][0] + shortest)
+    first = int(stops[long][-1]) - shortest if from_end else int(starts[long][0])
+    sure = slice(first, first + shortest)
     # A slow motion hides in the noise of a sample; it does not in the mean over the shortest rest.
     averages = np.convolve(np.nan_to_num(rate - float(rate[sure].mean())), np.full(shortest, 1 / shortest), mode="same")
     still = (np.abs(rate) <= QUIET * noise) & (np.abs(averages) <= QUIET * white * np.sqrt(2 / shortest))
     known[sure] = 0.0
     angle, error = angle_from_rate(rate, white, interval, known, np.full(rate.size, REST_ERROR))
     rests = []
-    for start, stop in _stretches(still):
+    for start, stop in zip(*(each.tolist() for each in stretches(still)), strict=True):
         near = NEAR_UPRIGHT * block.critical_angle + min(4 * float(error[start:stop].max()), block.critical_angle / 4)
         if stop - start >= shortest and np.abs(angle[start:stop]).max() < near:
             rests.append((start, stop))
             known[start:stop] = 0.0
-    return known, rests or [(int(sure.start), int(sure.stop))]
-
-
-def _stretches(chosen: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Stretches (start, stop) of samples that are chosen."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], chosen.astype(np.int8), [0]))))
-    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
+    return known, rests or [(first, first + shortest)]

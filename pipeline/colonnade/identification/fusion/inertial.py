@@ -6,11 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Vector
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Pose, pole_displacement, pole_position, rotation_matrix
-
-Vector = tuple[float, float, float]
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, Pose
 from colonnade.identification.fusion.accelerometers import angle_from_accelerations
@@ -50,7 +49,7 @@ class SpecimenMotion:
     values: dict[str, Array]
     standard_error: dict[str, Array]
     residual: Array
-    entered: NDArray[np.bool_]
+    entered: Mask
     separation: str
     is_integrated: bool
 
@@ -153,7 +152,7 @@ def _tracked(fit: PoseFit, positions: Readings, interval: float) -> tuple[Array,
 
 def _with_rates(
     gyroscopes: tuple[list[Gyroscope], Readings],
-    turning: NDArray[np.bool_],
+    turning: Mask,
     tracked: tuple[Array, Array] | None,
     block: Block,
     circumstances: Circumstances,

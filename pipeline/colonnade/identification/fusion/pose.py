@@ -115,7 +115,7 @@ def fit_pose(
         pieces.append(_fit_part(values[:, part], weights[:, part], transducers, block, outline, moved, separation))
     found, side, residual, variance = (np.concatenate(each, axis=-1) for each in zip(*pieces, strict=True))
 
-    errors = np.sqrt(variance) * _spread(residual, weights, len(separation.unknowns), given=noise is not None)
+    errors = np.sqrt(variance) * _widening(residual, weights, len(separation.unknowns), given=noise is not None)
     whole = np.zeros((len(UNKNOWNS), values.shape[1]))
     whole[_indices(separation)] = found
     pose = _pose(whole)
@@ -139,7 +139,7 @@ def _weights(values: Array, sigma: Array, separation: Separation) -> Array:
     return weights
 
 
-def _spread(residual: Array, weights: Array, unknowns: int, *, given: bool) -> float:
+def _widening(residual: Array, weights: Array, unknowns: int, *, given: bool) -> float:
     """Factor on standard errors: scatter of the residuals over the noise, never below the noise that was given."""
     freedom = residual.shape[0] - unknowns
     if freedom <= 0:
@@ -159,7 +159,7 @@ def _fit_part(
     base: Array | None,
     separation: Separation,
 ) -> tuple[Array, Array, Array, Array]:
-    """Unknowns (k, n), side (n,), residuals (m, n) and variances for unit spread (k, n) of some samples."""
+    """Unknowns (k, n), side (n,), residuals (m, n) and variances for unit noise (k, n) of some samples."""
     solvable = weights.any(axis=0)
     best = np.full(values.shape[1], np.inf)
     side = np.ones_like(best)

@@ -6,13 +6,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask, Vector
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, Pose, pole_displacement, pole_position, rotation_matrix
-
-Vector = tuple[float, float, float]
 
 UNKNOWNS = ("rocking_angle", "slide", "out_of_plane_angle", "transverse_slide", "yaw", "uplift")
 """Of a pose, in the order in which they are looked for."""
@@ -190,9 +187,7 @@ def _round_side(at: Array, direction: Array, carried: _Carried, outline: Outline
     return _Reading(np.where(missed, np.nan, reading.value), reading.force, reading.moment)
 
 
-def _way_to_side(
-    start: Array, ray: Array, direction: Array, at: Array, outline: Outline
-) -> tuple[Array, NDArray[np.bool_]]:
+def _way_to_side(start: Array, ray: Array, direction: Array, at: Array, outline: Outline) -> tuple[Array, Mask]:
     """Solve x² + y² = (radius at z)² along a ray; the root is the one that faces the same way as at rest."""
     radius = outline.half_width + outline.taper * start[2]
     square = ray[0] ** 2 + ray[1] ** 2 - (outline.taper * ray[2]) ** 2

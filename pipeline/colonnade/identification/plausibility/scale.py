@@ -10,6 +10,7 @@ from scipy.ndimage import binary_dilation, maximum_filter1d, uniform_filter1d
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.signals.filters import lowpass, second_derivative
+from colonnade.signals.stretches import filled_in
 
 BANDWIDTH = 2.0
 """Hz for each rad/s of p, below which the equation of motion is held against the record."""
@@ -27,7 +28,7 @@ MOVES = 0.03
 """Of the largest angle, above which the specimen is taken to rock."""
 
 HELD = 0.02
-"""Of the largest angle, below which the spread of one that is far from rest means that the specimen is held."""
+"""Of the largest angle, below which the deviation of one that is far from rest means that the specimen is held."""
 
 
 @dataclass(frozen=True)
@@ -111,18 +112,12 @@ def scale_of(interval: float, angle: Array, noise: float, acceleration: Array | 
     return Scale(float(found[0]), float(errors[0]), float(base), float(base_error))
 
 
-def filled_in(values: Array) -> Array:
-    """Values with straight lines where they are missing."""
-    finite = np.isfinite(values)
-    return values if finite.all() else np.interp(np.arange(values.size), np.flatnonzero(finite), values[finite])
-
-
 def _rocking(interval: float, angle: Array, noise: float, p: float) -> Mask:
     """Samples of a movement that is neither noise nor held still far from rest."""
     magnitude = np.abs(angle)
     largest = float(magnitude.max())
     window = max(int(1.6 / p / interval), 3)
     moves = maximum_filter1d(magnitude, window) > max(STANDING * noise, MOVES * largest)
-    spread = np.sqrt(np.maximum(uniform_filter1d(angle**2, window) - uniform_filter1d(angle, window) ** 2, 0.0))
-    held = (spread < HELD * largest) & (magnitude > 0.1 * largest)
+    deviation = np.sqrt(np.maximum(uniform_filter1d(angle**2, window) - uniform_filter1d(angle, window) ** 2, 0.0))
+    held = (deviation < HELD * largest) & (magnitude > 0.1 * largest)
     return np.asarray(moves & ~binary_dilation(held, iterations=window))

@@ -12,7 +12,8 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.findings import Finding, serious
 from colonnade.identification.plausibility.factors import UNKNOWN, as_expected, cause
-from colonnade.identification.plausibility.scale import Scale, filled_in, scale_of
+from colonnade.identification.plausibility.scale import Scale, scale_of
+from colonnade.signals.stretches import filled_in
 
 SMALL = 0.05
 """rad; slope of a transducer's reading over the angle is taken between ± this."""

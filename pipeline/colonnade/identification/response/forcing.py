@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from scipy import ndimage
 
 from colonnade.arrays import Array
+from colonnade.signals.stretches import stretches
 
 STEADY = 0.05
 """Largest departure of the amplitude from its level, as a fraction, within the steady part."""
@@ -104,8 +105,7 @@ def _steady_part(level: Array, samples: int) -> slice:
     usual = float(np.median(level[level > 0.5 * level.max()]))
     for _ in range(3):
         near = np.abs(level - usual) <= STEADY * usual
-        edges = np.flatnonzero(np.diff(np.concatenate(([0], near.astype(np.int8), [0]))))
-        starts, stops = edges[::2], edges[1::2]
+        starts, stops = stretches(near)
         if not starts.size:
             return slice(0, 0)
         longest = int(np.argmax(stops - starts))
@@ -121,6 +121,6 @@ def _fitted(time: Array, values: Array, levels: Array, frequency: float) -> Forc
     coefficients, *_ = np.linalg.lstsq(design, values, rcond=None)
     amplitude = float(np.hypot(coefficients[1], coefficients[2]))
     rest = values - design @ coefficients
-    spread = float(np.std(levels, ddof=1)) if levels.size > 1 else 0.0
+    deviation = float(np.std(levels, ddof=1)) if levels.size > 1 else 0.0
     distortion = float(np.sqrt(2 * np.mean(rest**2))) / amplitude
-    return Forcing(frequency, amplitude, spread, float(time[0]), float(time[-1]), distortion)
+    return Forcing(frequency, amplitude, deviation, float(time[0]), float(time[-1]), distortion)

@@ -9,6 +9,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import Outcome, amplitude
+from colonnade.signals.stretches import stretches
 
 HELD = 0.5
 """Shortest time, s, for which a specimen caught by its frame lies still."""
@@ -68,8 +69,7 @@ def _held(time: Array, angle: Array, block: Block, catch: float | None) -> int |
     magnitude = np.abs(angle)
     lowest = (1 - PLATEAU) * catch if catch is not None else block.critical_angle
     on_frame = magnitude >= lowest
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], on_frame.astype(np.int8), [0]))))
-    for start, stop in zip(edges[::2], edges[1::2], strict=True):
+    for start, stop in zip(*stretches(on_frame), strict=True):
         settled = _settled(time[start:stop], magnitude[start:stop])
         if settled is not None:
             return int(start) + settled

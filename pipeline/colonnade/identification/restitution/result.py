@@ -6,16 +6,15 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 
 
 def _none() -> Array:
     return np.empty(0)
 
 
-def _nothing() -> NDArray[np.bool_]:
+def _nothing() -> Mask:
     return np.empty(0, dtype=bool)
 
 
@@ -57,7 +56,7 @@ class Peaks:
     angle: Array = field(default_factory=_none)
     standard_error: Array = field(default_factory=_none)
     fitted_angle: Array = field(default_factory=_none)
-    used: NDArray[np.bool_] = field(default_factory=_nothing)
+    used: Mask = field(default_factory=_nothing)
 
 
 @dataclass(frozen=True)
@@ -82,7 +81,7 @@ class Impacts:
     velocity: Array = field(default_factory=_none)
     restitution: Array = field(default_factory=_none)
     restitution_standard_error: Array = field(default_factory=_none)
-    used: NDArray[np.bool_] = field(default_factory=_nothing)
+    used: Mask = field(default_factory=_nothing)
 
 
 @dataclass(frozen=True)
@@ -98,16 +97,12 @@ class Constancy:
         Of e by that slope over the velocities seen.
     scatter : float
         Standard deviation of e from impact to impact beyond the errors.
-    chi_square, freedom : float, int
-        Of single e about their mean, by their errors alone.
     """
 
     slope: float = np.nan
     slope_standard_error: float = np.nan
     change: float = np.nan
     scatter: float = np.nan
-    chi_square: float = np.nan
-    freedom: int = 0
 
 
 @dataclass(frozen=True)

@@ -22,9 +22,10 @@ TOGETHER = Offset(0.0, np.nan, 0.0)
 """A recorder that starts with the main one."""
 
 FEWEST_SAMPLES = 16
+"""That the channels of a test have to share."""
+
 MOST_SAMPLES = 20_000_000
 """Of a test on its one clock, where fewer than half as many were recorded."""
-"""That the channels of a test have to share."""
 
 
 class ChannelOnClock(Inputs):

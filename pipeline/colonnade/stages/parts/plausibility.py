@@ -11,6 +11,7 @@ import xarray as xr
 
 from colonnade.arrays import Array, Mask
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.channel import ALONG
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, Pose
 from colonnade.findings import Finding, serious
@@ -29,9 +30,6 @@ from colonnade.store.description import variable_name
 
 ANGLES = np.linspace(-0.4, 0.4, 161)
 """rad, at which the transducers' readings are computed."""
-
-ALONG = 0.9
-"""Smallest part of a table channel's direction along x with which it counts as a record of the motion along x."""
 
 LEAST_LEVER = 0.02
 """Of the longest lever of a set-up; a transducer of a shorter one hardly sees the rotation."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Vector
 from colonnade.campaign.decision import Review
 from colonnade.campaign.settings import QualitySettings
 from colonnade.findings import Finding
@@ -36,7 +36,7 @@ class ChannelInputs(Inputs):
     full_scale: float | None
     range_recorded: float | None
     on: str | None
-    direction: tuple[float, float, float] | None
+    direction: Vector | None
 
 
 def clock_verdicts(stamps: Array, clock: timing.Clock, settings: QualitySettings) -> list[quality.Verdict]:

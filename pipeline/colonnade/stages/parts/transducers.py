@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from pydantic import BaseModel, ConfigDict
 
+from colonnade.arrays import Vector
 from colonnade.campaign import Channel
 from colonnade.campaign.specimen import Cone, Cylinder, Prism, Specimen
 from colonnade.dynamics.block import Block
@@ -13,8 +14,6 @@ from colonnade.dynamics.kinematics import Outline, pole_position
 from colonnade.identification.fusion.inertial import Accelerometer, Gyroscope
 from colonnade.identification.fusion.sensors import Transducer
 from colonnade.store.description import variable_name
-
-Vector = tuple[float, float, float]
 
 
 class Transducers(BaseModel):

@@ -234,12 +234,3 @@ def test_from_the_samples_alone_sides_that_differ_are_named_with_their_size(offs
 
 def test_too_few_arcs_are_left_alone():
     assert Record(arcs=2).departures() == {}
-
-
-def test_arrays_that_do_not_fit_are_refused():
-    record = Record()
-    short = record.arguments | {"impact_time": record.arguments["impact_time"][:-1]}
-    with pytest.raises(ValueError, match="one impact more than peaks"):
-        find_departures(record.time, record.angle, BLOCK, **short)
-    with pytest.raises(ValueError, match="slide has shape"):
-        record.departures(slide=record.time[:-1])

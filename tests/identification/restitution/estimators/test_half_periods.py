@@ -1,5 +1,7 @@
 """e from the times between impacts, exact times from the adaptive integrator of another engine."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -43,16 +45,16 @@ def test_p_is_freed_where_it_is_known_well_enough_and_correlation_is_told():
     freed = HalfPeriods().fit_times(times, covariance, 0, PRISM, free_p=True)
     assert abs(fixed.estimate.value - 0.95) > 1e-4
     assert freed.estimate.value == pytest.approx(0.95, abs=4 * freed.estimate.standard_error)
-    assert freed.p_factor == pytest.approx(1 / np.sqrt(1.05), abs=4 * freed.p_standard_error)
-    assert abs(freed.correlation) > 0.9
-    assert "correlation" in freed.estimate.assumptions
+    said = re.search(r"p freed: (.*) ± (.*) of the block's, correlation with e (.*)$", freed.estimate.assumptions)
+    factor, error, correlation = map(float, said.groups())
+    assert factor == pytest.approx(1 / np.sqrt(1.05), abs=4 * error + 1e-4)
+    assert abs(correlation) > 0.9
 
 
 def test_p_stays_fixed_where_freeing_it_would_tell_nothing():
     times = impacts(0.95, count=8)
     freed = HalfPeriods().fit_times(times, np.eye(times.size) * (20 * ERROR) ** 2, 0, PRISM, free_p=True)
-    assert freed.p_factor == 1.0
-    assert abs(freed.correlation) > 0.9
+    assert freed.estimate.assumptions.endswith("; the block's p")
 
 
 def test_a_zero_offset_does_not_move_e():

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs.energy import lift
 from colonnade.identification.restitution.arcs.rocking_arc import half_duration_of
@@ -89,7 +89,7 @@ def arc_series(
     impact_error: Array,
     peak_angle: Array,
     peak_error: Array,
-    used: NDArray[np.bool_],
+    used: Mask,
     *,
     zero_offset: float = 0.0,
 ) -> ArcSeries:

@@ -59,7 +59,7 @@ def find_sliding(time: Array, angle: Array, slide: Array, block: Block, series: 
     jumps = np.diff(level)
     errors = np.hypot(error[1:], error[:-1])
     large = np.abs(jumps) > NOISE_MARGIN * errors
-    total, spread = float(np.abs(jumps[large]).sum()), float(np.sqrt((errors[large] ** 2).sum()))
+    total, total_error = float(np.abs(jumps[large]).sum()), float(np.sqrt((errors[large] ** 2).sum()))
     lost = float(np.exp(series.energy[0]) - np.exp(series.energy[-1])) * block.inertia / 2
     work = FRICTION * block.mass * block.gravity * total / max(lost, 1e-300)
     if not work > LEAST_WORK:
@@ -69,11 +69,11 @@ def find_sliding(time: Array, angle: Array, slide: Array, block: Block, series: 
     return Departure(
         "sliding",
         total,
-        spread,
+        total_error,
         "m",
-        f"The block slides at {int(large.sum())} of {jumps.size} impacts, by {1e3 * total:.3g} ± {1e3 * spread:.1g} mm "
-        f"in all ({1e3 * float(jumps[large].sum()):+.3g} mm with its sign): with a friction of {FRICTION:g} this is "
-        f"{work:.0%} of the energy lost" + end,
+        f"The block slides at {int(large.sum())} of {jumps.size} impacts, by {1e3 * total:.3g} ± "
+        f"{1e3 * total_error:.1g} mm in all ({1e3 * float(jumps[large].sum()):+.3g} mm with its sign): with a friction "
+        f"of {FRICTION:g} this is {work:.0%} of the energy lost" + end,
         refuses=refuses,
     )
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs.series import ArcSeries, arc_series
 from colonnade.identification.restitution.departures.contacts import find_bouncing, find_sliding
@@ -25,15 +26,15 @@ SMALLEST_CORRECTION = 0.3
 
 
 def find_departures(
-    time: ArrayLike,
-    angle: ArrayLike,
+    time: Array,
+    angle: Array,
     block: Block,
     *,
-    impact_time: ArrayLike,
-    impact_standard_error: ArrayLike,
-    peak_angle: ArrayLike,
-    peak_standard_error: ArrayLike,
-    used: ArrayLike,
+    impact_time: Array,
+    impact_standard_error: Array,
+    peak_angle: Array,
+    peak_standard_error: Array,
+    used: Mask,
     out_of_plane: ArrayLike | None = None,
     slide: ArrayLike | None = None,
     uplift: ArrayLike | None = None,
@@ -43,14 +44,14 @@ def find_departures(
 
     Parameters
     ----------
-    time, angle : array_like, shape (m,)
+    time, angle : ndarray, shape (m,)
         s, increasing; rad, about the rest position. Missing samples are NaN.
     block : Block
-    impact_time, impact_standard_error : array_like, shape (n + 1,)
+    impact_time, impact_standard_error : ndarray, shape (n + 1,)
         Times at which the angle passes its zero, before and after each of n arcs, and their standard errors, s.
-    peak_angle, peak_standard_error : array_like, shape (n,)
+    peak_angle, peak_standard_error : ndarray, shape (n,)
         θ of each arc's peak, signed, from the same zero, and its standard error, rad.
-    used : array_like of bool, shape (n,)
+    used : ndarray of bool, shape (n,)
         Arcs to look at; the others are counted, and left alone.
     out_of_plane : array_like, shape (m,), optional
         Rotation about x, rad.
@@ -63,48 +64,30 @@ def find_departures(
         Three-dimensional rocking, sliding, bouncing, unequal restitution, unequal sides, zero drift, as far as found,
         in this order; each threshold stands with the function that finds it.
 
-    Raises
-    ------
-    ValueError
-        If the shapes do not fit.
-
     Notes
     -----
     Three-dimensional rocking spoils the first, large cycles: with a measured rotation out of the plane it is that, else
     its signature. The two sides are compared by the arcs that are left.
     """
-    times, angles = np.asarray(time, dtype=np.float64), np.asarray(angle, dtype=np.float64)
-    impacts, errors = (np.asarray(each, dtype=np.float64) for each in (impact_time, impact_standard_error))
-    peaks, peak_errors = (np.asarray(each, dtype=np.float64) for each in (peak_angle, peak_standard_error))
-    chosen = np.asarray(used, dtype=bool)
-    if not impacts.shape == errors.shape == (peaks.size + 1,) or not peaks.shape == peak_errors.shape == chosen.shape:
-        raise ValueError(
-            f"{impacts.size} impacts with {errors.size} errors, {peaks.size} peaks with {peak_errors.size} errors and "
-            f"{chosen.size} flags; one impact more than peaks, and as many of the others, were expected"
-        )
-    records = {}
-    for name, given in (("angle", angles), ("out_of_plane", out_of_plane), ("slide", slide), ("uplift", uplift)):
-        if given is not None:
-            records[name] = np.asarray(given, dtype=np.float64)
-            if records[name].shape != times.shape:
-                raise ValueError(
-                    f"{name} has shape {records[name].shape} and time {times.shape}; arrays of one length were expected"
-                )
+    across, slid, lifted = (
+        None if given is None else np.asarray(given, dtype=np.float64) for given in (out_of_plane, slide, uplift)
+    )
 
     def series(first: int, offset: float) -> ArcSeries:
-        later = chosen & (np.arange(peaks.size) >= first)
-        return arc_series(block, impacts, errors, peaks - offset, peak_errors, later, zero_offset=offset)
+        later = used & (np.arange(used.size) >= first)
+        peaks = peak_angle - offset
+        return arc_series(
+            block, impact_time, impact_standard_error, peaks, peak_standard_error, later, zero_offset=offset
+        )
 
     whole, offset = _about_zero(series, 0, 0.0)
     if whole.number.size < FEWEST_ARCS:
         return ()
-    spatial = (
-        out_of_plane_share(times, records["out_of_plane"], whole) if "out_of_plane" in records else signature(whole)
-    )
+    spatial = signature(whole) if across is None else out_of_plane_share(time, across, whole)
     found = [
         spatial,
-        find_sliding(times, angles, records["slide"], block, whole) if "slide" in records else None,
-        find_bouncing(times, angles, records.get("uplift"), block, whole),
+        None if slid is None else find_sliding(time, angle, slid, block, whole),
+        find_bouncing(time, angle, lifted, block, whole),
         *compare_sides(whole if spatial is None else _about_zero(series, spatial.left_out, offset)[0]),
     ]
     return tuple(departure for departure in found if departure is not None)

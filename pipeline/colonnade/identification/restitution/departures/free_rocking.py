@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs.arcs import Arcs
 from colonnade.identification.restitution.arcs.rocking_arc import half_duration_of
@@ -29,7 +28,7 @@ LARGEST_ERROR = 0.02
 """Of the durations by the middle part that are looked at, as a share of them."""
 
 
-def objection(arcs: Arcs, usable: NDArray[np.bool_], block: Block) -> str:
+def objection(arcs: Arcs, usable: Mask, block: Block) -> str:
     """
     Say why the arcs are not those of this block, if they are not.
 
@@ -56,10 +55,10 @@ def objection(arcs: Arcs, usable: NDArray[np.bool_], block: Block) -> str:
         return ""
     expected = 2 * half_duration_of(peak, critical, False) / p
     ratio = arcs.duration[usable] / expected
-    departure = float(np.median(ratio)) - 1
-    if abs(departure) > PERIOD_TOLERANCE:
+    excess = float(np.median(ratio)) - 1
+    if abs(excess) > PERIOD_TOLERANCE:
         return (
-            f"Times between impacts differ by {departure:+.0%} from those of this block in free rocking at these "
+            f"Times between impacts differ by {excess:+.0%} from those of this block in free rocking at these "
             "amplitudes: this is not free rocking of this specimen, or its dimensions are wrong."
         )
     moved = half_duration_of(np.minimum(1.001 * peak, 0.5 * (peak + critical)), critical, False)
@@ -87,11 +86,11 @@ def objection(arcs: Arcs, usable: NDArray[np.bool_], block: Block) -> str:
 
 
 def _power(expected: Array, duration: Array, blur: float) -> tuple[float, float]:
-    """Slope of one logarithm against the other, and its standard error; infinite where errors make up the spread."""
+    """Slope of one logarithm against the other, and its standard error; infinite where it is all errors."""
     centred = expected - expected.mean()
-    spread = float(centred @ centred)
-    if expected.size < 3 or spread < max(BEYOND_ERRORS * blur * expected.size, 1e-6):
+    power = float(centred @ centred)
+    if expected.size < 3 or power < max(BEYOND_ERRORS * blur * expected.size, 1e-6):
         return 1.0, np.inf
-    slope = float(centred @ duration) / spread
+    slope = float(centred @ duration) / power
     residual = duration - duration.mean() - slope * centred
-    return slope, float(np.sqrt(residual @ residual / (expected.size - 2) / spread))
+    return slope, float(np.sqrt(residual @ residual / (expected.size - 2) / power))

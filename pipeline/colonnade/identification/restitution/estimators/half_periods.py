@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import exp, sqrt
 
 import numpy as np
@@ -24,25 +23,7 @@ LARGEST_ERROR_OF_P = 0.01
 """Standard error of ln p up to which p is freed if asked for."""
 
 
-@dataclass(frozen=True)
-class HalfPeriodFit(Fit):
-    """
-    The estimate, and what came with it.
-
-    Attributes
-    ----------
-    p_factor, p_standard_error : float
-        Freed p over the block's, and its error; 1 and 0 if p was fixed.
-    correlation : float
-        Of ln e and ln p if p was freed, or if freeing it was tried and failed; NaN otherwise.
-    """
-
-    p_factor: float = 1.0
-    p_standard_error: float = 0.0
-    correlation: float = np.nan
-
-
-class HalfPeriods(Estimator[HalfPeriodFit]):
+class HalfPeriods(Estimator[Fit]):
     """
     e from the times of successive impacts.
 
@@ -61,9 +42,8 @@ class HalfPeriods(Estimator[HalfPeriodFit]):
         "one zero; the angle's scale does not enter"
     )
     description = "the times between impacts, which need no calibration of the angle, but the block's p and α"
-    result = HalfPeriodFit
 
-    def fit(self, record: FreeVibration) -> HalfPeriodFit:
+    def fit(self, record: FreeVibration) -> Fit:
         """Fit the first impacts that all have a time with an error."""
         impacts, covariance = record.arcs.impacts
         first, angle = record.left_out, record.followed_arcs.peak_angle
@@ -83,7 +63,7 @@ class HalfPeriods(Estimator[HalfPeriodFit]):
         *,
         free_p: bool = False,
         level: float = 0.95,
-    ) -> HalfPeriodFit:
+    ) -> Fit:
         """
         Identify e from times of impact alone.
 
@@ -110,20 +90,17 @@ class HalfPeriods(Estimator[HalfPeriodFit]):
         fixed = _fit(impacts, whitener, first_side, block, ALWAYS)
         if fixed is None:
             return self.refuse(level, "No e and no height of the first arc give such times between impacts.")
-        correlation = np.nan
         if free_p and impacts.size > len(ALWAYS) + FEWEST_SPARE:
             freed = _fit(impacts, whitener, first_side, block, (*ALWAYS, "p"), fixed[0])
             if freed is not None:
                 decay, covariance = freed
                 error = sqrt(covariance[4, 4])
-                correlation = float(covariance[0, 4] / sqrt(covariance[0, 0] * covariance[4, 4]))
                 if error <= LARGEST_ERROR_OF_P:
                     factor = exp(decay.values["p"])
+                    correlation = covariance[0, 4] / sqrt(covariance[0, 0] * covariance[4, 4])
                     said = f"p freed: {factor:.4f} ± {error:.4f} of the block's, correlation with e {correlation:.3f}"
-                    estimate = self.estimate_of(_mean(*freed, impacts.size, level), level, freed=said)
-                    return HalfPeriodFit(estimate, None, factor, error, correlation)
-        estimate = self.estimate_of(_mean(*fixed, impacts.size, level), level, freed="the block's p")
-        return HalfPeriodFit(estimate, correlation=correlation)
+                    return Fit(self.estimate_of(_mean(*freed, impacts.size, level), level, freed=said))
+        return Fit(self.estimate_of(_mean(*fixed, impacts.size, level), level, freed="the block's p"))
 
 
 def _mean(decay: Decay, covariance: Array, count: int, level: float) -> Mean:

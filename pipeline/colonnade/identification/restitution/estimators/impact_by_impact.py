@@ -85,21 +85,18 @@ class ImpactByImpact(Estimator[ImpactFit]):
         design = np.column_stack((np.ones(count), by_offset))
         scatter = problem.scatter(design)
         coefficients, inverse, _ = problem.fit(design, scatter)
-        freedom = count - design.shape[1]
-        mean = mean_of_student(float(coefficients[0]), sqrt(inverse[0, 0]), freedom, level)
+        mean = mean_of_student(float(coefficients[0]), sqrt(inverse[0, 0]), count - design.shape[1], level)
         estimate = self.estimate_of(mean, level)
         e = float(np.exp(mean.value))
 
         velocity = impacts.velocity[used]
         trend = np.column_stack((design, velocity - velocity.mean()))
-        sloped, spread, _ = problem.fit(trend, problem.scatter(trend))
+        sloped, variance, _ = problem.fit(trend, problem.scatter(trend))
         constancy = Constancy(
             e * float(sloped[2]),
-            e * sqrt(spread[2, 2]),
+            e * sqrt(variance[2, 2]),
             e * float(sloped[2]) * float(np.ptp(velocity)),
             e * sqrt(scatter),
-            problem.fit(design, 0.0)[2],
-            freedom,
         )
         return ImpactFit(estimate, None, impacts, constancy)
 

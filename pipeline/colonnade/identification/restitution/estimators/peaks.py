@@ -104,9 +104,9 @@ def _weighted_line(design: Array, values: Array, error: Array, number: Array) ->
     unit = float(np.median(error) ** 2)
     walk = np.minimum.outer(number - number[0], number - number[0]) / np.outer(error, error) * unit
     # In the eigenvectors of the walk both parts are diagonal.
-    spread, vectors = np.linalg.eigh(walk)
+    widths, vectors = np.linalg.eigh(walk)
     columns, aim = vectors.T @ (design / error[:, None]), vectors.T @ (values / error)
-    variance = 1 + np.outer(RATIOS, np.maximum(spread, 0.0))
+    variance = 1 + np.outer(RATIOS, np.maximum(widths, 0.0))
     normal = (columns.T[None, :, :] / variance[:, None, :]) @ columns
     inverse = np.linalg.inv(normal)
     coefficients = (inverse @ ((columns.T[None, :, :] / variance[:, None, :]) @ aim)[:, :, None])[:, :, 0]

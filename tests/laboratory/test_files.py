@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from colonnade.laboratory.binary_files import Matlab, Tdms
-from colonnade.laboratory.files import Sheet
+from colonnade.laboratory.files import Matlab, Sheet, Tdms
 from colonnade.readers.registry import read
 
 FORMATS = [pytest.param(Tdms(), "V", id="TDMS"), pytest.param(Matlab(), None, id="MATLAB")]

@@ -1,0 +1,39 @@
+"""Factors that a wrong unit or gain leaves, and their causes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from colonnade.identification.plausibility.factors import UNKNOWN, as_expected, cause
+
+
+@pytest.mark.parametrize("scale", [1.0, -1.0, 1.4, 1 / 1.4, -0.7])
+def test_a_scale_near_one_of_either_sign_is_as_expected(scale):
+    assert as_expected(scale)
+
+
+@pytest.mark.parametrize("scale", [1.6, 0.6, 10.0, 0.0, np.nan, np.inf])
+def test_any_other_is_not(scale):
+    assert not as_expected(scale)
+
+
+@pytest.mark.parametrize(
+    ("scale", "quantity", "said"),
+    [
+        (9.81, "acceleration", "g taken for"),
+        (1 / 9.81, "acceleration", "g taken for"),
+        (-25.4, "displacement", "inches taken for mm"),
+        (2.5, "displacement", "inches taken for cm"),
+        (57.3, "angle", "degrees taken for radians"),
+        (1000.0, "displacement", "mm taken for m"),
+        (0.01, "acceleration", "hundred times off"),
+        (10.3, "angle", "ten times off"),
+    ],
+)
+def test_a_known_factor_and_its_inverse_have_a_cause(scale, quantity, said):
+    assert said in cause(scale, quantity)
+
+
+def test_an_odd_factor_has_none():
+    assert cause(3.3, "displacement") == UNKNOWN
