@@ -76,7 +76,7 @@ class History:
     @property
     def peak_ratio(self) -> float | None:
         """Largest |θ|/α; None where the block overturned."""
-        return None if self.outcome == "overturned" else float(self.amplitude.max())
+        return None if np.isfinite(self.overturning_time) else float(self.amplitude.max())
 
     @property
     def peak_time(self) -> float:

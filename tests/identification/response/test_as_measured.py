@@ -71,3 +71,11 @@ def test_every_second_sample_has_the_errors_of_every_second_sample():
     half = replace(EXACT, drift=TIME).thinned(10, 2)
     assert half.interval == 2 * INTERVAL
     np.testing.assert_array_equal(half.drift, TIME[10::2])
+
+
+def test_many_runs_are_filtered_together_as_one_record_is_alone():
+    histories = np.cumsum(np.random.default_rng(3).standard_normal((7, LENGTH)), axis=1).astype(np.float32)
+    found = recorded(replace(EXACT, cutoff_hz=15.0, filter_order=3), histories)
+    memory = int(3 * 3 / (15.0 * INTERVAL))
+    mirrored = np.concatenate((histories[:, memory:0:-1], histories), axis=1).astype(float)
+    np.testing.assert_allclose(found, lowpass(mirrored, INTERVAL, 15.0, 3)[:, memory:], rtol=1e-12, atol=1e-12)

@@ -115,4 +115,6 @@ def _band(counts: Counts, levels: Array, edges: Array) -> Array:
                 deviations[level, sample] = edges[place] + share * (edges[place + 1] - edges[place])
                 level += 1
             below += here
+            if level == levels.size:
+                break
     return deviations

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.dynamics.block import Block, Sided, pair
+from colonnade.dynamics.block import Block, Side, Sided, pair
 from colonnade.dynamics.motion import MOST_SAMPLES, Motion
 from colonnade.validation import number, whole
 
@@ -105,11 +105,10 @@ def member_restitution(restitution: Sided, change: float) -> tuple[float, float]
 
 def member_block(block: Block, critical_angle: float, p: float) -> Block:
     """Return the block with α and p of both sides multiplied; the pole distances stay."""
-    sides = (block.negative, block.positive)
-    return block.override(
-        critical_angle=(sides[0].critical_angle * critical_angle, sides[1].critical_angle * critical_angle),
-        inertia=(sides[0].inertia / p**2, sides[1].inertia / p**2),
+    negative, positive = (
+        Side(side.critical_angle * critical_angle, side.pole_distance, side.inertia / p**2) for side in block.sides
     )
+    return Block(block.mass, block.gravity, negative, positive, block.solid)
 
 
 class MotionDraws:
@@ -163,7 +162,10 @@ class MotionDraws:
         recorded, acceleration = self._motion, self._motion.acceleration
         spectrum = None
         if self._spectrum is not None:
-            spectrum = self._spectrum / (1.0 + self._power * cutoff**-self._order)
+            # A complex number over a real one, part by part: numpy divides by it as by a complex one.
+            response = 1.0 / (1.0 + self._power * cutoff**-self._order)
+            filtered = self._spectrum.view(np.float64).reshape(-1, 2) * response[:, None]
+            spectrum = filtered.view(np.complex128)[:, 0]
         if self._uncertainty.noise > 0.0:
             parts = random.standard_normal((2, self._passing))
             noise = self._noise * (parts[0] + 1j * parts[1])

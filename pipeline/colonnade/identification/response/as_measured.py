@@ -6,9 +6,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import signal
 
 from colonnade.arrays import Array
-from colonnade.signals.filters import lowpass
+from colonnade.dynamics.kernel import kernel
+from colonnade.signals.filters import lowpass_sections
 
 
 @dataclass(frozen=True)
@@ -106,9 +108,47 @@ def _calibration(measurement: Measurement, start: float, random: np.random.Gener
 
 
 def _filtered(values: Array, measurement: Measurement) -> Array:
-    """Low-pass what begins at rest or at a peak: its mirror image goes before it."""
+    """
+    Low-pass what begins at rest or at a peak, shape (m, n): its mirror image goes before it.
+
+    As `signals.filters.lowpass`, but all m at each sample, which takes a tenth of the time.
+    """
     assert measurement.cutoff_hz is not None
     longest = int(3 * measurement.filter_order / (measurement.cutoff_hz * measurement.interval))
     memory = min(longest, values.shape[-1] - 1)
-    mirrored = np.concatenate((values[:, memory:0:-1], values), axis=1)
-    return lowpass(mirrored, measurement.interval, measurement.cutoff_hz, measurement.filter_order)[:, memory:]
+    count = values.shape[-1] + memory
+    sections, padding = lowpass_sections(count, measurement.interval, measurement.cutoff_hz, measurement.filter_order)
+    mirrored = np.concatenate((values[:, memory:0:-1], values), axis=1).T
+    before = 2 * mirrored[0] - mirrored[padding:0:-1]
+    after = 2 * mirrored[-1] - mirrored[-2 : -padding - 2 : -1]
+    extended = np.ascontiguousarray(np.concatenate((before, mirrored, after)))
+    settled = np.asarray(signal.sosfilt_zi(sections))
+    for backwards in (False, True):
+        _run_filter(extended, sections, settled, backwards)
+    return np.ascontiguousarray(extended[padding + memory : padding + count].T)
+
+
+@kernel
+def _run_filter(values: Array, sections: Array, settled: Array, backwards: bool) -> None:
+    """
+    Run second-order sections, shape (k, 6), over m records, shape (n, m), in place, from their first or last sample on.
+
+    `settled`, shape (k, 2), is the state of the sections that a constant 1 leaves: each record begins as if its first
+    value had lasted for ever.
+    """
+    samples, count = values.shape
+    state = np.empty((2 * sections.shape[0], count))
+    for row in range(state.shape[0]):
+        for record in range(count):
+            state[row, record] = settled[row // 2, row % 2] * values[samples - 1 if backwards else 0, record]
+    for number in range(samples):
+        sample = samples - 1 - number if backwards else number
+        for section in range(sections.shape[0]):
+            b0, b1, b2, _a0, a1, a2 = sections[section]
+            # Direct form II, transposed.
+            for record in range(count):
+                now = values[sample, record]
+                filtered = b0 * now + state[2 * section, record]
+                state[2 * section, record] = b1 * now - a1 * filtered + state[2 * section + 1, record]
+                state[2 * section + 1, record] = b2 * now - a2 * filtered
+                values[sample, record] = filtered

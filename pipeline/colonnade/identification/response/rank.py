@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
+from colonnade.dynamics.kernel import kernel
 
 WITHIN = 0.95
 """Largest rank of a measured history that is within a model's own spread."""
@@ -82,23 +83,34 @@ def distances(measured: ArrayLike, members: ArrayLike) -> Distances | None:
     known = np.isfinite(seen)
     if runs.shape[0] < FEWEST or not known.any():
         return None
-    everyone = np.vstack((seen[known], runs[:, known]))
-    low, middle, high = _of_the_others(everyone)
-    deviation = everyone - middle
-    half = np.where(deviation > 0, high - middle, middle - low)
-    largest = (np.abs(deviation) / np.maximum(half, _LEAST)).max(axis=1)
+    everyone = np.vstack((seen[known], runs[:, known])).T.copy()
+    largest = _largest(everyone, np.sort(everyone, axis=1), np.array(BAND), _LEAST)
     return Distances(float(largest[0]), largest[1:])
 
 
-def _of_the_others(everyone: Array) -> list[Array]:
-    """Quantiles `BAND` at each time of all histories but one, shape (m + 1, n) each, for each one left out."""
-    order = np.argsort(everyone, axis=0)
-    ranked = np.take_along_axis(everyone, order, axis=0)
-    place = np.empty_like(order)
-    np.put_along_axis(place, order, np.arange(order.shape[0])[:, None], axis=0)
-    quantiles = []
-    for level in BAND:
-        share, below = np.modf(level * (order.shape[0] - 2))
-        lower, upper = (np.where(place > each, ranked[each], ranked[each + 1]) for each in (int(below), int(below) + 1))
-        quantiles.append((1 - share) * lower + share * upper)
-    return quantiles
+@kernel
+def _largest(everyone: Array, ranked: Array, levels: Array, least: float) -> Array:
+    """
+    Largest scaled distance of each of m + 1 histories from the median of the m others, shape (m + 1,).
+
+    `everyone`, shape (n, m + 1), has all at each time; `ranked` the same in order; `levels` are the quantiles.
+    """
+    times, count = everyone.shape
+    largest = np.zeros(count)
+    share, below = np.empty(levels.size), np.empty(levels.size, dtype=np.int64)
+    for k in range(levels.size):
+        below[k] = int(levels[k] * (count - 2))
+        share[k] = levels[k] * (count - 2) - below[k]
+    quantiles = np.empty(levels.size)
+    for time in range(times):
+        for history in range(count):
+            value = everyone[time, history]
+            # Without this history, every rank from its own on is that of the next one.
+            for k in range(levels.size):
+                first, second, third = ranked[time, below[k]], ranked[time, below[k] + 1], ranked[time, below[k] + 2]
+                lower, upper = first if value > first else second, second if value > second else third
+                quantiles[k] = (1 - share[k]) * lower + share[k] * upper
+            low, middle, high = quantiles
+            half = high - middle if value > middle else middle - low
+            largest[history] = max(largest[history], abs(value - middle) / max(half, least))
+    return largest
