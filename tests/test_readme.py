@@ -55,7 +55,7 @@ def outputs(folder: Path) -> dict[str, str]:
 
 def test_every_command_runs_and_the_demo_is_near_its_truth(outputs):
     assert {"colonnade demo demo --short", "colonnade check first", "colonnade run first"} <= outputs.keys()
-    assert "which the interval holds" in outputs["colonnade demo demo --short"]
+    assert "inside the interval" in outputs["colonnade demo demo --short"]
     assert "wrong" not in outputs["colonnade demo demo --short"]
     assert "10 of 10 measured outcomes are right" in outputs["colonnade demo demo --short"]
     assert outputs["colonnade demo demo --short"].count("Its misfit (nrmse) is") == 2

@@ -90,7 +90,7 @@ def sided(name: str, value: Any, expected: str, **bounds: Any) -> tuple[float, f
     """
     if isinstance(value, (tuple, list)) or (isinstance(value, np.ndarray) and value.shape == (2,)):
         if len(value) != 2:
-            raise ValueError(f"{name} is {described(value)}; {expected}, or a pair of two, was expected")
+            raise ValueError(f"{name} is {described(value)}; {expected}, or a pair of them, was expected")
         negative, positive = (number(name, each, expected, **bounds) for each in value)
         return negative, positive
     both = number(name, value, expected, **bounds)

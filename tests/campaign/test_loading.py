@@ -11,7 +11,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from colonnade.campaign import Align, load
+from colonnade.campaign import load
+from colonnade.campaign.setup import Align
 from colonnade.errors import CampaignError
 
 CONTRACT = Path(__file__).with_name("contract.toml").read_text(encoding="utf-8")
@@ -102,7 +103,7 @@ WRONG = [
     ('mass = "26.10 kg"', 'mass = "26.10 g"', 'specimens.prism.mass: "26.10 g": "g" is a unit of acceleration.'),
     ('shape = "cone"', 'shape = "kone"', 'specimens.cone: Unknown shape "kone". Did you mean "cone"?'),
     ('shape = "cone", ', "", 'specimens.cone: "shape" is missing.'),
-    ('["0.21 rad", "12 deg"]', '"100 deg"', "specimens.statue: These numbers do not make a block: critical_angle"),
+    ('["0.21 rad", "12 deg"]', '"100 deg"', "specimens.statue: No block has these numbers: critical_angle"),
     ("restitution = 0.9}", "restitution = 1.2}", "specimens.statue.restitution: 1.2 was found."),
     ("cylinder =", "Prism =", 'specimens.Prism: This id differs from "prism" only in upper and lower case.'),
     ("cylinder =", "con =", 'specimens.con: "con" is the name of a device on Windows.'),
@@ -200,14 +201,14 @@ WRONG = [
     (
         '["0 s", "0.5 s"]',
         '"begin"',
-        'tests[free-01].zero: "begin" was found. "auto", "start", "end", "none" or an interval',
+        'tests[free-01].zero: "begin" was found. A list of 2 was expected: start and end',
     ),
     ("span = 2.0", 'span = "2.0"', 'tests[span-2.0].span: "2.0" was found. A plain number was expected'),
     ("span = 2.0", "span = nan", "tests[span-2.0].span: nan was found. A finite number was expected."),
     (
         '"overturned"',
         '"fell"',
-        'tests[span-2.0].observed_outcome: "fell" was found. One of these was expected: "overturned"',
+        'tests[span-2.0].observed_outcome: "fell" was found. Choose one of: "overturned"',
     ),
     ("[processing]", "[processing", "this is not valid TOML: "),
 ]

@@ -32,7 +32,7 @@ CHANNEL = {
             'quantity = "velocity" on the specimen is valid but not',
         ),
         ({"on": '"ground"'}, 'quantity = "displacement" on the ground is valid but not'),
-        ({"on": '"table"', "direction": "[1, 0, 1]"}, "a motion of the table that is along none of x, y and z"),
+        ({"on": '"table"', "direction": "[1, 0, 1]"}, "a motion of the table that is not along x, y or z"),
         ({"quantity": '"acceleration"', "unit": '"g"', "at": None}, "an accelerometer on the specimen without `at`"),
     ],
 )

@@ -59,7 +59,7 @@ def test_every_decision_is_read_with_who_when_and_why(reviewed):
     first, second = campaign.review("free-01"), campaign.review("free-02")
     assert first.sentences == (
         "2013-04-26, V. D.: channel top excluded: the video",
-        "2013-04-26, V. D.: only 2 s to 60 s taken: the video",
+        "2013-04-26, V. D.: only 2 s to 60 s used: the video",
         "2013-04-26, V. D.: channel table from 3.2 s to 3.4 s flagged as suspect: the video",
         "2013-04-26, V. D.: gain of channel table multiplied by -1: the video",
     )

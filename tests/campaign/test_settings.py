@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from colonnade.campaign import Processing, settings
+from colonnade.campaign import Processing
+from colonnade.campaign.settings import settings
 
 
 def test_every_setting_is_described_and_stands_at_its_default():

@@ -101,7 +101,7 @@ def test_a_measured_value_overrides_the_one_of_the_dimensions():
 def test_a_measured_value_is_warned_of_beyond_one_per_cent(inertia, warned):
     deviations = Prism.model_validate(PRISM | {"inertia": inertia}).deviations(GRAVITY)
     assert bool(deviations) is warned
-    assert all("kg m² that follow from the dimensions; the given value is used" in told for told in deviations)
+    assert all("kg m² that the dimensions give; the given value is used" in told for told in deviations)
 
 
 def test_a_measured_specimen_has_no_dimensions_to_deviate_from():

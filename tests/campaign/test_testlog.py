@@ -149,7 +149,7 @@ def test_what_is_no_table_is_refused(content, told, tmp_path):
 
 
 def test_a_broken_workbook_is_refused(tmp_path):
-    with pytest.raises(CampaignError, match=r"log\.xlsx: it is not whole"):
+    with pytest.raises(CampaignError, match=r"log\.xlsx: it is incomplete"):
         with_log(tmp_path, "log.xlsx", LOGS["log.xlsx"][:300])
 
 

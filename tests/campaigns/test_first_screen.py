@@ -128,7 +128,7 @@ def _copy(folder):
 MISTAKES = {
     "gain x 10": (
         _in_campaign((r'gain = "15 mm/V"', 'gain = "150 mm/V"')),
-        r"serious \(gain\): free: Channel top shows .* times the rotation .*: a gain ten times off",
+        r"serious \(gain\): free: Channel top shows .* times the rotation .*: a gain wrong by a factor of 10",
     ),
     "swapped columns": (_swap, r"serious \(swapped channels\): free: Channels top and bottom look swapped"),
     "V for mm": (

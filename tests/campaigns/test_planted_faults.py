@@ -186,35 +186,35 @@ FAULTS = {
     "late recorder": (
         "quake",
         _in_file("quake-daq2.csv", _started_late),
-        r"agree better at -1[23]\d\d ms, beyond what was looked for; .* processing.longest_offset",
+        r"agree better at -1[23]\d\d ms, beyond the range searched; .* processing.longest_offset",
     ),
     "lost samples": ("sine", _in_file("sine.csv", _lost), "1 gap in time, about 200 samples lost"),
     "wrong unit": (
         "sine",
         _in_campaign(r'"([\d.]+) g/V"', r'"\1 m/s^2/V"'),
-        r"table_acceleration is 0.10\d times the second derivative of table_displacement: by the specimen's rocking it "
-        "is table_acceleration that is wrong; g taken for m/s²",
+        r"table_acceleration is 0.10\d times the second derivative of table_displacement: the specimen's rocking shows "
+        "that table_acceleration is wrong; g read as m/s²",
     ),
     "gain x 10": (
         "quake",
         _in_campaign(r'(top = .*)gain = "15 mm/V"', r'\1gain = "150 mm/V"'),
-        r"channel top shows (9\.\d+|10(\.\d)?) times the rotation .* that bottom shows: a gain ten times off",
+        r"channel top shows (9\.\d+|10(\.\d)?) times the rotation .* that bottom shows: a gain wrong by a factor of 10",
     ),
     "inches": (
         "free",
         _in_file("free.csv", _times(BOTTOM, 1 / 25.4)),
-        r"channel bottom shows 0.0[34]\d* times the rotation .* that top shows: inches taken for mm",
+        r"channel bottom shows 0.0[34]\d* times the rotation .* that top shows: inches read as mm",
     ),
     "sign of a transducer": (
         "sine",
         _in_file("sine.csv", _times(BOTTOM, -1.0)),
-        "channel bottom turns against top: the sign of bottom is wrong",
+        "channel bottom turns opposite to top: the sign of bottom is wrong",
     ),
     "sign of the table": (
         "sine",
         _in_file("sine-daq2.csv", _times(1, -1.0)),
-        "table_acceleration and the second derivative of table_displacement have opposite signs: by the specimen's "
-        "rocking it is table_acceleration that is wrong",
+        "table_acceleration and the second derivative of table_displacement have opposite signs: the specimen's "
+        "rocking shows that table_acceleration is wrong",
     ),
     "swapped": (
         "free",
@@ -224,7 +224,7 @@ FAULTS = {
     "dead": (
         "sine",
         _in_file("sine.csv", _dead),
-        r"channel bottom hardly moves \(.*\) where the rotation that top shows",
+        r"channel bottom hardly moves \(.*\), although the rotation measured by top",
     ),
     "clipped": (
         "sine",

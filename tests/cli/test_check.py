@@ -47,7 +47,7 @@ def test_a_good_campaign_passes_and_nothing_is_written(colonnade, campaign):
     told = colonnade("check")
     assert (told.returncode, told.stderr) == (0, "")
     assert "free-01: good" in told.stdout
-    assert told.stdout.endswith("All good; nothing was written.\n")
+    assert told.stdout.endswith("All good. Nothing was written.\n")
     assert snapshot(campaign) == before
 
 

@@ -9,7 +9,7 @@ def test_a_folder_with_other_files_is_left_alone(colonnade, campaign):
     (campaign / "campaign.toml").unlink()
     told = colonnade("demo", ".")
     assert told.returncode == 2
-    assert "holds other files" in told.stderr
+    assert "contains other files" in told.stderr
     assert sorted(path.name for path in campaign.rglob("*")) == ["free-01.csv", "free-02.csv", "raw"]
 
 

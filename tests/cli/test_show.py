@@ -77,4 +77,4 @@ def test_a_summary_that_was_damaged_is_told(colonnade, campaign, text):
     (campaign / "processed" / "summary.json").write_text(text, encoding="utf-8")
     told = colonnade("show", "tests")
     assert told.returncode == 1
-    assert "summary.json: it was altered or damaged. `colonnade run` makes it again." in told.stderr
+    assert "summary.json: it was altered or damaged. Run `colonnade run` to make it again." in told.stderr

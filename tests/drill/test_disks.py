@@ -1,4 +1,4 @@
-"""A disk that fills and a folder that may not be written: told in words, nothing half-written, taken up again."""
+"""A disk that fills and a folder that cannot be written: told in words, nothing half-written, taken up again."""
 
 from __future__ import annotations
 
@@ -84,4 +84,4 @@ def test_a_new_campaign_where_nothing_may_be_written_is_refused(
     code, told = command(name, small if name == "init" else small / "demo")
     assert code == 1
     assert str(small) in told
-    assert any(words in told for words in ("may not be written", "Read-only", "Permission denied")), told
+    assert any(words in told for words in ("cannot be written", "Read-only", "Permission denied")), told

@@ -86,5 +86,5 @@ def test_text_stays_text_and_dollar_signs_are_no_formula():
 
 @pytest.mark.parametrize("identity", ["", "2.0", "a b", 'a"b', "é"])
 def test_what_is_no_id_is_refused(identity):
-    with pytest.raises(ValueError, match="is no id"):
+    with pytest.raises(ValueError, match="cannot be an id"):
         svg(identity)

@@ -100,7 +100,7 @@ def test_the_values_of_a_diadem_header_are_found_and_named_where_they_are_missin
     assert companions(path) == (path.with_suffix(".R32"),)
     path.with_suffix(".R32").unlink()
     assert companions(path) == (path.with_suffix(".R32"),)
-    with pytest.raises(ReadError, match=r"its values stand in the file \"record.R32\", which is not in its folder"):
+    with pytest.raises(ReadError, match=r"its values are in the file \"record.R32\", which is not in its folder"):
         read(path)
 
 

@@ -61,8 +61,8 @@ READ = {
 }
 REFUSED = {
     "SOURCES.md": "delimited: no rows of numbers",
-    "diadem/testfile.DAT": r'its values stand in the file "REAL64.R64", which is not in its folder',
-    "diadem/testfile.tdx": r"diadem: the values of testfile.TDM: read that one",
+    "diadem/testfile.DAT": r'its values are in the file "REAL64.R64", which is not in its folder',
+    "diadem/testfile.tdx": r"diadem: the values of testfile.TDM: read that file instead",
 }
 
 
@@ -119,7 +119,7 @@ def test_an_mts_file_keeps_its_last_block_apart(shared_data: Path) -> None:
     last = recording.channel("block 2: Ch 1 Kraft")
     assert last.values.tolist() == [0.80352277, -147.20456]  # the largest force: 147.2 kN
     (told,) = recording.warnings
-    assert "2 blocks with different columns: block 1, the longest with 572 rows, is taken" in told
+    assert "2 blocks with different columns: block 1, the longest with 572 rows, is used" in told
     assert recording.start is not None
     assert recording.start.isoformat(timespec="seconds") == "2014-09-01T13:25:39"  # as its operator's block says
 

@@ -19,12 +19,12 @@ PATH = Path("raw/free-01.mf4")
     [
         (
             ValueError("half a\n block"),
-            "(ValueError: half a block). The file is damaged, was cut off, or is of a version",
+            "(ValueError: half a block). The file is damaged, was cut off, or is of an unknown version",
         ),
         (KeyError(), "(KeyError). The file is damaged"),
         (OSError("no block"), "(OSError: no block). The file is damaged"),
         (OSError(errno.EINVAL, "Invalid argument"), "Invalid argument). The file is damaged"),
-        (PermissionError(errno.EACCES, os.strerror(errno.EACCES)), "Check that you may read it and that its disk is"),
+        (PermissionError(errno.EACCES, os.strerror(errno.EACCES)), "Check its permissions and that its disk is"),
         (FileNotFoundError(errno.ENOENT, "x"), "there is no such file"),
     ],
     ids=["a message", "none", "of the parser", "a place before the start", "of the machine", "missing"],

@@ -120,7 +120,7 @@ def test_a_recogniser_that_stumbles_leaves_the_others_their_turn(
     path.write_text("a;b\n1;2\n3;4\n")
     assert read(path).format == "delimited"
     path.write_text("words\n")
-    with pytest.raises(ReadError, match=r"odd: it could not be looked at \(error: unpack requires 8 bytes\)"):
+    with pytest.raises(ReadError, match=r"odd: it could not be examined \(error: unpack requires 8 bytes\)"):
         read(path)
 
 

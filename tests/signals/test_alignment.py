@@ -142,7 +142,7 @@ SHAKEN = np.gradient(np.gradient(_earthquake(0.0), INTERVAL), INTERVAL)
 def test_a_delay_beyond_what_is_looked_for_is_said(delay):
     found = _linked(delay)
     assert found.beyond == pytest.approx(delay, abs=5e-3)
-    assert f"agree better at {1e3 * found.beyond:.4g} ms, beyond what was looked for" in found.doubt
+    assert f"agree better at {1e3 * found.beyond:.4g} ms, beyond the range searched" in found.doubt
     assert "processing.longest_offset" in found.doubt
     assert _linked(delay, longest=2.0).doubt == ""
 
@@ -151,6 +151,6 @@ def test_a_delay_beyond_what_is_looked_for_is_said(delay):
 def test_a_wrong_sign_is_told_from_half_a_period(frequency):
     found = _linked(0.02, sign=-1.0, frequency=frequency)
     assert found.opposed
-    assert "only with the sign of one turned" in found.doubt
+    assert "only with the sign of one reversed" in found.doubt
     assert abs(found.seconds - 0.02) < 1e-3
     assert not _linked(0.02, frequency=frequency).opposed

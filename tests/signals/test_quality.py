@@ -82,7 +82,7 @@ def test_values_beyond_the_range_are_in_another_unit():
 
 def test_a_channel_that_begins_at_the_end_of_its_range_is_told():
     values = np.where(TIME < 0.5, 10.0, np.sin(TIME))
-    assert "It begins there: look at its cable" in check_clipping(TIME, values, full_scale=10.0).reason
+    assert "It begins there: check its cable" in check_clipping(TIME, values, full_scale=10.0).reason
     assert "begins" not in check_clipping(TIME, values[::-1].copy(), full_scale=10.0).reason
 
 

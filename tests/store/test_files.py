@@ -113,7 +113,7 @@ def test_a_value_that_was_changed_in_the_file_is_told(tmp_path):
         changed = opened.load().copy(deep=True)
     changed["top"][0] = 1e-9
     changed.to_netcdf(path)
-    with pytest.raises(StoreError, match="its values are not those that were written"):
+    with pytest.raises(StoreError, match="its values differ from those that were written"):
         files.read(path)
 
 
@@ -147,7 +147,7 @@ def test_a_write_that_breaks_off_leaves_the_old_file_and_nothing_beside_it(tmp_p
     ("number", "said"),
     [
         (errno.ENOSPC, r"the disk is full \(.* MB free\)"),
-        (errno.EROFS, "it may not be written"),
+        (errno.EROFS, "it cannot be written"),
         (errno.EIO, "Check the disk"),
     ],
 )

@@ -87,7 +87,7 @@ def test_one_changed_bit_is_told(tmp_path):
     place = content.index(record()["top"].to_numpy()[500:510].tobytes())
     content[place] ^= 1
     path.write_bytes(content)
-    with pytest.raises(StoreError, match="its values are not those that were written"):
+    with pytest.raises(StoreError, match="its values differ from those that were written"):
         files.read(path)
 
 
@@ -111,7 +111,7 @@ def test_a_disk_that_refuses_a_long_file_is_told_in_words(tmp_path, monkeypatch)
         raise OSError(errno.EROFS, os.strerror(errno.EROFS))
 
     monkeypatch.setattr(os, "fsync", refused)
-    with pytest.raises(StoreError, match="it may not be written"):
+    with pytest.raises(StoreError, match="it cannot be written"):
         files.write(record(), tmp_path / "a.nc", attributes={})
     assert list(tmp_path.iterdir()) == []
 

@@ -103,7 +103,7 @@ def test_a_specimen_without_a_law_fails_its_tests_with_what_to_do(in_space):
     in_space.edit('step = "30 us"', 'step = "1 ms"')
     stages = in_space.run().stages
     reasons = {stage.reason for stage in stages if stage.action == "failed"}
-    assert any("Take a shorter step or a softer contact" in reason for reason in reasons)
+    assert any("Use a shorter step or a softer contact" in reason for reason in reasons)
     assert in_space.summary()["tests"]["pulse-01"]["status"] == "failed"
 
 

@@ -141,26 +141,19 @@ class Channel(Table):
         return self
 
     def _missing(self) -> dict[str, str]:
-        missing: dict[str, str] = {}
         if self.quantity == "other":
-            return missing
-        if self.unit is None:
-            missing["unit"] = 'It is missing. Expected: unit of the values in the file, such as "V" or "mm".'
+            return {}
+        needed = {"unit": 'Expected: unit of the values in the file, such as "V" or "mm".'}
         if self.quantity in _NEEDS_DIRECTION:
-            if self.on is None:
-                missing["on"] = 'It is missing. "specimen", "table" or "ground" was expected.'
-            if self.direction is None:
-                missing["direction"] = (
-                    "It is missing. The direction of a positive reading was expected, such as [1, 0, 0]."
-                )
+            needed["on"] = '"specimen", "table" or "ground" was expected.'
+            needed["direction"] = "The direction of a positive reading was expected, such as [1, 0, 0]."
         if self.quantity == "displacement" and self.on == "specimen":
-            if self.at is None:
-                missing["at"] = (
-                    "It is missing. The point that the transducer follows was expected, "
-                    'such as ["43 mm", "0 mm", "440 mm"] from the centre of the base.'
-                )
-            if self.relative_to is None:
-                missing["relative_to"] = 'It is missing. "table" or "ground" was expected: what it is fixed to.'
+            needed["at"] = (
+                "The point that the transducer follows was expected, "
+                'such as ["43 mm", "0 mm", "440 mm"] from the centre of the base.'
+            )
+            needed["relative_to"] = '"table" or "ground" was expected: what the transducer is fixed to.'
+        missing = {key: f"It is missing. {what}" for key, what in needed.items() if getattr(self, key) is None}
         return missing | self._wrong_sight()
 
     def _wrong_sight(self) -> dict[str, str]:
@@ -170,9 +163,7 @@ class Channel(Table):
             wrong["sensing"] = f'"{self.sensing}" is for a displacement of the specimen. Leave it out here.'
         for key, sensing in (("normal", "surface"), ("anchor", "wire")):
             if getattr(self, key) is not None and self.sensing != sensing:
-                wrong[key] = (
-                    f'It goes with sensing = "{sensing}", and sensing is "{self.sensing}" here. Correct one of them.'
-                )
+                wrong[key] = f'It needs sensing = "{sensing}", but sensing is "{self.sensing}". Correct one of them.'
         if self.sensing == "wire" and self.anchor is None:
             wrong["anchor"] = 'It is missing. A "wire" needs its fixed end, such as ["500 mm", "0 mm", "440 mm"].'
         return wrong or self._sees_nothing()
@@ -182,14 +173,14 @@ class Channel(Table):
         if self.direction is None:
             return {}
         if self.normal is not None and abs(_cosine(self.normal, self.direction)) < LEAST_COSINE:
-            return {"normal": "The line of sight runs along this face. A face that it hits was expected."}
+            return {"normal": "The line of sight is parallel to this face. Give the normal of the face that it hits."}
         if self.anchor is None or self.at is None:
             return {}
         wire = tuple(there - here for here, there in zip(self.at, self.anchor, strict=True))
         if not any(wire):
-            return {"anchor": "It is the same point as `at`, so the wire has no length. Its fixed end was expected."}
+            return {"anchor": "It is the same point as `at`, so the wire has no length. Give its fixed end."}
         if abs(_cosine(wire, self.direction)) < LEAST_COSINE:
-            return {"anchor": "The wire runs across `direction`. An anchor ahead of or behind `at` was expected."}
+            return {"anchor": "The wire is at right angles to `direction`. Give an anchor ahead of or behind `at`."}
         return {}
 
     @property
@@ -249,7 +240,7 @@ class Channel(Table):
         try:
             return abs(self._physical(self.written_range))
         except UnitError as error:
-            raise UnitError(f'{error} A range in the recorded unit, "{self.unit or ""}", is right as well.') from None
+            raise UnitError(f'{error} A range in the recorded unit, "{self.unit or ""}", is also allowed.') from None
 
     @property
     def _physical_unit(self) -> str:
@@ -263,5 +254,5 @@ class Channel(Table):
         value, unit = units.parse(text)
         factor, found = units.si_factor(unit)
         if found != self.si_unit:
-            raise UnitError(f'"{text}" is not in the unit of the physical value, which is {self.si_unit} in SI.')
+            raise UnitError(f'"{text}" does not have the unit of the physical value, which is {self.si_unit} in SI.')
         return value * factor

@@ -98,5 +98,5 @@ def _what(action: str, entry: Mapping[str, Any]) -> str:
         return f"gain of channel {entry['channel']} multiplied by {entry['factor']:g}"
     low, high = entry["window"]
     if action == "trim":
-        return f"only {low:g} s to {high:g} s taken"
+        return f"only {low:g} s to {high:g} s used"
     return f"channel {entry['channel']} from {low:g} s to {high:g} s flagged as {entry['flag']}"

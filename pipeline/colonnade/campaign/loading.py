@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
-
-from pydantic import ValidationError
 
 from colonnade.campaign.campaign import Campaign, CampaignFile, resolved
 from colonnade.campaign.notices import notices
 from colonnade.campaign.references import dangling
 from colonnade.campaign.review import read_review
 from colonnade.campaign.specimen import SHAPES
-from colonnade.campaign.syntax.document import parse, place_of, read_text, refusal
+from colonnade.campaign.syntax.document import parse, read_text, refusal, validated
 from colonnade.campaign.syntax.places import Place, Source, key_lines
 from colonnade.campaign.syntax.rawpath import inside
 from colonnade.campaign.testlog import Log, read_log
@@ -49,7 +46,8 @@ def load(path: Path | str) -> Campaign:
         log = _log(document["tests"], path.parent, source)
         document = document | {"tests": list(log.tests)}
         source = replace(source, log=log.name, rows=log.rows)
-    written, problems = _validated(document, path.parent)
+    written, wrong = validated(CampaignFile, document, path.parent)
+    problems = [*((_place(place), message) for place, message in wrong), *dangling(document)]
     paragraphs = [*log.problems, *source.paragraphs(problems, document)]
     if paragraphs or written is None:
         raise refusal(paragraphs)
@@ -70,9 +68,7 @@ def _found(path: Path) -> Path:
     except (OSError, RuntimeError, ValueError) as error:
         raise CampaignError(f"{path}: invalid path ({error}).") from None
     hint = f" That folder has: {', '.join(others)}." if others else ""
-    raise CampaignError(
-        f"{path.name}: not found in {path.parent}.{hint} The path of a {FILE_NAME} or of its folder was expected."
-    )
+    raise CampaignError(f"{path.name}: not found in {path.parent}.{hint} Name a {FILE_NAME} or its folder.")
 
 
 def _log(written: str, folder: Path, source: Source) -> Log:
@@ -82,19 +78,7 @@ def _log(written: str, folder: Path, source: Source) -> Log:
         return Log(problems=(source.paragraph(("tests",), str(error), {}),))
 
 
-def _validated(document: dict[str, Any], folder: Path) -> tuple[CampaignFile | None, list[tuple[Place, str]]]:
-    problems: list[tuple[Place, str]] = list(dangling(document))
-    written = None
-    try:
-        written = CampaignFile.model_validate(document, context={"folder": folder})
-    except ValidationError as error:
-        problems = [(_place(each["loc"]), each["msg"]) for each in error.errors()] + problems
-    return written, problems
-
-
-def _place(location: Place) -> Place:
-    """A key's place: pydantic's, without its marks for a key and for the shape that it chose."""
-    place = place_of(location)
-    if place[:1] == ("specimens",) and len(place) > 2 and place[2] in SHAPES:
-        place = (*place[:2], *place[3:])
-    return place
+def _place(place: Place) -> Place:
+    """A key's place without pydantic's mark for the shape that it chose."""
+    of_a_shape = place[:1] == ("specimens",) and len(place) > 2 and place[2] in SHAPES
+    return (*place[:2], *place[3:]) if of_a_shape else place

@@ -115,6 +115,6 @@ def _faces(tests: list[Any], specimens: Mapping[str, Any], setups: Mapping[str, 
                 found.add(place)
                 yield (
                     place,
-                    f'It is missing. Specimen "{specimen_name}" is not round, so that a "surface" transducer needs the '
-                    "outward normal of the face that it looks at, such as [1, 0, 0].",
+                    f'It is missing. Specimen "{specimen_name}" is not round, so a "surface" transducer '
+                    "needs the outward normal of the face that it looks at, such as [1, 0, 0].",
                 )

@@ -8,12 +8,12 @@ from datetime import date, datetime
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field, ValidationError, WithJsonSchema
+from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from colonnade.campaign.decision import Review, decided
 from colonnade.campaign.setup import Setup
 from colonnade.campaign.syntax.bounds import FACTOR, outside
-from colonnade.campaign.syntax.document import parse, place_of, read_text, refusal
+from colonnade.campaign.syntax.document import parse, read_text, refusal, validated
 from colonnade.campaign.syntax.fields import Interval, Text, number, one_of, schema_version, shown, text
 from colonnade.campaign.syntax.places import Place, Source, key_lines
 from colonnade.campaign.syntax.rawpath import inside
@@ -159,16 +159,11 @@ def read_review(folder: Path, tests: Mapping[str, Test], setups: Mapping[str, Se
     except ValueError as error:
         raise CampaignError(f"{FILE_NAME}: {error}") from None
     document, source = parse(written, path.name), Source(path.name, key_lines(written))
-    problems: list[tuple[Place, str]] = []
-    review = ReviewFile.model_construct()
-    try:
-        review = ReviewFile.model_validate(document)
-    except ValidationError as error:
-        problems += [(place_of(each["loc"]), each["msg"]) for each in error.errors()]
+    review, problems = validated(ReviewFile, document, folder)
     problems += _dangling(document, _Known(tests, setups))
-    if not problems:
+    if review and not problems:
         problems += _empty_windows(review)
-    if problems:
+    if problems or review is None:
         raise refusal(source.paragraphs(problems, document))
     concerned = dict.fromkeys(name for _, entry in _entries(review) for name in entry.tests)
     return {name: decided(_of_test(review, name)) for name in concerned}

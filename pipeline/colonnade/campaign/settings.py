@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from colonnade.campaign.syntax.bounds import STEP
-from colonnade.campaign.syntax.fields import Angle, Duration, number, one_of, quantity, shown
+from colonnade.campaign.syntax.fields import Angle, Duration, number_between, one_of, or_word, quantity, shown
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.models.registry import MODELS, model_of
 from colonnade.errors import nearest
@@ -24,39 +24,6 @@ DEFAULT_MODELS = tuple(name for name, model in MODELS.items() if model.is_defaul
 
 MESHES = ("rigid", "coarse", "medium", "fine")
 """Bodies of the contact model: rigid on nodes or circles, or elastic on one of three meshes."""
-
-
-def _bounded(low: float, high: float) -> tuple[Any, Any]:
-    return _within(low, high, f"A number between {low:g} and {high:g} was expected.", exclusive=True)
-
-
-def _deviation(largest: float) -> tuple[Any, Any]:
-    return _within(0.0, largest, f"A number from 0 to {largest:g} was expected.")
-
-
-def _within(low: float, high: float, expected: str, *, exclusive: bool = False) -> tuple[Any, Any]:
-    def within(value: object) -> float:
-        converted = number(value)
-        if not low <= converted <= high or (exclusive and converted in (low, high)):
-            raise ValueError(f"{shown(value)} was found. {expected}")
-        return converted
-
-    least, most = ("exclusiveMinimum", "exclusiveMaximum") if exclusive else ("minimum", "maximum")
-    return BeforeValidator(within), WithJsonSchema({"type": "number", least: low, most: high})
-
-
-def _auto_or(single: tuple[Any, Any]) -> tuple[Any, Any]:
-    convert, schema = single
-
-    def either(value: object) -> Any:
-        if value == "auto":
-            return value
-        try:
-            return convert.func(value)
-        except ValueError as error:
-            raise ValueError(f'{error} Or "auto".') from None
-
-    return BeforeValidator(either), WithJsonSchema({"anyOf": [{"const": "auto"}, schema.json_schema]})
 
 
 def _count(low: int, high: int) -> tuple[Any, Any]:
@@ -78,7 +45,7 @@ def _models(value: object) -> tuple[str, ...]:
     return tuple(names)
 
 
-AutoFrequency = Annotated[Literal["auto"] | float, *_auto_or(quantity("frequency", above_zero=True))]
+AutoFrequency = Annotated[Literal["auto"] | float, *or_word(quantity("frequency", above_zero=True), "auto")]
 Models = Annotated[
     tuple[str, ...],
     BeforeValidator(_models),
@@ -93,13 +60,15 @@ def _setting(default: Any, unit: str = "") -> Any:
 class QualitySettings(Table):
     """Settings of the quality checks in `ingest`."""
 
-    spike_threshold: Annotated[float, *_bounded(1.0, 1000.0)] = _setting(8.0, "robust standard deviations")
+    spike_threshold: Annotated[float, *number_between(1.0, 1000.0, exclusive=True)] = _setting(
+        8.0, "robust standard deviations"
+    )
     """A sample that differs from its neighbours by more than this is flagged as a spike and bridged."""
     flat_duration: Duration = _setting(0.5, "s")
     """A value that stays exactly the same for longer than this is flagged as flat."""
-    gap: Annotated[float, *_bounded(1.0, 1000.0)] = _setting(1.5, "sampling intervals")
+    gap: Annotated[float, *number_between(1.0, 1000.0, exclusive=True)] = _setting(1.5, "sampling intervals")
     """A longer step of the clock is a gap."""
-    jitter: Annotated[float, *_bounded(0.0, 1.0)] = _setting(0.05, "sampling intervals")
+    jitter: Annotated[float, *number_between(0.0, 1.0, exclusive=True)] = _setting(0.05, "sampling intervals")
     """A clock whose steps differ by more than this is flagged."""
 
 
@@ -123,9 +92,9 @@ class ConditionSettings(Table):
 class RestitutionSettings(Table):
     """Settings of the identification of the coefficient of restitution."""
 
-    lowest_amplitude: Annotated[float, *_bounded(1e-6, 1.0)] = _setting(0.02, "of α")
+    lowest_amplitude: Annotated[float, *number_between(1e-6, 1.0, exclusive=True)] = _setting(0.02, "of α")
     """Peaks below this fraction of the critical angle are left out."""
-    level: Annotated[float, *_bounded(0.5, 0.999999)] = _setting(0.95)
+    level: Annotated[float, *number_between(0.5, 0.999999, exclusive=True)] = _setting(0.95)
     """Probability of the interval that is given for e."""
 
 
@@ -134,9 +103,9 @@ class ContactEnsembleSettings(Table):
 
     members: Annotated[int, *_count(0, 100_000)] = _setting(0)
     """Runs of the contact model over its unknown inputs, each as long as its prediction; 0 for no ensemble."""
-    friction: Annotated[float, *_deviation(1.0)] = _setting(0.2, "of the friction")
+    friction: Annotated[float, *number_between(0.0, 1.0)] = _setting(0.2, "of the friction")
     """Half of the range of friction, about that of the contact model; all values in it are equally likely."""
-    damping_fraction: Annotated[float, *_deviation(1.0)] = _setting(0.2, "of the damping fraction")
+    damping_fraction: Annotated[float, *number_between(0.0, 1.0)] = _setting(0.2, "of the damping fraction")
     """Half of the range of the contact's damping, about that of the contact model."""
     out_of_plane: Angle = _setting(1e-3, "rad")
     """Half of the range of the rotation about x at the start, about that of the contact model."""
@@ -145,11 +114,11 @@ class ContactEnsembleSettings(Table):
 class MeasurementSettings(Table):
     """How well the measured rocking angle is known, and how uncertain a prediction may become."""
 
-    angle_gain: Annotated[float, *_deviation(0.5)] = _setting(0.005, "of the angle")
+    angle_gain: Annotated[float, *number_between(0.0, 0.5)] = _setting(0.005, "of the angle")
     """Standard deviation of the calibration of the measured rocking angle."""
-    angle_zero: Annotated[float, *_deviation(0.5)] = _setting(5e-4, "of α")
+    angle_zero: Annotated[float, *number_between(0.0, 0.5)] = _setting(5e-4, "of α")
     """Standard deviation of the zero of the measured rocking angle; that of its drift between the rests, if larger."""
-    horizon: Annotated[float, *_bounded(0.0, 10.0)] = _setting(0.2, "of α")
+    horizon: Annotated[float, *number_between(0.0, 10.0, exclusive=True)] = _setting(0.2, "of α")
     """A history is predicted up to the first time at which the 95 % band of its runs is wider than this."""
 
 
@@ -158,17 +127,17 @@ class PlaneEnsembleSettings(Table):
 
     members: Annotated[int, *_count(0, 1_000_000)] = _setting(100)
     """Runs of each model over its uncertain inputs; 0 for no ensemble."""
-    restitution: Annotated[float, *_deviation(0.5)] = _setting(0.005)
+    restitution: Annotated[float, *number_between(0.0, 0.5)] = _setting(0.005)
     """Standard deviation of e if no interval was identified; otherwise that of the interval is used."""
-    critical_angle: Annotated[float, *_deviation(0.5)] = _setting(0.005, "of α")
+    critical_angle: Annotated[float, *number_between(0.0, 0.5)] = _setting(0.005, "of α")
     """Standard deviation of the critical angle."""
-    p: Annotated[float, *_deviation(0.5)] = _setting(0.005, "of p")
+    p: Annotated[float, *number_between(0.0, 0.5)] = _setting(0.005, "of p")
     """Standard deviation of the frequency parameter."""
-    gain: Annotated[float, *_deviation(0.5)] = _setting(0.005, "of the acceleration")
+    gain: Annotated[float, *number_between(0.0, 0.5)] = _setting(0.005, "of the acceleration")
     """Standard deviation of the calibration of the table's acceleration."""
-    clock: Annotated[float, *_deviation(0.1)] = _setting(1e-5, "of the sampling interval")
+    clock: Annotated[float, *number_between(0.0, 0.1)] = _setting(1e-5, "of the sampling interval")
     """Standard deviation of the recorder's clock rate."""
-    filter: Annotated[float, *_deviation(0.5)] = _setting(0.1, "of the cut-off")
+    filter: Annotated[float, *number_between(0.0, 0.5)] = _setting(0.1, "of the cut-off")
     """Standard deviation of the low-pass cut-off of the table's acceleration: how much its choice matters."""
 
 
@@ -187,15 +156,17 @@ class ContactSettings(Table):
     mesh."""
     step: Annotated[float, *quantity("time", above_zero=True, between=STEP, example="10 us")] = _setting(1e-5, "s")
     """Time step of the contact model; it has to be stable."""
-    damping_fraction: Annotated[Literal["auto"] | float, *_auto_or(_deviation(10.0))] = _setting("auto")
+    damping_fraction: Annotated[Literal["auto"] | float, *or_word(number_between(0.0, 10.0), "auto")] = _setting("auto")
     """Critical damping fraction of the contact; "auto" finds the one that gives the specimen's restitution."""
-    penetration: Annotated[float, *_bounded(1e-10, 0.01)] = _setting(1e-6, "of the height of the centre of mass")
+    penetration: Annotated[float, *number_between(1e-10, 0.01, exclusive=True)] = _setting(
+        1e-6, "of the height of the centre of mass"
+    )
     """How deep the standing specimen sinks into its contact, which sets the contact's stiffness."""
-    friction: Annotated[float, *_deviation(10.0)] = _setting(0.6)
+    friction: Annotated[float, *number_between(0.0, 10.0)] = _setting(0.6)
     """Coulomb's coefficient between specimen and table."""
     modulus: Annotated[float, *quantity("pressure", above_zero=True)] = _setting(2e11, "Pa")
     """Young's modulus of an elastic specimen."""
-    poisson_ratio: Annotated[float, *_bounded(-0.999, 0.4999)] = _setting(0.3)
+    poisson_ratio: Annotated[float, *number_between(-0.999, 0.4999, exclusive=True)] = _setting(0.3)
     """Poisson's ratio of an elastic specimen."""
     out_of_plane: Angle = _setting(0.0, "rad")
     """Rotation about x at the start of the contact model: a disturbance out of the plane."""
@@ -206,7 +177,7 @@ class PredictSettings(Table):
 
     models: Models = _setting(DEFAULT_MODELS)
     """Models of rocking that are run on the recorded base motion."""
-    rest_angle: Annotated[float, *_bounded(1e-10, 0.1)] = _setting(1e-6, "of α")
+    rest_angle: Annotated[float, *number_between(1e-10, 0.1, exclusive=True)] = _setting(1e-6, "of α")
     """An arc after an impact that stays below this fraction of the critical angle counts as rest."""
     ensemble: EnsembleSettings = EnsembleSettings()
     """The ensembles of the predictions."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from math import cos, tan
 from typing import Annotated, Literal, Self
 
@@ -21,7 +22,7 @@ from colonnade.campaign.syntax.fields import (
 )
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
-from colonnade.dynamics.density import UnlikelyBlockWarning
+from colonnade.dynamics.density import UnlikelyBlockWarning, cone_volume, prism_volume
 
 # The notices report it for a campaign's specimens.
 warnings.filterwarnings("ignore", category=UnlikelyBlockWarning, module=r"colonnade\.campaign\.specimen")
@@ -34,6 +35,8 @@ SLIP_TOLERANCE = 0.003
 
 OUTER_DIMENSIONS = ("width", "depth", "diameter", "base_diameter", "top_diameter", "height")
 """Keys of lengths that shapes have."""
+
+_BLOCKS: dict[str, Callable[..., Block]] = {"prism": Block.prism, "cylinder": Block.cylinder, "cone": Block.cone}
 
 _MEASURED = {"critical_angle": ("rad", 1.0), "pole_distance": ("mm", 1e3), "inertia": ("kg m²", 1.0)}
 
@@ -67,15 +70,23 @@ class Specimen(Table):
         except ArithmeticError:
             raise ValueError("These numbers are too large or too small for a block. Check the units.") from None
         except ValueError as error:
-            raise ValueError(f"These numbers do not make a block: {error}.") from None
+            raise ValueError(f"No block has these numbers: {error}.") from None
         if expected := outside(p, FREQUENCY_PARAMETER, "rad/s"):
-            raise ValueError(
-                f"These numbers make a block whose frequency parameter is {p:.3g} rad/s. {expected} Check the units."
-            )
+            raise ValueError(f"These numbers give a frequency parameter of {p:.3g} rad/s. {expected} Check the units.")
         return self
 
     def dimensions(self, gravity: float) -> Block | None:
         """Block of the dimensions alone, or None if the specimen has none."""
+        build = _BLOCKS.get(self.shape)
+        return build(**self.sizes(), mass=self.mass, gravity=gravity) if build else None
+
+    @property
+    def volume(self) -> float | None:
+        """m³; None if the specimen has no dimensions."""
+        return None
+
+    def radius(self, z: float) -> float | None:
+        """Radius at a height above the base, m; None if the specimen is not round."""
         return None
 
     def block(self, gravity: float) -> Block:
@@ -140,8 +151,8 @@ class Specimen(Table):
                 slip, meaning = slips.get(name, (0.0, ""))
                 hint = f" It agrees with {meaning}." if abs(value - slip) < SLIP_TOLERANCE * expected else ""
                 sentences.append(
-                    f"{name} is given as {value * factor:.4g} {unit}, {100 * (value / expected - 1):+.1f} % off the "
-                    f"{expected * factor:.4g} {unit} that follow from the dimensions; the given value is used.{hint}"
+                    f"{name} is given as {value * factor:.4g} {unit}, {100 * (value / expected - 1):+.1f} % from the "
+                    f"{expected * factor:.4g} {unit} that the dimensions give; the given value is used.{hint}"
                 )
         return sentences
 
@@ -158,9 +169,10 @@ class Prism(Specimen):
     height: Length
     """Along z."""
 
-    def dimensions(self, gravity: float) -> Block:
-        """Block of the dimensions alone."""
-        return Block.prism(width=self.width, depth=self.depth, height=self.height, mass=self.mass, gravity=gravity)
+    @property
+    def volume(self) -> float:
+        """m³."""
+        return prism_volume(**self.sizes())
 
 
 class Cylinder(Specimen):
@@ -173,9 +185,14 @@ class Cylinder(Specimen):
     height: Length
     """Along z."""
 
-    def dimensions(self, gravity: float) -> Block:
-        """Block of the dimensions alone."""
-        return Block.cylinder(diameter=self.diameter, height=self.height, mass=self.mass, gravity=gravity)
+    @property
+    def volume(self) -> float:
+        """m³."""
+        return cone_volume(self.diameter, self.diameter, self.height)
+
+    def radius(self, z: float) -> float:
+        """Radius at a height above the base, m."""
+        return self.diameter / 2
 
 
 class Cone(Specimen):
@@ -190,15 +207,14 @@ class Cone(Specimen):
     height: Length
     """Along z."""
 
-    def dimensions(self, gravity: float) -> Block:
-        """Block of the dimensions alone."""
-        return Block.cone(
-            base_diameter=self.base_diameter,
-            top_diameter=self.top_diameter,
-            height=self.height,
-            mass=self.mass,
-            gravity=gravity,
-        )
+    @property
+    def volume(self) -> float:
+        """m³."""
+        return cone_volume(**self.sizes())
+
+    def radius(self, z: float) -> float:
+        """Radius at a height above the base, m."""
+        return (self.base_diameter + (self.top_diameter - self.base_diameter) * z / self.height) / 2
 
 
 class Measured(Specimen):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema
 
@@ -17,7 +17,7 @@ from colonnade.campaign.syntax.fields import (
     Text,
     interval,
     one_of,
-    shown,
+    or_word,
 )
 from colonnade.campaign.syntax.identifier import Identifier
 from colonnade.campaign.syntax.rawpath import inside
@@ -47,15 +47,6 @@ def _files(value: object, info: ValidationInfo) -> dict[str, Path]:
     return paths
 
 
-def _zero(value: object) -> str | tuple[float, float]:
-    if isinstance(value, (list, tuple)):
-        return interval(value)
-    if isinstance(value, str) and value in ZEROS:
-        return value
-    listed = ", ".join(f'"{choice}"' for choice in ZEROS)
-    raise ValueError(f'{shown(value)} was found. {listed} or an interval such as ["0 s", "0.5 s"] was expected.')
-
-
 Files = Annotated[
     dict[str, Path],
     BeforeValidator(_files),
@@ -68,11 +59,7 @@ Files = Annotated[
         }
     ),
 ]
-Zero = Annotated[
-    Literal["auto", "start", "end", "none"] | tuple[float, float],
-    BeforeValidator(_zero),
-    WithJsonSchema({"anyOf": [{"enum": list(ZEROS)}, INTERVAL_SCHEMA]}),
-]
+Zero = Annotated[str | tuple[float, float], *or_word((BeforeValidator(interval), INTERVAL_SCHEMA), *ZEROS)]
 
 
 class Test(Table):

@@ -11,7 +11,7 @@ from colonnade import interruption
 
 INTERRUPTED = 130
 """Exit code of Ctrl-C and of a polite kill; click's own is 1, which means here that a test failed."""
-INTERRUPTION = "Interrupted. What is finished is kept; the same command goes on from there."
+INTERRUPTION = "Interrupted. Finished results are kept; run the same command again to continue."
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:

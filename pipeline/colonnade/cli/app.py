@@ -27,7 +27,8 @@ class InOrder(click.RichGroup):
 
 @click.group(
     cls=InOrder,
-    epilog="Exit codes: 0 all good; 1 some test failed, others are done; 2 usage or campaign file; 130 interrupted.",
+    epilog="Exit codes: 0 all good; 1 a test failed, the others are done; 2 wrong usage or campaign file; 130 "
+    "interrupted.",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 @click.version_option(colonnade.__version__, prog_name="colonnade")

@@ -7,7 +7,16 @@ from pathlib import Path
 import rich_click as click
 
 from colonnade.cli.console import say, show_json, show_table
-from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, results_option, workers_option
+from colonnade.cli.options import (
+    CAMPAIGN,
+    LateChoice,
+    campaign_argument,
+    json_option,
+    meshes,
+    results_option,
+    specimen_option,
+    workers_option,
+)
 
 HEADS = (
     *("specimen", "mesh", "step", "CDF ξ", "ξ_eff", "stiffness"),
@@ -18,7 +27,7 @@ HEADS = (
 @click.command(
     epilog="Example: colonnade calibrate demo --specimen prism --mesh rigid --mesh coarse",
     help=f"""
-    Find the contact damping that agrees with each specimen's restitution, for the contact model.
+    Find the contact damping with which the contact model gives each specimen's restitution.
 
     {CAMPAIGN} Identify its free vibrations first.
 
@@ -31,18 +40,18 @@ HEADS = (
     """,
 )
 @campaign_argument
-@click.option("--specimen", multiple=True, metavar="ID", help="Only this specimen; may be given several times.")
+@specimen_option
 @click.option(
     "--mesh",
     multiple=True,
-    type=click.Choice(("rigid", "coarse", "medium", "fine")),
-    help="Replaces the one in the settings; may be given several times.",
+    type=LateChoice(meshes),
+    help="Replaces the one in the settings. Repeat the option for several.",
 )
 @click.option(
     "--step",
     multiple=True,
     metavar="TIME",
-    help='Replaces the one in the settings, such as "10 us"; may be given several times.',
+    help='Replaces the one in the settings, such as "10 us". Repeat the option for several.',
 )
 @workers_option
 @results_option

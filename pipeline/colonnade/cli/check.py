@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 @click.command(
     epilog="Example: colonnade check demo",
     help=f"""
-    Validate a campaign and its raw files; write nothing.
+    Check a campaign and its raw files; write nothing.
 
     {CAMPAIGN} Every raw file is read as `run` would read it, and each test is taken to the point where its prediction
     would begin. Missing files and columns, units, gains, signs, swapped columns, clocks and dead channels are reported
@@ -67,9 +67,9 @@ def _show(checked: CampaignCheck) -> None:
         words = {"would fail": "would fail", "doubtful": "would give wrong results"}
         say(" ".join(f"{count(statuses[each], 'test')} {what}." for each, what in words.items() if statuses[each]))
     elif checked.has_warnings:
-        say("No test would fail; look at what was found. Nothing was written.")
+        say("No test would fail, but see the findings above. Nothing was written.")
     else:
-        say("All good; nothing was written.")
+        say("All good. Nothing was written.")
 
 
 def _indented(text: str) -> str:

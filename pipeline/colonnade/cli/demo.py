@@ -41,7 +41,7 @@ def demo(folder: Path, seed: int, motion: Path | None, short: bool, workers: int
     from colonnade.laboratory.comparison import with_truth
 
     if folder.is_dir() and any(folder.iterdir()) and not (folder / FILE_NAME).is_file():
-        raise click.UsageError(f"{folder} holds other files. Name an empty folder, a new one, or an earlier demo.")
+        raise click.UsageError(f"{folder} contains other files. Name an empty folder, a new one, or an earlier demo.")
     complain(f"Shaking the virtual table into {folder}")
     try:
         programme = prism_programme if short else paper_programme
@@ -70,9 +70,9 @@ def _show(comparison: dict[str, Any]) -> None:
         if value is None or low is None:
             say(f"{specimen}: {restitution['reason'] or restitution['source']}; true is {true:g}")
         else:
-            held = "holds" if low <= true <= high else "misses"
+            held = "inside" if low <= true <= high else "outside"
             found = f"e identified as {format_uncertain(value, (high - low) / 2)} ({restitution['level']:.0%} interval)"
-            say(f"{specimen}: {found}; true is {true:g}, which the interval {held}")
+            say(f"{specimen}: {found}; true is {true:g}, {held} the interval")
     say()
     rows = []
     for name, test in comparison["tests"].items():

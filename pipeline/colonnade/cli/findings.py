@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from colonnade.cli.console import say
+from colonnade.cli.console import count, say
 from colonnade.findings import Finding, Severity, in_order
 
 IN_FULL = 3
@@ -36,11 +36,6 @@ def all_records(findings: Findings) -> list[dict[str, Any]]:
 def _record(finding: Finding, explained: bool) -> dict[str, Any]:
     record = {"severity": str(finding.severity), "kind": finding.kind, "text": finding.text}
     return record | ({"stage": finding.stage} if finding.stage else {}) | {"explained": explained}
-
-
-def lines_of(findings: Iterable[Finding]) -> list[str]:
-    """Write each finding as a line, in order."""
-    return [line_of(record) for record in records_of(findings)]
 
 
 def line_of(record: Mapping[str, Any]) -> str:
@@ -86,15 +81,9 @@ def _show_counts(groups: Mapping[tuple[Severity, str], Sequence[tuple[str, str]]
     counts = Counter[Severity]()
     for (severity, _), members in groups.items():
         counts[severity] += len(members)
+    words = {Severity.SERIOUS: "serious finding", Severity.WARNING: "warning", Severity.NOTE: "note"}
     if counts:
-        plural = {Severity.SERIOUS: "serious findings", Severity.WARNING: "warnings", Severity.NOTE: "notes"}
-        say(
-            ", ".join(
-                f"{counts[each]} {plural[each] if counts[each] > 1 else plural[each][:-1]}"
-                for each in plural
-                if counts[each]
-            )
-        )
+        say(", ".join(count(counts[each], word) for each, word in words.items() if counts[each]))
 
 
 def _named(subjects: Sequence[str]) -> str:

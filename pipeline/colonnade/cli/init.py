@@ -56,11 +56,11 @@ def _tell(drafted: CampaignDraft) -> None:
     say(f"campaign: {drafted.path}")
     say(f"{count(drafted.tests, 'test')}, {count(drafted.setups, 'set-up')}")
     for name, reason in drafted.refused:
-        say(f"  not in it: {name}: {reason}")
+        say(f"  not used: {name}: {reason}")
     if drafted.asks_first:
         say(
-            f"The first question: which of these {drafted.setups} kinds of files are recordings of tests? "
-            "Delete the groups that are not."
+            f"First question: which of these {drafted.setups} kinds of files are recordings of tests? Delete the other "
+            "groups."
         )
     show_table(
         ("line", "to fill in", "", "what is asked"),

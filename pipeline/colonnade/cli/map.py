@@ -10,10 +10,13 @@ import rich_click as click
 from colonnade.cli.console import say, show_json, show_table
 from colonnade.cli.options import (
     CAMPAIGN,
+    LateChoice,
     campaign_argument,
     json_option,
+    models,
     results_option,
     scheduler_option,
+    specimen_option,
     workers_option,
 )
 from colonnade.cli.progress import looking
@@ -38,21 +41,21 @@ HEADS = (
     {CAMPAIGN} Run it first: the map uses the identified restitution, and shows the sine tests by their measured
     outcome.
 
-    An interrupted map is continued. A map that exists is only redrawn.
+    An interrupted map is continued. An existing map is only redrawn.
 
     Writes processed/maps/<SPECIMEN>-<MODEL>.nc and a picture of it; with --responses also
     <SPECIMEN>-<MODEL>-response.nc and its picture.
     """,
 )
 @campaign_argument
-@click.option("--specimen", multiple=True, metavar="ID", help="Only this specimen; may be given several times.")
+@specimen_option
 @click.option(
     "--model",
     multiple=True,
-    type=click.Choice(("linear", "nonlinear", "contact")),
+    type=LateChoice(models),
     default=("linear",),
     show_default=True,
-    help="May be given several times: each gets its own map, and one picture shows the limits of all.",
+    help="Repeat the option for several: each gets its own map, and one picture shows the limits of all.",
 )
 @click.option(
     "--omega", type=float, nargs=2, metavar="LOW HIGH", help="Frequency ratios Ω; by default around the sine tests."
@@ -65,17 +68,17 @@ HEADS = (
     type=click.IntRange(min=2),
     nargs=2,
     metavar="N M",
-    help="How many Ω and A; by default 100 and 150, of the contact model 14 and 31.",
+    help="Numbers of Ω and of A; by default 100 and 150, for the contact model 14 and 31.",
 )
 @click.option("--cycles", type=float, default=20.0, show_default=True, help="Cycles at full amplitude.")
-@click.option("--phase", type=float, default=0.0, show_default=True, help="Phase of the sine at its start, degrees.")
-@click.option("--ramp", type=float, default=0.0, show_default=True, help="Cycles of rise and of fall.")
+@click.option("--phase", type=float, default=0.0, show_default=True, help="Phase of the sine at its start, in degrees.")
+@click.option("--ramp", type=float, default=0.0, show_default=True, help="Cycles of the rise, and of the fall.")
 @click.option(
     "--ramp-shape",
     type=click.Choice(("linear", "cosine")),
     default="linear",
     show_default=True,
-    help="Rise and fall linear in time, or smooth as half a cosine.",
+    help="Rise and fall: linear in time, or smooth as half a cosine.",
 )
 @click.option("--motion", metavar="TEST", help="Use the recorded table motion of this sine test instead of a sine.")
 @click.option(

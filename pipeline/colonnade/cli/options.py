@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -10,11 +10,43 @@ import rich_click as click
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
+
+class LateChoice(click.Choice):  # type: ignore[type-arg]
+    """A choice whose names are asked for only when they are needed, so that every command starts quickly."""
+
+    def __init__(self, names: Callable[[], Iterable[str]]) -> None:
+        self.case_sensitive = True
+        self._names = names
+
+    @property
+    def choices(self) -> tuple[str, ...]:  # type: ignore[override]
+        """The names."""
+        return tuple(self._names())
+
+
+def models() -> Iterable[str]:
+    """Names of the models."""
+    from colonnade.dynamics.models.registry import MODELS
+
+    return MODELS
+
+
+def meshes() -> Iterable[str]:
+    """Names of the contact model's bodies."""
+    from colonnade.campaign.settings import MESHES
+
+    return MESHES
+
+
 campaign_argument = click.argument("campaign", type=click.Path(path_type=Path), default=Path(), metavar="[CAMPAIGN]")
 """The argument of most commands."""
 
 CAMPAIGN = "CAMPAIGN is a campaign.toml or its folder, by default the current folder."
 """What their help says of it."""
+
+specimen_option = click.option(
+    "--specimen", multiple=True, metavar="ID", help="Only this specimen. Repeat the option for several."
+)
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
 
@@ -25,18 +57,18 @@ workers_option = click.option(
 scheduler_option = click.option(
     "--scheduler",
     metavar="ADDRESS",
-    help="Use the Dask cluster of this running scheduler, such as tcp://10.0.0.1:8786, instead of this machine.",
+    help="Compute on the Dask cluster of this scheduler, such as tcp://10.0.0.1:8786, not on this machine.",
 )
 
 results_option = click.option(
     "--results",
     type=click.Path(file_okay=False, path_type=Path),
     metavar="DIR",
-    help="Folder that holds processed/ and report/, such as one on another disk; by default that of campaign.toml.",
+    help="Folder for processed/ and report/, such as one on another disk; by default that of campaign.toml.",
 )
 
 strict_option = click.option(
-    "--strict", is_flag=True, help="Exit with 1 also if there is a serious finding or a warning; notes do not count."
+    "--strict", is_flag=True, help="Exit with 1 also after a serious finding or a warning; notes do not count."
 )
 
 
@@ -53,7 +85,7 @@ def work_options(command: Command) -> Command:
         results_option,
         scheduler_option,
         workers_option,
-        click.option("--only", multiple=True, metavar="ID", help="Only this test; may be given several times."),
+        click.option("--only", multiple=True, metavar="ID", help="Only this test. Repeat the option for several."),
     ):
         command = option(command)
     return command

@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 @click.command(
     epilog="Example: colonnade run demo --from predict --only span-2.0",
     help=f"""
-    Run all stages and the report, only what is out of date.
+    Run all stages and the report; redo only what is out of date.
 
-    {CAMPAIGN} Every result that was redone is listed with the reason. A test that fails does not stop the others; the
+    {CAMPAIGN} Each redone result is listed with its reason. A test that fails does not stop the others; the
     exit code is then 1.
 
     Stages are ingest, condition, rocking, restitution, predict, ensemble, compare and report.
@@ -32,7 +32,9 @@ if TYPE_CHECKING:
 )
 @campaign_argument
 @click.option("--until", type=click.Choice(ASKED_FOR), metavar="STAGE", help="Stop after this stage.")
-@click.option("--from", "start_from", type=click.Choice(ASKED_FOR), metavar="STAGE", help="Redo it and what follows.")
+@click.option(
+    "--from", "start_from", type=click.Choice(ASKED_FOR), metavar="STAGE", help="Redo this stage and all that follow."
+)
 @work_options
 def run(campaign: Path, *, as_json: bool, strict: bool, **choices: Any) -> int:
     """Run a campaign, with the choices of `colonnade.workflow.run`, and show what was done; return the exit code."""
@@ -69,23 +71,23 @@ ingest = _up_to(
 identify = _up_to(
     "restitution",
     "identify",
-    "Identify the restitution: run up to each specimen's pooled e.",
-    "Writes up to processed/tests/<ID>/restitution.nc of each free vibration, and processed/specimens/<ID>.nc.",
+    "Identify the restitution: run as far as each specimen's pooled e.",
+    "Writes results up to processed/tests/<ID>/restitution.nc of each free vibration, and processed/specimens/<ID>.nc.",
     "colonnade identify demo",
 )
 
 predict = _up_to(
     "predict",
     "predict",
-    "Run the models on the recorded base motion, after everything they need.",
-    "Writes up to processed/tests/<ID>/predicted-<MODEL>.nc.",
+    "Run the models on the recorded base motion, and first what they need.",
+    "Writes results up to processed/tests/<ID>/predicted-<MODEL>.nc.",
     "colonnade predict demo --only span-2.5",
 )
 
 report = _up_to(
     "report",
     "report",
-    "Make the report, after everything it needs.",
+    "Make the report, and first what it needs.",
     "Writes report/index.html next to campaign.toml, with a page for each test and specimen, even if tests failed.",
     "colonnade report demo",
 )

@@ -70,7 +70,7 @@ def specimens(arguments: tuple[str, ...], results: Path | None, as_json: bool) -
 def settings(campaign: Path | None, as_json: bool) -> int:
     """Show every setting of the processing: its value in the campaign, its default, and what it does."""
     from colonnade.campaign import FILE_NAME, Processing, load
-    from colonnade.campaign import settings as all_settings
+    from colonnade.campaign.settings import settings as all_settings
 
     if campaign is None and Path(FILE_NAME).is_file():
         campaign = Path()
@@ -115,7 +115,7 @@ def formats(as_json: bool) -> int:
 
 def _campaign_and_id(arguments: tuple[str, ...]) -> tuple[Path, str | None]:
     if len(arguments) > 2:
-        raise click.UsageError(f"{len(arguments)} arguments were found; a CAMPAIGN and an ID were expected at most.")
+        raise click.UsageError(f"{len(arguments)} arguments were found. Give at most a CAMPAIGN and an ID.")
     if len(arguments) == 2:
         return Path(arguments[0]), arguments[1]
     if arguments and not Path(arguments[0]).exists():

@@ -72,7 +72,7 @@ def to_svg(figure: Figure, *, identity: str, title: str, description: str) -> st
         If `identity` is no valid id.
     """
     if not _IDENTITY.fullmatch(identity):
-        raise ValueError(f"{identity!r} is no id; a letter, then letters, digits, '.', '_' or '-' were expected")
+        raise ValueError(f"{identity!r} cannot be an id; a letter, then letters, digits, '.', '_' or '-' were expected")
     written = BytesIO()
     with styled():
         figure.savefig(written, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))

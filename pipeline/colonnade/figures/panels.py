@@ -85,7 +85,7 @@ def side_by_side(columns: int, heights: Sequence[float], *, title: float = 0.2) 
         If there is no column or no height.
     """
     if columns < 1 or not heights:
-        raise ValueError(f"{columns} columns of {len(heights)} panels; at least one of one was expected")
+        raise ValueError(f"{columns} columns of {len(heights)} panels; at least one column with one panel was expected")
     across = min(columns, COLUMNS)
     bands = -(-columns // across)
     band = title + sum(heights) + GAP * (len(heights) - 1) + BOTTOM

@@ -21,15 +21,15 @@ MARK = "# Written by colonnade's virtual laboratory"
 
 _HEAD = (
     MARK
-    + """: no specimen was shaken for it.
-# Its truth lies in truth/, where no stage of the processing reads it.
+    + """: no real specimen was shaken.
+# Its truth is in truth/, which no stage of the processing reads.
 # Every quantity is text with its unit; paths are relative to this file.
 """
 )
 
 _SPECIMENS = """
-# What was tested. Critical angle, inertia and the rest follow from dimensions and mass; a measured value beside them
-# would win. No restitution is given here, so that it is identified from the free vibrations.
+# What was tested. Critical angle, inertia and the rest follow from dimensions and mass; a measured value given
+# here replaces them. No restitution is given, so it is identified from the free vibrations.
 """
 
 _CHANNELS = """
@@ -70,8 +70,8 @@ def refuse_foreign(folder: Path) -> None:
     path = folder / FILE_NAME
     if path.exists() and (irregular(path) or not path.read_bytes().startswith(MARK.encode())):
         raise CampaignError(
-            f"{path}: this campaign was not written by the virtual laboratory, and is left as it is. "
-            "Name another folder for the demo."
+            f"{path}: this campaign was not written by the virtual laboratory and was not changed. Name another folder "
+            "for the demo."
         )
 
 
@@ -92,15 +92,17 @@ def _setup(name: str, setup: Setup, *, explained: bool) -> list[str]:
 def _file(flavour: FileFormat) -> list[str]:
     said = flavour.declaration()
     if not said:
-        return ["# How its files are written is not said: delimiter, decimal sign, names and units are sniffed."]
-    return [f"file = {_inline(said)}    # every key optional: sniffed where it is not given"]
+        return ["# Delimiter, decimal sign, names and units are detected from the files."]
+    return [f"file = {_inline(said)}    # every key is optional: what is not given is detected"]
 
 
 def _recorder(setup: str, name: str, recorder: Recorder) -> list[str]:
     lines = ["", f"[setups.{_key(setup)}.recorders.{_key(name)}]    # a second recorder", *_file(recorder.flavour)]
     if recorder.align is not None:
         first, second = map(_value, recorder.align)
-        lines.append("# It starts on its own; two channels of the same movement, one of each recorder, tell how late.")
+        lines.append(
+            "# It starts separately. Two channels that measure the same motion, one on each recorder, give its delay."
+        )
         lines.append(f"clock = {{align = [{first}, {second}]}}")
     return lines
 

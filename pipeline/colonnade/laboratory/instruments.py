@@ -89,8 +89,8 @@ class Transducer:
             return motion * self.direction[0]
         if self.quantity != "displacement" or self.at is None:
             raise ValueError(
-                f"{self.channel}: on the specimen only displacement transducers with a point `at` are at hand in the "
-                f"virtual laboratory; {self.quantity} at {self.at} was asked for"
+                f"{self.channel}: on the specimen, the virtual laboratory has only displacement transducers with a "
+                f"point `at`; {self.quantity} at {self.at} was asked for"
             )
         moved = point_displacement(angle, self.at, block)[0] @ np.array(self.direction)
         return np.asarray(

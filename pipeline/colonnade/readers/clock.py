@@ -116,7 +116,7 @@ def find_clocks(channels: tuple[RecordedChannel, ...], kinds: tuple[str, ...]) -
         notes.append("no clock: no rising column has a name or unit of time" + hint)
         return Clocks(frozenset(), (None,) * len(channels), tuple(notes), tuple(warnings))
     if len(clocks) > 1:
-        notes.append("several clocks: each column goes by the nearest one on its left")
+        notes.append("several clocks: each column uses the nearest one on its left")
     leftmost = min(clocks)
     times = tuple(clocks[max((c for c in clocks if c <= index), default=leftmost)] for index in range(len(channels)))
     return Clocks(frozenset(clocks), times, tuple(notes), tuple(warnings))

@@ -95,7 +95,9 @@ def _motion(recording: Recording, values: Array, unit: str | None, step: float |
         )
     if not np.isfinite(values).all():
         told = "; ".join(recording.warnings) or f"sample {int(np.argmin(np.isfinite(values))) + 1}"
-        raise ReadError(f"{name}: accelerations are missing ({told}). A base motion has to be whole; mend the file.")
+        raise ReadError(
+            f"{name}: accelerations are missing ({told}). A base motion must have no gaps; repair the file."
+        )
     try:
         return Motion(values * units.factor_to_si(unit, "acceleration"), step)
     except (UnitError, ValueError) as error:
@@ -136,7 +138,7 @@ def _column(recording: Recording, column: str | int | None) -> tuple[RecordedCha
     step = equal_step(times, UNEVEN)
     if step is None:
         raise ReadError(
-            f"{recording.path.name}: the times are not equally spaced. "
-            "A base motion has equal steps: resample it first."
+            f"{recording.path.name}: the times are not equally spaced. A base motion needs equal steps: resample it "
+            "first."
         )
     return chosen, step

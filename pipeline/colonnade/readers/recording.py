@@ -165,8 +165,8 @@ class Recording:
                 return self.channels[found[0] - 1]
             if found:
                 raise ReadError(
-                    f'{self.path.name}: {len(found)} columns are called "{column}": {_listed(found)}. '
-                    "Give the number of the one that is meant instead of its name."
+                    f'{self.path.name}: {len(found)} columns are called "{column}": {_listed(found)}. Give '
+                    "the number of the right one instead of its name."
                 )
         for name, reason in self.left_out:
             if _plain(name) == _plain(column):

@@ -23,7 +23,7 @@ def refusing(path: Path, kind: str) -> Iterator[None]:
             raise ReadError(unreachable(path, error)) from error
         raise ReadError(
             f"{path.name}: it cannot be read as {kind} ({in_one_line(error)}). The file is damaged, was cut off, or is "
-            "of a version that is not known here. Copy it from the recorder again, or export it as text."
+            "of an unknown version. Copy it from the recorder again, or export it as text."
         ) from (None if isinstance(error, OSError) else error)
 
 
@@ -41,6 +41,4 @@ def unreachable(path: Path, error: OSError) -> str:
         return f"{path.name}: there is no such file {folder}.{nearest(path.name, there)}".replace(" ,", ",")
     if isinstance(error, IsADirectoryError):
         return f"{path.name}: this is a folder; a raw file was expected."
-    return (
-        f"{path.name}: it cannot be opened ({error.strerror}). Check that you may read it and that its disk is there."
-    )
+    return f"{path.name}: it cannot be opened ({error.strerror}). Check its permissions and that its disk is connected."

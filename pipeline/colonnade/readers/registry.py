@@ -208,8 +208,9 @@ def _recognised(path: Path) -> tuple[Format, tuple[str]]:
         refusals.append(f"  {format.name}: {recognition.reason}")
     raise ReadError(
         # What it is not as text comes last among the formats, and says most.
-        f"{path.name}: no format recognises this file.\n" + "\n".join(reversed(refusals)) + "\n"
-        '  If it is one of these nevertheless, say so: file = {format = "…"}.'
+        f"{path.name}: no format recognises this file.\n"
+        + "\n".join(reversed(refusals))
+        + '\n  If you know that it is one of these, name it: file = {format = "…"}.'
     )
 
 
@@ -222,4 +223,4 @@ def _recognition(format: Format, path: Path) -> Recognition:
     except Exception as error:
         if isinstance(error, OSError) and error.errno is not None:
             raise ReadError(unreachable(path, error)) from error
-        return Recognition(False, f"it could not be looked at ({in_one_line(error)})")
+        return Recognition(False, f"it could not be examined ({in_one_line(error)})")

@@ -77,23 +77,23 @@ class Offset:
         said = []
         if self.beyond is not None:
             said.append(
-                f"the two agree better at {1e3 * self.beyond:.4g} ms, beyond what was looked for; if the recorder can "
-                "start so late or early, set processing.longest_offset above it"
+                f"the two agree better at {1e3 * self.beyond:.4g} ms, beyond the range searched; if the recorder can "
+                "start that late or early, set processing.longest_offset above it"
             )
         elif not self.is_determined:
             said.append(
-                f"the two agree by {self.correlation:.2f} only ({WEAKEST_CORRELATION:g} is needed), as they do where "
-                "the table hardly moves"
+                f"the two agree poorly (correlation {self.correlation:.2f}; {WEAKEST_CORRELATION:g} is needed), as "
+                "happens if the table hardly moves"
             )
         if self.is_determined and self.rival is not None:
             said.append(
-                f"{1e3 * self.rival:.4g} ms fits as well as the {1e3 * self.seconds:.4g} ms taken, as in a steady "
-                "sine. Record the start or the end of the motion, or set processing.longest_offset below half a period"
+                f"{1e3 * self.rival:.4g} ms fits as well as the {1e3 * self.seconds:.4g} ms used, as in a steady sine. "
+                "Record the start or the end of the motion, or set processing.longest_offset below half a period"
             )
         if self.is_determined and self.opposed:
             said.append(
-                f"the two agree, by {self.correlation:.2f}, only with the sign of one turned; look at the `direction` "
-                "of both and at the sign of their gains"
+                f"the two agree only with the sign of one reversed (correlation {self.correlation:.2f}); check the "
+                "`direction` of both and the sign of their gains"
             )
         return "; ".join(said)
 

@@ -114,8 +114,8 @@ def check_motion(
         return [
             warning(
                 "polarity",
-                f'the table moved as "{name}" with the other polarity (correlation {found.correlation:.2f}): turn the '
-                "sign of the table's acceleration, or say so in the motion's name",
+                f'the table moved as "{name}" with the other polarity (correlation {found.correlation:.2f}): reverse '
+                "the sign of the table's acceleration, or say so in the motion's name",
                 follows=("sign",),
             )
         ]
@@ -124,13 +124,16 @@ def check_motion(
     again = match(record, named.stretched(other_scale))
     if abs(again.correlation) >= max(AGREES, abs(found.correlation) + BETTER):
         turned = " and the other polarity" if again.correlation < 0 else ""
-        text = f"{begun}), but with time scale {other_scale:.4g}{turned} ({again.correlation:.2f}): look at time_scale"
+        text = f"{begun}), but with time scale {other_scale:.4g}{turned} ({again.correlation:.2f}): check time_scale"
         return [warning("time scale", text)]
     for other, series in others.items():
         likely = [value for value in (scale, best_scale(record, series)) if value > 0]
         fit = max((match(record, series.stretched(value)) for value in likely), key=lambda each: abs(each.correlation))
         if abs(fit.correlation) >= max(AGREES, abs(found.correlation) + BETTER):
-            text = f'{begun}): it moved as "{other}" ({fit.correlation:.2f}): another component was read, or meant'
+            text = (
+                f'{begun}): it moved as "{other}" ({fit.correlation:.2f}): another component was read, or the '
+                "wrong motion is named"
+            )
             return [warning("another motion", text)]
     text = f"{begun}; {AGREES:g} is needed): it is another motion, or the table did not follow"
     return [warning("another motion", text, follows=("dead channel", "table motion"))]
@@ -232,8 +235,8 @@ def _differences(record: Series, name: str, motion: Series, found: Match, scale:
         told.append(
             warning(
                 "cut motion",
-                f'the table did not move as "{name}" from {low:.3g} to {high + STRETCH:.3g} s of its own time: a part '
-                "is missing or another",
+                f'the table did not move as "{name}" from {low:.3g} to {high + STRETCH:.3g} s of its own '
+                "time: a part is missing or differs",
             )
         )
     return told

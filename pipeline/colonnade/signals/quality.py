@@ -136,7 +136,7 @@ def check_clipping(time: Array, values: Array, *, full_scale: float) -> Verdict:
         return Verdict(Flag.SUSPECT, where, reason, "unit", Severity.SERIOUS)
     reason = f"{counted(where)} at the end of the range (±{full_scale:g}){first_at(time, where)}: the value was larger"
     if where[:FIRST].all():
-        reason = f"{reason}. It begins there: look at its cable, supply and zero"
+        reason = f"{reason}. It begins there: check its cable, supply and zero"
     return Verdict(Flag.SUSPECT, where, reason, "end of the range")
 
 
@@ -289,7 +289,7 @@ def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:
         return Verdict.good(values.size)
     reason = (
         f"the channel is practically dead: its standard deviation is {deviation:.3g}, that of the table's "
-        f"{expected:.3g} in the same unit; look at its cable, sensor and range"
+        f"{expected:.3g} in the same unit; check its cable, sensor and range"
     )
     return Verdict(Flag.SUSPECT, np.ones(values.size, dtype=bool), reason, "dead channel", Severity.SERIOUS)
 

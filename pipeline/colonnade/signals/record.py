@@ -68,7 +68,7 @@ def even_record(stamps: Array, values: Array, flags: Codes) -> Record:
     known, interval = clock.time[timed], clock.interval
     span = float(known[-1] - known[0])
     if span > EMPTIEST * interval * known.size:
-        raise ValueError(f"has {known.size} samples at {1 / interval:.4g} Hz over {span:.4g} s; look at its times")
+        raise ValueError(f"has {known.size} samples at {1 / interval:.4g} Hz over {span:.4g} s; check its times")
     time = uniform_clock(known[0], known[-1], interval)
     used = known[~bad]
     even, missing = resample(used, values[timed][~bad], time, interval)

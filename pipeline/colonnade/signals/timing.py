@@ -94,7 +94,7 @@ def check_order(stamps: Array, clock: Clock) -> Verdict:
     return Verdict(
         Flag.FAIL,
         where,
-        f"{counted(where)} whose time is out of order, the first being sample {int(np.argmax(where)) + 1}",
+        f"{counted(where)} whose time is out of order; the first is sample {int(np.argmax(where)) + 1}",
         "time column",
     )
 

@@ -114,7 +114,7 @@ def condition(recorded: xr.Dataset, inputs: ConditionInputs) -> xr.Dataset:
     known = recorder_offsets(records, channels, inputs.links, inputs.settings.longest_offset, warnings)
     records = {name: record for name, record in records.items() if channels[name].quantity != "other"}
     if not records:
-        raise StageError("No channel of this test has a usable sample; see the warnings of its ingest.")
+        raise StageError("No channel of this test has a usable sample; see the warnings of the stage ingest.")
     offsets = {name: known.get(channels[name].recorder, TOGETHER) for name in records}
     clock = common_clock(records, offsets, channels, inputs.settings.sampling_rate)
 

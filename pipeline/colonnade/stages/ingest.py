@@ -112,8 +112,8 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
     for name, channel in inputs.channels.items():
         if channel.recorder not in recordings:
             raise StageError(
-                f'channel {name} is recorded by "{channel.recorder}", and the test has no file of it. Give '
-                f'its `file` as a table: {{main = "…", {channel.recorder} = "…"}}.'
+                f'channel {name} is recorded by "{channel.recorder}", but the test has no file from that recorder. '
+                f'Give its `file` as a table: {{main = "…", {channel.recorder} = "…"}}.'
             )
         recording = recordings[channel.recorder]
         column = find_column(recording, name, channel, inputs.sampling_rates.get(channel.recorder))

@@ -102,8 +102,8 @@ def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
         warnings.append(warning("no rocking angle", text, follows=("channel left out", "dead channel")))
     if motion is None and "base_acceleration" not in base:
         raise StageError(
-            "Neither a transducer on the specimen nor a table channel along x is usable in this test; "
-            "at least one of the two was expected. See the warnings of the stages before, and the set-up's channels."
+            "Neither a transducer on the specimen nor a table channel along x is usable in this test; at least one of "
+            "the two is needed. See the warnings of the earlier stages, and the set-up's channels."
         )
 
     variables: dict[str, Any] = {name: ("elapsed", values) for name, values in base.items()}
@@ -154,7 +154,8 @@ def _motion(
         raise StageError(
             f"channel {conditioned[on_ground[0]].attrs['channel']} measures relative to the ground, but no channel "
             "gives the table's displacement along x, which has to be subtracted. Add it to the set-up "
-            '(on = "table", quantity = "displacement"), or write relative_to = "table" if that is so.'
+            '(on = "table", quantity = "displacement"), or write relative_to = "table" if the transducer is fixed to '
+            "the table."
         )
     time, gravity = conditioned["elapsed"].to_numpy(), inputs.block.gravity
     resting = inputs.free_vibration or "base_acceleration" in base

@@ -115,19 +115,19 @@ def read(path: Path) -> xr.Dataset:
     Raises
     ------
     StoreError
-        If it is not there, is no whole NetCDF file, or its values are not those that were written.
+        If it is not there, is no whole NetCDF file, or its values differ from those that were written.
     """
     try:
         with netCDF4.Dataset(path.name, memory=path.read_bytes()) as opened:
             backend = _backend(opened)
             stored = xr.open_dataset(backend, decode_times=False, decode_timedelta=False, mask_and_scale=False).load()
     except FileNotFoundError:
-        raise StoreError(f"{path}: this result is not there. `colonnade run` makes it.") from None
+        raise StoreError(f"{path}: result not found. Run `colonnade run` to make it.") from None
     except (OSError, RuntimeError, ValueError, KeyError) as error:
         raise _damaged(path, f"it cannot be read as NetCDF ({error})") from error
     dataset = _with_labels(stored)
     if dataset.attrs.get("content") != content_hash(dataset):
-        raise _damaged(path, "its values are not those that were written")
+        raise _damaged(path, "its values differ from those that were written")
     dataset.attrs = restored(dataset.attrs)
     return dataset
 
@@ -145,7 +145,7 @@ def read_attributes(path: Path) -> dict[str, Any]:
         with netCDF4.Dataset(path) as opened:
             return restored({name: opened.getncattr(name) for name in opened.ncattrs()})
     except FileNotFoundError:
-        raise StoreError(f"{path}: this result is not there. `colonnade run` makes it.") from None
+        raise StoreError(f"{path}: result not found. Run `colonnade run` to make it.") from None
     except (OSError, RuntimeError, ValueError) as error:
         raise _damaged(path, f"it cannot be read as NetCDF ({error})") from error
 
@@ -301,18 +301,19 @@ def _unwritable(path: Path, error: OSError) -> StoreError:
         there = next(folder for folder in path.parents if folder.exists())
         free = shutil.disk_usage(there).free
         return StoreError(
-            f"{path}: the disk is full ({free / 1e6:.1f} MB free). Results so far are whole; make room and run again."
+            f"{path}: the disk is full ({free / 1e6:.1f} MB free). Results so far are complete; free some space "
+            "and run again."
         )
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
         return StoreError(
-            f"{path}: it may not be written ({error.strerror}). Make its folder writable, or "
-            "give another folder with --results."
+            f"{path}: it cannot be written ({error.strerror}). Make its folder writable, or give another folder with "
+            "--results."
         )
     return StoreError(f"{path}: it cannot be written ({error.strerror or error}). Check the disk and run again.")
 
 
 def _damaged(path: Path, found: str) -> StoreError:
     return StoreError(
-        f"{path}: {found}; it was changed or damaged after colonnade wrote it. "
-        "Delete it and run again: it is made anew from the raw file."
+        f"{path}: {found}; it was changed or damaged after colonnade wrote it. Delete it and run again: it is "
+        "recomputed from the raw file."
     )

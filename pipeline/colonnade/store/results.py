@@ -67,7 +67,7 @@ STAGES = {
     ),
     "contact": Stage(
         "contact/{subject}",
-        "Law of contact with which a specimen rocks freely with its restitution.",
+        "Law of contact that gives a freely rocking specimen its restitution.",
         "numerical model of a rocking block",
         of="specimen",
         goes_with="predict",
@@ -79,7 +79,7 @@ STAGES = {
     ),
     "ensemble": Stage(
         "tests/{subject}/ensemble-{model}",
-        "Bands of a model on the recorded base motion, over what is not exactly known.",
+        "Bands of a model's predictions on the recorded base motion, over what is not known exactly.",
         f"{_ON_RECORDED_MOTION}, many times",
     ),
     "compare": Stage("tests/{subject}/compared", "Measured against predicted rocking, in numbers."),

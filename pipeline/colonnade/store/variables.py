@@ -60,12 +60,12 @@ _SIGN = "Rotation about +y: positive when the top moves to +x."
 _ABOUT_X = "Rotation about +x: positive when the top moves to -y."
 _ABOUT_Z = "Rotation about +z, right-handed."
 _OUTLINE = "Of the side with the smaller critical angle."
-_WIDE = "Of the intervals that are at least as wide as the attribute `width`; missing where there is none."
+_WIDE = "Of the intervals that are at least as wide as the attribute `width`; missing if there is none."
 _RANK = "By their largest distances up to the horizon. Up to 0.95 the measured angle is within the model's own spread."
 _HORIZON = "First time at which the 95 % band of its runs is wider than the setting `horizon`, else the record's end."
 _DISTANCE = "Up to the horizon; 1 is the edge of the 95 % band of all others."
 _FEW_ARCS = (
-    "If too few arcs stand above the lowest amplitude to identify it, the mean velocity ratio of the impacts: see the "
+    "If too few arcs are above the lowest amplitude to identify it, the mean velocity ratio of the impacts: see the "
     "attribute contact_restitution_source."
 )
 _ORDERS = "k: it repeats every k cycles of the base; 0 at rest, -1 irregular, -2 overturned."
@@ -93,8 +93,8 @@ VARIABLES: dict[str, Variable] = {
         "standard error of the rocking angle at each time", "rad", QUALITY, comment="Where the angle is integrated."
     ),
     "transducer": Variable("transducer on the specimen", None, COORDINATE, dtype="str"),
-    "residual_to_noise": Variable("reading less fitted reading over the noise, by root mean square", "1", QUALITY),
-    "residual_to_reading": Variable("reading less fitted reading over the reading, by root mean square", "1", QUALITY),
+    "residual_to_noise": Variable("root mean square of reading minus fitted reading, over the noise", "1", QUALITY),
+    "residual_to_reading": Variable("root mean square of reading minus fitted reading, over the reading", "1", QUALITY),
     "base_acceleration": Variable("acceleration of the base along x", "m s-2", MEASURED),
     "transverse_base_acceleration": Variable("acceleration of the base along y", "m s-2", MEASURED),
     "vertical_base_acceleration": Variable("acceleration of the base along z", "m s-2", MEASURED),
@@ -108,7 +108,7 @@ VARIABLES: dict[str, Variable] = {
     "peak_time": Variable("time of the peak", "s", MEASURED),
     "peak_ground_acceleration": Variable("largest magnitude of the base acceleration", "m s-2", MEASURED),
     "overturning_time": Variable("time at which the critical angle is passed without return", "s", MEASURED),
-    "noise_threshold": Variable("rocking angle below which nothing is told from noise", "rad", QUALITY),
+    "noise_threshold": Variable("noise threshold of the rocking angle", "rad", QUALITY),
     # restitution, specimens
     "peak_angle_standard_error": Variable("standard error of the peak angle", "rad", QUALITY),
     "fitted_angle": Variable("peak angle by the fit", "rad", MODELLED, comment=_SIGN),
@@ -143,10 +143,10 @@ VARIABLES: dict[str, Variable] = {
     "region_critical_angle_error": Variable("standard error of the ratio of critical angles"),
     "region_correlation": Variable("correlation of restitution and critical angle in that fit"),
     "between_test_scatter": Variable("standard deviation of the coefficient of restitution between tests"),
-    "side_restitution": Variable("coefficient of restitution that predictions take, for angles below and above zero"),
+    "side_restitution": Variable("coefficient of restitution that predictions use, for angles below and above zero"),
     "rigid_restitution": Variable("coefficient of restitution of a rigid body without bounce", comment=_OUTLINE),
     "level": Variable("confidence level of the interval"),
-    "zero_offset": Variable("rest angle taken off the rocking angle", "rad", AUXILIARY, comment=_SIGN),
+    "zero_offset": Variable("rest angle subtracted from the rocking angle", "rad", AUXILIARY, comment=_SIGN),
     "test_id": Variable("test", None, COORDINATE, dtype="str"),
     "test_restitution": Variable("coefficient of restitution of each test"),
     "test_restitution_standard_error": Variable("standard error of the coefficient of restitution of each test"),
@@ -158,7 +158,7 @@ VARIABLES: dict[str, Variable] = {
     "model": Variable("model", None, COORDINATE, dtype="str"),
     "nrmse": Variable("root mean square of predicted minus measured angle over the critical angle", "1", QUALITY),
     "measured_peak_ratio": Variable("measured peak angle over the critical angle", "1", MEASURED),
-    "release_ratio": Variable("measured peak angle over the critical angle before what is predicted", "1", MEASURED),
+    "release_ratio": Variable("measured peak angle over the critical angle before the predicted time", "1", MEASURED),
     "measured_peak_time": Variable("time of the measured peak", "s", MEASURED),
     "predicted_peak_ratio": Variable("predicted peak angle over the critical angle", "1", MODELLED),
     "peak_ratio_error": Variable("predicted minus measured peak ratio", "1", QUALITY),
@@ -196,21 +196,21 @@ VARIABLES: dict[str, Variable] = {
     "forcing_frequency": Variable("frequency of the base motion while it is steady", "Hz", MEASURED),
     "forcing_amplitude": Variable("amplitude of the base acceleration while it is steady", "m s-2", MEASURED),
     "forcing_amplitude_spread": Variable("its standard deviation from period to period", "m s-2", QUALITY),
-    "forcing_distortion": Variable("what of the base motion is not the sine, over the sine, by root mean square"),
+    "forcing_distortion": Variable("root mean square of the rest of the base motion over that of the sine"),
     "steady_start": Variable("time from which the base motion is steady", "s", MEASURED),
     "steady_stop": Variable("time up to which the base motion is steady", "s", MEASURED),
     "frequency_ratio": Variable("angular frequency of the base motion over p", "1", MEASURED),
     "amplitude_ratio": Variable("amplitude of the base acceleration over g tan α", "1", MEASURED),
     "response_misfit": Variable("misfit of the orders 1, 2, 3 … of the response", "1", QUALITY),
-    "impacts_per_cycle": Variable("impacts a period of the base motion", "1", MEASURED),
+    "impacts_per_cycle": Variable("impacts per period of the base motion", "1", MEASURED),
     # contact
     "contact_stiffness": Variable("normal stiffness of the contact per area of the base", "N m-3"),
     "damping_fraction": Variable("critical damping fraction of the contact at each node"),
     "effective_damping": Variable("damping fraction of the whole body on all its nodes"),
     "friction": Variable("Coulomb's coefficient of friction between specimen and table"),
     "node_mass": Variable("mass of each base node", "kg"),
-    "node_weight": Variable("weight that each base node bears of the standing specimen", "N"),
-    "ring_radius": Variable("radius of the circle that a base node is, 0 of a point", "m"),
+    "node_weight": Variable("weight of the standing specimen on each base node", "N"),
+    "ring_radius": Variable("radius of the circle that a base node stands for, 0 for a point", "m"),
     "contact_restitution": Variable(
         "coefficient of restitution identified from the rocking angle of the contact model's free vibration",
         "1",

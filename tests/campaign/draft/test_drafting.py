@@ -223,7 +223,7 @@ def test_a_link_out_of_the_folder_is_not_followed(folder, tmp_path_factory):
     folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
     (folder.path / "free.csv").replace(outside)
     (folder.path / "free.csv").symlink_to(outside)
-    with pytest.raises(CampaignError, match=r"no recording found.*(?s:.*)is outside"):
+    with pytest.raises(CampaignError, match=r"no readable recording found.*(?s:.*)is outside"):
         draft(folder.path)
 
 

@@ -195,13 +195,13 @@ def test_any_finite_number_above_zero_makes_a_usable_campaign_or_is_refused(fold
 @pytest.mark.parametrize(
     ("key", "value", "expected"),
     [
-        ("scale", 1e300, "A value between 0.001 and 100000 was expected."),
+        ("scale", 1e300, "A number from 0.001 to 100000 was expected."),
         ("rest_angle", 1e-300, "A number between 1e-10 and 0.1 was expected."),
         ("rate", 1e300, "A value between 0.0001 Hz and 1e+07 Hz was expected."),
         ("sampling_rate", 1e300, "A value between 0.0001 Hz and 1e+07 Hz was expected."),
         ("gravity", 1e-300, "A value between 0.01 m/s^2 and 10000 m/s^2 was expected."),
         ("step", 5e-13, "A value between 1e-07 s and 0.001 s was expected."),
-        ("inertia", 1e-9, "whose frequency parameter is"),
+        ("inertia", 1e-9, "give a frequency parameter of"),
         ("gain", 1e30, "was expected."),
         ("offset", 1e300, "was expected."),
         ("at", 1e300, "At most 10000 m was expected."),

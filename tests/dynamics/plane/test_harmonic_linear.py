@@ -264,7 +264,7 @@ def test_impossible_arguments_are_clear_errors(arguments, message):
 
 
 def test_a_ramp_of_an_unknown_shape_is_refused_with_the_nearest_one():
-    with pytest.raises(ValueError, match=r'no ramp of the shape "cosin".*Did you mean "cosine"'):
+    with pytest.raises(ValueError, match=r'Unknown ramp shape "cosin".*Did you mean "cosine"'):
         Harmonic.cycles(10.0, 2, ramp=1, ramp_shape="cosin")
 
 

@@ -51,7 +51,7 @@ def test_slide_is_separated_by_two_heights():
 def test_slide_that_cannot_be_separated_is_said_and_taken_as_zero(at):
     fit = fit_rocking(_readings(at, [ALONG_X] * len(at)), at, [ALONG_X] * len(at), PRISM)
     assert "slide" not in fit.values
-    assert "slide is not separated" in fit.separation
+    assert "slide cannot be separated" in fit.separation
 
 
 def test_the_standard_error_is_the_scatter_of_the_angle():
@@ -93,7 +93,7 @@ def test_the_angle_does_not_depend_on_the_size_of_the_specimen(scale):
 
 
 def test_transducers_across_the_plane_are_refused():
-    with pytest.raises(ValueError, match="No transducer sees the rotation"):
+    with pytest.raises(ValueError, match="No transducer measures the rotation"):
         rocking_angle(np.zeros(3), TOP, [0.0, 1.0, 0.0], PRISM)
 
 

@@ -25,7 +25,7 @@ INCLINOMETER = Transducer("angle", Y)
         ([TOP, BOTTOM], ["rocking_angle", "slide"], "angle and slide, from 2 displacement transducers"),
         ([TOP, INCLINOMETER], ["rocking_angle", "slide"], "angle and slide, from 2 transducers"),
         ([TOP, LEFT_EDGE], ["rocking_angle"], "slide and uplift are not separated from it and taken as zero"),
-        ([LEFT_EDGE, RIGHT_EDGE], ["rocking_angle", "uplift"], "no transducer sees slide, out-of-plane angle"),
+        ([LEFT_EDGE, RIGHT_EDGE], ["rocking_angle", "uplift"], "no transducer measures slide, out-of-plane angle"),
         ([TOP, LEFT_EDGE, RIGHT_EDGE], ["rocking_angle", "slide", "uplift"], "angle, slide and uplift, from 3"),
         ([TOP, ACROSS_TOP], ["rocking_angle", "out_of_plane_angle"], "slide and transverse slide are not separated"),
         (
@@ -52,10 +52,10 @@ def test_two_heights_that_are_too_close_do_not_separate_slide():
 @pytest.mark.parametrize(
     ("transducers", "words"),
     [
-        ([ACROSS_TOP], "No transducer sees the rotation: each lies at the height of the base"),
-        ([Transducer("point", X, (0.043, 0.0, 0.0))], "each lies at the height of the base"),
-        ([LEFT_EDGE], "No transducer sees the rotation at θ < 0"),
-        ([RIGHT_EDGE], "No transducer sees the rotation at θ > 0"),
+        ([ACROSS_TOP], "No transducer measures the rotation: each is at the height of the base"),
+        ([Transducer("point", X, (0.043, 0.0, 0.0))], "each is at the height of the base"),
+        ([LEFT_EDGE], "No transducer measures the rotation at θ < 0"),
+        ([RIGHT_EDGE], "No transducer measures the rotation at θ > 0"),
     ],
     ids=["across the plane", "at the base", "left edge alone", "right edge alone"],
 )

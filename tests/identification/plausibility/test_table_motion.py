@@ -44,7 +44,7 @@ def test_the_specimen_tells_which_of_the_two_is_wrong(found, by_specimen, wrong)
 
 
 def test_a_disagreement_names_channels_and_cause():
-    assert "by the specimen's rocking it is ACC that is wrong; g taken for m/s²" in str(
+    assert "the specimen's rocking shows that ACC is wrong; g read as m/s²" in str(
         disagreement("ACC", "ACT", 9.8, "acceleration")
     )
     assert "opposite signs: one of the two is wrong, ACC or ACT" in str(disagreement("ACC", "ACT", -1.0, "either"))
@@ -70,7 +70,7 @@ def test_a_dead_channel_is_told_from_a_table_that_stands(changed, said):
 def test_two_motions_are_not_one():
     acceleration, _ = _pair()
     other = TableChannel("ACT", 0.01 * np.sin(4 * np.pi * TIME), 2e-5)
-    assert "not as one table does" in str(dead(INTERVAL, acceleration, other))
+    assert "not like one table" in str(dead(INTERVAL, acceleration, other))
 
 
 @pytest.mark.parametrize(

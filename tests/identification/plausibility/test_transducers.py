@@ -84,8 +84,8 @@ def test_each_transducer_tells_the_scale_of_its_angle_by_itself(sound):
 @pytest.mark.parametrize(
     ("factor", "said"),
     [
-        (10.0, "a gain ten times off"),
-        (1 / 25.4, "inches taken for mm"),
+        (10.0, "a gain wrong by a factor of 10"),
+        (1 / 25.4, "inches read as mm"),
         (1e-3, "thousand times"),
         (4.0, "look at its gain"),
     ],
@@ -101,7 +101,7 @@ def test_a_wrong_gain_is_named_with_its_channel(sound, index, factor, said):
 def test_a_wrong_sign_is_told_and_where_something_else_turns_its_channel(sound, index):
     rotation, base, _ = sound
     (told,) = _said(sound, lambda rotation: _times(rotation, index, -1.0))
-    assert "turns against" in told
+    assert "turns opposite to" in told
     if base is not None or len(rotation.names) > 2:
         assert f"the sign of {rotation.names[index]} is wrong" in told
     else:
@@ -149,7 +149,7 @@ def test_rocking_tells_how_wrong_the_tables_acceleration_is(factor, found):
     rotation, base = _shaken(PRISM, (0.44, 0.04))
     assert base_scale(1 / RATE, rotation, factor * base, PRISM) == pytest.approx(found, rel=0.08)
     told = list(map(str, suspicions(1 / RATE, rotation, factor * base, PRISM)))
-    assert ["against what the table's acceleration does" in each for each in told] == ([True] if factor < 0 else [])
+    assert ["opposite to the table's acceleration" in each for each in told] == ([True] if factor < 0 else [])
 
 
 def test_of_a_specimen_that_stands_nothing_is_told():

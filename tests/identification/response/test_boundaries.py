@@ -45,7 +45,7 @@ def test_brackets(outcomes, rocking, overturning):
 
 def test_what_is_out_of_order_or_missing_is_said():
     (found,) = bracket_boundaries(points("nroro"))
-    assert found.notes == ("overturning at A = 1.3, yet none at 1.5",)
+    assert found.notes == ("overturning at A = 1.3, but not at 1.5",)
     (found,) = bracket_boundaries(points("rrrrr"))
     assert found.notes == ("no test without rocking", "no test that overturned")
 

@@ -60,7 +60,7 @@ def test_numbers_of_every_kind_are_scaled(tmp_path: Path, kind: int, form: str, 
 
 @pytest.mark.parametrize(("kind", "packing"), [(4, "0,0,1,6"), (4, "255,0,1,0"), (9, "0,0,1,0")])
 def test_numbers_that_are_packed_in_another_way_are_refused(tmp_path: Path, kind: int, packing: str) -> None:
-    with pytest.raises(ReadError, match="interleaved or of a kind that is not known"):
+    with pytest.raises(ReadError, match="interleaved or of an unknown kind"):
         read(whole_numbers(tmp_path / "record.raw", kind, "i2", packing=packing))
 
 
@@ -107,5 +107,5 @@ def test_a_bit_that_no_word_has_and_bits_of_a_fraction_are_left_out(tmp_path: Pa
     recording = read(digital_word(tmp_path / "record.raw", {1: "release", 99: "door"}))
     assert [channel.name for channel in recording.channels] == ["release"]
     assert any('"door": it is bit 99 of a word' in told for told in recording.warnings)
-    with pytest.raises(ReadError, match="digital channels in numbers that are not whole"):
+    with pytest.raises(ReadError, match="digital channels have to be whole numbers"):
         read(digital_word(tmp_path / "fraction.raw", {1: "release"}, kind=7, bits=32))

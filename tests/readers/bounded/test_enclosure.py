@@ -42,7 +42,7 @@ print({})
         ("open(sys.argv[1] + '/../outside').read()", "opening a file outside the campaign's folder was refused"),
         ("open(sys.argv[1] + '/inside', 'a')", "writing a file was refused"),
         ("open(os.devnull, 'w').write('x')", "1"),
-        ("os.system('true')", "os.system was refused, as reading never needs it"),
+        ("os.system('true')", "os.system was refused: reading never needs it"),
         ("os.remove(sys.argv[1] + '/inside')", "os.remove was refused"),
         ("watch([Path(sys.argv[1]).parent]) or open(sys.argv[1] + '/../outside').read()", "outside"),
     ],

@@ -75,14 +75,14 @@ def test_a_path_out_of_the_folder_is_not_followed(tmp_path: Path) -> None:
     folder.mkdir()
     path = tdm(folder, url="../r.tdx")
     (folder / "r.tdx").rename(tmp_path / "r.tdx")
-    with pytest.raises(ReadError, match=r'its values stand in the file "r.tdx", which is not in its folder'):
+    with pytest.raises(ReadError, match=r'its values are in the file "r.tdx", which is not in its folder'):
         read(path)
 
 
 def test_entities_and_bombs_are_not_unpacked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tdm(tmp_path)
     path.write_text(path.read_text().replace("?><usi", '?><!DOCTYPE a [<!ENTITY b "c">]><usi'), encoding="utf-8")
-    with pytest.raises(ReadError, match="entities of its own"):
+    with pytest.raises(ReadError, match="its own entities"):
         read(path)
     monkeypatch.setattr(diadem_tdm, "LARGEST_HEADER", 1 << 16)
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -123,5 +123,5 @@ def test_values_that_are_cut_off_are_told(written: Callable[..., Path]) -> None:
 def test_a_header_without_its_values_says_which_file_is_lacking(written: Callable[..., Path]) -> None:
     path = written("diadem")
     path.with_suffix(".R32").unlink()
-    with pytest.raises(ReadError, match=r'its values stand in the file "record.R32", which is not in its folder'):
+    with pytest.raises(ReadError, match=r'its values are in the file "record.R32", which is not in its folder'):
         read(path)

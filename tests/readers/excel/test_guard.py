@@ -26,7 +26,7 @@ def test_a_sheet_whose_cells_are_close_together_passes(tmp_path: Path) -> None:
 def test_a_changed_byte_is_found_by_the_check_sum(tmp_path: Path) -> None:
     path = archive(tmp_path / "a.xlsx", b'<c r="A1"><v>1.25</v></c>')
     path.write_bytes(path.read_bytes().replace(b"1.25", b"1.35"))
-    with pytest.raises(ReadError, match=r"it is not whole .*CRC"):
+    with pytest.raises(ReadError, match=r"it is incomplete .*CRC"):
         check(path)
 
 

@@ -213,7 +213,7 @@ def test_an_archive_that_would_unpack_to_gigabytes_is_not_unpacked(tmp_path: Pat
 
 
 @pytest.mark.parametrize(
-    ("kind", "told"), [("xlsx", "it is not whole"), ("xls", "cannot be opened as a workbook .* past end of file")]
+    ("kind", "told"), [("xlsx", "it is incomplete"), ("xls", "cannot be opened as a workbook .* past end of file")]
 )
 def test_a_workbook_that_was_cut_off_is_refused(tmp_path: Path, kind: str, told: str) -> None:
     path = tmp_path / f"a.{kind}"

@@ -124,7 +124,7 @@ def test_only_the_file_itself_is_read(tmp_path: Path) -> None:
     assert [channel.heading for channel in recording.channels] == ["top"]
     told = " ".join(recording.notes)
     assert "other is left out: it is a link" in told
-    assert "raw is left out: its numbers lie in another file" in told
+    assert "raw is left out: its numbers are in another file" in told
     assert "not unpacked" in told
     assert "loop/loop is left out: it holds itself" in told
 

@@ -225,7 +225,7 @@ def test_bristols_other_layout_warns_of_channels_that_are_not_there(tmp_path: Pa
         (b"", "the file is empty"),
         (bytes(600), "first bytes are all zero"),
         (b"MATLAB 5.0 MAT-file", "header is damaged or cut off"),
-        (b"\x93NUMPY\x01\x00v\x00{'descr': '|O'", "may hold a program"),
+        (b"\x93NUMPY\x01\x00v\x00{'descr': '|O'", "may contain a program"),
         (b"\x80\x04\x95\x1b\x00", "a Python pickle, a program that runs when it is opened: never read"),
         (bytes([0, 0, 0, 0, 1, 0, 0, 0, 60, 0, 0, 0]), "if it is one of version 4, open it in MATLAB"),
     ],

@@ -47,7 +47,7 @@ def put(path: Path, *variables: bytes) -> Path:
 @pytest.mark.parametrize(
     ("variable", "reason"),
     [
-        (matrix(16, ONE), "x is left out: it is a function, and nothing in a recording is executed"),
+        (matrix(16, ONE), "x is left out: it is a function; nothing in a recording is executed"),
         (opaque(b"x", b"timetable"), "x is left out: it is an object of MATLAB's class timetable.*timetable2table"),
         (
             matrix(3, element(1, b"inline"), *FIELD, shape=(1, 1)),

@@ -62,10 +62,10 @@ def sparse(file: h5py.File) -> None:
     [
         (object_of_a_class, "it is an object of MATLAB's class timetable, which only MATLAB can open"),
         (text_of_three_dimensions, "it is a text of 3 dimensions; texts of one or several lines are read"),
-        (function, "it is a function, and nothing in a recording is executed"),
+        (function, "it is a function; nothing in a recording is executed"),
         (external_link, "it is a link to another place or file"),
-        (external_numbers, "its numbers lie in another file"),
-        (virtual_numbers, "its numbers lie in another file"),
+        (external_numbers, "its numbers are in another file"),
+        (virtual_numbers, "its numbers are in another file"),
         (bomb, "more than 100 times as many: it is not unpacked"),
         (sparse, "it is a sparse matrix"),
     ],

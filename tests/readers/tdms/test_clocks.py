@@ -69,7 +69,7 @@ def test_a_step_of_one_second_that_nobody_gave_yields_to_a_channel_of_times() ->
     columns = [column("Time", times, wf_increment=1.0), column("top", np.zeros(5), wf_increment=1.0)]
     recording = on_clocks(Path("a.tdms"), columns, None, None)
     np.testing.assert_array_equal(recording.channels[1].time, times)
-    assert any('"g/top" goes by the channel of times' in warning for warning in recording.warnings)
+    assert any('"g/top" uses the channel of times' in warning for warning in recording.warnings)
 
 
 def test_the_channel_that_is_given_is_the_clock_of_those_as_long_as_it() -> None:

@@ -164,7 +164,7 @@ def test_a_stale_index_file_beside_it_is_not_looked_at(tmp_path: Path) -> None:
     path = written(tmp_path / "a.tdms", [ChannelObject("g", "a", np.arange(6.0), waveform(0.1))])
     (tmp_path / "a.tdms_index").write_bytes(b"TDSh of another file")
     assert read(path).channel("a").values.size == 6
-    with pytest.raises(ReadError, match=r"tdms: .*\.tdms_index, which LabVIEW writes beside"):
+    with pytest.raises(ReadError, match=r"tdms: .*\.tdms_index, which LabVIEW writes next to"):
         read(tmp_path / "a.tdms_index")
 
 
@@ -216,7 +216,7 @@ def test_a_segment_of_which_only_the_start_is_there_is_told(tmp_path: Path) -> N
     path.write_bytes(path.read_bytes()[: one + 60])
     recording = read(path)
     assert recording.channel("a").values.size == 10
-    assert any("what its last 60 bytes hold is lost" in warning for warning in recording.warnings)
+    assert any("the data in its last 60 bytes are lost" in warning for warning in recording.warnings)
 
 
 def test_a_broken_chain_of_segments_is_refused_with_its_place(tmp_path: Path) -> None:

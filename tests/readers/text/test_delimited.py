@@ -370,5 +370,5 @@ def test_a_window_of_a_file_without_a_clock_is_counted_in_samples(long: Path) ->
 
 
 def test_a_window_that_the_file_does_not_reach_is_told(long: Path) -> None:
-    with pytest.raises(ReadError, match="none of its 9000 samples are within the test's window"):
+    with pytest.raises(ReadError, match="none of its 9000 samples is within the test's window"):
         delimited.read(long, DelimitedOptions(), Window(50.0, 60.0))

@@ -46,7 +46,7 @@ def test_words_between_single_blanks_may_be_a_sentence(tmp_path: Path) -> None:
     [
         ("\n \n", {}, "the file is empty"),
         ("\x01\x02\x03" * 100, {}, "not printable"),
-        ("only words\n" * 5, {}, "no rows of numbers were found in the 5 lines looked at"),
+        ("only words\n" * 5, {}, "no rows of numbers were found in the first 5 lines"),
         ("a b\n1 2\n", {"delimiter": ";", "decimal": ","}, "with delimiter = ';', decimal = ','"),
     ],
     ids=["empty", "binary", "words", "as given"],

@@ -54,7 +54,7 @@ def test_a_special_block_is_passed_over(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("LabVIEW Measurement\n", 'the line ".*End_of_Header.*" is not there'),
+        ("LabVIEW Measurement\n", 'the line ".*End_of_Header.*" is missing'),
         (PREAMBLE.replace("\t,", "\t;"), 'Decimal_Separator is ";"'),
         (PREAMBLE + "0\t1\n", '"Channels" was expected, the start of a segment'),
         (PREAMBLE + "Channels\t1\n", "ends within its header"),

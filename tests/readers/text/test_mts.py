@@ -118,6 +118,6 @@ def test_the_longest_block_is_the_default_and_the_reader_says_so(tmp_path: Path)
     assert recording.channel("block 1: Axial Force").values.tolist() == [7.5, 8.5]
     assert recording.start == datetime(2013, 4, 26, 13, 54, 26)  # 4.0 s after the running time's zero
     assert recording.warnings == (
-        "2 blocks with different columns: block 2, the longest with 3 rows, is taken; columns of the others are called "
-        '"block 1: …"',
+        "2 blocks with different columns: block 2, the longest with 3 rows, is used; columns of "
+        'the others are called "block 1: …"',
     )

@@ -63,7 +63,7 @@ def test_a_column_of_numbers_that_run_on_is_refused_with_the_cause(tmp_path: Pat
 @pytest.mark.parametrize(
     ("head", "last"),
     [
-        pytest.param("", None, id="each row goes on where the one above ends"),
+        pytest.param("", None, id="each row continues the one above"),
         pytest.param("El Centro 1940 NS component acceleration in g\n", None, id="a sentence of as many words above"),
         pytest.param("", shaking(1603)[1600:], id="the last row is shorter"),
         pytest.param("NPTS = 1600\n", None, id="the header announces as many"),

@@ -51,8 +51,8 @@ def test_nothing_is_said_of_sound_channels(small_campaign, free_vibration, shake
 @pytest.mark.parametrize(
     ("factor", "said"),
     [
-        (-1.0, "Channels top and bottom turn against what the table's acceleration does"),
-        (9.81, "Channel table_acceleration is 9.* times what the specimen's rocking requires: g taken for m/s²"),
+        (-1.0, "Channels top and bottom turn opposite to the table's acceleration"),
+        (9.81, "Channel table_acceleration is 9.* times what the specimen's rocking requires: g read as m/s²"),
     ],
 )
 def test_an_accelerometer_alone_is_held_against_the_rocking(factor, said, small_campaign, shaken):
@@ -132,7 +132,7 @@ def test_a_changed_reference_makes_another_result(small_campaign):
     [
         (1.02, ""),
         (-1.0, "its sign is wrong"),
-        (9.81, "g taken for m/s²"),
+        (9.81, "g read as m/s²"),
         (0.001, "blocks constant values"),
     ],
     ids=["right", "sign", "unit", "AC"],

@@ -64,5 +64,5 @@ def test_a_channel_without_a_value_in_the_window_is_left_out():
 
 
 def test_a_window_outside_the_record_is_refused():
-    with pytest.raises(StageError, match=r"no sample lies between 20 and 21 s; the record goes from 0 to 9\.99 s"):
+    with pytest.raises(StageError, match=r"no sample is between 20 and 21 s; the record goes from 0 to 9\.99 s"):
         _zeroed(np.zeros(CLOCK.size), window=RestWindow(20.0, 21.0, quiet=True))

@@ -74,12 +74,11 @@ def draft_channels(recorders: dict[str, Sequence[Column]]) -> DraftChannels:
     taken, left_out = _chosen(recorders)
     names = unique(("_".join(_id_parts(each.column.name)) for _, each in taken), "channel", as_variables=True)
     called = {recorder: [column.name for column in columns] for recorder, columns in recorders.items()}
-    asked: set[str] = set()
     channels = []
     for name, (recorder, each) in zip(names, taken, strict=True):
         alone = called[recorder].count(each.column.name) == 1
         column = each.column.name if alone and each.column.name.strip() else each.column.number
-        channels.append(DraftChannel(name, recorder, each, tuple(_lines(each, recorder, column, asked))))
+        channels.append(DraftChannel(name, recorder, each, tuple(_lines(each, recorder, column))))
     return DraftChannels(tuple(channels), tuple(left_out))
 
 
@@ -112,26 +111,28 @@ def _id_parts(name: str) -> list[str]:
     return re.findall(r"[a-z0-9]+", plain(name))
 
 
-def _lines(each: Meaning, recorder: str, column: str | int, asked: set[str]) -> list[Line | str]:
+def _lines(each: Meaning, recorder: str, column: str | int) -> list[Line | str]:
     lines: list[Line | str] = [Line("column", value(column))]
     if recorder != MAIN:
         lines.append(Line("recorder", value(recorder)))
     if each.quantity is None:
         choices = ", ".join(f'"{quantity}"' for quantity in units.QUANTITY_DIMENSIONS)
-        question = _once(asked, "quantity", f"what it measures: {choices}; or delete these lines")
-        return [*lines, Line("quantity", '"?"', question=question), *_unit(each, asked), *_place(each, asked)]
+        question = f"what it measures: {choices}; or delete these lines"
+        return [*lines, Line("quantity", '"?"', question=question), *_unit(each), *_place(each)]
     lines.append(Line("quantity", value(each.quantity), each.because, each.conflict))
-    lines += _unit(each, asked)
-    return lines + _place(each, asked)
+    lines += _unit(each)
+    return lines + _place(each)
 
 
-def _unit(each: Meaning, asked: set[str]) -> list[Line]:
+def _unit(each: Meaning) -> list[Line]:
     column = each.column
     dimension = units.QUANTITY_DIMENSIONS[each.quantity or "other"]
     if not column.unit:
         usual = units.DIMENSIONS[dimension or "length"][1]
-        question = f'the file gives no unit: such as "{usual}", or "V" with a line gain = "10 {usual}/V" below it'
-        return [Line("unit", '"?"', question=_once(asked, f"unit {usual}", question))]
+        question = (
+            f'the file gives no unit: write one such as "{usual}", or "V" with a line gain = "10 {usual}/V" below it'
+        )
+        return [Line("unit", '"?"', question=question)]
     if not each.unit_known:
         return [Line("unit", '"?"', question=f'the file says "{column.unit}", which is not a known unit')]
     lines = [Line("unit", value(column.unit), "as in the file")]
@@ -139,27 +140,27 @@ def _unit(each: Meaning, asked: set[str]) -> list[Line]:
         recorded = units.normalise_unit(column.unit)
         below = f"({recorded})" if {"/", " "} & set(recorded) else recorded
         gain = f"? {units.DIMENSIONS[dimension][1]}/{below}"
-        lines.append(Line("gain", value(gain), question=_once(asked, "gain", "from its calibration sheet")))
+        lines.append(Line("gain", value(gain), question="from its calibration sheet"))
     return lines
 
 
-def _place(each: Meaning, asked: set[str]) -> list[Line | str]:
+def _place(each: Meaning) -> list[Line | str]:
     if each.quantity == "force":
         return []
     place = each.place or (PLACE_OF.get(each.quantity, "specimen") if each.quantity else None)
     if place is None:
-        question = _once(asked, "on", 'what it is fixed to or looks at: "specimen", "table" or "ground"')
-        return [Line("on", '"?"', question=question), _direction(each, asked)]
+        question = 'what it is fixed to or looks at: "specimen", "table" or "ground"'
+        return [Line("on", '"?"', question=question), _direction(each)]
     doubt = "" if each.place else 'or "table", "ground"' if place == "specimen" else 'or "specimen", "ground"'
     lines: list[Line | str] = [Line("on", value(place), each.place_word, doubt)]
     if each.quantity == "displacement" and place == "specimen":
-        lines.append(Line("at", '["? mm", "0 mm", "? mm"]', question=_once(asked, "at", _FIRST_POINT)))
-        fixed = _once(asked, "relative_to", 'where it is fixed: "table" if it moves with the table, else "ground"')
+        lines.append(Line("at", '["? mm", "0 mm", "? mm"]', question=_FIRST_POINT))
+        fixed = 'where it is fixed: "table" if it moves with the table, else "ground"'
         lines.append(Line("relative_to", '"?"', question=fixed))
     if each.quantity == "acceleration" and place == "specimen":
         where = "where it is fixed; two or more along x at different heights improve the angle"
         lines.append(comment(f'at = ["43 mm", "0 mm", "440 mm"]      {where}'))
-    lines.append(_direction(each, asked))
+    lines.append(_direction(each))
     if each.quantity == "displacement" and place == "specimen":
         lines += _sensing(each)
     return lines
@@ -176,18 +177,10 @@ def _sensing(each: Meaning) -> list[Line]:
     return []
 
 
-def _direction(each: Meaning, asked: set[str]) -> Line:
+def _direction(each: Meaning) -> Line:
     along = "axis" if each.quantity in ("angle", "angular_velocity") else "direction"
     direction = AXES[each.axis] if each.axis else (0, 1, 0) if along == "axis" else (1, 0, 0)
     reason = f'from "{each.axis}" in its name' if each.axis else ""
     negative = ", ".join(str(-part or 0) for part in direction)
-    question = _once(asked, "direction", f"of a positive reading; [{negative}] if it is reversed")
+    question = f"of a positive reading; [{negative}] if it is reversed"
     return Line("direction", value(direction), reason, question)
-
-
-def _once(asked: set[str], key: str, question: str) -> str:
-    """A question in full for the first channel, short for the others."""
-    if key in asked:
-        return "as above"
-    asked.add(key)
-    return question

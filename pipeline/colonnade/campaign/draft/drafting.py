@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from colonnade.campaign.draft.channels import draft_channels
 from colonnade.campaign.draft.groups import MOST_SETUPS
 from colonnade.campaign.draft.layout import DraftSetup, arrange
 from colonnade.campaign.draft.lines import Line
@@ -87,11 +86,11 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     try:
         folder = folder.resolve()
     except (OSError, RuntimeError, ValueError) as error:
-        raise CampaignError(f"{folder}: invalid path ({error}). The folder with the raw files was expected.") from None
+        raise CampaignError(f"{folder}: invalid path ({error}). Name the folder with the raw files.") from None
     if (kind := irregular(folder)) and not folder.is_dir():
-        raise CampaignError(f"{folder}: this is {kind}. The folder with the raw files was expected.")
+        raise CampaignError(f"{folder}: this is {kind}. Name the folder with the raw files.")
     if not folder.is_dir():
-        raise CampaignError(f"{folder}: folder not found. The folder with the raw files was expected.")
+        raise CampaignError(f"{folder}: folder not found. Name the folder with the raw files.")
     path = folder / FILE_NAME
     if path.exists() or path.is_symlink():
         raise CampaignError(
@@ -100,7 +99,7 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
         )
     found = survey(folder, progress)
     if not found.files:
-        raise CampaignError("\n".join([f"{folder}: no recording found that can be read.", *_told(found.refused)]))
+        raise CampaignError("\n".join([f"{folder}: no readable recording found.", *_told(found.refused)]))
     arranged, copies = arrange(found.files)
     setups, empty = _with_channels(arranged)
     refused = (*found.refused, *empty)
@@ -126,11 +125,10 @@ def _with_channels(setups: Sequence[DraftSetup]) -> tuple[list[DraftSetup], list
     kept: list[DraftSetup] = []
     empty = []
     for setup in setups:
-        drafted = draft_channels({recorder: setup.columns(recorder) for recorder in setup.recorders})
-        if drafted.channels:
+        if setup.drafted.channels:
             kept.append(setup)
             continue
-        reasons = "; ".join(f'"{heading}": {reason}' for _, heading, reason in drafted.left_out[:MOST_TOLD])
+        reasons = "; ".join(f'"{heading}": {reason}' for _, heading, reason in setup.drafted.left_out[:MOST_TOLD])
         files = [file.relative for test in setup.tests for file in test.files.values()]
         empty += [(file, f"none of its columns measures anything ({reasons})") for file in files]
     return kept, empty
@@ -151,4 +149,4 @@ def _told(refused: tuple[tuple[str, str], ...]) -> list[str]:
     lines = [f"  {name}: {reason}" for name, reason in refused[:MOST_TOLD]]
     if len(refused) > MOST_TOLD:
         lines.append(f"  and {len(refused) - MOST_TOLD} more")
-    return lines or ["  It only holds documents. Name the folder with the raw files."]
+    return lines or ["  It contains only documents. Name the folder with the raw files."]

@@ -22,10 +22,11 @@ def explained(groups: int, files: int) -> list[Line | str]:
         "",
         comment(f"{files} files of {groups} kinds were found. The first question is: which are recordings of tests?"),
         comment(
-            'Each group asks it once, at format = "?". If it is one: replace the "?" by the format named after it,'
+            'Each group asks this once, at format = "?". If they are recordings: replace "?" by the format named '
+            "after it,"
         ),
-        comment("and remove the # from the lines that you need. Until then its channels are kept as recorded."),
-        comment("If not: delete the group, from its line with ==== to the next one."),
+        comment("and remove the # from the lines that you need. Until then the channels are kept as recorded."),
+        comment("If they are not: delete the group, from its line with ==== to the next one."),
     ]
 
 
@@ -48,7 +49,9 @@ def group(number: str, files: str, format: str, lines: Sequence[Line | str]) -> 
     asked = f"recordings of tests ({files})? Then {value({'format': format})}; if not, delete this group"
     kept: list[Line | str] = ["", comment(f"==== Group {number}: {files}")]
     if format in PUBLISHED:
-        kept.append(comment('As networks publish them: a base motion belongs under [motions], "its name" = "its file"'))
+        kept.append(
+            comment('In a format of seismic networks: a base motion belongs under [motions], "its name" = "its file"')
+        )
     is_first = True
     for line in lines:
         if isinstance(line, str):

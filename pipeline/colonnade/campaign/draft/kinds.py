@@ -63,11 +63,11 @@ def kind_lines(test: DraftTest, channels: Sequence[DraftChannel], largest: dict[
     if kind.value in ('"sine"', '"pulse"'):
         lines += _frequency_lines(named, frequency if kind.value == '"sine"' else None)
     if kind.value == '"earthquake"':
-        motion = find(parts, {title: (word,) for word, title in MOTIONS.items()})
+        motion = find(parts, MOTIONS)
         if motion:
             lines.append(Line("motion", value(motion[0]), "from its name", "with component and year"))
         else:
-            lines.append(comment('motion = "El Centro 1940 NS"      what the table was given'))
+            lines.append(comment('motion = "El Centro 1940 NS"      the motion that the table was given'))
         span = _number(_SPAN, name)
         lines += [Line("span", value(span), "from its name")] if span is not None else []
     return lines
@@ -85,7 +85,7 @@ def _doubt(kind: str, frequency: float | None, still: bool) -> str:
 
 def _frequency_lines(named: float | None, recorded: float | None) -> list[Line | str]:
     if named is None and recorded is None:
-        return [comment('frequency = "3 Hz"      where it is known')]
+        return [comment('frequency = "3 Hz"      if it is known')]
     if named is None:
         return [Line("frequency", value(f"{recorded:.3g} Hz"), "of the table's motion", "guessed from its signal")]
     doubt = ""

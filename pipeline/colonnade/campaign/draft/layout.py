@@ -6,9 +6,11 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import PurePosixPath
 
 from colonnade.campaign.channel import MAIN
+from colonnade.campaign.draft.channels import DraftChannels, draft_channels
 from colonnade.campaign.draft.naming import as_id, unique
 from colonnade.campaign.draft.survey import Column, RawFile
 
@@ -38,6 +40,11 @@ class DraftSetup:
     def recorders(self) -> tuple[str, ...]:
         """Names of the recorders, "main" first."""
         return tuple(self.tests[0].files)
+
+    @cached_property
+    def drafted(self) -> DraftChannels:
+        """Its channels."""
+        return draft_channels({recorder: self.columns(recorder) for recorder in self.recorders})
 
     def columns(self, recorder: str) -> tuple[Column, ...]:
         """Columns of a recorder, each as it is in the file where it moves most."""

@@ -189,7 +189,7 @@ def _is_log(path: Path) -> bool:
         return False
     with path.open("rb") as stream:
         head = stream.readline(4096).decode("utf-8-sig", errors="replace")
-    return {cell.strip(' "').casefold() for cell in re.split(r"[;,\t]", head)} >= LOG_HEADS
+    return {cell.strip(' "\r\n').casefold() for cell in re.split(r"[;,\t]", head)} >= LOG_HEADS
 
 
 def _first_reason(refusal: str, name: str) -> str:

@@ -62,19 +62,17 @@ KINDS: dict[str, tuple[str, ...]] = {
 }
 """Kind of test: words in the names of its files."""
 
-MOTIONS = {
-    "centro": "El Centro",
-    "elcentro": "El Centro",
-    "kobe": "Kobe",
-    "northridge": "Northridge",
-    "taft": "Taft",
-    "aegion": "Aegion",
-    "aigio": "Aegion",
-    "kalamata": "Kalamata",
-    "lefkada": "Lefkada",
-    "tohoku": "Tohoku",
-    "chichi": "Chi-Chi",
-    "loma": "Loma Prieta",
+MOTIONS: dict[str, tuple[str, ...]] = {
+    "El Centro": ("centro",),
+    "Kobe": ("kobe",),
+    "Northridge": ("northridge",),
+    "Taft": ("taft",),
+    "Aegion": ("aegion", "aigio"),
+    "Kalamata": ("kalamata",),
+    "Lefkada": ("lefkada",),
+    "Tohoku": ("tohoku",),
+    "Chi-Chi": ("chichi",),
+    "Loma Prieta": ("loma",),
 }
 """Earthquakes that files are named after."""
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from colonnade.campaign.campaign import SCHEMA
 from colonnade.campaign.channel import MAIN
-from colonnade.campaign.draft.channels import DraftChannel, DraftChannels, draft_channels
+from colonnade.campaign.draft.channels import DraftChannels
 from colonnade.campaign.draft.groups import MOST_SETUPS, explained, group
 from colonnade.campaign.draft.kinds import kind_lines, largest_spreads, linked
 from colonnade.campaign.draft.layout import DraftSetup, DraftTest, names_of
@@ -67,11 +67,11 @@ def write(
     asks_first = len(setups) > MOST_SETUPS
     lines: list[Line | str] = [
         comment("Drafted by `colonnade init` from the raw files. The text after each # says why a value was chosen."),
-        comment('A "?" in a value has to be filled in before anything runs; "# ?" is a guess that asks for a look.'),
+        comment('Fill in each "?" in a value before the first run; check each guess that is marked "# ?".'),
         comment("`colonnade check` lists what is still open, with its line."),
         Line("schema", str(SCHEMA)),
         Line("campaign", value(name), "from the name of the folder"),
-        Line("title", value(f"Campaign {name}"), "of the report; say it better"),
+        Line("title", value(f"Campaign {name}"), "title of the report; write a better one"),
         comment('facility = "…"         the laboratory and its table'),
     ]
     if asks_first:
@@ -100,25 +100,15 @@ def _named(setups: Sequence[DraftSetup]) -> Iterator[_NamedSetup]:
     first: dict[str, str] = {}
     for number, setup in enumerate(setups, start=1):
         name = "setup" if len(setups) == 1 else f"setup-{number}"
-        drafted = draft_channels({recorder: setup.columns(recorder) for recorder in setup.recorders})
-        channels = tuple(
-            _hinted(channel, first[channel.id])
-            if channel.id in first and not channel.id.startswith("column_")
-            else channel
-            for channel in drafted.channels
-        )
-        first |= {channel.id: name for channel in channels if channel.id not in first}
-        yield _NamedSetup(name, setup, replace(drafted, channels=channels))
-
-
-def _hinted(channel: DraftChannel, setup: str) -> DraftChannel:
-    hint = f"perhaps as in {setup}"
-    return replace(
-        channel,
-        lines=tuple(
-            replace(line, question=hint) if isinstance(line, Line) and line.question else line for line in channel.lines
-        ),
-    )
+        asked: set[str] = set()
+        channels = []
+        for channel in setup.drafted.channels:
+            lines = [_briefly(line, asked) for line in channel.lines]
+            if channel.id in first and not channel.id.startswith("column_"):
+                lines = [_asked(line, f"perhaps as in {first[channel.id]}") for line in lines]
+            channels.append(replace(channel, lines=tuple(lines)))
+            first.setdefault(channel.id, name)
+        yield _NamedSetup(name, setup, replace(setup.drafted, channels=tuple(channels)))
 
 
 def _specimens(tests: Sequence[DraftTest]) -> list[tuple[str, str]]:
@@ -142,7 +132,7 @@ def _specimen(name: str, shape: str) -> list[Line | str]:
 
 def _setup(named: _NamedSetup) -> list[Line | str]:
     setup = named.setup
-    count = "1 test" if len(setup.tests) == 1 else f"{len(setup.tests)} tests, all recorded alike"
+    count = "1 test" if len(setup.tests) == 1 else f"{len(setup.tests)} tests, all recorded in the same way"
     return ["", comment(f"The set-up of {count}: {_some(setup)}"), *_described(named)]
 
 
@@ -177,9 +167,9 @@ def _some(setup: DraftSetup) -> str:
 
 def _recorder_lines(setup: DraftSetup, recorder: str) -> list[Line]:
     files = [test.files[recorder] for test in setup.tests]
-    lines = [Line("file", value({"format": files[0].format}), "recognised; all else is sniffed")]
+    lines = [Line("file", value({"format": files[0].format}), "recognised; the rest is detected")]
     if not any(column.has_clock for column in files[0].columns):
-        lines.append(Line("sampling_rate", value("? Hz"), question="no time column was recognised: samples per second"))
+        lines.append(Line("sampling_rate", value("? Hz"), question="no time column found: give the samples per second"))
     return lines
 
 
@@ -226,9 +216,13 @@ def _tests(named: Sequence[_NamedSetup], specimens: dict[int, tuple[str, str]]) 
 
 def _briefly(line: Line | str, asked: set[str]) -> Line | str:
     """Ask in full once only."""
-    if isinstance(line, str) or not line.question:
-        return line
-    if line.question in asked:
-        return replace(line, question="as above")
-    asked.add(line.question)
+    question = line.question if isinstance(line, Line) else ""
+    if question in asked:
+        return _asked(line, "as above")
+    asked.add(question)
     return line
+
+
+def _asked(line: Line | str, question: str) -> Line | str:
+    """Return a line with another question, if it asks one."""
+    return replace(line, question=question) if isinstance(line, Line) and line.question else line

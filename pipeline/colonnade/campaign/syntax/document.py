@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ValidationError
 
 from colonnade.campaign.syntax.fields import one_line
 from colonnade.campaign.syntax.places import Place
 from colonnade.errors import CampaignError
 from colonnade.readers.irregular import irregular
+
+Model = TypeVar("Model", bound=BaseModel)
 
 _LARGEST_BYTES = 20_000_000
 
@@ -57,11 +61,16 @@ def parse(text: str, name: str) -> dict[str, Any]:
         ) from None
 
 
+def validated(
+    model: type[Model], document: Mapping[str, Any], folder: Path
+) -> tuple[Model | None, list[tuple[Place, str]]]:
+    """Read a document as a model, None if it is not one; with the problems and their places."""
+    try:
+        return model.model_validate(document, context={"folder": folder}), []
+    except ValidationError as error:
+        return None, [(tuple(part for part in each["loc"] if part != "[key]"), each["msg"]) for each in error.errors()]
+
+
 def refusal(paragraphs: Iterable[str]) -> CampaignError:
     """Build the error of a file with several problems, each paragraph once and on one line."""
     return CampaignError("\n".join(dict.fromkeys(map(one_line, paragraphs))))
-
-
-def place_of(location: Place) -> Place:
-    """Return a key's place: pydantic's, without its mark for a key."""
-    return tuple(part for part in location if part != "[key]")

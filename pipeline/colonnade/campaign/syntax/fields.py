@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import reprlib
-from collections.abc import Callable
 from datetime import date, time
 from math import hypot, isfinite
 from typing import Annotated, Any
@@ -73,12 +72,12 @@ def quantity(
             raise ValueError(str(error)) from None
         if not isfinite(number):
             raise ValueError(f"{shown(value)} is too large.")
-        if above_zero and number <= 0.0:
-            raise ValueError(f"{shown(value)} was found. A value above zero was expected.")
-        if above_zero:
-            expected = outside(number, between or BETWEEN[dimension], UNITS[dimension])
-        else:
+        if not above_zero:
             expected = too_large(number, dimension)
+        elif number <= 0.0:
+            expected = "A value above zero was expected."
+        else:
+            expected = outside(number, between or BETWEEN[dimension], UNITS[dimension])
         if expected:
             raise ValueError(f"{shown(value)} was found. {expected}")
         return number
@@ -105,19 +104,34 @@ def number(value: object) -> float:
     return converted
 
 
-def positive_number(between: tuple[float, float]) -> tuple[Any, Any]:
-    """Give validator and JSON Schema of a number above zero, within bounds."""
+def number_between(low: float, high: float, *, exclusive: bool = False) -> tuple[Any, Any]:
+    """Give validator and JSON Schema of a number within bounds, the bounds themselves included or not."""
+    expected = f"A number {'between' if exclusive else 'from'} {low:g} {'and' if exclusive else 'to'} {high:g}"
 
-    def positive(value: object) -> float:
+    def within(value: object) -> float:
         converted = number(value)
-        if converted <= 0.0:
-            raise ValueError(f"{shown(value)} was found. A value above zero was expected.")
-        if expected := outside(converted, between):
-            raise ValueError(f"{shown(value)} was found. {expected}")
+        if not low <= converted <= high or (exclusive and converted in (low, high)):
+            raise ValueError(f"{shown(value)} was found. {expected} was expected.")
         return converted
 
-    low, high = between
-    return BeforeValidator(positive), WithJsonSchema({"type": "number", "minimum": low, "maximum": high})
+    least, most = ("exclusiveMinimum", "exclusiveMaximum") if exclusive else ("minimum", "maximum")
+    return BeforeValidator(within), WithJsonSchema({"type": "number", least: low, most: high})
+
+
+def or_word(kind: tuple[Any, Any], *words: str) -> tuple[Any, Any]:
+    """Give validator and JSON Schema of a kind of value, or of one of a few words in its place."""
+    convert, schema = kind
+    listed = ", ".join(f'"{word}"' for word in words)
+
+    def either(value: object) -> Any:
+        if isinstance(value, str) and value in words:
+            return value
+        try:
+            return convert.func(value)
+        except ValueError as error:
+            raise ValueError(f"{error} Or {listed}.") from None
+
+    return BeforeValidator(either), WithJsonSchema({"anyOf": [{"enum": list(words)}, schema.json_schema]})
 
 
 def _restitution(value: object) -> float:
@@ -127,46 +141,38 @@ def _restitution(value: object) -> float:
     return converted
 
 
-def _each(count: int, convert: Callable[[object], float], what: str) -> Callable[[object], tuple[float, ...]]:
-    def several(value: object) -> tuple[float, ...]:
+def _list_of(count: int, kind: tuple[Any, Any], what: str) -> tuple[Any, Any]:
+    """Give validator and JSON Schema of a list of values of one kind."""
+    convert, schema = kind
+
+    def several(value: object) -> tuple[Any, ...]:
         if not isinstance(value, (list, tuple)) or len(value) != count:
             raise ValueError(f"{shown(value)} was found. A list of {count} was expected: {what}.")
-        return tuple(convert(item) for item in value)
+        return tuple(convert.func(item) for item in value)
 
-    return several
+    array = {"type": "array", "items": schema.json_schema, "minItems": count, "maxItems": count, "description": what}
+    return BeforeValidator(several), WithJsonSchema(array)
 
 
-def _sided(convert: Callable[[object], float], item: Any) -> tuple[Any, Any]:
-    pair = _each(2, convert, "[for θ < 0, for θ > 0]")
+def _sided(kind: tuple[Any, Any]) -> tuple[Any, Any]:
+    """Give validator and JSON Schema of one value, or a pair where the specimen is not symmetric."""
+    (one, schema), (pair, both) = kind, _list_of(2, kind, "[for θ < 0, for θ > 0]")
 
     def either(value: object) -> Sided:
-        if isinstance(value, (list, tuple)):
-            first, second = pair(value)
-            return first, second
-        return convert(value)
+        converted: Sided = (pair if isinstance(value, (list, tuple)) else one).func(value)
+        return converted
 
-    schema = item.json_schema
-    both = {"type": "array", "items": schema, "minItems": 2, "maxItems": 2, "description": "[for θ < 0, for θ > 0]"}
-    return BeforeValidator(either), WithJsonSchema({"anyOf": [schema, both]})
+    return BeforeValidator(either), WithJsonSchema({"anyOf": [schema.json_schema, both.json_schema]})
 
 
-def sided_quantity(dimension: str) -> tuple[Any, Any]:
-    """Give validator and JSON Schema of one positive quantity, or a pair where the specimen is not symmetric."""
-    single, schema = quantity(dimension, above_zero=True)
-    return _sided(single.func, schema)
-
-
-def vector_of(dimension: str) -> tuple[Any, Any]:
-    """Give validator and JSON Schema of three quantities [x, y, z]."""
-    single, schema = quantity(dimension)
-    array = {"type": "array", "items": schema.json_schema, "minItems": 3, "maxItems": 3}
-    return BeforeValidator(
-        _each(3, single.func, f'x, y and z, each as "1 {units.DIMENSIONS[dimension][1]}"')
-    ), WithJsonSchema(array)
+_NUMBERS, _NUMBERS_SCHEMA = _list_of(
+    3, (BeforeValidator(number), WithJsonSchema({"type": "number"})), "x, y and z, such as [1, 0, 0]"
+)
+_TIMES, INTERVAL_SCHEMA = _list_of(2, quantity("time"), 'start and end, such as ["2 s", "14 s"]')
 
 
 def _unit_vector(value: object) -> Vector:
-    x, y, z = _each(3, number, "x, y and z, such as [1, 0, 0]")(value)
+    x, y, z = _NUMBERS.func(value)
     length = hypot(x, y, z)
     if not (length > 0.0 and isfinite(length)):
         raise ValueError(f"{shown(value)} was found. A direction other than zero was expected, such as [1, 0, 0].")
@@ -175,8 +181,7 @@ def _unit_vector(value: object) -> Vector:
 
 def interval(value: object) -> tuple[float, float]:
     """Take two times, such as ``["2 s", "14 s"]``, the second after the first; in s."""
-    single, _ = quantity("time")
-    start, stop = _each(2, single.func, 'start and end, such as ["2 s", "14 s"]')(value)
+    start, stop = _TIMES.func(value)
     if not start < stop:
         raise ValueError(f"{shown(value)} was found. The end has to come after the start.")
     return start, stop
@@ -204,13 +209,10 @@ def schema_version(schema: int, files: str) -> tuple[Any, Any]:
 
 def one_of(*choices: str) -> tuple[Any, Any]:
     """Give validator and JSON Schema of a word out of a few."""
-    listed = ", ".join(f'"{choice}"' for choice in choices)
 
     def chosen(value: object) -> str:
         if not isinstance(value, str) or value not in choices:
-            hint = nearest(value, choices) if isinstance(value, str) else ""
-            hint = hint if "Did you mean" in hint else f" One of these was expected: {listed}."
-            raise ValueError(f"{shown(value)} was found.{hint}")
+            raise ValueError(f"{shown(value)} was found.{nearest(str(value), choices)}")
         return value
 
     return BeforeValidator(chosen), WithJsonSchema({"type": "string", "enum": list(choices)})
@@ -224,14 +226,6 @@ def _column(value: object) -> str | int:
     raise ValueError(f"{shown(value)} was found. A column's name, or its number from 1, was expected.")
 
 
-INTERVAL_SCHEMA = {
-    "type": "array",
-    "items": quantity("time")[1].json_schema,
-    "minItems": 2,
-    "maxItems": 2,
-    "description": "start and end",
-}
-
 Length = Annotated[float, *quantity("length", above_zero=True)]
 Mass = Annotated[float, *quantity("mass", above_zero=True)]
 Duration = Annotated[float, *quantity("time", above_zero=True)]
@@ -240,21 +234,17 @@ Frequency = Annotated[float, *quantity("frequency", above_zero=True)]
 Angle = Annotated[float, *quantity("angle")]
 PositiveAngle = Annotated[float, *quantity("angle", above_zero=True)]
 Gravity = Annotated[float, *quantity("acceleration", above_zero=True, example="9.81 m/s^2")]
-SidedAngle = Annotated[Sided, *sided_quantity("angle")]
-SidedLength = Annotated[Sided, *sided_quantity("length")]
-SidedInertia = Annotated[Sided, *sided_quantity("inertia")]
+SidedAngle = Annotated[Sided, *_sided(quantity("angle", above_zero=True))]
+SidedLength = Annotated[Sided, *_sided(quantity("length", above_zero=True))]
+SidedInertia = Annotated[Sided, *_sided(quantity("inertia", above_zero=True))]
 _RESTITUTION_SCHEMA = WithJsonSchema({"type": "number", "exclusiveMinimum": 0, "maximum": 1})
-SidedRestitution = Annotated[Sided, *_sided(_restitution, _RESTITUTION_SCHEMA)]
-Position = Annotated[Vector, *vector_of("length")]
-Direction = Annotated[
-    Vector,
-    BeforeValidator(_unit_vector),
-    WithJsonSchema({"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}),
-]
-PositiveNumber = Annotated[float, *positive_number(PLAIN)]
-Scale = Annotated[float, *positive_number(SCALE)]
+SidedRestitution = Annotated[Sided, *_sided((BeforeValidator(_restitution), _RESTITUTION_SCHEMA))]
+Position = Annotated[Vector, *_list_of(3, quantity("length"), 'x, y and z, each as "1 mm"')]
+Direction = Annotated[Vector, BeforeValidator(_unit_vector), _NUMBERS_SCHEMA]
+PositiveNumber = Annotated[float, *number_between(*PLAIN)]
+Scale = Annotated[float, *number_between(*SCALE)]
 Text = Annotated[str, BeforeValidator(text), WithJsonSchema({"type": "string", "minLength": 1})]
-Interval = Annotated[tuple[float, float], BeforeValidator(interval), WithJsonSchema(INTERVAL_SCHEMA)]
+Interval = Annotated[tuple[float, float], BeforeValidator(interval), INTERVAL_SCHEMA]
 Column = Annotated[
     str | int,
     BeforeValidator(_column),

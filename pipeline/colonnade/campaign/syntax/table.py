@@ -60,7 +60,7 @@ def _explained(table: type[Table], error: ErrorDetails) -> InitErrorDetails:
     elif kind == "missing":
         message = f"It is missing. {_purpose(table, place)}".rstrip()
     elif kind == "union_tag_not_found":
-        message = '"shape" is missing. It is "prism", "cylinder", "cone" or "measured".'
+        message = '"shape" is missing. Choose one of: "prism", "cylinder", "cone", "measured".'
     elif kind == "union_tag_invalid":
         shapes = [shape.strip("' ") for shape in context["expected_tags"].split(",")]
         message = f"Unknown shape {shown(context['tag'])}.{nearest(str(context['tag']), shapes)}"

@@ -106,7 +106,7 @@ class Calibration:
             f"The contact of this body ({self.body.description}) gives e from {np.nanmin(self.restitutions):.4f} to "
             f"{np.nanmax(self.restitutions):.4f} for critical damping fractions from {self.fractions.min():g} to "
             f"{self.fractions.max():g} and {self.stiffnesses.min():g} to {self.stiffnesses.max():g} times its "
-            f"stiffness; {self.target:.4f} was asked for. The nearest is taken: e = {self.restitution:.4f} at "
+            f"stiffness; {self.target:.4f} was asked for. The nearest is used: e = {self.restitution:.4f} at "
             f"{self.law.damping_fraction:.4g}. More nodes give a larger e, fewer a smaller one."
         )
 
@@ -260,7 +260,7 @@ class _Runs:
             longest = longest_step(keep_modes(self._body, 0.0), self._law)
             raise ValueError(
                 f"step is {self._step:.4g} s; at most {longest:.4g} s was expected: beyond it the contact of this body "
-                f"({self._body.description}) is unstable. Take a shorter step or a softer contact."
+                f"({self._body.description}) is unstable. Use a shorter step or a softer contact."
             )
         if not np.isfinite(values).any():
             raise ValueError(

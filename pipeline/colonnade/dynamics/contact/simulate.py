@@ -128,7 +128,7 @@ def _division(body: ContactBody, law: ContactLaw, motion: Motion, step: float | 
     if motion.dt / parts > longest:
         raise ValueError(
             f"step is {motion.dt / parts:.4g} s; at most {longest:.4g} s was expected: beyond it the contact of this "
-            "body and law is unstable. Take a shorter step or a smaller stiffness."
+            "body and law is unstable. Use a shorter step or a smaller stiffness."
         )
     return motion.dt, parts
 

@@ -153,7 +153,7 @@ def run_member(plan: ContactPlan, member: int) -> Member:
         As of `simulate`.
     """
     if not 0 <= member < plan.count:
-        raise IndexError(f"there is no member {member}; one from 0 to {plan.count - 1} was expected")
+        raise IndexError(f"member is {member}; a number from 0 to {plan.count - 1} was expected")
     draws = np.random.default_rng((plan.seed, member)).uniform(size=len(INPUTS))
     lows, highs = np.array([getattr(plan, name) for name in INPUTS]).T
     inputs = lows + draws * (highs - lows)

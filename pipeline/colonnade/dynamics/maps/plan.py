@@ -215,7 +215,7 @@ def _frequency(motion: Motion | None, frequency: float | None) -> float | None:
     if motion is not None:
         instance("motion", motion, Motion)
     if (motion is None) != (frequency is None):
-        raise ValueError("A motion and its motion_frequency (Hz) come together; one of the two was given")
+        raise ValueError("A motion needs its motion_frequency (Hz), and the reverse; only one of the two was given")
     if motion is None:
         return None
     if not motion.peak > 0:

@@ -28,8 +28,7 @@ class ContactModel(Model):
 
         if case.restitution is not None:
             raise ValueError(
-                f"The {self.name} model has no restitution of its own to be given: it follows from `contact`, "
-                "the law of contact"
+                f"Do not give `restitution` to the {self.name} model: it follows from `contact`, the law of contact"
             )
         body = rigid_body(case.block)
         return simulate(

@@ -102,7 +102,7 @@ def check_ramp_shape(shape: str) -> None:
         Naming the nearest one.
     """
     if text("ramp_shape", shape, "the shape of a ramp") not in RAMP_SHAPES:
-        raise ValueError(f'There is no ramp of the shape "{shape}".{nearest(shape, RAMP_SHAPES)}')
+        raise ValueError(f'Unknown ramp shape "{shape}".{nearest(shape, RAMP_SHAPES)}')
 
 
 def restitution_up_to(

@@ -87,7 +87,7 @@ def overturning_spectrum(
         If the pulse or model is not known, or a number is not positive.
     """
     if pulse not in PULSES:
-        raise ValueError(f'There is no pulse "{pulse}".{nearest(pulse, PULSES)}')
+        raise ValueError(f'Unknown pulse "{pulse}".{nearest(pulse, PULSES)}')
     plane_model_of(model)
     omegas = np.atleast_1d(np.asarray(frequency_ratio, dtype=np.float64))
     if not ((omegas > 0).all() and 0 < edge < scan_step < largest):

@@ -37,7 +37,7 @@ def rocking_angle(displacements: ArrayLike, at: ArrayLike, direction: ArrayLike,
     Raises
     ------
     ValueError
-        If the shapes do not fit or no transducer sees the rotation.
+        If the shapes do not fit or no transducer measures the rotation.
 
     Notes
     -----

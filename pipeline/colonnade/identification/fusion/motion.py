@@ -23,7 +23,7 @@ SEEN = 0.1
 LARGEST_DISAGREEMENT = 3.0
 """Times the noise by which a rate may differ from the change of the angle before it is left out."""
 
-UNSEEN = "slide and uplift are not seen and taken as zero"
+UNSEEN = "slide and uplift are not measured and are taken as zero"
 
 
 @dataclass(frozen=True)
@@ -115,9 +115,9 @@ def specimen_motion(
     if found is not None:
         values["rocking_angle"], errors["rocking_angle"] = found
     if not values:
-        raise refusal or UnseenRotationError("No transducer on the specimen sees its rotation")
+        raise refusal or UnseenRotationError("No transducer on the specimen measures its rotation")
     if refusal is not None:
-        notes.append(f"the positions are left out: {refusal}")
+        notes.append(f"the displacement transducers are not used: {refusal}")
     pose = replace(
         fit.pose if fit else Pose(*np.zeros((6, values["rocking_angle"].size))), angle=values["rocking_angle"]
     )
@@ -170,9 +170,9 @@ def _with_rates(
         if factor > LARGEST_DISAGREEMENT:
             return (
                 None,
-                f"{count} left out, as they differ by {factor:.2g} times the noise: look at gain, sign and axis",
+                f"{count} not used, because they differ by {factor:.2g} times the noise: check gain, sign and axis",
             )
-        return angle_from_rate(rate, white, interval, *tracked), f"{count} fused with them, the drift held by them"
+        return angle_from_rate(rate, white, interval, *tracked), f"{count} combined with them, which remove its drift"
     known, rests = upright(
         rate,
         noise,
@@ -182,11 +182,11 @@ def _with_rates(
         duration=circumstances.rest_duration,
         from_end=circumstances.ends_at_rest,
     )
-    where = f"drift taken off at {len(rests)} rest{'s' if len(rests) > 1 else ''}"
+    where = f"drift removed at {len(rests)} rest{'s' if len(rests) > 1 else ''}"
     if not rests:
         known[-1 if circumstances.ends_at_rest else 0] = 0.0
         where = (
-            f"no rest was found, so that it counts as upright at the {'end' if circumstances.ends_at_rest else 'start'}"
+            f"no rest was found, so it is taken as upright at the {'end' if circumstances.ends_at_rest else 'start'}"
         )
     angle, error = angle_from_rate(rate, white, interval, known, np.full(rate.size, REST_ERROR))
     grown = f"its standard error grows to {1e3 * float(error.max()):.2g} mrad"
@@ -203,7 +203,7 @@ def _from_accelerometers(
     if table.acceleration is None:
         raise UnseenRotationError(
             "Only accelerometers are on the specimen, and the table's acceleration is not known. Without it gravity "
-            "cannot be separated from the table's motion; a table channel along x was expected"
+            "cannot be separated from the table's motion. Add a table channel along x"
         )
     found = angle_from_accelerations(
         accelerometers,
@@ -215,11 +215,11 @@ def _from_accelerometers(
     )
     if found is None:
         raise UnseenRotationError(
-            "Only accelerometers are on the specimen, and they do not separate its rotation from its translation. Two "
-            "along x at different heights were expected"
+            "Only accelerometers are on the specimen, and they do not separate its rotation from its translation. "
+            "Place two along x at different heights"
         )
     text = f"angle only, from {len(accelerometers)} accelerometers: differences for the rotation, gravity for the tilt"
-    return found, f"{text}; a slide is not separated from tilt and taken as zero"
+    return found, f"{text}; slide cannot be separated from tilt and is taken as zero"
 
 
 def _compared(

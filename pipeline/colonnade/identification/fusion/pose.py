@@ -94,7 +94,7 @@ def fit_pose(
     Raises
     ------
     ValueError
-        If no transducer sees the rotation about both poles.
+        If no transducer measures the rotation about both poles.
 
     Notes
     -----

@@ -65,7 +65,7 @@ def separate(transducers: list[Transducer], sigma: Array, block: Block, outline:
     Raises
     ------
     UnseenRotationError
-        A ValueError, if no transducer sees the rotation about both poles.
+        A ValueError, if no transducer measures the rotation about both poles.
 
     Notes
     -----
@@ -116,14 +116,14 @@ def _refuse_unseen(rotation: Array) -> None:
     seen = np.asarray((np.abs(rotation) > 0).any(axis=1))
     if not seen.any():
         raise UnseenRotationError(
-            "No transducer sees the rotation: each lies at the height of the base, or points across the plane. "
-            "At least one displacement transducer above the base, with a direction along x, was expected"
+            "No transducer measures the rotation: each is at the height of the base, or points across the plane. Add "
+            "a displacement transducer above the base, with a direction along x"
         )
     if not seen.all():
         blind = "θ < 0" if not seen[0] else "θ > 0"
         raise UnseenRotationError(
-            f"No transducer sees the rotation at {blind}: each of them is on the edge that the specimen then rocks "
-            "about. A vertical one on the other edge as well, or one above the base along x, was expected"
+            f"No transducer measures the rotation at {blind}: each is on the edge that the specimen then rocks about. "
+            "Add a vertical one on the other edge, or one above the base along x"
         )
 
 
@@ -138,7 +138,7 @@ def _text(names: tuple[str, ...], mixed: list[int], unseen: list[int], transduce
         notes.append(f"{_listed([_WORDS[UNKNOWNS[index]] for index in mixed])} {verb} not separated from {it}")
         notes[-1] += " and taken as zero"
     if unseen:
-        notes.append(f"no transducer sees {_listed([_WORDS[UNKNOWNS[index]] for index in unseen], 'or')}")
+        notes.append(f"no transducer measures {_listed([_WORDS[UNKNOWNS[index]] for index in unseen], 'or')}")
     return "; ".join(notes)
 
 

@@ -13,16 +13,16 @@ CLOSE = 1.12
 UNKNOWN = "look at its gain and unit"
 """Cause of a scale that is a sign of nothing."""
 
-_LENGTH = ((25.4, "inches taken for mm or the reverse"), (2.54, "inches taken for cm or the reverse"))
+_LENGTH = ((25.4, "inches read as mm, or the reverse"), (2.54, "inches read as cm, or the reverse"))
 _CAUSES = {
-    "acceleration": ((9.80665, "g taken for m/s² or the reverse, or a gain ten times off"),),
-    "displacement": ((10.0, "a gain ten times off, or cm taken for mm"), *_LENGTH),
-    "angle": ((57.29578, "degrees taken for radians or the reverse"), (10.0, "a gain ten times off")),
+    "acceleration": ((9.80665, "g read as m/s² or the reverse, or a gain wrong by a factor of 10"),),
+    "displacement": ((10.0, "a gain wrong by a factor of 10, or cm read as mm"), *_LENGTH),
+    "angle": ((57.29578, "degrees read as radians, or the reverse"), (10.0, "a gain wrong by a factor of 10")),
 }
 _EVERY = (
-    (100.0, "a gain a hundred times off, or cm taken for m or Gal for m/s²"),
-    (1000.0, "a gain a thousand times off, or mm taken for m, or mV for V"),
-    (10.0, "a gain ten times off"),
+    (100.0, "a gain wrong by a factor of 100, or cm read as m, or Gal as m/s²"),
+    (1000.0, "a gain wrong by a factor of 1000, or mm read as m, or mV as V"),
+    (10.0, "a gain wrong by a factor of 10"),
 )
 
 
@@ -38,7 +38,7 @@ def cause(scale: float, quantity: str) -> str:
     Examples
     --------
     >>> cause(0.101, "displacement"), cause(3.3, "angle")
-    ('a gain ten times off, or cm taken for mm', 'look at its gain and unit')
+    ('a gain wrong by a factor of 10, or cm read as mm', 'look at its gain and unit')
     """
     for factor, words in (*_CAUSES.get(quantity, ()), *_EVERY):
         if abs(abs(log(abs(scale))) - log(factor)) < log(CLOSE):

@@ -92,8 +92,8 @@ def disagreement(acceleration: str, displacement: str, found: float, wrong: str)
         See `guilty`.
     """
     which = {
-        "acceleration": f"by the specimen's rocking it is {acceleration} that is wrong",
-        "displacement": f"by the specimen's rocking it is {displacement} that is wrong",
+        "acceleration": f"the specimen's rocking shows that {acceleration} is wrong",
+        "displacement": f"the specimen's rocking shows that {displacement} is wrong",
         "either": f"one of the two is wrong, {acceleration} or {displacement}",
     }[wrong]
     if as_expected(found):
@@ -125,9 +125,9 @@ def dead(interval: float, acceleration: TableChannel, displacement: TableChannel
     if moves and shakes:
         return serious(
             "table motion",
-            f"channels {acceleration.name} and {displacement.name} both move, but not as one table does (correlation "
-            f"{_correlation(recorded, derived):.2f}): one of them was read from another column "
-            "or recorder, or is of another component of the motion",
+            f"channels {acceleration.name} and {displacement.name} both move, but not like one table (correlation "
+            f"{_correlation(recorded, derived):.2f}): one of them was read from another column or recorder, or "
+            "measures another component of the motion",
         )
     return None
 
@@ -135,8 +135,8 @@ def dead(interval: float, acceleration: TableChannel, displacement: TableChannel
 def _standing(still: str, other: str, shown: float, due: float, unit: str) -> Finding:
     return serious(
         "dead channel",
-        f"channel {still} hardly moves ({shown:.2g} {unit} RMS) where {other} gives {due:.2g} {unit}: it is dead, or "
-        "its gain is far too small; look at cable and sensor",
+        f"channel {still} hardly moves ({shown:.2g} {unit} RMS), although {other} gives {due:.2g} {unit}: it is dead, "
+        "or its gain is far too small. Check cable and sensor",
     )
 
 

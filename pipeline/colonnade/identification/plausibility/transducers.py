@@ -240,9 +240,9 @@ def _dead(rotation: Rotation, scales: Sequence[Scale], right: list[int]) -> list
             found.append(
                 serious(
                     "dead channel",
-                    f"channel {name} hardly moves ({1e3 * shown:.2g} mm RMS) where the rotation that {others} shows "
-                    f"would give {1e3 * expected:.2g} mm: it is dead, or its gain is far too small; look at cable and "
-                    "sensor",
+                    f"channel {name} hardly moves ({1e3 * shown:.2g} mm RMS), although the rotation measured by "
+                    f"{others} would give {1e3 * expected:.2g} mm: it is dead, or its gain is far too small. Check "
+                    "cable and sensor",
                 )
             )
     return found
@@ -263,8 +263,8 @@ def _signs(rotation: Rotation, scales: Sequence[Scale], known: list[int]) -> lis
     return [
         serious(
             "sign",
-            f"{channels} against what the table's acceleration does: the sign of the table's acceleration is wrong, or "
-            f"that of {which} (`direction`, or the sign of the gain)",
+            f"{channels} opposite to the table's acceleration: the sign of the table's acceleration is wrong, or that "
+            f"of {which} (`direction`, or the sign of the gain)",
         )
     ]
 
@@ -292,4 +292,6 @@ def _against_each_other(rotation: Rotation, sides: dict[int, float], against: di
         more, sure = [index for index in sides if index not in fewer], True
     names, others = (", ".join(rotation.names[index] for index in group) for group in (fewer, more))
     which = f"the sign of {names} is wrong" if sure else f"the sign of one of the two is wrong, {names} or {others}"
-    return serious("sign", f"channel {names} turns against {others}: {which} (`direction`, or the sign of the gain)")
+    return serious(
+        "sign", f"channel {names} turns opposite to {others}: {which} (`direction`, or the sign of the gain)"
+    )

@@ -161,7 +161,7 @@ def _of_group(group: list[MapPoint]) -> Boundaries:
     for what, bracket in (("rocking", rocking), ("overturning", overturning)):
         if bracket.exceptions:
             amplitudes = ", ".join(f"{amplitude:.3g}" for amplitude in bracket.exceptions)
-            notes.append(f"{what} at A = {bracket.above:.3g}, yet none at {amplitudes}")
+            notes.append(f"{what} at A = {bracket.above:.3g}, but not at {amplitudes}")
     if rocking.below is None:
         notes.append("no test without rocking")
     if rocking.above is None:

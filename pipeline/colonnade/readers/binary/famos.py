@@ -117,7 +117,7 @@ def read(path: Path, options: Options) -> Recording:
     channels, starts = _channels(content, file)
     notes = ["clock: each channel's own start and step" if starts else "no clock: x is no time"]
     if not all(component.is_plain for component in file.components):
-        notes.append("a data set of pairs (x, y): both are channels, neither is taken for a clock")
+        notes.append("a data set of pairs (x, y): both are channels, neither is used as a clock")
     return Recording(path, "famos", tuple(channels), starts[0] if starts else None, tuple(notes), tuple(file.warnings))
 
 
@@ -234,15 +234,15 @@ def _describe(component: _Component, key: str, told: _Parameters) -> None:
 def _refusal(component: _Component, file: _File) -> str:
     """Say why a channel's values cannot be read, or nothing where they can."""
     if component.digital and (component.number or "f")[0] == "f":
-        return "digital channels in numbers that are not whole are not known here; left out"
+        return "digital channels have to be whole numbers, and these are not; left out"
     if component.bytes_filled is None:
-        return "the block that tells where its values are is not there: the file was cut off"
+        return "the block with the place of its values is missing: the file was cut off"
     # Of a word of digital channels some bits may be unused.
     is_whole = bool(component.digital) or not component.is_partly_used
     if component.bytes_filled and (component.number is None or component.is_packed or not is_whole):
-        return "its numbers are interleaved or of a kind that is not known here; left out"
+        return "its numbers are interleaved or of an unknown kind; left out"
     if component.bytes_filled and component.bytes_index not in file.bytes_at:
-        return "the block with its values is not there: the file was cut off"
+        return "the block with its values is missing: the file was cut off"
     return ""
 
 

@@ -16,7 +16,7 @@ NETCDF = (b"CDF\x01", b"CDF\x02", b"CDF\x05")
 _KNOWN: dict[bytes | tuple[bytes, ...], str] = {
     b"version https://git-lfs": "it is a pointer of git-lfs, not the file itself: fetch that with `git lfs pull`",
     b"TDSm": "it is LabVIEW TDMS",
-    b"TDSh": "it is a .tdms_index, which LabVIEW writes beside the .tdms and which holds no samples: give the .tdms",
+    b"TDSh": "it is a .tdms_index, which LabVIEW writes next to the .tdms and which holds no samples: give the .tdms",
     b"MATLAB 5.0": "it is a MATLAB file",
     b"MATLAB 7.3": "it is a MATLAB file of version 7.3",
     NETCDF: "it is NetCDF",
@@ -25,7 +25,7 @@ _KNOWN: dict[bytes | tuple[bytes, ...], str] = {
     ZIP: "it is a zip archive or an Office document",
     b"\x1f\x8b": "it is compressed with gzip: unpack it first",
     b"%PDF": "it is a PDF",
-    b"\x93NUMPY": "it is a NumPy file, which is not read, as such a file may hold a program: save the numbers as text",
+    b"\x93NUMPY": "it is a NumPy file, which is not read because it may contain a program: save the numbers as text",
     (b"\x80\x02", b"\x80\x03", b"\x80\x04", b"\x80\x05"): (
         "it is a Python pickle, a program that runs when it is opened: never read"
     ),
@@ -61,7 +61,7 @@ def look(first: bytes) -> str:
     if not first:
         return "the file is empty"
     if not first.strip(b"\0"):
-        return "its first bytes are all zero, as a copy or a recorder that was interrupted leaves them"
+        return "its first bytes are all zero, as an interrupted copy or recorder leaves them"
     if first.lstrip(b"\xef\xbb\xbf \t\r\n").lower().startswith(_WEB_PAGE):
         return "it is a web page, not a recording: download it again, by the link to the file itself"
     return next((what for mark, what in _KNOWN.items() if first.startswith(mark)), "")

@@ -156,5 +156,5 @@ def beside(header: Path, name: str) -> Path:
             return header.with_name(bare)
     named = bare if len(bare) <= LONGEST_NAME else f"{bare[:LONGEST_NAME]}…"
     raise ReadError(
-        f'{header.name}: its values stand in the file "{named}", which is not in its folder. Copy that file beside it.'
+        f'{header.name}: its values are in the file "{named}", which is not in its folder. Copy that file next to it.'
     )

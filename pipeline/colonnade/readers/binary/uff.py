@@ -104,12 +104,13 @@ def read(path: Path, options: Options) -> Recording:
     if not functions:
         held = ", ".join(others) or "of no kind"
         raise ReadError(
-            f"{path.name}: a universal file without functions: it holds data sets {held}, but no data set 58, which is "
-            'the one with recorded histories. Export the time histories ("functions at nodal DOF", data set 58).'
+            f"{path.name}: a universal file without functions: it holds data sets {held}, but no "
+            'data set 58, the one with recorded histories. Export the time histories ("functions at '
+            'nodal DOF", data set 58).'
         )
     names = [channel.name for channel in channels]
     if len(set(names)) < len(names):
-        notes.append("several functions have one name: tell them apart by number")
+        notes.append("several functions have the same name: refer to them by number")
     if any(channel.time is not None for channel in channels):
         notes.append("clock: each function's own abscissa")
     return Recording(path, "uff", tuple(channels), notes=tuple(notes), warnings=tuple(warnings))

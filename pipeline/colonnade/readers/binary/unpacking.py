@@ -33,7 +33,7 @@ def swollen(unpacked: int, packed: int) -> str:
         return ""
     return (
         f"{unpacked} bytes would come out of a file of {packed}, more than {LARGEST_RATIO} times as many: it is not "
-        "unpacked, as no recording is like that"
+        "unpacked, because no recording compresses that far"
     )
 
 

@@ -138,5 +138,5 @@ def _constant_step(scalars: dict[str, float]) -> tuple[float | None, str]:
 def _hint(columns: list[Column], without: list[int]) -> str:
     """Hint at a vector that may be a clock nevertheless."""
     hints = (may_be_clock(columns[number].path, columns[number].values.astype(np.float64)) for number in without)
-    no_hint = ": no vector as long as it has a name of times and rises; give `time` or `sampling_rate`"
+    no_hint = ": no rising vector of its length has a name of times; give `time` or `sampling_rate`"
     return next(filter(None, hints), no_hint)

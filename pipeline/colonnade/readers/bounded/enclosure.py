@@ -92,7 +92,7 @@ def _refuse(event: str, arguments: tuple[Any, ...]) -> None:
     if event == "open":
         _expect_reading(arguments[0], arguments[2])
     elif event.startswith(FORBIDDEN):
-        raise ForbiddenError(f"{event} was refused, as reading never needs it")
+        raise ForbiddenError(f"{event} was refused: reading never needs it")
 
 
 def _expect_reading(opened: Any, flags: Any) -> None:
@@ -102,7 +102,7 @@ def _expect_reading(opened: Any, flags: Any) -> None:
     if name == os.devnull:
         return
     if isinstance(flags, int) and flags & WRITING:
-        raise ForbiddenError("writing a file was refused, as reading never needs it")
+        raise ForbiddenError("writing a file was refused: reading never needs it")
     path = os.path.realpath(name)
     if not any(path == folder or path.startswith(folder.rstrip(os.sep) + os.sep) for folder in _folders):
         raise ForbiddenError("opening a file outside the campaign's folder was refused")

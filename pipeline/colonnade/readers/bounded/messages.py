@@ -224,5 +224,5 @@ def recording_of(path: Path, answer: Answer, arrays: list[Array]) -> Recording:
             for column in answer.columns
         )
     except (IndexError, ValueError) as error:
-        raise BrokenAnswerError("the answer does not fit together") from error
+        raise BrokenAnswerError("the answer is inconsistent") from error
     return Recording(path, channels=channels, **{name: getattr(answer, name) for name in _SAME})

@@ -240,8 +240,8 @@ def _crash(request: Request, code: int) -> ReadError:
     name, signals = Path(request.path).name, {128 + each: each.name for each in signal.Signals}
     how = f" ({signals[code]})" if code in signals else ""
     return ReadError(
-        f'{name}: what reads "{request.format}" crashed on it{how}. The file is damaged, was cut off, or was made to '
-        "do that. Nothing else was touched. Copy it from the recorder again, or export it as text."
+        f'{name}: the reader of "{request.format}" crashed on it{how}. The file is damaged, was cut off, or was made '
+        "to cause this. Nothing else was affected. Copy it from the recorder again, or export it as text."
     )
 
 

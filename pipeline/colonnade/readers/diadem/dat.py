@@ -76,6 +76,6 @@ def _stored(
         first, stride = (int(channel.get(POINTER) or 1) - 1) * size, size
     first += int(channel.get(HEADER_BYTES) or 0) if interleaved else 0
     if first < 0:
-        raise ValueError(f"its first value would stand at byte {first}")
+        raise ValueError(f"its first value would be at byte {first}")
     missing = float(common.get(MISSING_VALUE) or "nan") if channel.get(HAS_MISSING) == "Yes" else None
     return StoredNumbers(name, unit, file, form, first, count, stride, offset, factor, missing=missing)

@@ -28,7 +28,7 @@ def recognise(path: Path) -> Recognition:
         return Recognition(True, f'the first line starts with "{SIGNATURE}"')
     if path.suffix.casefold() == ".tdx":
         headers = [entry.name for entry in path.parent.glob(f"{path.stem}.*") if entry.suffix.casefold() == ".tdm"]
-        return Recognition(False, f"the values of {(headers or ['a .TDM'])[0]}: read that one")
+        return Recognition(False, f"the values of {(headers or ['a .TDM'])[0]}: read that file instead")
     return Recognition(False, "neither the header of a .TDM nor that of a DIAdem .DAT")
 
 
@@ -79,7 +79,7 @@ def _described(path: Path) -> tuple[bool, list[StoredNumbers], list[str]]:
         try:
             stored.append(place())
         except (ValueError, KeyError, OverflowError) as error:
-            warnings.append(f'"{name}" is left out: what the header says of it cannot be used ({error})')
+            warnings.append(f'"{name}" is left out: its entry in the header cannot be used ({error})')
     return is_text, stored, warnings
 
 
@@ -92,7 +92,7 @@ def _longest(path: Path, described: list[StoredNumbers]) -> int:
 
 FORMAT = Format(
     name="diadem",
-    summary="NI DIAdem data sets: .TDM or .DAT header with its files of values beside it.",
+    summary="NI DIAdem data sets: .TDM or .DAT header with its files of values next to it.",
     suffixes=(".tdm", ".dat"),
     recognise=recognise,
     read=read,

@@ -38,7 +38,7 @@ def channels_in_tdm(path: Path) -> tuple[list[DescribedChannel], list[str]]:
         root = ElementTree.fromstring(_content(path))
     except (ElementTree.ParseError, ValueError, LookupError) as error:  # the last of an encoding that there is not
         raise ReadError(
-            f"{path.name}: its header is no whole XML ({error}): it was cut off or is damaged. Export it again."
+            f"{path.name}: its header is not complete XML ({error}): it was cut off or is damaged. Export it again."
         ) from error
     objects = {name: element for element in root.iter() if (name := element.get("id")) is not None}
     blocks = _blocks(root)
@@ -75,7 +75,7 @@ def _content(path: Path) -> bytes:
         ) as error:
             raise ReadError(f"{path.name}: the archive with its header is damaged ({error}). Copy it again.") from error
     if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
-        raise ReadError(f"{path.name}: its header defines entities of its own, as none of DIAdem's does; not read.")
+        raise ReadError(f"{path.name}: its header defines its own entities, which DIAdem never does; not read.")
     return content
 
 
@@ -108,7 +108,7 @@ def _stored(
     values = _referred(column.findtext("values"), objects, "values").find("values")
     external = None if values is None else values.get("external")
     if external is None:
-        raise ValueError("its values are not in a file of their own")
+        raise ValueError("its values are not in a separate file")
     return StoredNumbers(name, unit, *_place(*blocks[external]), offset, factor, step, begin)
 
 

@@ -47,7 +47,7 @@ def check(path: Path) -> None:
                     raise mostly_empty(path, member.filename, filled, room)
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
         raise ReadError(
-            f"{path.name}: it is not whole ({error}; {size} bytes): a copy was interrupted, or the file is damaged or "
+            f"{path.name}: it is incomplete ({error}; {size} bytes): a copy was interrupted, or the file is damaged or "
             "protected by a password. Copy or save it again."
         ) from error
 

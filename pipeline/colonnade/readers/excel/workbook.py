@@ -39,7 +39,8 @@ class ExcelOptions(TableOptions):
     """What can be said about a workbook; all of it is found if it is not given."""
 
     sheet: str | int | None = Field(
-        default=None, description="Name of the sheet, or its number from 1; else the one with most rows of numbers."
+        default=None,
+        description="Name of the sheet, or its number from 1; by default the one with most rows of numbers.",
     )
 
 
@@ -60,7 +61,7 @@ def recognise(path: Path) -> Recognition:
             names = set(archive.namelist())
     except (zipfile.BadZipFile, ValueError, NotImplementedError) as error:
         is_workbook = b"xl/" in first or b"spreadsheet" in first or b"[Content_Types].xml" in first
-        return Recognition(is_workbook, f"it starts as a zip archive, as workbooks do, but is not whole ({error})")
+        return Recognition(is_workbook, f"it starts as a zip archive, as workbooks do, but is incomplete ({error})")
     if "xl/workbook.xml" in names:
         return Recognition(True, "an archive with xl/workbook.xml, as Excel writes it")
     if b"application/vnd.oasis.opendocument.spreadsheet" in first:

@@ -92,8 +92,8 @@ def read_classic(path: Path) -> Content:
             file = netcdf_file(stream, mmap=False)
         except MemoryError as error:
             raise ReadError(
-                f"{path.name}: it speaks of more than a file of {path.stat().st_size} bytes can hold: it is damaged. "
-                "Copy it again."
+                f"{path.name}: it claims more data than its {path.stat().st_size} bytes can hold: it is damaged. Copy "
+                "it again."
             ) from error
         content = Content(attributes=_attributes(file._attributes.items()))
         for name, variable in file.variables.items():

@@ -30,7 +30,7 @@ DAYS = {"d": 86400.0, "day": 86400.0, "days": 86400.0, "ns": 1e-9, "nanosecond":
 class NetcdfOptions(ClockOptions):
     """What can be said about a NetCDF or HDF5 file."""
 
-    group: str | None = Field(default=None, description="The only group that is read, with those in it.")
+    group: str | None = Field(default=None, description="Read only this group and those in it.")
 
 
 def recognise(path: Path) -> Recognition:
@@ -78,7 +78,7 @@ def _columns(variables: list[Variable]) -> tuple[list[Column], list[str]]:
             continue
         if len(shape) > 2 or (len(shape) == 2 and min(shape) > MOST_COLUMNS):
             size = " × ".join(map(str, shape))
-            left_out.append(f"{variable.path} is left out: an array of {size} is no set of channels")
+            left_out.append(f"{variable.path} is left out: an array of {size} is not a set of channels")
             continue
         table = _decoded(variable)
         if len(shape) == 2 and shape[1] > shape[0] and variable.dimensions[:1] == (None,):
@@ -161,7 +161,7 @@ def _as_times(column: Column, unit: str | None) -> tuple[Array, datetime | None,
         return values * factor, None, f"in {told}"
     first = float(values[np.isfinite(values)][0])
     moment = _moment(since["moment"], first * factor)
-    how = f'"{told}", counted from the first' if moment else f'"{told}", of which the date is not understood'
+    how = f'"{told}", counted from the first' if moment else f'"{told}", whose date is not understood'
     return (values - first) * factor, moment, how
 
 

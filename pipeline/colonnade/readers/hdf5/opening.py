@@ -78,14 +78,14 @@ def member(group: h5py.Group, name: str) -> Any:
     import h5py
 
     if not isinstance(group.get(name, getlink=True), h5py.HardLink):
-        raise UnreadableError("it is a link to another place or file, and only this file is read")
+        raise UnreadableError("it is a link to another place or file; only this file is read")
     return group[name]
 
 
 def expect_numbers_here(dataset: h5py.Dataset) -> None:
     """Raise UnreadableError if a dataset's numbers are taken from another file, or it has none."""
     if dataset.external or dataset.is_virtual:
-        raise UnreadableError("its numbers lie in another file, and only this file is read")
+        raise UnreadableError("its numbers are in another file; only this file is read")
     if dataset.shape is None:
         raise UnreadableError("it holds nothing")
 

@@ -28,7 +28,7 @@ USER_BLOCK = 512
 class MatlabOptions(ClockOptions):
     """What can be said about a MATLAB file; all of it is found where it is not said."""
 
-    variables: tuple[str, ...] = Field(default=(), description="Variables that are read; all of them otherwise.")
+    variables: tuple[str, ...] = Field(default=(), description="Variables to read; by default all of them.")
 
 
 def recognise(path: Path) -> Recognition:
@@ -84,7 +84,7 @@ def _chosen(path: Path, tree: Tree, wanted: tuple[str, ...]) -> dict[str, Node]:
         if name in tree.left_out and name not in tree.variables:
             raise ReadError(f"{path.name}: {name} cannot be read: {tree.left_out[name]}.")
         if name not in tree.variables:
-            raise ReadError(f'{path.name}: there is no variable "{name}".{nearest(name, tree.variables)}')
+            raise ReadError(f'{path.name}: variable "{name}" not found.{nearest(name, tree.variables)}')
     return {name: node for name, node in tree.variables.items() if not wanted or name in wanted}
 
 

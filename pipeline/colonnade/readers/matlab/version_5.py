@@ -169,7 +169,7 @@ def _refusal(value: Any) -> str:
     if issparse(value):
         return "it is a sparse matrix"
     if isinstance(value, MatlabFunction):
-        return "it is a function, and nothing in a recording is executed"
+        return "it is a function; nothing in a recording is executed"
     if isinstance(value, MatlabOpaque):
         return object_reason(value["s2"].item().decode("latin-1"))
     if isinstance(value, MatlabObject):

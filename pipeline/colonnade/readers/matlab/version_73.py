@@ -76,7 +76,7 @@ class _Reader:
         if "MATLAB_object_decode" in item.attrs:
             raise UnreadableError(object_reason(matlab_class or "?"))
         if matlab_class == "function_handle":
-            raise UnreadableError("it is a function, and nothing in a recording is executed")
+            raise UnreadableError("it is a function; nothing in a recording is executed")
         own = opening.address(item)
         if own in self._above:
             raise UnreadableError("it holds itself")

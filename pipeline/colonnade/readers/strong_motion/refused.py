@@ -39,13 +39,13 @@ def foreign_format(path: Path) -> str:
         return ""
     if SPECTRA.search(lines[0]):
         return (
-            f"this is a strong-motion file in the format of {network} with response spectra, not with a motion. "
-            "Download volume 1 or 2 of the same record."
+            f"this is a strong-motion file in the format of {network} with response spectra and no motion. Download "
+            "volume 1 or 2 of the same record."
         )
     claims = header_claims("\n".join(lines))
     says = [f"an interval of {claims.step:g} s"] if claims.step else []
     says += [f"accelerations in {claims.unit}"] if claims.unit else []
-    kept = f" Its header gives {' and '.join(says)}: keep that." if says else ""
+    kept = f" Its header gives {' and '.join(says)}: keep these." if says else ""
     return (
         f"this is a strong-motion record in the format of {network}, which is not read here. Download the record "
         "as COSMOS V1 or V2, miniSEED or SAC if the network offers it; or convert it (gmprocess of the USGS reads this "

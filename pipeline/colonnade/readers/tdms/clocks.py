@@ -205,8 +205,8 @@ def _put_on_clocks(columns: list[Column], members: list[int], found: Clocks, tim
         times[number] = time
         if not is_clock and own is not None and not np.array_equal(np.diff(time), np.diff(own)):
             warnings.append(
-                f'"{column.channel.heading}" goes by the channel of times: the step of exactly 1 s in its properties '
-                "is what LabVIEW writes where it knows none"
+                f'"{column.channel.heading}" uses the channel of times: the step of exactly 1 s in its '
+                "properties is what LabVIEW writes if it knows none"
             )
     return warnings
 
@@ -222,8 +222,8 @@ def _summary(columns: list[Column], times: Sequence[Array | None]) -> list[str]:
     starts = _starts([column.waveform for column in columns])
     if min(starts, default=None) != max(starts, default=None):
         notes.append(
-            f"channels start up to {_seconds(max(starts), min(starts)):.6g} s apart, by wf_start_time: "
-            "each keeps a clock of its own"
+            f"channels start up to {_seconds(max(starts), min(starts)):.6g} s apart, by wf_start_time: each keeps its "
+            "own clock"
         )
     without = [column.channel.heading for column, time in zip(columns, times, strict=True) if time is None]
     if without:

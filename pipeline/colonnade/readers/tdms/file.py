@@ -35,7 +35,7 @@ MUCH = 1 << 16
 class TdmsOptions(ClockOptions):
     """What can be said about a TDMS file."""
 
-    group: str | None = Field(default=None, description="The only group that is read; all of them otherwise.")
+    group: str | None = Field(default=None, description="Read only this group; by default all of them.")
 
 
 def recognise(path: Path) -> Recognition:
@@ -134,8 +134,8 @@ def _open(path: Path, stream: _BoundedStream) -> TdmsFile:
         described = TdmsFile.open(stream)
     except MemoryError as error:
         raise ReadError(
-            f"{path.name}: its description speaks of more than a file of {size} bytes can hold: the "
-            "file is damaged. Copy it again from the recorder."
+            f"{path.name}: the header claims more data than the {size} bytes of the file: it is damaged. Copy it again "
+            "from the recorder."
         ) from error
     for channel in (channel for group in described.groups() for channel in group.channels()):
         if len(channel) > size:
@@ -149,7 +149,7 @@ def _open(path: Path, stream: _BoundedStream) -> TdmsFile:
 def _channels(path: Path, file: TdmsFile, only: str | None) -> tuple[list[TdmsChannel], list[str]]:
     """Find the channels of numbers, with notes on those that are none."""
     if only is not None and only not in file:
-        raise ReadError(f'{path.name}: there is no group "{only}".{nearest(only, file)}')
+        raise ReadError(f'{path.name}: group "{only}" not found.{nearest(only, file)}')
     channels, notes = [], []
     for channel in (each for group in file.groups() if only in (None, group.name) for each in group.channels()):
         if refused := _refusal(channel):
@@ -180,7 +180,7 @@ def _refusal(channel: TdmsChannel) -> str:
     kind = channel.dtype.kind
     if kind in "fiubM":
         return ""
-    return {"O": "it holds text", "c": "it holds complex numbers"}.get(kind, "its samples are no numbers")
+    return {"O": "it holds text", "c": "it holds complex numbers"}.get(kind, "its samples are not numbers")
 
 
 def _properties(channel: TdmsChannel) -> dict[str, Any]:

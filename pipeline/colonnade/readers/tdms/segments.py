@@ -85,10 +85,10 @@ def missing_samples(ending: Ending, file: TdmsFile) -> list[str]:
     if ending.undescribed:
         return [
             f"it ends after {ending.size} bytes, within the description of its last segment: a recording or a copy was "
-            f"interrupted; what its last {ending.undescribed} bytes hold is lost"
+            f"interrupted; the data in its last {ending.undescribed} bytes are lost"
         ]
     if ending.declared is None:
-        return ["the recorder did not finish the last segment, as when it is stopped by force: read as far as it goes"]
+        return ["the recorder did not finish the last segment, as happens if it is killed: read as far as it goes"]
     statuses = file.file_status.channel_statuses or {}
     channels = {channel.path: channel for group in file.groups() for channel in group.channels()}
     chunk = sum(status.expected_length * _sample_bytes(channels[path]) for path, status in statuses.items())
@@ -106,7 +106,7 @@ def missing_samples(ending: Ending, file: TdmsFile) -> list[str]:
         for (found, expected), names in lacking.items()
     ]
     cut = f"it ends after {ending.size} of {ending.declared} bytes: a recording or a copy was interrupted"
-    return [f"{cut}; there are {', '.join(counts)}" if counts else cut]
+    return [f"{cut}; it has {', '.join(counts)}" if counts else cut]
 
 
 def _sample_bytes(channel: TdmsChannel) -> int:

@@ -74,8 +74,8 @@ def _rows(header: Header, stretch: Stretch | None) -> Rows:
     rows = read_rows(header.path, pieces, header.form, stretch)
     if not rows.size:
         raise ReadError(
-            f"{header.path.name}: none of its {rows.skipped} samples are within the test's window. Look at the "
-            "file's times and at the test's `window`, which counts from the file's own zero."
+            f"{header.path.name}: none of its {rows.skipped} samples is within the test's window. Check the file's "
+            "times and the test's `window`, which counts from the file's own zero."
         )
     return rows
 

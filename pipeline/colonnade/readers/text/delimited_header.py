@@ -37,9 +37,9 @@ class DelimitedOptions(TextOptions, TableOptions):
     )
     decimal: Literal[".", ","] | None = Field(default=None, description="Decimal sign.")
     thousands: Literal[".", ",", " ", "'"] | None = Field(
-        default=None, description="Sign between groups of three digits."
+        default=None, description="Separator between groups of three digits."
     )
-    skip_rows: int = Field(default=0, ge=0, description="Lines at the top of the file that are not looked at.")
+    skip_rows: int = Field(default=0, ge=0, description="Number of lines to skip at the top of the file.")
     comment: str | None = Field(default=None, min_length=1, description="What starts a line that is not a sample.")
     missing: tuple[str, ...] = Field(default=(), description='Texts that stand for a missing value, such as "-999".')
 
@@ -108,8 +108,8 @@ def read_header(path: Path, options: DelimitedOptions) -> Header:
     first = find_first_sample(lines, start, dialect, kinds) if sniffed.columns else None
     if first is None:
         raise ReadError(
-            f"{path.name}: no rows of numbers were found in the {len(lines)} lines looked at"
-            f"{_as_given(options)}; the first is {lines[0][:60]!r}."
+            f"{path.name}: no rows of numbers were found in the first {len(lines)} lines{_as_given(options)}; the "
+            f"first is {lines[0][:60]!r}."
         )
     where = options.heading_lines(find_heading(lines, options.skip_rows, first, dialect, kinds))
     width = _named_width(lines, where, dialect, kinds)
@@ -134,7 +134,7 @@ def _head(path: Path, options: DelimitedOptions) -> tuple[Encoding, list[str]]:
     try:
         lines, _ = head_lines(path, encoding.name, wanted=options.lines_to_pass + 200)
     except UnicodeError as error:
-        raise ReadError(f"{path.name}: it is not text in {encoding.name} ({error}).") from error
+        raise ReadError(f"{path.name}: it is not {encoding.name} text ({error}).") from error
     if not any(line.strip() for line in lines):
         raise ReadError(f"{path.name}: the file is empty; rows of numbers were expected.")
     if reason := looks_binary(lines):

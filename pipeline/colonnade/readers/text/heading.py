@@ -210,13 +210,13 @@ def describe_columns(lines: list[str], where: HeadingLines, first: int, dialect:
     numbers = sum(dialect.is_number(cell) for cell in names_row)
     if where.names is not None and 2 * numbers > columns:
         warnings.append(
-            f"line {where.names + 1} is taken for the names although {numbers} of its {columns} cells are numbers; "
-            "set names_row = 0 if it is a sample"
+            f"line {where.names + 1} is used for the names although {numbers} of its {columns} cells are numbers; set "
+            "names_row = 0 if it is a sample"
         )
     notes.append(f"first sample on line {first + 1}")
     repeated = sorted(name for name, count in Counter(headings).items() if count > 1)
     if repeated:
-        warnings.append(f'several columns are called "{repeated[0]}": give the number of the one that is meant')
+        warnings.append(f'several columns are called "{repeated[0]}": give the number of the right one')
     return Heading(first, headings, names, tuple(units), tuple(notes), tuple(warnings))
 
 

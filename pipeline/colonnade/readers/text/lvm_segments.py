@@ -81,7 +81,7 @@ def read_preamble(path: Path, lines: NumberedLines) -> Preamble:
             continue
         entries.setdefault(key.strip(), rest.strip(separator + " "))
     else:
-        raise ReadError(f'{path.name}: the line "{END_OF_HEADER}" is not there: the file was cut off in its header.')
+        raise ReadError(f'{path.name}: the line "{END_OF_HEADER}" is missing: the file was cut off in its header.')
     decimal = entries.get("Decimal_Separator", ".").strip() or "."
     if decimal not in (".", ","):
         raise ReadError(f'{path.name}: Decimal_Separator is "{decimal[:20]}"; "." or "," was expected.')

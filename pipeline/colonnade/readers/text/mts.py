@@ -103,8 +103,9 @@ def read(path: Path, options: TextOptions) -> Recording:
         channels += _channels(same, f"block {number + 1}: ") if number != longest else []
     if len(series) > 1:
         warnings.append(
-            f"{len(series)} blocks with different columns: block {longest + 1}, the longest with {max(lengths)} rows, "
-            f'is taken; columns of the others are called "block {2 if longest == 0 else 1}: …"'
+            f"{len(series)} blocks with different columns: block {longest + 1}, the longest with "
+            f'{max(lengths)} rows, is used; columns of the others are called "block '
+            f'{2 if longest == 0 else 1}: …"'
         )
     notes = _notes(dialect, series, channels)
     return Recording(path, "mts", tuple(channels), start, notes, tuple(warnings))

@@ -186,7 +186,7 @@ def _by_steps(evidence: _Evidence, table: NDArray[np.float64]) -> None:
     seam_within, shorter = SEAM + 2 * margin, SHORTER - margin
     if smooth and steps.max() < ALIKE * steps.min() and seam < shorter * down:
         evidence.running.append(
-            f"each row goes on where the one above ends: the step there is {seam:.2g}, down the columns {down:.2g}"
+            f"each row continues the one above: the step there is {seam:.2g}, down the columns {down:.2g}"
         )
     elif seam > seam_within * within.max() and down > 0:
         evidence.columns.append(

@@ -120,14 +120,14 @@ def _weigh(cells: list[str], dialect: Dialect) -> tuple[float, int]:
 
 def _delimiter_note(best: _Fit, lines: int) -> str:
     if best.columns == 1:
-        return "one column: no delimiter makes more numbers of the lines looked at"
+        return "one column: no delimiter gives more numbers in the lines examined"
     delimiter = quote(best.dialect.delimiter)
-    return f"delimiter {delimiter} ({best.columns} cells on {best.rows} of the {lines} lines looked at)"
+    return f"delimiter {delimiter} ({best.columns} cells on {best.rows} of the {lines} lines examined)"
 
 
 def _decimal_note(dialect: Dialect, numbers: list[str]) -> str:
     signed = next((number for number in numbers if dialect.decimal in number), None)
-    why = " assumed: the numbers looked at have none" if signed is None else f' (as in "{signed}")'
+    why = " assumed: the numbers examined have none" if signed is None else f' (as in "{signed}")'
     return f'decimal sign "{dialect.decimal}"{why}'
 
 

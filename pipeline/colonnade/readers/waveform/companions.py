@@ -42,8 +42,9 @@ def companions_of(path: Path, kind: str) -> tuple[str, ...]:
             folder, name = (line[place].strip().decode(errors="replace") for place in PLACES[kind])
             if folder not in HERE or name in ("", ".", "..") or PureWindowsPath(name).name != name:
                 raise ReadError(
-                    f'{path.name}, line {number}: its samples are in "{folder}/{name}". Only a file in the folder of '
-                    "the header is opened: put it there, and a . in place of its folder in the header."
+                    f'{path.name}, line {number}: its samples are in "{folder}/{name}". Only a file in the '
+                    "folder of the header is opened: put it there, and write . for its folder in the "
+                    "header."
                 )
             packed = f"{name}.gz"
             is_packed = not path.with_name(name).exists() and path.with_name(packed).exists()

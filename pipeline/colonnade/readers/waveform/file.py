@@ -32,7 +32,7 @@ class WaveformOptions(Options):
     """What can be said about a seismic file."""
 
     kind: str | None = Field(
-        default=None, description='As ObsPy calls it, such as "SEGY" or "CSS", where the first bytes do not tell it.'
+        default=None, description='Its name in ObsPy, such as "SEGY" or "CSS", if the first bytes do not show it.'
     )
 
 
@@ -81,7 +81,7 @@ def read(path: Path, options: WaveformOptions) -> Recording:
             notes.append(f'"{name}": the header gives a calibration of {calibration:g}, which is not applied')
     start = _start(origin)
     if start is None:
-        notes.append("the file tells no date: times count from its earliest sample")
+        notes.append("the file gives no date: times count from its earliest sample")
     return Recording(path, "waveform", tuple(channels), start, tuple(dict.fromkeys(notes)), tuple(told))
 
 
@@ -96,7 +96,7 @@ def _kind(path: Path, options: WaveformOptions) -> str:
     kind = (options.kind or kind_of_waveform(path) or "").upper()
     if not kind:
         raise ReadError(
-            f'{path.name}: its first bytes do not tell its kind. Say it, for example kind = "SEGY". '
+            f'{path.name}: its first bytes do not show its kind. Give it, for example kind = "SEGY". '
             f"ObsPy knows {', '.join(KINDS)}."
         )
     if kind not in KINDS:
@@ -140,7 +140,7 @@ def _joined(name: str, traces: Sequence[Any], step: float, origin: Any) -> tuple
     rates_differ = any(abs(trace.stats.delta / traces[0].stats.delta - 1) > ROUNDED for trace in traces)
     if rates_differ or total > (1 + LARGEST_GAP) * sum(sizes):
         time = np.concatenate([even_times(size, step, begin) for begin, size in zip(begins, sizes, strict=True)])
-        told.append(f'"{name}": its {len(traces)} pieces differ in rate or lie far apart; the gaps are not filled')
+        told.append(f'"{name}": its {len(traces)} pieces differ in rate or are far apart; the gaps are not filled')
         return time, np.concatenate(pieces), told
     values = np.full(total, np.nan)
     overlaps = 0
@@ -153,10 +153,10 @@ def _joined(name: str, traces: Sequence[Any], step: float, origin: Any) -> tuple
             f'"{name}": {len(traces)} pieces with gaps of {missing} samples ({missing * step:g} s) in all; missing'
         )
     if overlaps:
-        told.append(f'"{name}": its pieces overlap by {overlaps} samples; the earlier ones are taken')
+        told.append(f'"{name}": its pieces overlap by {overlaps} samples; the earlier ones are used')
     late = max(abs(begin - begins[0] - place * step) for begin, place in zip(begins, places, strict=True))
     if late > 0.1 * step:
-        told.append(f'"{name}": a piece lies {late:g} s beside the steps of the first one')
+        told.append(f'"{name}": a piece is {late:g} s off the steps of the first one')
     return even_times(total, step, begins[0]), values, told
 
 

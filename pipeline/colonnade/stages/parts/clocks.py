@@ -149,7 +149,7 @@ def recorder_offsets(
                     "clock drift",
                     f"recorder {recorder}: its clock runs {found.drift} against the main recorder's, by {channel} and "
                     f"{own_channel}; the delay changes by {1e3 * abs(found.drift.change):.2g} ms over the motion. This "
-                    "was taken off. A common sampling clock or trigger line avoids this.",
+                    "was corrected. A common sampling clock or trigger line avoids this.",
                 )
             )
     return offsets

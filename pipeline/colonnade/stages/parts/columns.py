@@ -45,8 +45,9 @@ def find_column(recording: Recording, name: str, channel: ChannelInputs, rate: f
         return column
     if rate is None:
         raise StageError(
-            f"channel {name}: {recording.path.name} has no time column that was recognised, and the set-up gives no "
-            'sampling rate. Add `sampling_rate = "200 Hz"` to the recorder, or name the column (`time`) in its `file`.'
+            f"channel {name}: {recording.path.name} has no recognised time column, and the set-up "
+            'gives no sampling rate. Add `sampling_rate = "200 Hz"` to the recorder, or name the '
+            "column (`time`) in its `file`."
         )
     return RecordedChannel(
         column.name, column.unit, column.values, np.arange(column.values.size) / rate, column.heading

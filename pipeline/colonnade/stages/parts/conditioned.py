@@ -78,8 +78,8 @@ def _several(what: str, names: list[str], values: Array, mean: Array) -> Finding
     odd = names[int(off.argmax())]
     return warning(
         "several table channels",
-        f"{text}, but they differ: {odd} by {share:.0%} of it (RMS). If one of them is wrong or not fixed to the "
-        'table, give it another `on`, or quantity = "other".',
+        f"{text}, but they differ: {odd} by {share:.0%} of it (RMS). If one of them is wrong or "
+        'is not fixed to the table, change its `on`, or set quantity = "other".',
         follows=MEASUREMENT,
     )
 

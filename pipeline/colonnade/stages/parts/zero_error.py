@@ -135,4 +135,4 @@ def _advice(
         if all(_error(values[name][inside]) * effect.factor <= effect.largest / 2 for name, effect in effects.items()):
             start, stop = clock[first], clock[first + size - 1]
             return f'They are still from {start:.4g} s: zero = ["{start:.4g} s", "{stop:.4g} s"] avoids it.'
-    return "No stretch of the record is quieter: start recording some time before the motion."
+    return "No part of the record is quieter: start recording some time before the motion."

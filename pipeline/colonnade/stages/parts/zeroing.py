@@ -120,8 +120,8 @@ def zeroed(
     inside = (clock >= window.start) & (clock <= window.stop)
     if not inside.any():
         raise StageError(
-            f"zero: no sample lies between {window.start:g} and {window.stop:g} s; the record goes from {clock[0]:.3g} "
-            f"to {clock[-1]:.3g} s. Give a stretch inside it."
+            f"zero: no sample is between {window.start:g} and {window.stop:g} s; the record goes from {clock[0]:.3g} "
+            f"to {clock[-1]:.3g} s. Give an interval inside it."
         )
     still = values[inside][np.isfinite(values[inside])]
     if still.size == 0:

@@ -32,7 +32,7 @@ WITHOUT_SAMPLES = ("ingest", "condition")
 """Stages whose samples are not kept in memory: a report of hundreds of tests has to fit."""
 
 FOREIGN = (
-    "what is stored was made from other raw files, another campaign file or another version of colonnade; run again"
+    "the stored result was made from other raw files, another campaign file or another version of colonnade; run again"
 )
 """Reason of a test whose stored results are not of this campaign any more."""
 

@@ -32,7 +32,9 @@ def read_summary(layout: Layout) -> Summary | None:
     except FileNotFoundError:
         return None
     except (OSError, ValueError, RecursionError):
-        raise StoreError(f"{layout.summary_json}: it was altered or damaged. `colonnade run` makes it again.") from None
+        raise StoreError(
+            f"{layout.summary_json}: it was altered or damaged. Run `colonnade run` to make it again."
+        ) from None
 
 
 def records_of_tests(campaign: Campaign, summary: Summary | None) -> dict[str, TestSummary]:

@@ -41,7 +41,7 @@ def mesh_of(sizes: Mapping[str, float], mesh: str) -> Mesh:
         If there is no such mesh, or the dimensions are none of these.
     """
     if mesh not in PAPERS_DEGREES_OF_FREEDOM:
-        raise ValueError(f'There is no mesh "{mesh}".{nearest(mesh, PAPERS_DEGREES_OF_FREEDOM)}')
+        raise ValueError(f'Unknown mesh "{mesh}".{nearest(mesh, PAPERS_DEGREES_OF_FREEDOM)}')
     number = PAPERS_DEGREES_OF_FREEDOM[mesh]
     if sizes.keys() == {"width", "depth", "height"}:
         edges = sizes["width"], sizes["depth"], sizes["height"]

@@ -181,7 +181,8 @@ def _paused(time: Array, angle: Array, series: ArcSeries) -> Departure | None:
         error,
         "s",
         f"After {int(large.sum())} of {found.size} impacts the angle stays near zero, by up to {1e3 * size:.3g} ± "
-        f"{1e3 * error:.1g} ms longer than a passage takes: more than one contact; e includes that loss.",
+        f"{1e3 * error:.1g} ms longer than a single impact takes: there is more than one contact; e includes that "
+        "loss.",
     )
 
 

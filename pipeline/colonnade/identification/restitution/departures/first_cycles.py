@@ -73,7 +73,7 @@ def out_of_plane_share(time: Array, out_of_plane: Array, series: ArcSeries) -> D
         last + 1,
         size,
         error,
-        f"The block turns out of its plane by up to {size:.0%} of the rocking angle (± {error:.1%}, measured), more "
+        f"The block turns out of its plane by up to {size:.0%} of the rocking angle (± {error:.1%}, measured); more "
         f"than {LARGEST_SHARE:.0%}",
     )
 
@@ -125,7 +125,7 @@ def _extra_loss(series: ArcSeries, fit: RandomWalkFit, count: int) -> Departure 
         count,
         later - first,
         error,
-        f"The first {count} impacts lose more than those that follow: e is {first:.4f} there and {later:.4f} later, "
+        f"The first {count} impacts lose more than the later ones: e is {first:.4f} for them and {later:.4f} later, "
         f"{later - first:.4f} ± {error:.4f} apart, in a step and not gradually with the speed of impact, as large "
         "cycles that turn out of the plane do",
     )

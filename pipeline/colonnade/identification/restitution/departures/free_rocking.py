@@ -78,8 +78,8 @@ def objection(arcs: Arcs, usable: Mask, block: Block) -> str:
     median, scatter = float(np.median(within)) - 1, 1.25 * float(np.median(unsure[seen])) / np.sqrt(seen.sum())
     if abs(median) > SHAPE_TOLERANCE + SURE * scatter:
         return (
-            f"Between impacts the angle is not the arc of a rocking block: by its middle part it would last "
-            f"{median:+.0%} longer than it does; less than {SHAPE_TOLERANCE:.0%} was expected. This is not free "
+            "Between impacts the angle is not the arc of a rocking block: judged by its middle part, an arc would "
+            f"last {median:+.0%} longer than it does; less than {SHAPE_TOLERANCE:.0%} was expected. This is not free "
             "rocking."
         )
     return ""

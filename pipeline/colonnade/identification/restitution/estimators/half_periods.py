@@ -89,7 +89,7 @@ class HalfPeriods(Estimator[Fit]):
             return self.refuse(level, "The errors of the impacts' times are not known.")
         fixed = _fit(impacts, whitener, first_side, block, ALWAYS)
         if fixed is None:
-            return self.refuse(level, "No e and no height of the first arc give such times between impacts.")
+            return self.refuse(level, "No value of e and of the first peak gives these times between impacts.")
         if free_p and impacts.size > len(ALWAYS) + FEWEST_SPARE:
             freed = _fit(impacts, whitener, first_side, block, (*ALWAYS, "p"), fixed[0])
             if freed is not None:

@@ -62,7 +62,7 @@ def detect_encoding(path: Path) -> Encoding:
     if zeros_even > 0.3 > 0.05 > zeros_odd:
         return Encoding("utf-16-be", "every first byte of two is zero, without a byte order mark")
     if head.isascii():
-        return Encoding("utf-8", "plain ASCII so far as looked at")
+        return Encoding("utf-8", "plain ASCII in the part examined")
     try:
         codecs.getincrementaldecoder("utf-8")().decode(head, final=False)
     except UnicodeDecodeError as error:

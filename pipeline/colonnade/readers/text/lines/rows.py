@@ -192,7 +192,8 @@ def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm, stretch: Stret
                     taken.add(piece, frame)
     except (ParserError, ParserWarning) as error:
         raise ReadError(
-            f"{path.name}: its lines cannot be cut into cells ({str(error).strip()}). Look for lines unlike the others."
+            f"{path.name}: its lines cannot be split into cells ({str(error).strip()}). Look for lines that differ "
+            "from the others."
         ) from error
     taken.join()
     return taken

@@ -1,0 +1,62 @@
+"""Tables of a campaign file: every problem at its own key, in a finished sentence."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from pydantic import ValidationError
+
+from colonnade.campaign.syntax.fields import Length
+from colonnade.campaign.syntax.table import Table, problem, refuse
+
+
+class Box(Table):
+    """A box."""
+
+    width: Length
+    """Along x, such as "86 mm"."""
+    labels: tuple[str, ...] = ()
+    """Words on it."""
+
+
+class Shelf(Table):
+    """A shelf."""
+
+    boxes: dict[str, Box]
+    """By name."""
+
+
+def problems(table: type[Table], value: Any) -> dict[tuple[Any, ...], str]:
+    with pytest.raises(ValidationError) as raised:
+        table.model_validate(value)
+    return {error["loc"]: error["msg"] for error in raised.value.errors()}
+
+
+def test_all_problems_are_told_at_once_each_at_its_key():
+    assert problems(Shelf, {"boxes": {"a": {"wdith": "1 m"}, "b": {"width": "86"}}}) == {
+        ("boxes", "a", "width"): 'It is missing. Expected: along x, such as "86 mm".',
+        ("boxes", "a", "wdith"): 'Unknown key. Did you mean "width"?',
+        ("boxes", "b", "width"): '"86" has no unit. A length was expected, such as "86 mm".',
+    }
+
+
+@pytest.mark.parametrize(
+    ("table", "value", "told"),
+    [
+        (Shelf, {"boxes": 3}, "3 was found. A table was expected."),
+        (Shelf, {"boxes": {"a": "x"}}, '"x" was found. A table was expected.'),
+        (Box, {"width": "1 m", "labels": 5}, "5 was found. A list was expected."),
+    ],
+)
+def test_a_value_in_place_of_a_table_or_list_is_refused(table, value, told):
+    assert told in problems(table, value).values()
+
+
+def test_keys_have_their_purposes():
+    assert Box.purposes() == {"width": 'Along x, such as "86 mm".', "labels": "Words on it."}
+
+
+def test_a_refusal_keeps_the_places_of_its_problems():
+    error = refuse("Box", [problem("Too wide.", "boxes", "a", value=3)])
+    assert [(each["loc"], each["msg"], each["input"]) for each in error.errors()] == [(("boxes", "a"), "Too wide.", 3)]
