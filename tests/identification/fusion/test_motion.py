@@ -63,7 +63,7 @@ def test_positions_hold_the_drift_of_a_gyroscope():
 def test_a_gyroscope_that_contradicts_the_positions_is_left_out():
     found = moved(positions(), gyroscope(factor=1.5))
     assert found.entered.tolist() == [True, True, False]
-    assert "left out" in found.separation
+    assert "not used" in found.separation
     np.testing.assert_allclose(found.angle, ANGLE, atol=1e-9)
 
 
@@ -78,7 +78,7 @@ def test_residuals_of_what_does_not_enter_are_against_the_motion():
 
 def test_nothing_that_sees_the_rotation_is_refused():
     across = Transducer("point", (0.0, 1.0, 0.0), TOP), Readings(np.zeros((1, TIME.size)), np.ones(1), np.ones(1))
-    with pytest.raises(UnseenRotationError, match="No transducer sees the rotation"):
+    with pytest.raises(UnseenRotationError, match="No transducer measures the rotation"):
         moved(([across[0]], across[1]))
 
 

@@ -21,14 +21,14 @@ def test_any_other_is_not(scale):
 @pytest.mark.parametrize(
     ("scale", "quantity", "said"),
     [
-        (9.81, "acceleration", "g taken for"),
-        (1 / 9.81, "acceleration", "g taken for"),
-        (-25.4, "displacement", "inches taken for mm"),
-        (2.5, "displacement", "inches taken for cm"),
-        (57.3, "angle", "degrees taken for radians"),
-        (1000.0, "displacement", "mm taken for m"),
-        (0.01, "acceleration", "hundred times off"),
-        (10.3, "angle", "ten times off"),
+        (9.81, "acceleration", "g read as"),
+        (1 / 9.81, "acceleration", "g read as"),
+        (-25.4, "displacement", "inches read as mm"),
+        (2.5, "displacement", "inches read as cm"),
+        (57.3, "angle", "degrees read as radians"),
+        (1000.0, "displacement", "mm read as m"),
+        (0.01, "acceleration", "by a factor of 100"),
+        (10.3, "angle", "by a factor of 10"),
     ],
 )
 def test_a_known_factor_and_its_inverse_have_a_cause(scale, quantity, said):

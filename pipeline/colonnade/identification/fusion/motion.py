@@ -170,7 +170,7 @@ def _with_rates(
         if factor > LARGEST_DISAGREEMENT:
             return (
                 None,
-                f"{count} not used, because they differ by {factor:.2g} times the noise: check gain, sign and axis",
+                f"{count} not used: the difference is {factor:.2g} times the noise; check gain, sign and axis",
             )
         return angle_from_rate(rate, white, interval, *tracked), f"{count} combined with them, which remove its drift"
     known, rests = upright(
