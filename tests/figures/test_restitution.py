@@ -41,9 +41,9 @@ def named(axes):
 def test_a_fitted_history_shows_measured_fit_and_what_is_left_over():
     fitted = Curve(TIME[PART], MEASURED_ANGLE.values[PART] + 1e-3)
     residual = Curve(TIME[PART], np.full(400, -1e-3))
-    figure = fitted_history(MEASURED_ANGLE, fitted, residual, model="nonlinear", left_out=[(0.0, 1.0)])
+    figure = fitted_history(MEASURED_ANGLE, fitted, residual, model="nonlinear")
     above, below = figure.axes
-    assert named(above) == ["measured", "fitted, nonlinear model", "not fitted"]
+    assert named(above) == ["measured", "fitted, nonlinear model"]
     assert above.lines[0].get_color() == MEASURED["color"]
     assert above.lines[1].get_color() == model_style("nonlinear")["color"]
     assert below.lines[0].get_ydata() == pytest.approx(np.full(400, -1.0))  # 10⁻³ α

@@ -7,10 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array
 from colonnade.figures.curve import INTERVALS, Curve, envelope
-from colonnade.figures.style import LIMIT, MEASURED, LineStyle, model_style
+from colonnade.figures.style import INK, LIMIT, MEASURED, LineStyle, model_style
 
 SMALLEST_RATIO = 0.02
 """No θ/α axis is narrower than ± this, so that the noise of a block at rest does not look like rocking."""
@@ -179,6 +180,12 @@ def time_limits(curves: Sequence[Curve]) -> tuple[float, float]:
     return min(first for first, _ in spans), max(last for _, last in spans)
 
 
+def scale_symmetric(axes: Axes, largest: float) -> None:
+    """Let an axis reach a little beyond ± the largest value, with few numbers."""
+    axes.set_ylim(-1.12 * largest, 1.12 * largest)
+    axes.yaxis.set_major_locator(MaxNLocator(nbins=4, symmetric=True, steps=[1, 2, 5, 10]))
+
+
 def draw_limit(axes: Axes, level: float, name: str) -> None:
     """Draw lines at ± a limit and name the upper one beside the axis."""
     for value in (-level, level):
@@ -191,7 +198,7 @@ def draw_limit(axes: Axes, level: float, name: str) -> None:
         textcoords="offset points",
         va="center",
         fontsize=8,
-        color="#30353d",
+        color=INK,
         annotation_clip=False,
     )
 

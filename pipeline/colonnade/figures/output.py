@@ -22,7 +22,7 @@ FONTS = "'DejaVu Sans', Verdana, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sa
 
 _IDENTITY = re.compile(r"[A-Za-z][A-Za-z0-9._-]*")
 _REFERENCE = re.compile(r"url\(#([^)]+)\)")
-_LONG_NUMBER = re.compile(r"(\d+\.\d{2})\d+")
+_BEYOND_HUNDREDTHS = re.compile(r"(?<=\.\d\d)\d+")
 _FONT = re.compile(r"font(-family)?:([^;]*?)'DejaVu Sans'[^;]*")
 
 
@@ -118,7 +118,7 @@ def _shorten(root: ElementTree.Element) -> None:
     """Write coordinates to 0.01 pt, drop white space between elements, and name fonts that other machines have."""
     for element in root.iter():
         for name in element.attrib.keys() & {"d", "x", "y", "transform", "points"}:
-            shortened = _LONG_NUMBER.sub(r"\1", element.attrib[name])
+            shortened = _BEYOND_HUNDREDTHS.sub("", element.attrib[name])
             element.set(name, shortened.replace(" \n", "").replace("\n", "") if name == "d" else shortened)
         if "style" in element.attrib:
             element.set(

@@ -45,19 +45,8 @@ def stacked_panels(heights: Sequence[float]) -> tuple[Figure, list[Axes]]:
     """
     if not heights:
         raise ValueError("no height was given; at least one panel was expected")
-    total = TOP + sum(heights) + GAP * (len(heights) - 1) + BOTTOM
-    figure = Figure(figsize=(WIDTH, total))
-    axes: list[Axes] = []
-    top = total - TOP
-    for height in heights:
-        place = (LEFT / WIDTH, (top - height) / total, (WIDTH - LEFT - RIGHT) / WIDTH, height / total)
-        axes.append(figure.add_axes(place, sharex=axes[0] if axes else None))
-        top -= height + GAP
-    for one in axes[:-1]:
-        one.tick_params(labelbottom=False)
-    for one in axes:
-        one.yaxis.set_label_coords(-LABEL / (WIDTH - LEFT - RIGHT), 0.5)
-    return figure, axes
+    figure, (panels,) = side_by_side(1, heights, title=0.0)
+    return figure, panels
 
 
 def side_by_side(columns: int, heights: Sequence[float], *, title: float = 0.2) -> tuple[Figure, list[list[Axes]]]:

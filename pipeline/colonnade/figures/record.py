@@ -8,11 +8,18 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array
 from colonnade.figures.curve import Curve, envelope
-from colonnade.figures.histories import Spread, draw_angle, draw_limit, largest_of, limit_of, time_limits
+from colonnade.figures.histories import (
+    Spread,
+    draw_angle,
+    draw_limit,
+    largest_of,
+    limit_of,
+    scale_symmetric,
+    time_limits,
+)
 from colonnade.figures.panels import legend_above, stacked_panels
 from colonnade.figures.style import BASE, MEASURED, model_style, styled
 
@@ -108,20 +115,14 @@ def _draw_misfits(axes: Axes, misfits: Mapping[str, Curve]) -> None:
     largest = max(largest_of(list(misfits.values())), 1e-3)
     for model, curve in misfits.items():
         axes.plot(*envelope(curve), **model_style(model))
-    axes.set_ylim(-1.12 * largest, 1.12 * largest)
-    _few_numbers(axes)
+    scale_symmetric(axes, largest)
     axes.set_ylabel("predicted −\nmeasured, / α")
 
 
 def _draw_quantity(axes: Axes, quantity: Quantity) -> None:
     axes.plot(*envelope(quantity.curve), **BASE)
     largest = largest_of([quantity.curve]) or 1.0
-    axes.set_ylim(-1.12 * largest, 1.12 * largest)
+    scale_symmetric(axes, largest)
     if quantity.level is not None and quantity.level < 1.12 * largest:
         draw_limit(axes, quantity.level, quantity.level_name)
-    _few_numbers(axes)
     axes.set_ylabel(quantity.label)
-
-
-def _few_numbers(axes: Axes) -> None:
-    axes.yaxis.set_major_locator(MaxNLocator(nbins=4, symmetric=True, steps=[1, 2, 5, 10]))

@@ -6,10 +6,9 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 
 from colonnade.figures.curve import Curve, envelope
-from colonnade.figures.histories import ANGLE_LABEL, draw_angle, largest_of, limit_of, time_limits
+from colonnade.figures.histories import ANGLE_LABEL, draw_angle, largest_of, limit_of, scale_symmetric, time_limits
 from colonnade.figures.panels import COLUMNS, legend_above, side_by_side
 from colonnade.figures.style import BASE, styled
 
@@ -69,8 +68,7 @@ def spans_side_by_side(panels: Sequence[SpanPanel]) -> Figure:
         if bases:
             if panel.base is not None:
                 column[-1].plot(*envelope(panel.base, intervals=INTERVALS), **BASE)
-            column[-1].set_ylim(-1.12 * largest, 1.12 * largest)
-            column[-1].yaxis.set_major_locator(MaxNLocator(nbins=4, symmetric=True, steps=[1, 2, 5, 10]))
+            scale_symmetric(column[-1], largest)
         column[-1].set_xlabel("time (s)")
         column[0].set_xlim(*time_limits([*curves, *bases]))
     for column in grid[::COLUMNS]:

@@ -27,10 +27,13 @@ class LineStyle(TypedDict):
     linewidth: float
 
 
+INK, SOFT, FAINT = "#30353d", "#5b6675", "#8a919c"
+"""Colours of labels, of remarks, and of what only guides the eye."""
+
 MEASURED: LineStyle = {"color": "#1c2430", "linestyle": "-", "linewidth": 1.1}
-BASE: LineStyle = {"color": "#5b6675", "linestyle": "-", "linewidth": 0.8}
+BASE: LineStyle = {"color": SOFT, "linestyle": "-", "linewidth": 0.8}
 FIT: LineStyle = {"color": "#8a3fa8", "linestyle": "-", "linewidth": 1.2}
-LIMIT: LineStyle = {"color": "#8a919c", "linestyle": (0, (1.0, 2.5)), "linewidth": 1.0}
+LIMIT: LineStyle = {"color": FAINT, "linestyle": (0, (1.0, 2.5)), "linewidth": 1.0}
 
 DASHES: dict[str, tuple[float, tuple[float, ...]]] = {
     "dashed": (0, (5.0, 1.6)),

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-from colonnade.figures.style import LIMIT, MEASURED, blank_figure, styled
+from colonnade.figures.style import LIMIT, MEASURED, SOFT, blank_figure, styled
 from colonnade.identification.response.boundaries import Boundaries, Bracket, MapPoint, bracket_boundaries
 
 MARKERS: dict[str, dict[str, Any]] = {
@@ -23,7 +23,7 @@ MARKERS: dict[str, dict[str, Any]] = {
 NAMES = {"no-rocking": "no rocking", "rocking": "rocking", "overturned": "overturned"}
 
 BOUNDARIES: tuple[tuple[str, str, str], ...] = (
-    ("rocking", "rocking begins", "#5b6675"),
+    ("rocking", "rocking begins", SOFT),
     ("overturning", "overturning begins", "#8a3fa8"),
 )
 
@@ -105,13 +105,23 @@ def _draw_scale(axes: Axes, points: Sequence[MapPoint]) -> None:
     axes.set_xlim(0.0, 1.08 * float(frequencies.max()))
     low, high = min(float(amplitudes.min()), 1.0), max(float(amplitudes.max()), 1.0)
     if low > 0 and high / low > LOGARITHMIC:
-        axes.set_yscale("log")
+        label_logarithmic(axes)
         axes.set_ylim(low / 1.15, high * 1.15)
-        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 5.0, 7.0), numticks=20))
-        axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-        axes.yaxis.set_minor_formatter(NullFormatter())
     else:
         axes.set_ylim(0.0, 1.1 * high)
+    name_axes(axes)
+
+
+def label_logarithmic(axes: Axes) -> None:
+    """Make the axis of A logarithmic, with plain numbers at several of each decade."""
+    axes.set_yscale("log")
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 5.0, 7.0), numticks=20))
+    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.yaxis.set_minor_formatter(NullFormatter())
+
+
+def name_axes(axes: Axes) -> None:
+    """Label the axes of a map."""
     axes.set_xlabel("Ω = ω / p")
     axes.set_ylabel("A = a / (g tan α)")
 

@@ -24,7 +24,7 @@ from colonnade.figures.maps.stability_map import (
     words_of_restitution,
     words_of_sine,
 )
-from colonnade.figures.style import blank_figure, styled
+from colonnade.figures.style import FAINT, INK, SOFT, blank_figure, styled
 from colonnade.identification.response.boundaries import MapPoint
 
 
@@ -43,7 +43,7 @@ REGIONS = (
     Orders("sub-harmonic 1/3", (3,), "#5b93c7"),
     Orders("sub-harmonic 1/4", (4,), "#2c5f8f"),
     Orders(f"sub-harmonic 1/5 … 1/{LARGEST_ORDER}", tuple(range(5, LARGEST_ORDER + 1)), "#8a3fa8"),
-    Orders("irregular", (IRREGULAR,), "#30353d"),
+    Orders("irregular", (IRREGULAR,), INK),
     Orders("overturned", (OVERTURNED,), OVERTURNED_COLOUR),
 )
 
@@ -94,8 +94,8 @@ def response_orders(response: SteadyResponse, points: Sequence[MapPoint], option
     scale_axes(axes, response.frequency_ratio, response.amplitude_ratio, points)
     draw_points(axes, points, prefix="measured: ")
     settled = f"{options['model']} model; {words_of_restitution(options)}; {words_of_sine(options)}"
-    axes.set_title(f"{settled}, {options['settling']} cycles to settle", fontsize=8, color="#5b6675")
-    patches = [Patch(facecolor=region.colour, edgecolor="#8a919c", linewidth=0.5) for region in present]
+    axes.set_title(f"{settled}, {options['settling']} cycles to settle", fontsize=8, color=SOFT)
+    patches = [Patch(facecolor=region.colour, edgecolor=FAINT, linewidth=0.5) for region in present]
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(
         [*patches, *handles],

@@ -10,20 +10,16 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from colonnade.arrays import Array
 from colonnade.dynamics.maps.chart import StabilityMap
-from colonnade.figures.maps.measured_map import draw_points
-from colonnade.figures.style import BASE, LineStyle, blank_figure, model_style, styled
+from colonnade.figures.maps.measured_map import LOGARITHMIC, draw_points, label_logarithmic, name_axes
+from colonnade.figures.style import BASE, SOFT, LineStyle, blank_figure, model_style, styled
 from colonnade.identification.response.boundaries import MapPoint
 
 OVERTURNED_COLOUR = "#eec9b4"
 SHADE = LinearSegmentedColormap.from_list("overturning", ["#ffffff", OVERTURNED_COLOUR])
 """Of the share of a cell that overturns; light, so that points and lines stand out."""
-
-LOGARITHMIC = 6.0
-"""Amplitudes that span more than this factor are drawn on a logarithmic axis."""
 
 
 @styled()
@@ -81,7 +77,7 @@ def stability_map(
     draw_points(axes, points, prefix="measured: ")
     figure = cast(Figure, axes.get_figure(root=True))
     if own:
-        axes.set_title(_words(charts), fontsize=8, color="#5b6675")
+        axes.set_title(_words(charts), fontsize=8, color=SOFT)
         handles, labels = axes.get_legend_handles_labels()
         shade = Patch(facecolor=SHADE(1.0), label=f"overturned, share of cell ({first.options['model']})")
         figure.legend(
@@ -115,13 +111,9 @@ def scale_axes(axes: Axes, frequency_ratio: Array, amplitude_ratio: Array, point
     high = max([float(amplitude_ratio[-1]), *amplitudes])
     axes.set_xlim(float(frequency_ratio[0]), float(frequency_ratio[-1]))
     if high / low > LOGARITHMIC:
-        axes.set_yscale("log")
-        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 5.0, 7.0), numticks=20))
-        axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-        axes.yaxis.set_minor_formatter(NullFormatter())
+        label_logarithmic(axes)
     axes.set_ylim(low, high)
-    axes.set_xlabel("Ω = ω / p")
-    axes.set_ylabel("A = a / (g tan α)")
+    name_axes(axes)
 
 
 def cell_edges(centres: Array) -> Array:

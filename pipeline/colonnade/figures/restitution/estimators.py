@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from colonnade.figures.style import FIT, LIMIT, MEASURED, WIDTH, styled
+from colonnade.figures.style import FIT, INK, LIMIT, MEASURED, SOFT, WIDTH, styled
 from colonnade.units import format_uncertain
 
 ROW, GROUP = 0.21, 0.26
@@ -102,7 +102,7 @@ def _draw_row(axes: Axes, place: float, row: EstimateRow) -> None:
     weight = "bold" if row.recommended else "normal"
     _write(axes, place, row.name, -LEFT + 0.2, weight=weight)
     if not np.isfinite(row.value):
-        _write(axes, place, row.remark or "none", None, colour="#5b6675")
+        _write(axes, place, row.remark or "none", None, colour=SOFT)
         return
     low, high = axes.get_xlim()
     colour = FIT["color"] if row.recommended else MEASURED["color"]
@@ -126,7 +126,7 @@ def _draw_row(axes: Axes, place: float, row: EstimateRow) -> None:
 
 
 def _write(
-    axes: Axes, place: float, text: str, left: float | None, *, weight: str = "normal", colour: str = "#30353d"
+    axes: Axes, place: float, text: str, left: float | None, *, weight: str = "normal", colour: str = INK
 ) -> None:
     """Write at a height, `left` inches from the left edge of the panel, or in its middle."""
     axes.text(
@@ -162,7 +162,7 @@ def _draw_rigid(axes: Axes, rigid: float) -> None:
         ha="left" if where < 0.5 else "right",
         va="bottom",
         fontsize=8,
-        color="#5b6675",
+        color=SOFT,
     )
 
 

@@ -1,18 +1,15 @@
-"""A free vibration and the free rocking that was laid through it, with what is left over."""
+"""A free vibration, the free rocking that was fitted to it, and the residual."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 
 from colonnade.figures.curve import Curve, envelope
-from colonnade.figures.histories import draw_angle, largest_of, limit_of, time_limits
+from colonnade.figures.histories import draw_angle, largest_of, limit_of, scale_symmetric, time_limits
 from colonnade.figures.panels import legend_above, stacked_panels
-from colonnade.figures.style import MEASURED, model_style, styled
+from colonnade.figures.style import FAINT, INK, MEASURED, model_style, styled
 
 ANGLE_HEIGHT, RESIDUAL_HEIGHT = 2.2, 0.9
 """Heights of the panels, inches."""
@@ -22,9 +19,7 @@ SMALLEST_RESIDUAL = 1e-2
 
 
 @styled()
-def fitted_history(
-    measured: Curve | None, fitted: Curve, residual: Curve, *, model: str, left_out: Sequence[tuple[float, float]] = ()
-) -> Figure:
+def fitted_history(measured: Curve | None, fitted: Curve, residual: Curve, *, model: str) -> Figure:
     """
     Draw measured and fitted angle, and measured minus fitted below.
 
@@ -36,8 +31,6 @@ def fitted_history(
         θ/α of the fit, and measured minus fitted, over the part that was fitted.
     model : str
         Of the fit: its colour and dash.
-    left_out : sequence of (float, float)
-        Times (s) between which the record was not fitted: shaded.
 
     Returns
     -------
@@ -55,9 +48,6 @@ def fitted_history(
     draw_angle(axes[0], measured, {}, limit_of(shown))
     axes[0].plot(*envelope(fitted), label=f"fitted, {model} model", **model_style(model))
     _draw_residual(axes[1], residual)
-    for start, end in left_out:
-        for one in axes:
-            one.axvspan(start, end, color="#8a919c", alpha=0.15, linewidth=0, label="not fitted")
     axes[0].set_xlim(*time_limits(shown))
     axes[-1].set_xlabel("time (s)")
     legend_above(figure, axes[:1])
@@ -68,13 +58,12 @@ def _draw_residual(axes: Axes, residual: Curve) -> None:
     residual = Curve(residual.time, 1e3 * residual.values)
     largest = max(largest_of([residual]), SMALLEST_RESIDUAL)
     axes.plot(*envelope(residual), color=MEASURED["color"], linewidth=0.7)
-    axes.axhline(0.0, color="#8a919c", linewidth=0.7)
-    axes.set_ylim(-1.12 * largest, 1.12 * largest)
-    axes.yaxis.set_major_locator(MaxNLocator(nbins=4, symmetric=True, steps=[1, 2, 5, 10]))
+    axes.axhline(0.0, color=FAINT, linewidth=0.7)
+    scale_symmetric(axes, largest)
     axes.set_ylabel("measured −\nfitted (10⁻³ α)")
     finite = residual.values[np.isfinite(residual.values)]
     if finite.size:
         root = float(np.sqrt(np.mean(finite**2)))
         axes.annotate(
-            f"RMS {root:.2g}·10⁻³ α", (0.995, 0.06), xycoords="axes fraction", ha="right", fontsize=8, color="#30353d"
+            f"RMS {root:.2g}·10⁻³ α", (0.995, 0.06), xycoords="axes fraction", ha="right", fontsize=8, color=INK
         )

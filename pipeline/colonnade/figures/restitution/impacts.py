@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.figures.panels import legend_above, stacked_panels
-from colonnade.figures.style import FIT, LIMIT, MEASURED, styled
+from colonnade.figures.style import FAINT, FIT, INK, LIMIT, MEASURED, styled
 
 HEIGHT = 2.4
 """Of the panel, inches."""
@@ -121,7 +121,7 @@ def _draw_impacts(axes: Axes, impacts: ImpactSeries, mark: str, *, named: bool) 
                 markerfacecolor=face,
                 markeredgecolor=MEASURED["color"],
                 markeredgewidth=0.8,
-                ecolor="#8a919c",
+                ecolor=FAINT,
                 elinewidth=0.8,
                 label=text,
             )
@@ -146,7 +146,7 @@ def _draw_rigid(axes: Axes, rigid: float) -> None:
         ha="right",
         va="top" if above else "bottom",
         fontsize=8,
-        color="#30353d",
+        color=INK,
     )
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.figures.panels import legend_outside
-from colonnade.figures.style import FIT, MEASURED, blank_figure, styled
+from colonnade.figures.style import FAINT, FIT, MEASURED, blank_figure, styled
 from colonnade.identification.restitution.arcs.energy import released_energy
 
 COLUMNS = 3
@@ -124,7 +124,7 @@ def _draw_peaks(axes: Axes, peaks: PeakSeries, block: Block) -> None:
             markerfacecolor=face,
             markeredgecolor=MEASURED["color"],
             markeredgewidth=0.8,
-            ecolor="#8a919c",
+            ecolor=FAINT,
             elinewidth=0.8,
             label=label,
         )
