@@ -87,7 +87,7 @@ def test_a_name_in_two_groups_needs_its_group(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match='no column is called "top"'):
         recording.channel("top")
     assert read(path, options={"group": "raw"}).channel("top").values.tolist() == [0.0] * 5
-    with pytest.raises(ReadError, match=r'no group "row"\. Did you mean "raw"'):
+    with pytest.raises(ReadError, match=r'group "row" not found\. Did you mean "raw"'):
         read(path, options={"group": "row"})
 
 

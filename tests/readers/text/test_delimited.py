@@ -304,7 +304,7 @@ def test_timestamps_are_seconds_from_the_first(tmp_path: Path, stamps: list[str]
     [
         pytest.param("", "the file is empty", id="nothing in it"),
         pytest.param("\n\n  \n", "the file is empty", id="blank lines only"),
-        pytest.param("a;b\nc;d\n", "no rows of numbers were found in the 2 lines", id="no number"),
+        pytest.param("a;b\nc;d\n", "no rows of numbers were found in the first 2 lines", id="no number"),
         pytest.param("\x01\x02\x03\x04" * 90, "not printable", id="binary"),
     ],
 )
