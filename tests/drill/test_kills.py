@@ -107,7 +107,7 @@ def pages(small: Any) -> dict[str, str]:
     """The report's files, but for the line that tells what a page was made from."""
     return {
         path.relative_to(small.folder).as_posix(): re.sub(
-            r'<meta name="made-from"[^>]*>', "", path.read_text(encoding="utf-8")
+            r"<!-- made from .* -->", "", path.read_text(encoding="utf-8")
         )
         for path in sorted((small.folder / "report").rglob("*.html"))
     }
@@ -117,7 +117,7 @@ def expect_whole(small: Any, expected: dict[str, str], expected_pages: dict[str,
     """Expect of what a kill left that every file is as it would have become."""
     assert small.contents().items() <= expected.items()
     assert pages(small).items() <= expected_pages.items()
-    for text in (small.layout.summary_json, small.layout.catalogue, small.layout.raw_index):
+    for text in (small.layout.summary_json, small.layout.catalogue):
         assert not text.exists() or text.read_text(encoding="utf-8").endswith("}\n")
 
 
@@ -156,11 +156,7 @@ def test_after_each_kill_every_file_is_whole_and_the_next_run_ends_it(
         assert len(workers) == 2
         time.sleep(chance.uniform(0.0, durations[-1]))
         where = (
-            "after"
-            if small.layout.report_key.exists()
-            else "inside"
-            if any(small.layout.tests.glob("*/*"))
-            else "before"
+            "after" if small.layout.report.exists() else "inside" if any(small.layout.tests.glob("*/*")) else "before"
         )
         fell[killed][where] += 1
         with contextlib.suppress(ProcessLookupError):  # it may have ended by now

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from colonnade.report import build
+from colonnade.report.build import build
 from colonnade.store.layout import Layout
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")

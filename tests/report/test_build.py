@@ -11,7 +11,7 @@ import pytest
 
 from colonnade.campaign import Campaign
 from colonnade.figures.stored import record
-from colonnade.report import build
+from colonnade.report.build import build
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow.catalogue import Catalogue

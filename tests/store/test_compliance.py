@@ -8,7 +8,8 @@ import xarray as xr
 from compliance_checker.suite import CheckSuite
 
 from colonnade.store import files
-from colonnade.store.provenance import global_attributes
+from colonnade.store.provenance import Origin, global_attributes
+from colonnade.store.results import ResultId
 
 TIME = np.arange(400) * 0.005
 CLOCK = {"elapsed": TIME}
@@ -175,8 +176,7 @@ def stored(request, tmp_path):
     stage, result = request.param, RESULTS[request.param]
     path = tmp_path / f"{stage}.nc"
     made_by = "rocking" if result is None else stage
-    told = {"campaign": "prism", "title": "Prism", "facility": "Laboratory", "test": "free-01"}
-    attributes = global_attributes(stage=made_by, **told)
+    attributes = global_attributes(Origin("prism", "Prism", "Laboratory"), ResultId("free-01", made_by))
     if result is None:
         files.write_failed(path, "The clock runs backwards.", attributes=attributes)
     else:

@@ -9,12 +9,13 @@ import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.store.provenance import content_hash, coverage, global_attributes, hash_of
+from colonnade.store.provenance import Origin, content_hash, coverage, global_attributes, hash_of
+from colonnade.store.results import ResultId
 
 
 def test_what_is_not_known_is_left_out():
     attributes = global_attributes(
-        campaign="c", title="C", facility=None, stage="rocking", test="t", now=datetime(2024, 5, 1, 12, tzinfo=UTC)
+        Origin("c", "C", None), ResultId("t", "rocking"), now=datetime(2024, 5, 1, 12, tzinfo=UTC)
     )
     assert "institution" not in attributes
     assert "specimen" not in attributes

@@ -48,11 +48,11 @@ def test_verifying_opens_every_result(small, opened):
         "no JSON",
         "[" * 100_000,
         "null",
-        '{"files": {}, "records": {}, "sha256": 3}',
+        '{"results": {}, "records": {}, "sha256": 3}',
         "[]",
         "{}",
-        '{"files": 3, "records": {}}',
-        '{"files": {"tests/pulse-01/rocking.nc": 1}, "records": {}}',
+        '{"results": 3, "records": {}}',
+        '{"results": {"processed/tests/pulse-01/rocking.nc": 1}, "records": {}}',
     ],
 )
 def test_a_catalogue_that_is_no_good_only_costs_time(small, text):

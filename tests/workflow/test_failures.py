@@ -12,6 +12,7 @@ from colonnade.errors import StageError, StoreError
 from colonnade.stages import rocking, specimen
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.store.results import ResultId
 
 
 def failures(result):
@@ -75,7 +76,7 @@ def test_a_fault_of_colonnade_is_told_as_such_and_the_others_go_on(untouched, mo
     failed = failures(untouched.run())
     assert list(failed) == ["pulse-01"]
     assert "Internal error in rocking, ZeroDivisionError" in failed["pulse-01"].reason
-    log = untouched.layout.error_log("pulse-01").read_text(encoding="utf-8")
+    log = untouched.layout.error_log(ResultId("pulse-01", "ingest")).read_text(encoding="utf-8")
     assert log.startswith("Traceback")
     assert "division by zero" in log
 
@@ -129,7 +130,7 @@ def test_the_log_of_an_internal_error_goes_when_the_error_does(untouched, monkey
         faulty.setattr(rocking, "rocking", fails(ZeroDivisionError()))
         untouched.run()
     assert not untouched.run(start_from="rocking").failed
-    assert not untouched.layout.error_log("pulse-01").exists()
+    assert not untouched.layout.error_log(ResultId("pulse-01", "ingest")).exists()
 
 
 def test_nothing_stays_behind_a_failure_where_the_run_stops_there(small):

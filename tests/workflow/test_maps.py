@@ -78,7 +78,7 @@ def content(small, **options):
 
 def test_a_map_takes_the_identified_restitution_and_is_that_of_the_library(small):
     result = made(small)
-    assert (result.restitution_source, result.action) == ("identified", "done")
+    assert (result.restitution_source, result.action, result.because) == ("identified", "done", "never run")
     stored = as_map(files.read(result.path))
     pooled = files.read(small.layout.stage("prism", "specimen"))
     e = tuple(float(value) for value in pooled["side_restitution"])
@@ -157,9 +157,9 @@ def test_the_table_motion_of_a_sine_test_is_stretched_over_a_map(sine_test):
 def test_a_map_that_is_there_is_not_made_again_until_something_changes(small):
     assert made(small).action == "done"
     assert made(small).action == "up-to-date"
-    assert made(small, Wanted(**(vars(FEW) | {"ramp": 1.0}))).action == "done"
+    assert made(small, Wanted(**(vars(FEW) | {"ramp": 1.0}))).because == "settings changed"
     small.edit('height = "456 mm"', 'height = "460 mm"')
-    assert made(small, Wanted(**(vars(FEW) | {"ramp": 1.0}))).action == "done"
+    assert made(small, Wanted(**(vars(FEW) | {"ramp": 1.0}))).because == "upstream changed"
 
 
 def test_a_campaign_that_was_never_run_takes_the_rigid_body_and_has_no_points(untouched):

@@ -31,8 +31,6 @@ FILES = (
     "processed/summary.json",
     "processed/summary.csv",
     "processed/catalogue.json",
-    "processed/raw-files.json",
-    "processed/report.key",
     "processed/.lock",
     "processed/.lock-holder.json",
     "processed/tests/pulse-01/rocking.nc",

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 HEADS = (
     *("specimen", "model", "e", "measured points"),
-    *("lower limit − measured", "upper limit − measured", "", "seconds"),
+    *("lower limit − measured", "upper limit − measured", "why", "seconds"),
 )
 
 
@@ -137,7 +137,7 @@ def _cells(made: MapMade) -> tuple[str, ...]:
     limits = (_misfit(made.lower), _misfit(made.upper))
     return (
         *(made.specimen, made.model, made.restitution_source, str(made.measured)),
-        *(*limits, made.action, f"{made.seconds:.1f}"),
+        *(*limits, made.because or "up to date", f"{made.seconds:.1f}"),
     )
 
 

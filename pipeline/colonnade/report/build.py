@@ -15,7 +15,7 @@ from colonnade.identification.response.rank import WITHIN
 from colonnade.identification.restitution.choice import RULE
 from colonnade.identification.restitution.estimators.registry import ESTIMATORS
 from colonnade.interruption import expect_none
-from colonnade.report import channels, methods, overview, pages, problems, specimens_page, tests_page
+from colonnade.report import addresses, channels, methods, overview, pages, problems, specimens_page, tests_page
 from colonnade.report.agreement import agreement
 from colonnade.report.channels import ChannelRow
 from colonnade.report.methods import Used
@@ -23,15 +23,12 @@ from colonnade.report.overview import SpanTest
 from colonnade.report.references import REFERENCES
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import FreeVibration, SpecimenPage
-from colonnade.store import files
+from colonnade.store import files, stamps
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 from colonnade.store.records.stored import Stored, read_specimen, read_test
 from colonnade.store.records.summary import read_summary, records_of_tests
 from colonnade.store.records.wording import quantity
-
-_HEAD = 1000
-"""Characters of a page within which it says what it was made from."""
 
 
 @dataclass
@@ -57,7 +54,7 @@ class Gathered:
             self.free_vibrations[test.specimen].append(specimens_page.free_vibration(row, stored, block))
 
 
-def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *, code: str = "") -> Path:
+def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *, code: str = "", key: str = "") -> Path:
     """
     Write the report of a campaign.
 
@@ -69,7 +66,9 @@ def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *,
     outdated : collection of str, optional
         Tests whose stored results are not of this campaign any more: they are pending, and not shown.
     code : str, optional
-        Hash of the program's sources. With it, pages of tests that would come out the same are not drawn again.
+        Hash of the code. With it, pages of tests that would come out the same are not drawn again.
+    key : str, optional
+        Hash of all that the report is made from, for the stamp of the pages that show several tests.
 
     Returns
     -------
@@ -84,10 +83,10 @@ def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *,
     """
     folder = layout.report.parent
     there = set()
-    for address, text in render(campaign, layout, outdated, code=code):
+    for address, text, made_from in render(campaign, layout, outdated, code=code):
         expect_none()
         if text is not None:
-            files.write_text(folder / address, text)
+            files.write_text(folder / address, stamps.stamped(text, made_from or key))
         there.add(folder / address)
     for stale in {*folder.glob("tests/*.html"), *folder.glob("specimens/*.html")} - there:
         files.remove(stale)
@@ -96,8 +95,19 @@ def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *,
 
 def render(
     campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *, code: str = ""
-) -> Iterator[tuple[str, str | None]]:
-    """Return each page's address within the report's folder and its text, None where it stands; the overview last."""
+) -> Iterator[tuple[str, str | None, str]]:
+    """
+    Render the pages, the overview last.
+
+    Yields
+    ------
+    address : str
+        Within the report's folder.
+    text : str or None
+        None if the page of a test is there already.
+    made_from : str
+        Of the page of a test: hash of what it shows.
+    """
     renderer = pages.Renderer(
         campaign=campaign,
         models=campaign.processing.predict.models,
@@ -113,14 +123,15 @@ def render(
         gathered.used.versions |= pooled.versions
         specimens.append(specimens_page.of_specimen(campaign, name, pooled, gathered.free_vibrations[name]))
         yield (
-            pages.of_specimen(name),
+            addresses.of_specimen(name),
             renderer.page(
                 "specimen",
-                pages.of_specimen(name),
+                addresses.of_specimen(name),
                 specimen=specimens[-1],
                 groups=[group for group in groups if group.specimen == name],
                 maps=[drawn for drawn in maps if drawn.specimen == name],
             ),
+            "",
         )
     shown = {
         "tests": gathered.rows,
@@ -140,8 +151,8 @@ def render(
         "within": f"{WITHIN:.0%}",
         "least_motion": LEAST_MOTION,
     }
-    for template, address in pages.WHOLE.items():
-        yield address, renderer.page(template, address, **shown)
+    for template, address in addresses.WHOLE.items():
+        yield address, renderer.page(template, address, **shown), ""
 
 
 def _warnings(tests: list[TestRow], specimens: list[SpecimenPage]) -> list[problems.WarningGroup]:
@@ -157,7 +168,7 @@ def _tests(
     outdated: Collection[str],
     code: str,
     gathered: Gathered,
-) -> Iterator[tuple[str, str | None]]:
+) -> Iterator[tuple[str, str | None, str]]:
     """Render the page of each test, unless its page says that it was made from the same."""
     ids = [None, *campaign.tests, None]
     elsewhere = campaign.wherever_it_lies()
@@ -166,13 +177,13 @@ def _tests(
         stored = read_test(campaign, layout, test, is_outdated=test.id in outdated)
         row = TestRow.of(campaign, test, records[test.id], stored)
         gathered.add(campaign, row, stored)
-        address = pages.of_test(test.id)
+        address = addresses.of_test(test.id)
         made_from = _made_from(elsewhere, row, stored, code, (before, after)) if code else ""
-        if made_from and made_from in _head(layout.report.parent / address):
-            yield address, None
+        if made_from and made_from == stamps.key_of(layout.report.parent / address):
+            yield address, None, made_from
             continue
         page = tests_page.of_test(campaign, row, stored)
-        yield address, renderer.page("test", address, test=page, before=before, after=after, made_from=made_from)
+        yield address, renderer.page("test", address, test=page, before=before, after=after), made_from
 
 
 def _made_from(
@@ -184,11 +195,3 @@ def _made_from(
     own = (test, campaign.specimens[test.specimen], campaign.review(test.id))
     found = stored.keys, row.failures, row.record, stored.raw_files
     return hash_of([code, repr((found, around, own, neighbours))])
-
-
-def _head(page: Path) -> str:
-    try:
-        with page.open(encoding="utf-8", errors="replace") as stream:
-            return stream.read(_HEAD)
-    except OSError:
-        return ""

@@ -6,8 +6,8 @@ from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from colonnade.campaign import Campaign
 from colonnade.campaign.settings import Setting
+from colonnade.report.addresses import of_specimen, of_test
 from colonnade.store.records import wording
 
 KINDS = {
@@ -20,30 +20,6 @@ KINDS = {
     "other": "Other tests",
 }
 """Kinds of test in words, in the order in which they stand."""
-
-WHOLE = {
-    "quality": "quality.html",
-    "problems": "problems.html",
-    "methods": "methods.html",
-    "overview": "index.html",
-}
-"""Pages about the whole campaign: template and address, the overview last, so that what it links to is there."""
-
-
-def of_test(test: str) -> str:
-    """Address of a test's page within the report; ids are safe as file names."""
-    return f"tests/{test}.html"
-
-
-def of_specimen(specimen: str) -> str:
-    """Address of a specimen's page within the report."""
-    return f"specimens/{specimen}.html"
-
-
-def addresses(campaign: Campaign) -> list[str]:
-    """Addresses of all pages of a campaign's report."""
-    tests, specimens = map(of_test, campaign.tests), map(of_specimen, campaign.specimens)
-    return [*tests, *specimens, *WHOLE.values()]
 
 
 class Renderer:

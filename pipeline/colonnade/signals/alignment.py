@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy import signal
 from scipy.interpolate import CubicSpline
 
 from colonnade.arrays import Array
@@ -124,6 +123,8 @@ def find_offset(reference: Array, values: Array, interval: float, *, longest: fl
     tell one period of a sine from the next. The standard error is that of a shift fitted by least squares. A steady
     sine that began before the records and outlasts them fits as well one period off: see `Offset.rival`.
     """
+    from scipy import signal  # a second that a run with nothing to do is spared
+
     first, second = reference - reference.mean(), values - values.mean()
     power = float(np.sqrt((first @ first) * (second @ second)))
     reach = min(int(np.ceil(longest / interval)), first.size - 2)

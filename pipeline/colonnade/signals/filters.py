@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import acosh
 
 import numpy as np
-from scipy import signal
 
 from colonnade.arrays import Array, Mask
 
@@ -61,6 +60,8 @@ def lowpass(values: Array, interval: float, cutoff_hz: float, order: int = 4) ->
     ValueError
         If the cut-off is not between zero and half the sampling rate.
     """
+    from scipy import signal  # a second that a run with nothing to do is spared
+
     sections, padding = lowpass_sections(values.shape[-1], interval, cutoff_hz, order)
     return np.asarray(signal.sosfiltfilt(sections, values, padlen=padding), dtype=np.float64)
 
@@ -74,6 +75,8 @@ def lowpass_sections(count: int, interval: float, cutoff_hz: float, order: int =
     ValueError
         As `lowpass`.
     """
+    from scipy import signal
+
     nyquist = 0.5 / interval
     if not 0 < cutoff_hz < nyquist:
         raise ValueError(

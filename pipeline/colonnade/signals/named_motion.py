@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
 
 from colonnade.arrays import Array
 from colonnade.findings import Finding, warning
@@ -161,6 +160,8 @@ def best_scale(record: Series, motion: Series) -> float:
 
 
 def _correlated(first: Series, second: Series) -> Match:
+    from scipy import signal  # a second that a run with nothing to do is spared
+
     one, other = first.acceleration, second.acceleration
     power = float(np.sqrt((one @ one) * (other @ other)))
     if not power > 0 or min(one.size, other.size) < FEWEST_SAMPLES:

@@ -62,7 +62,7 @@ def _expect_permit() -> None:
         expect_permit()
 
 
-def write(dataset: xr.Dataset, path: Path, *, attributes: Mapping[str, Any]) -> str:
+def write(dataset: xr.Dataset, path: Path, *, attributes: Mapping[str, Any]) -> xr.Dataset:
     """
     Store a stage's result.
 
@@ -77,8 +77,9 @@ def write(dataset: xr.Dataset, path: Path, *, attributes: Mapping[str, Any]) -> 
 
     Returns
     -------
-    content : str
-        Hash of the values and of the attributes that a later stage may read.
+    stored : xr.Dataset
+        With what `read` gives; its attribute `content` is the hash of the values, and of the attributes that a later
+        stage may read.
 
     Raises
     ------
@@ -90,10 +91,12 @@ def write(dataset: xr.Dataset, path: Path, *, attributes: Mapping[str, Any]) -> 
     for variable in described.variables.values():
         variable.attrs = storable(variable.attrs)
     if any(map(is_long, described.variables.values())):
-        return _put_long(path, described)
-    described.attrs["content"] = content = content_hash(described)
-    _put(path, _to_bytes(described, path))
-    return content
+        described.attrs["content"] = _put_long(path, described)
+    else:
+        described.attrs["content"] = content_hash(described)
+        _put(path, _to_bytes(described, path))
+    described.attrs = restored(described.attrs)
+    return described
 
 
 def write_failed(path: Path, reason: str, *, attributes: Mapping[str, Any]) -> None:

@@ -77,19 +77,9 @@ class Layout:
         return self.processed / "summary.csv"
 
     @property
-    def raw_index(self) -> Path:
-        """Size, time and SHA-256 of the raw files, as last seen."""
-        return self.processed / "raw-files.json"
-
-    @property
     def catalogue(self) -> Path:
-        """What the results say of themselves, as last seen."""
+        """What raw files, results and pages say of themselves, as last seen."""
         return self.processed / "catalogue.json"
-
-    @property
-    def report_key(self) -> Path:
-        """Hash of what the report shows, and how its pages were written."""
-        return self.processed / "report.key"
 
     @property
     def lock(self) -> Path:
@@ -105,13 +95,11 @@ class Layout:
         """Folder of a test's results."""
         return self.tests / test_id
 
-    def error_log(self, test_id: str) -> Path:
-        """Traceback of an internal error in a test."""
-        return self.test(test_id) / "error.log"
-
-    def specimen_error_log(self, specimen_id: str) -> Path:
-        """Traceback of an internal error in pooling a specimen."""
-        return self.processed / "specimens" / f"{specimen_id}.error.log"
+    def error_log(self, result: ResultId) -> Path:
+        """Traceback of an internal error in a test, or in what is made of a specimen."""
+        if result.is_of_specimen:
+            return self.processed / "specimens" / f"{result.subject}.error.log"
+        return self.test(result.subject) / "error.log"
 
     def path(self, result: ResultId) -> Path:
         """File of a result."""

@@ -6,17 +6,19 @@ import hashlib
 import json
 from collections.abc import Mapping
 from datetime import UTC, datetime, timedelta
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 import colonnade
 from colonnade.signals.parallel import side_by_side
-from colonnade.store.results import STAGES
+from colonnade.store.results import STAGES, ResultId
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from colonnade.campaign import Campaign
 
 CONVENTIONS = "CF-1.11, ACDD-1.3"
 LONG = 500_000
@@ -36,27 +38,28 @@ _CIRCUMSTANCES = frozenset(
 )
 
 
-def global_attributes(
-    *,
-    campaign: str,
-    title: str,
-    facility: str | None,
-    stage: str,
-    test: str | None = None,
-    specimen: str | None = None,
-    now: datetime | None = None,
-) -> dict[str, str]:
+class Origin(NamedTuple):
+    """What a file says of the campaign that it is of: id, title and, where it is known, the laboratory."""
+
+    campaign: str
+    title: str
+    facility: str | None
+
+    @classmethod
+    def of(cls, campaign: Campaign) -> Origin:
+        """Return what files say of a campaign."""
+        return cls(campaign.campaign, campaign.title, campaign.facility)
+
+
+def global_attributes(origin: Origin, result: ResultId, *, now: datetime | None = None) -> dict[str, str]:
     """
     Describe a file as CF and ACDD ask.
 
     Parameters
     ----------
-    campaign, title, facility : str
-        Id, title and laboratory of the campaign.
-    stage : str
-        Name of the stage that made the result.
-    test, specimen : str, optional
-        Id of what the result is of.
+    origin : Origin
+    result : ResultId
+        What the file holds.
     now : datetime, optional
         Instant of making; the present one by default.
 
@@ -66,23 +69,22 @@ def global_attributes(
         Global attributes; those that are not known are left out.
     """
     instant = (now or datetime.now(UTC)).astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
-    subject = test or specimen or campaign
+    subject, stage = result.subject, result.stage
     attributes = {
         "Conventions": CONVENTIONS,
-        "title": f"{title}: {subject}, {stage}",
+        "title": f"{origin.title}: {subject}, {stage}",
         "summary": STAGES[stage].summary,
         "keywords": KEYWORDS,
-        "id": "/".join((campaign, subject, stage)),
-        "institution": facility,
-        "project": campaign,
+        "id": "/".join((origin.campaign, subject, stage)),
+        "institution": origin.facility,
+        "project": origin.campaign,
         "processing_level": stage,
         "source": STAGES[stage].source,
         "history": f"{instant} colonnade {colonnade.__version__} {stage}",
         "date_created": instant,
         "colonnade_version": colonnade.__version__,
         "stage": stage,
-        "test": test,
-        "specimen": specimen,
+        "specimen" if result.is_of_specimen else "test": subject,
     }
     return {name: value for name, value in attributes.items() if value}
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,12 +14,13 @@ from colonnade.campaign.settings import ContactSettings
 from colonnade.errors import CampaignError, ColonnadeError, nearest
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.workflow.chain import advance
-from colonnade.workflow.execution.lock import expect_run, only_run
+from colonnade.workflow.catalogue import Catalogue, stored_attributes
+from colonnade.workflow.chain import Chain
+from colonnade.workflow.chain import walk as walk_chain
+from colonnade.workflow.execution.lock import only_run
 from colonnade.workflow.execution.spreading import spread
-from colonnade.workflow.freshness import stored_attributes
-from colonnade.workflow.pooling import pool
-from colonnade.workflow.steps import contact_step
+from colonnade.workflow.steps import Graph
+from colonnade.workflow.walk import Walk
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -75,11 +75,13 @@ class Calibrated:
 
 @dataclass(frozen=True)
 class _Task:
+    """A law to be found: through the store by a chain if the campaign's own settings ask for it, else only shown."""
+
     campaign: Campaign
     layout: Layout
-    run: str
     specimen: str
     settings: ContactSettings
+    chain: Chain | None
 
 
 def calibrate(
@@ -133,14 +135,17 @@ def calibrate(
             is_given = loaded.specimens[name].restitution is not None
             if not is_given and stored_attributes(layout.stage(name, "specimen")).get("status") != "done":
                 raise CampaignError(f"{name}: its restitution is not known yet. Run `colonnade identify` first.")
-        unpooled = {each.subject: each.reason for each in pool(loaded, layout, stored_attributes) if each.reason}
+        graph = Graph(loaded, layout, Catalogue(layout))
+        walk = Walk(graph, run, workers=1)
+        walk.pool()
         for name in chosen:
-            if name in unpooled:
-                raise CampaignError(f"{name}: {unpooled[name]}")
-        tasks = [
-            _Task(loaded, layout, run, name, own.model_copy(update={"mesh": mesh, "step": step}))
-            for name, mesh, step in product(chosen, meshes or (own.mesh,), steps or (own.step,))
-        ]
+            if name in walk.unknown:
+                raise CampaignError(f"{name}: {walk.unknown[name]}")
+        tasks = []
+        for name, mesh, step in product(chosen, meshes or (own.mesh,), steps or (own.step,)):
+            settings = own.model_copy(update={"mesh": mesh, "step": step})
+            chain = walk.chain([graph.calibrating(name)]) if settings == own else None
+            tasks.append(_Task(loaded, layout, name, settings, chain))
         found = dict(spread(_calibrated, list(enumerate(tasks)), workers=workers))
     return [found[number] for number in range(len(tasks))]
 
@@ -151,11 +156,9 @@ def _calibrated(numbered: tuple[int, _Task]) -> tuple[int, Calibrated]:
     campaign, layout = task.campaign, task.layout
     started = time.perf_counter()
     path = None
-    if task.settings == campaign.processing.predict.contact:
+    if task.chain is not None:
         path = layout.stage(task.specimen, "contact")
-        step = contact_step(campaign, layout, task.specimen)
-        with files.only_while(partial(expect_run, layout, task.run)):
-            done = advance(campaign, layout, task.specimen, step, redo_from=None, raw={})
+        [done] = walk_chain(task.chain)
         result, reason = (None, done.reason) if done.action == "failed" else (files.read(path), "")
     else:
         from colonnade.stages import contact

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from colonnade.campaign import Campaign
 from colonnade.findings import Finding, serious
+from colonnade.workflow.raw_files import sha256_of
 
 NAMED = 3
 """Copies that are named."""
@@ -58,17 +58,9 @@ def digests_of_equal_sizes(campaign: Campaign) -> Digests:
                 names[path] = path.stat().st_size
     sizes = list(names.values())
     alike = {path for path, size in names.items() if size and sizes.count(size) > 1}
-    hashed = {path: _digest(path) for path in alike}
+    hashed = {path: sha256_of(path) for path in alike}
     return {
         name: {path.relative_to(campaign.folder).as_posix(): hashed.get(path) for path in test.files.values()}
         for name, test in campaign.tests.items()
         if not campaign.review(name).excluded
     }
-
-
-def _digest(path: Path) -> str | None:
-    try:
-        with path.open("rb") as stream:
-            return hashlib.file_digest(stream, "sha256").hexdigest()
-    except OSError:
-        return None  # told where it is read

@@ -12,13 +12,13 @@ import numpy as np
 from colonnade.campaign import Campaign
 from colonnade.campaign.syntax.bounds import MAP_RATIO, MOST_CYCLES, MOST_POINTS, outside
 from colonnade.dynamics.block import Sided
+from colonnade.dynamics.models.registry import MODELS
 from colonnade.errors import CampaignError, StoreError, nearest
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import map_points, read_summary
 from colonnade.workflow.pooling import restitution_taken
-from colonnade.workflow.steps import CONTACT
 
 if TYPE_CHECKING:
     from colonnade.dynamics.maps.plan import MapPlan
@@ -115,8 +115,8 @@ def plan_of(
     motion, frequency = (None, None) if wanted.motion is None else _recorded(campaign, layout, wanted.motion)
     omegas = wanted.frequency_ratio or _around([point.frequency_ratio for point in points], USUAL_FREQUENCIES)
     largest = max((1.2 * point.amplitude_ratio for point in points), default=0.0)
-    space = _space(campaign, layout, specimen) if model == CONTACT else None
-    with_space = CONTACT in wanted.models
+    space = _space(campaign, layout, specimen) if MODELS[model].in_space else None
+    with_space = any(MODELS[name].in_space for name in wanted.models)
     usual = LARGEST_AMPLITUDE_IN_SPACE if with_space else USUAL_AMPLITUDE
     amplitudes = wanted.amplitude_ratio or (LOWEST_AMPLITUDE, max(usual, float(np.ceil(largest * 2) / 2)))
     in_space = wanted.points or USUAL_POINTS_IN_SPACE

@@ -18,12 +18,11 @@ from colonnade.errors import CampaignError, nearest
 from colonnade.identification.response.boundaries import MapPoint, Misfit, bracket_boundaries, limit_misfit
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.store.provenance import global_attributes, hash_of
 from colonnade.store.results import ResultId
-from colonnade.workflow.execution.blocks import Counted, Spread, blocks_of, forget, in_blocks
+from colonnade.workflow.execution.blocks import Counted, Spread, blocks_of, in_blocks
 from colonnade.workflow.execution.lock import only_run
-from colonnade.workflow.freshness import source_hash, stored_attributes
 from colonnade.workflow.map_plans import Wanted, measured_points, plan_of, restitution_of
+from colonnade.workflow.map_results import bring_up_to_date
 from colonnade.workflow.responses import make_responses
 
 if TYPE_CHECKING:
@@ -53,7 +52,9 @@ class MapMade:
     lower, upper : Misfit or None
         How far its limits lie from the measured boundary of overturning; None where that was not bracketed.
     action : str
-        done, or up-to-date where it was there already.
+        done, or up-to-date if it and its responses were there already.
+    because : str
+        Why they were made, as of a `StageRun`; empty if they were not.
     seconds : float
     """
 
@@ -69,6 +70,7 @@ class MapMade:
     lower: Misfit | None
     upper: Misfit | None
     action: str
+    because: str
     seconds: float
 
 
@@ -148,48 +150,32 @@ def _make(
     started = time.perf_counter()
     restitution, source = restitution_of(campaign, layout, specimen)
     plan = plan_of(campaign, layout, specimen, wanted, model, restitution, points)
-    key = hash_of({"code": source_hash(), "plan": _record(plan)})
-    of = ResultId(specimen, "map", model)
-    path, figure = layout.path(of), layout.figure(of)
-    is_new = stored_attributes(path).get("key") != key
-    if is_new:
-        blocks = layout.blocks(of)
-        chart = _chart(plan, blocks, key, spread)
-        attributes: dict[str, Any] = dict(
-            global_attributes(
-                campaign=campaign.campaign,
-                title=campaign.title,
-                facility=campaign.facility,
-                stage="map",
-                specimen=specimen,
-            )
-        )
-        attributes |= {"key": key, "settings": json.dumps(plan.options), "restitution_source": source}
-        files.write(as_dataset(chart), path, attributes=attributes)
-        forget(blocks)
-    _draw([files.read(path)], points, figure, specimen)
+    result = ResultId(specimen, "map", model)
+    make = partial(_chart, plan, spread)
+    stored, because = bring_up_to_date(campaign, layout, result, plan, plan.options, source, make)
+    _draw([stored], points, layout.figure(result), specimen)
     responses = responses_figure = None
     if wanted.responses:
         steady = ResultId(specimen, "responses", model)
         responses, responses_figure = layout.path(steady), layout.figure(steady)
-        is_new |= make_responses(campaign, layout, specimen, plan, points, source, spread)
-    boundaries, stored = bracket_boundaries(points), as_map(files.read(path))
-    lower, upper = (limit_misfit(boundaries, stored.frequency_ratio, limit) for limit in (stored.lower, stored.upper))
-    action, seconds = "done" if is_new else "up-to-date", time.perf_counter() - started
+        because = make_responses(campaign, layout, specimen, plan, points, source, spread) or because
+    boundaries, chart = bracket_boundaries(points), as_map(stored)
+    lower, upper = (limit_misfit(boundaries, chart.frequency_ratio, limit) for limit in (chart.lower, chart.upper))
     return MapMade(
         specimen=specimen,
         model=model,
         restitution_source=source,
-        path=path,
-        figure=figure,
+        path=layout.path(result),
+        figure=layout.figure(result),
         together=together,
         responses=responses,
         responses_figure=responses_figure,
         measured=len(points),
         lower=lower,
         upper=upper,
-        action=action,
-        seconds=seconds,
+        action="done" if because else "up-to-date",
+        because=because,
+        seconds=time.perf_counter() - started,
     )
 
 
@@ -233,7 +219,7 @@ def as_map(stored: xr.Dataset) -> StabilityMap:
     )
 
 
-def _chart(plan: MapPlan, folder: Path, key: str, spread: Spread) -> StabilityMap:
+def _chart(plan: MapPlan, spread: Spread, folder: Path, key: str) -> xr.Dataset:
     from colonnade.dynamics.maps.chart import assemble
     from colonnade.dynamics.maps.column import MapColumn
 
@@ -247,7 +233,7 @@ def _chart(plan: MapPlan, folder: Path, key: str, spread: Spread) -> StabilityMa
                 arrays["outcome"], arrays["fraction"], arrays["lower"], arrays["upper"], intervals, strict=True
             )
         ]
-    return assemble(plan, columns)
+    return as_dataset(assemble(plan, columns))
 
 
 def _columns(plan: MapPlan, indices: range) -> dict[str, NDArray[Any]]:
@@ -263,13 +249,6 @@ def _columns(plan: MapPlan, indices: range) -> dict[str, NDArray[Any]]:
         "intervals": np.concatenate([column.intervals for column in columns]),
         "intervals_of_column": np.array([len(column.intervals) for column in columns]),
     }
-
-
-def _record(plan: MapPlan) -> dict[str, Any]:
-    """All that a map follows from, as JSON can hold it."""
-    motion = None if plan.motion is None else [plan.motion.dt, plan.motion.acceleration.tolist()]
-    axes = [plan.frequency_ratio.tolist(), plan.amplitude_ratio.tolist()]
-    return {"block": repr(plan.block), "axes": axes, "options": plan.options, "motion": motion}
 
 
 def _draw(stored: Sequence[xr.Dataset], points: Sequence[MapPoint], path: Path, specimen: str) -> None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,10 +14,9 @@ from colonnade.campaign import Campaign
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.store.provenance import global_attributes, hash_of
 from colonnade.store.results import ResultId
-from colonnade.workflow.execution.blocks import Spread, blocks_of, forget
-from colonnade.workflow.freshness import source_hash, stored_attributes
+from colonnade.workflow.execution.blocks import Spread, blocks_of
+from colonnade.workflow.map_results import bring_up_to_date
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -37,7 +36,7 @@ def make_responses(
     points: Sequence[MapPoint],
     restitution_source: str,
     spread: Spread,
-) -> bool:
+) -> str:
     """
     Make the steady responses of a specimen, where they are not there yet, and draw them.
 
@@ -55,38 +54,19 @@ def make_responses(
 
     Returns
     -------
-    made : bool
-        Whether they were made anew.
+    because : str
+        Why they were made; empty if they were up to date.
 
     Raises
     ------
     StoreError
         If they cannot be written.
     """
-    settings = _settings(plan)
-    axes = [plan.frequency_ratio.tolist(), plan.amplitude_ratio.tolist()]
-    known = {"block": repr(plan.block), "axes": axes, "settings": settings}
-    key = hash_of({"code": source_hash(), "responses": known})
-    of = ResultId(specimen, "responses", plan.model)
-    path = layout.path(of)
-    is_new = stored_attributes(path).get("key") != key
-    if is_new:
-        blocks = layout.blocks(of)
-        parts = spread(partial(_columns, plan), blocks_of(plan.frequency_ratio.size), blocks, key)
-        attributes: dict[str, Any] = dict(
-            global_attributes(
-                campaign=campaign.campaign,
-                title=campaign.title,
-                facility=campaign.facility,
-                stage="responses",
-                specimen=specimen,
-            )
-        )
-        attributes |= {"key": key, "settings": json.dumps(settings), "restitution_source": restitution_source}
-        files.write(_as_dataset(plan, parts), path, attributes=attributes)
-        forget(blocks)
-    _draw(as_response(files.read(path)), plan, points, layout, specimen)
-    return is_new
+    result = ResultId(specimen, "responses", plan.model)
+    make = partial(_responses, plan, spread)
+    stored, because = bring_up_to_date(campaign, layout, result, plan, _settings(plan), restitution_source, make)
+    _draw(as_response(stored), plan, points, layout, specimen)
+    return because
 
 
 def as_response(stored: xr.Dataset) -> SteadyResponse:
@@ -129,9 +109,10 @@ def _columns(plan: MapPlan, indices: range) -> dict[str, NDArray[Any]]:
     return {"order": response.order, "period": response.period, "amplitude": response.amplitude}
 
 
-def _as_dataset(plan: MapPlan, parts: Sequence[dict[str, NDArray[Any]]]) -> xr.Dataset:
+def _responses(plan: MapPlan, spread: Spread, folder: Path, key: str) -> xr.Dataset:
     import xarray as xr
 
+    parts = spread(partial(_columns, plan), blocks_of(plan.frequency_ratio.size), folder, key)
     cells = ("frequency_ratio", "amplitude_ratio")
     order, period, amplitude = (np.concatenate([part[name] for part in parts]) for name in parts[0])
     return xr.Dataset(

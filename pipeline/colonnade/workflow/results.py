@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from colonnade.findings import Finding, Severity, in_order
+from colonnade.store.results import ResultId
 
 Action = Literal["done", "up-to-date", "failed"]
 
@@ -47,9 +48,14 @@ class StageRun:
     findings: tuple[Finding, ...] = ()
 
     @property
+    def is_of_specimen(self) -> bool:
+        """Whether it is about a specimen rather than a test."""
+        return ResultId(self.subject, self.stage, self.model).is_of_specimen
+
+    @property
     def told_of(self) -> str:
         """Whom its findings are about: a test's id, or a specimen's after that word."""
-        return f"specimen {self.subject}" if self.stage in ("specimen", "contact") else self.subject
+        return f"specimen {self.subject}" if self.is_of_specimen else self.subject
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The table of stages: what each reads, where it writes, and the function that does it."""
+"""The graph of results: what each one reads, the file that it is kept in, and the function that makes it."""
 
 from __future__ import annotations
 
@@ -9,225 +9,229 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from colonnade.campaign import Campaign, Test
+from colonnade.dynamics.models.registry import MODELS
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId, models_of
+from colonnade.workflow.catalogue import Catalogue
 
 if TYPE_CHECKING:
     import xarray as xr
+    from pydantic import BaseModel
 
-_ENSEMBLE = "ensemble "
-"""What the name of an ensemble begins with among the results that `compare` reads."""
-
-CONTACT = "contact"
-"""The model that needs a law of contact."""
+COMPARED = {"predict": "predicted", "ensemble": "ensembles"}
+"""Stages whose results `compare` takes by model, and as what."""
 
 
 @dataclass(frozen=True)
 class Step:
     """
-    One stage of one test.
+    How one result is made.
 
     Attributes
     ----------
-    stage : str
-        One of `STAGES`, "specimen" or "contact".
+    result : ResultId
     path : Path
-        Of the result.
+        Of its file.
     upstream : dict of str to Path
         Results that it reads, by name; of ingest, raw files by recorder.
-    instructions : Any
+    inputs : BaseModel
         The stage's own model of what it reads of the campaign.
     work : callable
-        Takes the upstream results and the instructions, returns the result.
-    model : str or None
-        Of a prediction.
+        Takes the upstream results by name and the inputs, returns the result.
+    code : str
+        Hash of the code that it is made by.
     """
 
-    stage: str
+    result: ResultId
     path: Path
     upstream: dict[str, Path]
-    instructions: Any
+    inputs: BaseModel
     work: Callable[[Mapping[str, Any], Any], xr.Dataset]
-    model: str | None = None
-
-    @property
-    def order(self) -> int:
-        """Place of its stage in `STAGES`; a specimen's own come with the stages of its tests that they serve."""
-        return ResultId("", self.stage).order
-
-    @property
-    def is_of_specimen(self) -> bool:
-        """Whether it is about a specimen rather than a test."""
-        return self.stage in ("specimen", "contact")
+    code: str
 
     @property
     def is_from_raw(self) -> bool:
         """Whether it reads raw files rather than results."""
-        return self.stage == "ingest"
+        return self.result.stage == "ingest"
 
 
-def measuring_steps(campaign: Campaign, layout: Layout, test: Test) -> list[Step]:
-    """Steps from the raw files to what was measured."""
-    from colonnade.stages import condition, ingest, restitution, rocking
+@dataclass(frozen=True)
+class Graph:
+    """
+    The steps of a campaign.
 
-    recorded, conditioned, angle = (layout.stage(test.id, stage) for stage in ("ingest", "condition", "rocking"))
-    steps = [
-        Step(
-            "ingest",
-            recorded,
-            dict(test.files),
-            ingest.IngestInputs.of(campaign, test),
-            partial(_ingest, campaign.folder),
-        ),
-        Step(
-            "condition",
-            conditioned,
-            {"recorded": recorded},
-            condition.ConditionInputs.of(campaign, test),
-            lambda upstream, read: condition.condition(upstream["recorded"], read),
-        ),
-        Step(
-            "rocking",
-            angle,
-            {"conditioned": conditioned},
-            rocking.RockingInputs.of(campaign, test),
-            lambda upstream, read: rocking.rocking(upstream["conditioned"], read),
-        ),
-    ]
-    if test.kind == "free-vibration":
+    Attributes
+    ----------
+    campaign : Campaign
+    layout : Layout
+    catalogue : Catalogue
+        Knows the hash of the code.
+    """
+
+    campaign: Campaign
+    layout: Layout
+    catalogue: Catalogue
+
+    def measuring(self, test: Test) -> list[Step]:
+        """Return the steps from the raw files of a test to what was measured."""
+        from colonnade.stages import condition, ingest, restitution, rocking
+
+        steps = [
+            self._step(
+                ResultId(test.id, "ingest"),
+                test.files,
+                ingest.IngestInputs.of(self.campaign, test),
+                partial(_ingest, self.campaign.folder),
+                ("colonnade.stages.ingest", "colonnade.readers"),
+            ),
+            self._step(
+                ResultId(test.id, "condition"),
+                {"recorded": self._of(test.id, "ingest")},
+                condition.ConditionInputs.of(self.campaign, test),
+                condition.condition,
+            ),
+            self._step(
+                ResultId(test.id, "rocking"),
+                {"conditioned": self._of(test.id, "condition")},
+                rocking.RockingInputs.of(self.campaign, test),
+                rocking.rocking,
+            ),
+        ]
+        if test.kind == "free-vibration":
+            steps.append(
+                self._step(
+                    ResultId(test.id, "restitution"),
+                    {"rocking": self._of(test.id, "rocking")},
+                    restitution.RestitutionInputs.of(self.campaign, test),
+                    restitution.restitution,
+                )
+            )
+        return steps
+
+    def pooling(self, specimen_id: str, identified: Mapping[str, Path]) -> Step:
+        """Return the step that pools the free vibrations of a specimen, given their results by test."""
+        from colonnade.stages import specimen
+
+        return self._step(
+            ResultId(specimen_id, "specimen"),
+            identified,
+            specimen.SpecimenInputs.of(self.campaign, specimen_id),
+            partial(_mapped, specimen.specimen),
+            ("colonnade.stages.specimen",),
+        )
+
+    def calibrating(self, specimen_id: str) -> Step:
+        """Return the step that finds the law of contact with which a specimen has its restitution."""
+        from colonnade.stages import contact
+
+        return self._step(
+            ResultId(specimen_id, "contact"),
+            {"specimen": self._of(specimen_id, "specimen")},
+            contact.ContactInputs.of(self.campaign, specimen_id),
+            contact.contact,
+        )
+
+    def predicting(self, test: Test) -> list[Step]:
+        """Return the steps from what was measured in a test to how far predictions agree."""
+        from colonnade.stages import compare, predict
+
+        models = models_of(self.campaign, test)
+        steps = [
+            self._step(
+                ResultId(test.id, "predict", model),
+                {
+                    "rocking": self._of(test.id, "rocking"),
+                    "specimen": self._of(test.specimen, "specimen"),
+                    **self._law(test, model),
+                    **self._identified(test),
+                },
+                predict.PredictInputs.of(self.campaign, test, model),
+                predict.predict,
+            )
+            for model in models
+        ]
+        steps += [
+            self._repeating(test, model) for model in models if self.campaign.processing.predict.members(model) > 0
+        ]
+        compared = {str(step.result): step.path for step in steps}
         steps.append(
-            Step(
-                "restitution",
-                layout.stage(test.id, "restitution"),
-                {"rocking": angle},
-                restitution.RestitutionInputs.of(campaign, test),
-                lambda upstream, read: restitution.restitution(upstream["rocking"], read),
+            self._step(
+                ResultId(test.id, "compare"),
+                {"rocking": self._of(test.id, "rocking")} | compared,
+                compare.CompareInputs.of(self.campaign, test),
+                _compare,
+                ("colonnade.stages.compare",),
             )
         )
-    return steps
+        return steps
+
+    def _repeating(self, test: Test, model: str) -> Step:
+        """Return the step that repeats the prediction of a model over what is not exactly known."""
+        from colonnade.stages import contact_ensemble, ensemble
+
+        result, law = ResultId(test.id, "ensemble", model), self._law(test, model)
+        upstream = {"conditioned": self._of(test.id, "condition"), "rocking": self._of(test.id, "rocking")}
+        upstream |= (law or {"specimen": self._of(test.specimen, "specimen")}) | self._identified(test)
+        if law:
+            inputs = contact_ensemble.ContactEnsembleInputs.of(self.campaign, test)
+            return self._step(result, upstream, inputs, contact_ensemble.contact_ensemble)
+        return self._step(result, upstream, ensemble.EnsembleInputs.of(self.campaign, test, model), ensemble.ensemble)
+
+    def _law(self, test: Test, model: str) -> dict[str, Path]:
+        """Return the law of contact of a model that needs one."""
+        return {"contact": self._of(test.specimen, "contact")} if MODELS[model].in_space else {}
+
+    def _identified(self, test: Test) -> dict[str, Path]:
+        """Return what a free vibration itself gave: the zero of its angle."""
+        return {"identified": self._of(test.id, "restitution")} if test.kind == "free-vibration" else {}
+
+    def _of(self, subject: str, stage: str) -> Path:
+        return self.layout.stage(subject, stage)
+
+    def _step(
+        self,
+        result: ResultId,
+        upstream: Mapping[str, Path],
+        inputs: BaseModel,
+        function: Callable[..., xr.Dataset],
+        made_by: tuple[str, ...] = (),
+    ) -> Step:
+        """Return the step of a stage's function, which takes the upstream results by their names unless `made_by`."""
+        work = function if made_by else partial(_by_name, function)
+        code = self.catalogue.code((*(made_by or (function.__module__,)), *_BESIDE_ALL), result.model)
+        return Step(result, self.layout.path(result), dict(upstream), inputs, work, code)
 
 
-def specimen_step(campaign: Campaign, layout: Layout, specimen_id: str, identified: Mapping[str, Path]) -> Step:
-    """Step that pools the free vibrations of a specimen, given their results by test."""
-    from colonnade.stages import specimen
-
-    path = layout.stage(specimen_id, "specimen")
-    read = specimen.SpecimenInputs.of(campaign, specimen_id)
-    return Step("specimen", path, dict(identified), read, specimen.specimen)
+_BESIDE_ALL = ("colonnade.store.description", "colonnade.store.variables", __name__)
+"""Modules that every result goes through."""
 
 
-def contact_step(campaign: Campaign, layout: Layout, specimen_id: str) -> Step:
-    """Step that finds the law of contact with which a specimen has its restitution."""
-    from colonnade.stages import contact
-
-    return Step(
-        CONTACT,
-        layout.stage(specimen_id, "contact"),
-        {"specimen": layout.stage(specimen_id, "specimen")},
-        contact.ContactInputs.of(campaign, specimen_id),
-        lambda upstream, read: contact.contact(upstream["specimen"], read),
-    )
+def _by_name(function: Callable[..., xr.Dataset], upstream: Mapping[str, Any], inputs: Any) -> xr.Dataset:
+    return function(inputs=inputs, **upstream)
 
 
-def predicting_steps(campaign: Campaign, layout: Layout, test: Test) -> list[Step]:
-    """Steps from what was measured to how far predictions agree."""
-    from colonnade.stages import compare, predict
-
-    rocking, specimen = layout.stage(test.id, "rocking"), layout.stage(test.specimen, "specimen")
-    models = models_of(campaign, test)
-    predicted = {model: layout.stage(test.id, "predict", model) for model in models}
-    steps = [
-        Step(
-            "predict",
-            path,
-            {"rocking": rocking, "specimen": specimen}
-            | _identified(layout, test)
-            | ({CONTACT: layout.stage(test.specimen, "contact")} if model == CONTACT else {}),
-            predict.PredictInputs.of(campaign, test, model),
-            lambda upstream, read: predict.predict(
-                upstream["rocking"], upstream["specimen"], read, upstream.get(CONTACT), upstream.get("restitution")
-            ),
-            model,
-        )
-        for model, path in predicted.items()
-    ]
-    ensembles = [
-        _ensemble(campaign, layout, test, model) for model in models if campaign.processing.predict.members(model) > 0
-    ]
-    spread = {step.model: step.path for step in ensembles}
-    steps += ensembles
-    steps.append(
-        Step(
-            "compare",
-            layout.stage(test.id, "compare"),
-            {"rocking": rocking, **predicted, **{f"{_ENSEMBLE}{model}": path for model, path in spread.items()}},
-            compare.CompareInputs.of(campaign, test),
-            _compare,
-        )
-    )
-    return steps
+def _mapped(function: Callable[..., xr.Dataset], upstream: Mapping[str, Any], inputs: Any) -> xr.Dataset:
+    return function(upstream, inputs)
 
 
-def _ensemble(campaign: Campaign, layout: Layout, test: Test, model: str) -> Step:
-    """Step that repeats the prediction of a model over what is not exactly known."""
-    from colonnade.stages import contact_ensemble, ensemble
-
-    path, rocking = layout.stage(test.id, "ensemble", model), layout.stage(test.id, "rocking")
-    if model == CONTACT:
-        return Step(
-            "ensemble",
-            path,
-            {
-                "conditioned": layout.stage(test.id, "condition"),
-                "rocking": rocking,
-                CONTACT: layout.stage(test.specimen, "contact"),
-            }
-            | _identified(layout, test),
-            contact_ensemble.ContactEnsembleInputs.of(campaign, test),
-            lambda upstream, read: contact_ensemble.contact_ensemble(
-                upstream["conditioned"], upstream["rocking"], upstream[CONTACT], read, upstream.get("restitution")
-            ),
-            model,
-        )
-    return Step(
-        "ensemble",
-        path,
-        {
-            "conditioned": layout.stage(test.id, "condition"),
-            "rocking": rocking,
-            "specimen": layout.stage(test.specimen, "specimen"),
-        }
-        | _identified(layout, test),
-        ensemble.EnsembleInputs.of(campaign, test, model),
-        lambda upstream, read: ensemble.ensemble(
-            upstream["conditioned"], upstream["rocking"], upstream["specimen"], read, upstream.get("restitution")
-        ),
-        model,
-    )
-
-
-def _identified(layout: Layout, test: Test) -> dict[str, Path]:
-    """What the free vibration itself gave: the zero of its angle."""
-    return {"restitution": layout.stage(test.id, "restitution")} if test.kind == "free-vibration" else {}
-
-
-def _compare(upstream: Mapping[str, Any], read: Any) -> xr.Dataset:
+def _compare(upstream: Mapping[str, Any], inputs: Any) -> xr.Dataset:
     from colonnade.stages.compare import compare
 
-    results = {name: each for name, each in upstream.items() if name != "rocking"}
-    ensembles = {name: each for name, each in results.items() if name.startswith(_ENSEMBLE)}
-    predicted = {name: each for name, each in results.items() if name not in ensembles}
-    by_model = {name.removeprefix(_ENSEMBLE): each for name, each in ensembles.items()}
-    return compare(upstream["rocking"], predicted, read, by_model)
+    by_model: dict[str, dict[str, xr.Dataset]] = {stage: {} for stage in COMPARED}
+    for name, result in upstream.items():
+        stage, _, model = name.partition(" ")
+        if stage in by_model:
+            by_model[stage][model] = result
+    return compare(upstream["rocking"], inputs=inputs, **{COMPARED[stage]: each for stage, each in by_model.items()})
 
 
-def _ingest(folder: Path, paths: Mapping[str, Path], read: Any) -> xr.Dataset:
-    from colonnade.readers.registry import read as read_recording
+def _ingest(folder: Path, paths: Mapping[str, Path], inputs: Any) -> xr.Dataset:
+    from colonnade.readers.registry import read
     from colonnade.stages.ingest import ingest
 
     recordings = {}
     for recorder, path in paths.items():
-        how = read.files[recorder]
-        window = read.wanted(recorder)
-        recordings[recorder] = read_recording(path, how["format"], how["options"], window=window, within=folder)
-    return ingest(recordings, read)
+        how = inputs.files[recorder]
+        window = inputs.wanted(recorder)
+        recordings[recorder] = read(path, how["format"], how["options"], window=window, within=folder)
+    return ingest(recordings, inputs)

@@ -15,8 +15,10 @@ from colonnade.store.records.table import as_csv
 from colonnade.store.records.test import record_of_test
 from colonnade.store.results import results_of
 from colonnade.workflow.catalogue import Catalogue
-from colonnade.workflow.freshness import source_hash
 from colonnade.workflow.pooling import restitution_taken
+
+MADE_BY = ("colonnade.store", "colonnade.identification")
+"""What records are made by."""
 
 
 def write_summary(
@@ -76,7 +78,7 @@ def _remembered(
     paths = [layout.path(result) for result in results_of(campaign, test)]
     entry = [repr(test), repr(campaign.specimens[test.specimen]), campaign.gravity, campaign.review(test.id).excluded]
     entry.append(repr(campaign.concerning(test.id)))
-    signature = catalogue.signature(paths, *entry, is_outdated, failure, source_hash())
+    signature = catalogue.signature(paths, *entry, is_outdated, failure, catalogue.code(MADE_BY))
     known = catalogue.record(test.id, signature)
     if known is not None:
         return TestSummary.model_validate_json(known)

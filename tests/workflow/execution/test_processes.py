@@ -64,7 +64,7 @@ def killer(monkeypatch):
         def in_worker(numbered):
             marks = [folder / f"{turn}.killed" for turn in range(times)]
             left = [mark for mark in marks if not mark.exists()]
-            if numbered[1].test == test and left:
+            if numbered[1].subject == test and left:
                 left[0].touch()
                 os.kill(os.getpid(), signal.SIGKILL)
             return real(numbered)

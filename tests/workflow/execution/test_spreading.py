@@ -21,14 +21,17 @@ from colonnade.dynamics.ensembles.uncertainty import Uncertainty
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import ColonnadeError, RunEndedError
 from colonnade.store import files
-from colonnade.workflow.chain import Chain, walk
+from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.chain import walk
 from colonnade.workflow.execution.ensembles import run_ensemble
 from colonnade.workflow.execution.lock import expect_run, only_run
 from colonnade.workflow.execution.processes import execute
 from colonnade.workflow.execution.spreading import spread
-from colonnade.workflow.freshness import RawIndex
 from colonnade.workflow.map_plans import Wanted
 from colonnade.workflow.maps import make_maps
+from colonnade.workflow.raw_files import raw_files
+from colonnade.workflow.steps import Graph
+from colonnade.workflow.walk import Walk
 
 distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
 
@@ -144,7 +147,7 @@ def test_an_error_on_a_worker_is_told_as_here(cluster):
 
 
 def test_workers_with_other_code_are_refused(cluster, monkeypatch):
-    monkeypatch.setattr("colonnade.workflow.execution.cluster.source_hash", lambda: "another")
+    monkeypatch.setattr("colonnade.workflow.execution.cluster.package_hash", lambda: "another")
     with pytest.raises(ColonnadeError, match="another version of colonnade"):
         list(spread(whose, [1], scheduler=cluster))
 
@@ -155,11 +158,16 @@ def test_a_campaign_run_on_the_cluster_is_that_of_one_process(cluster, untouched
     assert untouched.summary() == undisturbed.summary()
 
 
+def ingesting(small, run):
+    """Return the chain that only ingests a test."""
+    campaign, catalogue = load(small.folder), Catalogue(small.layout)
+    test, graph = campaign.tests["pulse-01"], Graph(campaign, small.layout, catalogue)
+    walk = Walk(graph, run, {test.id: raw_files(campaign, test, catalogue)})
+    return walk.chain(graph.measuring(test)[:1])
+
+
 def test_workers_that_do_not_see_the_campaign_are_told(cluster, untouched):
-    campaign = replace(load(untouched.folder), path=untouched.folder / "elsewhere.toml")
-    elsewhere = Chain.of(
-        campaign, untouched.layout, "pulse-01", phase="measuring", until="ingest", run="", redo_from=None, raw={}
-    )
+    elsewhere = replace(ingesting(untouched, "this one"), campaign_file=untouched.folder / "elsewhere.toml")
     with pytest.raises(ColonnadeError, match="does not see this file"):
         list(execute([elsewhere], None, cluster))
 
@@ -230,17 +238,10 @@ def test_a_cluster_whose_workers_all_end_is_told_and_not_waited_for(soon):
 
 
 def test_a_worker_that_outlives_its_run_writes_nothing(untouched, undisturbed):
-    def chain(run):
-        campaign, raw = load(untouched.folder), RawIndex(untouched.layout, verify=True)
-        test = campaign.tests["pulse-01"]
-        files_of = [(path, campaign.setups[test.setup].recorders[name].file) for name, path in test.files.items()]
-        options = {"phase": "measuring", "until": "ingest", "redo_from": None, "raw": raw.look(files_of)}
-        return Chain.of(campaign, untouched.layout, "pulse-01", run=run, **options)
-
     with pytest.raises(RunEndedError):
-        walk(chain("before this one"))
+        walk(ingesting(untouched, "before this one"))
     with only_run(untouched.layout) as run:
-        late = chain(run)
+        late = ingesting(untouched, run)
         assert [stage.action for stage in walk(late)] == ["done"]
     path = untouched.layout.stage("pulse-01", "ingest")
     with files.only_while(lambda: expect_run(untouched.layout, run)):

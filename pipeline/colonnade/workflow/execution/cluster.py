@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 
 from colonnade.errors import ColonnadeError
 from colonnade.interruption import expect_none
-from colonnade.workflow.freshness import source_hash
+from colonnade.sources import package_hash
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -188,7 +188,7 @@ def _expect_workers(client: Any, scheduler: str, distributed: Any) -> dict[str, 
             f"{scheduler}: its workers cannot import colonnade ({type(error).__name__}: {error}). Install this version "
             "of colonnade, with the same packages, where they run."
         ) from error
-    others = sorted(worker for worker, (code, _) in theirs.items() if code != source_hash())
+    others = sorted(worker for worker, (code, _) in theirs.items() if code != package_hash())
     if others:
         raise ColonnadeError(
             f"{scheduler}: {len(others)} of {len(theirs)} workers run another version of colonnade, the first of them "
@@ -199,7 +199,7 @@ def _expect_workers(client: Any, scheduler: str, distributed: Any) -> dict[str, 
 
 def _who() -> tuple[str, str]:
     """Return the hash of the sources that a worker runs, and which process it is."""
-    return source_hash(), f"process {os.getpid()} on {platform.node()}"
+    return package_hash(), f"process {os.getpid()} on {platform.node()}"
 
 
 def _on_worker(work: Callable[[Item], Result], item: Item) -> Result:

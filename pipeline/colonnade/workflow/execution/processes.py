@@ -68,9 +68,10 @@ def execute(
                 yield runs
         except BrokenProcessPool as error:
             suspects = list(waiting)[: AHEAD * count]
+            names = ", ".join(waiting[number].subject for number in suspects)
             tell(
                 f"{stopped(error)} by the system, most often because memory ran out. One of these tests was being "
-                f"worked on, and each was tried again alone: {', '.join(waiting[number].test for number in suspects)}."
+                f"worked on, and each was tried again alone: {names}."
             )
             for number in suspects:
                 chain = waiting.pop(number)
@@ -91,9 +92,9 @@ def _in_worker(numbered: tuple[int, Chain]) -> tuple[int, list[StageRun]]:
 
 def _walk_there(chain: Chain) -> list[StageRun]:
     """Walk a chain on a worker of a cluster, which has to see the campaign's folder."""
-    if not chain.campaign.path.is_file():
+    if not chain.campaign_file.is_file():
         raise ColonnadeError(
-            f"{chain.campaign.path}: a worker on {platform.node()} does not see this file. A folder that all of the "
+            f"{chain.campaign_file}: a worker on {platform.node()} does not see this file. A folder that all of the "
             "cluster's workers share under the same path was expected; put the campaign there."
         )
     if not chain.layout.processed.is_dir():

@@ -1,0 +1,29 @@
+"""Where each page of the report is, within its folder."""
+
+from __future__ import annotations
+
+from colonnade.campaign import Campaign
+
+WHOLE = {
+    "quality": "quality.html",
+    "problems": "problems.html",
+    "methods": "methods.html",
+    "overview": "index.html",
+}
+"""Pages about the whole campaign: template and address, the overview last, so that what it links to is there."""
+
+
+def of_test(test: str) -> str:
+    """Address of a test's page within the report; ids are safe as file names."""
+    return f"tests/{test}.html"
+
+
+def of_specimen(specimen: str) -> str:
+    """Address of a specimen's page within the report."""
+    return f"specimens/{specimen}.html"
+
+
+def addresses(campaign: Campaign) -> tuple[list[str], list[str]]:
+    """Addresses of the pages of a campaign's tests, and of the others, which show several tests."""
+    specimens = map(of_specimen, campaign.specimens)
+    return [*map(of_test, campaign.tests)], [*specimens, *WHOLE.values()]

@@ -1,0 +1,30 @@
+"""The stamp of a page: its last line says what it was made from and, by a hash, how it was written."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from pathlib import Path
+
+_STAMP = re.compile(rb"<!-- made from ([0-9a-f]+), content ([0-9a-f]+) -->\n\Z")
+
+
+def stamped(text: str, key: str) -> str:
+    """Add to a page of HTML, which ends in a line break, what it was made from."""
+    return f"{text}<!-- made from {key}, content {_hash(text.encode())} -->\n"
+
+
+def key_of(path: Path) -> str:
+    """Return what a page was made from; empty if it is not there, not stamped, or altered since it was written."""
+    try:
+        data = path.read_bytes()
+    except OSError:
+        return ""
+    found = _STAMP.search(data[-200:])
+    if found is None or found[2].decode() != _hash(data[: -len(found[0])]):
+        return ""
+    return found[1].decode()
+
+
+def _hash(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()

@@ -1,0 +1,100 @@
+"""The raw files of tests: what is in them, by hash, and which other files they are in."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from colonnade.campaign import Campaign, Test
+from colonnade.campaign.setup import FileOptions
+from colonnade.errors import ReadError, StoreError
+from colonnade.readers.irregular import irregular
+from colonnade.readers.registry import companions
+from colonnade.workflow.catalogue import Catalogue, Mark, mark_of
+
+
+@dataclass(frozen=True)
+class RawFile:
+    """A raw file as it was hashed: its SHA-256, None where it could not be read, and its mark."""
+
+    sha256: str | None
+    mark: Mark = (0, 0, 0)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether it holds nothing, or cannot be read."""
+        return self.mark[0] == 0
+
+
+RawFiles = Mapping[str, RawFile]
+"""By their paths from the campaign's folder."""
+
+
+def raw_files(campaign: Campaign, test: Test, catalogue: Catalogue) -> RawFiles:
+    """Look at each raw file of a test, and at the other files that it is in."""
+    found: dict[str, RawFile] = {}
+    for recorder, path in test.files.items():
+        how = campaign.setups[test.setup].recorders[recorder].file
+        found[_name(campaign, path)], beside = _looked_at(campaign.folder, path, how, catalogue)
+        for name in beside:
+            other = path.with_name(Path(name).name or path.name)
+            found.setdefault(_name(campaign, other), _looked_at(campaign.folder, other, None, catalogue)[0])
+    return found
+
+
+def expect_unchanged(folder: Path, raw: RawFiles) -> None:
+    """
+    Ask whether raw files are still as they were hashed; a recorder may still be writing.
+
+    Raises
+    ------
+    StoreError
+        If one is not.
+    """
+    for name, file in raw.items():
+        try:
+            is_changed = file.sha256 is not None and mark_of(folder / name) != file.mark
+        except OSError:
+            is_changed = True
+        if is_changed:
+            raise StoreError(
+                f"{name}: it changed while it was read, perhaps as the recorder is still writing. Run again after that."
+            )
+
+
+def sha256_of(path: Path) -> str | None:
+    """Hash a file; None if it cannot be read, which is told where it is read, or is a pipe or a device."""
+    try:
+        if irregular(path):
+            return None
+        with path.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError:
+        return None
+
+
+def _name(campaign: Campaign, path: Path) -> str:
+    return path.relative_to(campaign.folder).as_posix()
+
+
+def _looked_at(folder: Path, path: Path, how: FileOptions | None, catalogue: Catalogue) -> tuple[RawFile, list[str]]:
+    """Return a file, and by `how` it is read the names of the files beside it that hold a part of it."""
+
+    def ask(path: Path) -> tuple[str | None, list[str]]:
+        digest = sha256_of(path)
+        if digest is None or how is None:
+            return digest, []
+        try:
+            return digest, [other.name for other in companions(path, how.format, how.options, within=folder)]
+        except ReadError:  # told where the file is read
+            return digest, []
+
+    if not path.resolve().is_relative_to(folder):  # reading refuses it
+        return RawFile(None), []
+    told = catalogue.told("raw", path, ask, *([] if how is None else [how.model_dump()]))
+    if told is None or told[1][0] is None:
+        return RawFile(None), []
+    mark, (digest, beside) = told
+    return RawFile(digest, mark), beside

@@ -1,0 +1,90 @@
+"""What a result's code is: the modules that it is made by, whatever their docstrings and comments say."""
+
+from __future__ import annotations
+
+import shutil
+
+import pytest
+
+from colonnade import sources
+from colonnade.sources import code_hash, package_hash
+
+CONTACT_ENGINE = "dynamics/contact/engine/run.py"
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """A copy of the package whose sources may be edited."""
+    copy = shutil.copytree(sources.PACKAGE, tmp_path / "colonnade", ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(sources, "PACKAGE", copy)
+    forget()
+    yield copy
+    forget()
+
+
+def forget():
+    sources._modules.cache_clear()
+    sources._module.cache_clear()
+
+
+def edit(package, name, before, after):
+    path = package / name
+    text = path.read_text(encoding="utf-8")
+    assert before in text
+    path.write_text(text.replace(before, after, 1), encoding="utf-8")
+    forget()
+
+
+def of(stage, **given):
+    return code_hash([f"colonnade.stages.{stage}"], alone=("colonnade.campaign", "colonnade.store"), **given)
+
+
+def test_a_docstring_or_a_comment_changes_no_code(package):
+    before, whole = of("rocking"), package_hash()
+    edit(package, "stages/rocking.py", '"""', '"""Now in other words. ')
+    edit(package, "stages/rocking.py", "\n\n\n", "\n\n\n# a comment\n\n")
+    assert of("rocking") == before
+    assert package_hash() != whole
+
+
+def test_a_statement_changes_the_code_of_those_who_import_it_and_of_no_others(package):
+    stages = ("ingest", "condition", "rocking", "restitution", "predict", "compare")
+    before = {stage: of(stage) for stage in stages}
+    (package / "stages/rocking.py").open("a", encoding="utf-8").write("\nONE_MORE = 1\n")
+    forget()
+    assert {stage for stage in stages if of(stage) != before[stage]} == {"rocking"}
+
+
+def test_a_change_in_a_reader_makes_no_prediction_anew(package):
+    before = {stage: of(stage) for stage in ("rocking", "restitution", "contact", "predict", "contact_ensemble")}
+    for path in (package / "readers").rglob("*.py"):
+        path.open("a", encoding="utf-8").write("\nONE_MORE = 1\n")
+    forget()
+    assert {stage: of(stage) for stage in before} == before
+
+
+def test_a_model_named_by_text_counts_and_one_that_is_left_out_does_not(package):
+    others = [f"colonnade.dynamics.models.{name}" for name in ("linear", "nonlinear")]
+    linear, contact = of("predict"), of("predict", without=others)
+    (package / "dynamics/plane/linear.py").open("a", encoding="utf-8").write("\nONE_MORE = 1\n")
+    forget()
+    assert of("predict") != linear
+    assert of("predict", without=others) == contact
+
+
+def test_what_is_imported_only_to_check_types_does_not_count(package):
+    for name in ("one", "two"):
+        (package / f"{name}.py").write_text("VALUE = 1\n")
+    (package / "user.py").write_text(
+        "from typing import TYPE_CHECKING\n"
+        "if TYPE_CHECKING:\n    from colonnade import one\n"
+        "from colonnade.two import VALUE\n"
+    )
+    forget()
+    before = code_hash(["colonnade.user"])
+    (package / "one.py").write_text("VALUE = 2\n")
+    forget()
+    assert code_hash(["colonnade.user"]) == before
+    (package / "two.py").write_text("VALUE = 2\n")
+    forget()
+    assert code_hash(["colonnade.user"]) != before
