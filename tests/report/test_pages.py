@@ -5,14 +5,6 @@ from colonnade.campaign.settings import settings
 from colonnade.report import pages
 
 
-def test_every_page_has_its_address_and_the_overview_comes_last(filled_campaign):
-    found = pages.addresses(filled_campaign[0])
-    assert "tests/span-2.0.html" in found
-    assert "specimens/statue.html" in found
-    assert found[-1] == "index.html"
-    assert len(found) == len(set(found)) == 9 + 2 + 4
-
-
 def test_settings_are_written_with_their_unit(filled_campaign):
     written = {setting.key: pages._setting(setting) for setting in settings(filled_campaign[0].processing)}
     assert written["processing.lowpass"] == "25 Hz"
