@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass, field, replace
 from math import atan2, cos, hypot, pi, sin, sqrt
 from typing import Literal
@@ -11,17 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
-from colonnade.dynamics.density import UnlikelyBlockWarning, cone_volume, mistaken_lengths, prism_volume
+from colonnade.dynamics.density import cone_volume, expect_inertia, expect_metres, prism_volume
 from colonnade.validation import described, instance, number, samples, sided
 
 STANDARD_GRAVITY = 9.81
 """Default gravity of a campaign, m/s²; a laboratory's own value may be given."""
-
-SLENDEREST = 0.005
-"""rad; a critical angle below this is of no block that stands."""
-
-HOLLOW = 0.9
-"""Of m R²; no body has a smaller moment of inertia about its pole, whatever its shape and the errors of measurement."""
 
 LEAST, LARGEST = 1e-60, 1e60
 """Of a length, a mass or an inertia in SI: products of several stay in the range of floating-point numbers."""
@@ -146,7 +139,7 @@ class Block:
             If the lengths look as if they were in millimetres or centimetres.
         """
         _positive(width=width, depth=depth, height=height, mass=mass, gravity=gravity)
-        _expect_metres(mass / prism_volume(width, depth, height), width / height, width=width, height=height)
+        expect_metres(mass / prism_volume(width, depth, height), width / height, width=width, height=height)
         half_width, centre_height = width / 2, height / 2
         inertia = mass * (width**2 + height**2) / 12 + mass * (half_width**2 + centre_height**2)
         solid = Solid("rectangle", depth / 2, mass * (depth**2 + height**2) / 12, mass * (width**2 + depth**2) / 12)
@@ -163,7 +156,7 @@ class Block:
             If a dimension, the mass or gravity is not positive.
         """
         _positive(diameter=diameter, height=height, mass=mass, gravity=gravity)
-        _expect_metres(
+        expect_metres(
             mass / cone_volume(diameter, diameter, height), diameter / height, diameter=diameter, height=height
         )
         return cls._turned(diameter, diameter, height, mass, gravity)
@@ -187,7 +180,7 @@ class Block:
         """
         _positive(base_diameter=base_diameter, top_diameter=top_diameter, height=height, mass=mass, gravity=gravity)
         density = mass / cone_volume(base_diameter, top_diameter, height)
-        _expect_metres(density, base_diameter / height, base_diameter=base_diameter, height=height)
+        expect_metres(density, base_diameter / height, base_diameter=base_diameter, height=height)
         return cls._turned(base_diameter, top_diameter, height, mass, gravity)
 
     @classmethod
@@ -235,12 +228,7 @@ class Block:
         distances = sided("pole_distance", pole_distance, "a positive number", above=0.0)
         inertias = sided("inertia", inertia, "a positive number", above=0.0)
         for distance, about_pole in zip(distances, inertias, strict=True):
-            if about_pole < HOLLOW * mass * distance**2:
-                raise ValueError(
-                    f"inertia is {about_pole:g} kg m² with a pole_distance of {distance:g} m and a mass of {mass:g} "
-                    f"kg; at least m R² = {mass * distance**2:.4g} kg m² was expected. Is the pole distance in m, "
-                    "and the inertia that about the pole?"
-                )
+            expect_inertia(about_pole, mass, distance)
         negative, positive = (Side(*values) for values in zip(angles, distances, inertias, strict=True))
         return cls(mass, gravity, negative, positive)
 
@@ -356,16 +344,3 @@ def _positive(**values: float) -> None:
         number(name, value, "a positive number", above=0.0)
         if not LEAST <= value <= LARGEST:
             raise ValueError(f"{name} is {value:g}; a number from {LEAST:g} to {LARGEST:g} was expected")
-
-
-def _expect_metres(density: float, slenderness: float, **lengths: float) -> None:
-    """Warn the caller of `Block` where lengths (m) and density (kg/m³) look as if a length was in another unit."""
-    unit, count = mistaken_lengths(density)
-    if count == 3 or (count and slenderness < SLENDEREST):
-        given = ", ".join(f"{name}={value:g}" for name, value in lengths.items())
-        warnings.warn(
-            f"Block: {given} with this mass make {density:.2g} kg/m³. Lengths are in m and the mass in kg: were "
-            f"they in {unit}?",
-            UnlikelyBlockWarning,
-            stacklevel=3,
-        )

@@ -1,7 +1,8 @@
-"""Density: whether the lengths and the mass of a block can be of one body, and what was probably mistaken if not."""
+"""Density: whether lengths, mass and inertia of a block can be of one body, and what was probably mistaken if not."""
 
 from __future__ import annotations
 
+import warnings
 from math import pi
 
 LIGHTEST, HEAVIEST = 100.0, 23_000.0
@@ -9,6 +10,12 @@ LIGHTEST, HEAVIEST = 100.0, 23_000.0
 
 FOAM = 20.0
 """kg/m³, below which not even a foam stands: something is wrong."""
+
+SLENDEREST = 0.005
+"""rad; a critical angle below this is of no block that stands."""
+
+HOLLOW = 0.9
+"""Of m R²; no body has a smaller moment of inertia about its pole, whatever its shape and the errors of measurement."""
 
 _SMALLER = {"mm": 1e3, "cm": 1e2}
 """Units that are taken for metres, and how many of them a metre has."""
@@ -55,3 +62,33 @@ def mistaken_lengths(density: float) -> tuple[str, int]:
                 if is_likely(density * factor**count):
                     return unit, count
     return "", 0
+
+
+def expect_metres(density: float, slenderness: float, **lengths: float) -> None:
+    """Warn the caller of `Block` where lengths (m) and density (kg/m³) look as if a length was in another unit."""
+    unit, count = mistaken_lengths(density)
+    if count == 3 or (count and slenderness < SLENDEREST):
+        given = ", ".join(f"{name}={value:g}" for name, value in lengths.items())
+        warnings.warn(
+            f"Block: {given} with this mass make {density:.2g} kg/m³. Lengths are in m and the mass in kg: were "
+            f"they in {unit}?",
+            UnlikelyBlockWarning,
+            stacklevel=3,
+        )
+
+
+def expect_inertia(inertia: float, mass: float, pole_distance: float) -> None:
+    """
+    Refuse a moment of inertia about the pole (kg m²) that is too small for a mass (kg) at its distance (m).
+
+    Raises
+    ------
+    ValueError
+        If no body has it.
+    """
+    if inertia < HOLLOW * mass * pole_distance**2:
+        raise ValueError(
+            f"inertia is {inertia:g} kg m² with a pole_distance of {pole_distance:g} m and a mass of {mass:g} "
+            f"kg; at least m R² = {mass * pole_distance**2:.4g} kg m² was expected. Is the pole distance in m, "
+            "and the inertia that about the pole?"
+        )

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.ensembles.bands import Counts, band, count, empty_counts
+from colonnade.dynamics.ensembles.rank_correlation import rank_correlations
 from colonnade.dynamics.ensembles.uncertainty import (
     INPUTS,
     MotionDraws,
@@ -204,11 +205,10 @@ class Ensemble:
 
     def correlations(self, values: Array) -> dict[str, float]:
         """Rank correlation of the members' values, shape (members,), NaN being highest, with each input that varies."""
-        ranks = _ranks(samples("values", values, finite=False))
-        if ranks.size != len(self.inputs):
-            raise ValueError(f"values has {ranks.size} numbers; {len(self.inputs)}, one a member, were expected")
-        varied = {name: column for name, column in zip(self.names, self.inputs.T, strict=True) if np.ptp(column) > 0.0}
-        return {name: _correlation(ranks, _ranks(column)) for name, column in varied.items()}
+        given = samples("values", values, finite=False)
+        if given.size != len(self.inputs):
+            raise ValueError(f"values has {given.size} numbers; {len(self.inputs)}, one a member, were expected")
+        return rank_correlations(given, dict(zip(self.names, self.inputs.T, strict=True)))
 
 
 def ensemble(
@@ -348,16 +348,3 @@ def _member(plan: Plan, draws: MotionDraws, member: int) -> tuple[Array, History
         rest_angle=plan.rest_angle,
     )
     return inputs, history
-
-
-def _ranks(values: Array) -> Array:
-    """Rank from 0; equal values share the mean of their ranks."""
-    _, place, number = np.unique(values, return_inverse=True, return_counts=True)
-    last = np.cumsum(number)
-    return np.asarray((last - 0.5 * (number + 1))[place])
-
-
-def _correlation(first: Array, second: Array) -> float:
-    one, other = first - first.mean(), second - second.mean()
-    scale = sqrt(float(one @ one) * float(other @ other))
-    return float(one @ other) / scale if scale > 0.0 else float("nan")

@@ -13,6 +13,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
+from colonnade.dynamics.models.registry import MODELS
 from colonnade.errors import StoreError
 from colonnade.findings import Finding, at_stage
 from colonnade.store import files
@@ -200,7 +201,8 @@ def read_test(
 
 def read_specimen(campaign: Campaign, layout: Layout, specimen: str) -> Stored:
     """Read what is stored of a specimen: restitution as stage ``specimen``, a law of contact as ``contact``."""
-    stages = ("specimen", "contact") if "contact" in campaign.processing.predict.models else ("specimen",)
+    has_law = any(MODELS[model].in_space for model in campaign.processing.predict.models)
+    stages = ("specimen", "contact") if has_law else ("specimen",)
     return _read(Stored(), layout, [ResultId(specimen, stage) for stage in stages])
 
 
