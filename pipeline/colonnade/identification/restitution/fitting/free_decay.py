@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import exp, log
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
+from colonnade.dynamics.kernel import kernel
 from colonnade.identification.restitution.arcs.energy import lift
 from colonnade.identification.restitution.arcs.rocking_arc import (
     LOCAL,
@@ -76,23 +78,27 @@ class Decay:
         """Return the decay with steps added to its unknowns."""
         return replace(self, values={name: value + steps.get(name, 0.0) for name, value in self.values.items()})
 
-    @property
+    @cached_property
     def sides(self) -> NDArray[np.int_]:
         """Side of each arc, shape (count,), 0 or 1 as `side`."""
         return (self.side + np.arange(self.count)) % 2
 
-    @property
+    @cached_property
     def critical(self) -> Array:
         """Critical angles of the sides θ < 0 and θ > 0, rad, shape (2,)."""
         return np.array([side.critical_angle for side in self.block.sides]) * exp(self.values["critical_angle"])
 
-    @property
+    @cached_property
     def p(self) -> Array:
         """Frequency parameters of both sides, rad/s, shape (2,)."""
         return np.array([self.block.side_p(side) for side in self.block.sides]) * exp(self.values["p"])
 
     def arcs(self) -> tuple[Array, Array, Array]:
         """Peaks (|θ|, rad), their times and the ends of the arcs (s), shape (count,)."""
+        return self._arcs
+
+    @cached_property
+    def _arcs(self) -> tuple[Array, Array, Array]:
         return free_arcs(
             np.exp(self.values["restitution"] + self.by_impact),
             self.values["peak"],
@@ -165,7 +171,7 @@ class Decay:
         """Return the decay with steps added to its unknowns, and to ln e of each impact, shape (count − 1,)."""
         return replace(self.moved(steps), deviations=self.by_impact + deviations)
 
-    @property
+    @cached_property
     def by_impact(self) -> Array:
         """`deviations` of all impacts, shape (count − 1,)."""
         return np.concatenate((self.deviations, np.zeros(self.count)))[: self.count - 1]
@@ -178,12 +184,8 @@ class Decay:
     def jacobian(self, time: Array, names: tuple[str, ...]) -> tuple[Array, Array]:
         """Derivatives of the angle by the unknowns named, shape (n, k), and by ln e of each impact, (n, count − 1)."""
         _, sensitivity, arc = self.angle(time)
-        derivatives = self.derivatives(names)[arc]
-        by_peak, by_time = self.derivatives_by_impact()
-        return (
-            np.einsum("nl,nlk->nk", sensitivity, derivatives),
-            sensitivity[:, :1] * by_peak[arc] + sensitivity[:, 1:2] * by_time[arc],
-        )
+        fixed = np.einsum("nl,nlk->nk", sensitivity, self.derivatives(names)[arc])
+        return fixed, _by_impact(sensitivity, arc, *self.derivatives_by_impact())
 
     def landing_speeds(self) -> Array:
         """Angular velocity at the end of each arc, before the impact, rad/s, shape (count,)."""
@@ -192,3 +194,13 @@ class Decay:
         if self.linearised:
             return np.asarray(p * np.sqrt(2 * peaks * (critical - peaks / 2)))
         return np.asarray(p * np.sqrt(2 * lift(peaks, critical)))
+
+
+@kernel
+def _by_impact(sensitivity: Array, arc: NDArray[np.int64], by_peak: Array, by_time: Array) -> Array:
+    """Derivatives of the angle by ln e of each impact, shape (n, m), from those of the peak and time of each arc."""
+    derivatives = np.empty((arc.size, by_peak.shape[1]))
+    for n in range(arc.size):
+        for m in range(by_peak.shape[1]):
+            derivatives[n, m] = sensitivity[n, 0] * by_peak[arc[n], m] + sensitivity[n, 1] * by_time[arc[n], m]
+    return derivatives

@@ -45,7 +45,7 @@ class RockingPath:
 
     def seen(self, stretch: Stretch) -> Array:
         """Angle as a record through the stretch's low-pass shows it, rad, shape (n,)."""
-        angle, _ = self.decay.followed(stretch.time)
+        angle = self.decay.angle_alone(stretch.time)
         if stretch.cutoff_hz is not None:
             angle = angle + blur(self.decay, stretch)
         return np.asarray(angle + self.drift * _centred_time(stretch))
