@@ -181,7 +181,7 @@ def test_what_looks_like_a_clock_but_goes_back_is_none(tmp_path: Path) -> None:
 def test_only_the_variables_that_were_asked_for_are_read(tmp_path: Path) -> None:
     path = saved(tmp_path / "a.mat", {"t": TIME, "top": TOP, "bottom": TOP})
     assert [each.name for each in read(path, options={"variables": ["t", "top"]}).channels] == ["t", "top"]
-    with pytest.raises(ReadError, match=r'no variable "tpo"\. Did you mean "top"'):
+    with pytest.raises(ReadError, match=r'variable "tpo" not found\. Did you mean "top"'):
         read(path, options={"variables": ["tpo"]})
 
 
