@@ -63,3 +63,19 @@ def test_no_peak_at_all_is_said():
 def test_no_series_is_refused():
     with pytest.raises(ValueError, match="no free vibration was given"):
         peak_decay([], BLOCK)
+
+
+def test_housners_line_has_its_band_and_peaks_at_the_noise_do_not_stretch_the_scale():
+    block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    number = np.arange(30)
+    angle = np.asarray(angle_of_energy(0.8 * 0.9 ** (2 * number), block.critical_angle)) * (-1.0) ** number
+    angle[-3:] = [1e-9, -1e-9, 1e-9]
+    used = number < 20
+    band = np.full(30, 0.1)
+    peaks = PeakSeries("free-01", angle, np.full(30, 1e-4), np.where(used, angle, np.nan), used, band)
+    axes = peak_decay([peaks], block).axes[0]
+    line = next(line for line in axes.lines if line.get_label() == "fit").get_ydata()
+    outline = axes.collections[-1].get_paths()[0].vertices[:, 1]
+    assert outline.min() == pytest.approx(line.min() * np.exp(-0.1))
+    assert outline.max() == pytest.approx(line.max() * np.exp(0.1))
+    assert axes.get_ylim()[0] > 1e-4
