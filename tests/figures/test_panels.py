@@ -40,9 +40,7 @@ def test_without_a_name_there_is_no_legend():
     assert figure.legends == []
 
 
-@pytest.mark.parametrize(
-    "draw", [lambda: stacked_panels([]), lambda: side_by_side(0, [1.0])], ids=["one", "several"]
-)
+@pytest.mark.parametrize("draw", [lambda: stacked_panels([]), lambda: side_by_side(0, [1.0])], ids=["one", "several"])
 def test_no_panel_is_refused(draw):
     with pytest.raises(ValueError, match="at least one"):
         draw()

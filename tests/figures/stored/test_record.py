@@ -1,0 +1,30 @@
+from colonnade.figures.stored import record
+
+
+def test_a_test_is_drawn_and_described(known):
+    picture = record.record(*known("span-2.0"))
+    assert picture.identity == "record-span-2.0"
+    assert picture.description.startswith("Measured: rocking, largest |θ|/α 0.19 at 2.54 s. Linear model: rocking")
+    assert len(picture.figure.axes) == 4  # angle, misfit, slide, base
+
+
+def test_a_test_that_was_not_run_has_no_picture(known):
+    test, _, stored, block = known("later")
+    assert record.record(*known("later")) is None
+    assert record.bands(test, stored, block) is None
+
+
+def test_the_base_of_a_free_vibration_is_drawn_only_if_it_drives(known):
+    labels = {
+        name: [axes.get_ylabel() for axes in record.record(*known(name)).figure.axes]
+        for name in ("free-01", "free-refused")
+    }
+    assert not any(label.startswith("base") for label in labels["free-01"])
+    assert any(label.startswith("base") for label in labels["free-refused"])
+
+
+def test_each_model_has_a_panel_of_its_spread(known):
+    test, _, stored, block = known("span-3.0")
+    picture = record.bands(test, stored, block)
+    assert len(picture.figure.axes) == 2
+    assert "of its runs overturn." in picture.description
