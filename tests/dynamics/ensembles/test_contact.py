@@ -85,7 +85,7 @@ def test_a_plan_that_cannot_be_is_refused(change, told):
 
 
 def test_a_member_beyond_the_plan_is_refused():
-    with pytest.raises(IndexError, match="no member 12"):
+    with pytest.raises(IndexError, match="member is 12"):
         run_member(PLAN, 12)
     with pytest.raises(ValueError, match="0 members; 12 were expected"):
         gather(PLAN, [])

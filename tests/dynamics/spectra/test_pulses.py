@@ -78,7 +78,7 @@ def test_the_block_stands_just_below_the_spectrum_and_overturns_just_above(pulse
 @pytest.mark.parametrize(
     ("pulse", "arguments", "message"),
     [
-        ("sinus", {}, 'no pulse "sinus"'),
+        ("sinus", {}, 'Unknown pulse "sinus"'),
         ("sine", {"model": "x"}, "Unknown plane model"),
         ("sine", {"edge": 0.0}, "edge"),
     ],
