@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.maps.steady import steady_response, symmetric_responses
+from colonnade.dynamics.maps.steady import steady_response
 from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_run
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
@@ -27,7 +27,7 @@ def test_response_goes_from_rest_to_rocking_to_overturning(model):
     assert response.period[0, 1] == pytest.approx(2 * math.pi / (3.35 * P))
 
 
-def test_symmetric_response_repeats_every_cycle_with_the_amplitude_of_its_arc():
+def test_symmetric_response_repeats_every_cycle_with_the_amplitude_of_its_arc(symmetric_responses):
     response = steady_response(PRISM, frequency_ratio=[5.0], amplitude_ratio=[2.0], restitution=0.9)
     closed = symmetric_responses(PRISM, frequency_ratio=5.0, amplitude_ratio=2.0, restitution=0.9)[0]
     x = np.linspace(0, math.pi / 5, 200_001)
@@ -56,7 +56,7 @@ def test_sub_harmonic_responses_are_found_and_repeat_no_earlier():
     assert np.abs(tail[1:] - tail[:-1]).max() > 1e-3 * PRISM.critical_angle
 
 
-def test_no_symmetric_response_below_the_amplitude_that_feeds_its_losses():
+def test_no_symmetric_response_below_the_amplitude_that_feeds_its_losses(symmetric_responses):
     assert symmetric_responses(PRISM, frequency_ratio=5.0, amplitude_ratio=0.2, restitution=0.5) == []
 
 
@@ -73,7 +73,7 @@ def test_impossible_arguments_are_clear_errors(arguments, message):
         steady_response(PRISM, **({"frequency_ratio": [2.0], "amplitude_ratio": [1.0]} | arguments))
 
 
-def test_a_block_with_unequal_sides_has_no_symmetric_response():
+def test_a_block_with_unequal_sides_has_no_symmetric_response(symmetric_responses):
     block = Block.measured(mass=1.0, pole_distance=0.2, critical_angle=(0.1, 0.2), inertia=0.1)
     with pytest.raises(ValueError, match="unequal sides"):
         symmetric_responses(block, frequency_ratio=5.0, amplitude_ratio=2.0, restitution=0.9)

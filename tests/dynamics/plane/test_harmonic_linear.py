@@ -10,7 +10,6 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.maps.steady import symmetric_responses
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic import RAMP_SHAPES, Harmonic, harmonic_outcomes, harmonic_run, restitution_up_to
 from colonnade.dynamics.restitution_law import RestitutionLaw
@@ -140,7 +139,7 @@ def test_no_impact_is_missed_however_short_its_arc(model, seed):
 
 
 @pytest.mark.parametrize(("omega", "amplitude", "restitution"), [(5.0, 2.0, 0.9), (7.0, 2.5, 0.9), (4.0, 3.0, 0.7)])
-def test_the_symmetric_steady_response_is_the_closed_form(omega, amplitude, restitution):
+def test_the_symmetric_steady_response_is_the_closed_form(omega, amplitude, restitution, symmetric_responses):
     expected = symmetric_responses(PRISM, frequency_ratio=omega, amplitude_ratio=amplitude, restitution=restitution)[0]
     run = harmonic_run(PRISM, Harmonic.cycles(omega * P, 400), amplitude, (restitution, restitution))
     np.testing.assert_allclose(np.abs(run.impact_velocities[-20:]), expected.velocity / restitution, rtol=1e-11)

@@ -11,19 +11,13 @@ import time
 from contextlib import contextmanager
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from colonnade.campaign import load
-from colonnade.dynamics.block import Block
-from colonnade.dynamics.ensembles.ensemble import Plan
-from colonnade.dynamics.ensembles.uncertainty import Uncertainty
-from colonnade.dynamics.motion import Motion
 from colonnade.errors import ColonnadeError, RunEndedError
 from colonnade.store import files
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.chain import walk
-from colonnade.workflow.execution.ensembles import run_ensemble
 from colonnade.workflow.execution.lock import expect_run, only_run
 from colonnade.workflow.execution.processes import execute
 from colonnade.workflow.execution.spreading import spread
@@ -180,15 +174,6 @@ def test_a_map_made_on_the_cluster_is_that_of_one_process_bit_for_bit(cluster, u
         contents.append(files.read(made.path).attrs["content"])
         made.path.unlink()
     assert contents[0] == contents[1]
-
-
-def test_an_ensemble_on_the_cluster_is_that_of_one_process_bit_for_bit(cluster):
-    motion = Motion(2.2 * np.sin(np.arange(300) * 0.15), 0.005)
-    block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-    plan = Plan(block, motion, 0.97, Uncertainty(p=0.01, noise=0.05), count=130)
-    there, here = (run_ensemble(plan, **options) for options in ({"scheduler": cluster}, {"workers": 1}))
-    np.testing.assert_array_equal(there.bands, here.bands)
-    np.testing.assert_array_equal(there.peak_ratio, here.peak_ratio)
 
 
 def test_a_single_worker_does_the_work_and_not_this_process(untouched):

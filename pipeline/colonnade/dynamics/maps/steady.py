@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import atan2, cosh, pi, sinh, sqrt, tan
+from math import pi
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -139,73 +139,3 @@ def _order(states: Array) -> int:
         if np.abs(last[order:] - last[:-order]).max() < SAME:
             return order
     return IRREGULAR
-
-
-@dataclass(frozen=True)
-class SymmetricResponse:
-    """
-    A harmonic response with two equal and opposite arcs a cycle.
-
-    Attributes
-    ----------
-    phase : float
-        Phase ω t of the base acceleration a sin ω t, rad, at which an arc with θ > 0 begins.
-    velocity : float
-        |θ'| just after each impact, rad/s; before it is 1/e times as large.
-    """
-
-    phase: float
-    velocity: float
-
-
-def symmetric_responses(
-    block: Block, *, frequency_ratio: float, amplitude_ratio: float, restitution: float
-) -> list[SymmetricResponse]:
-    """
-    Symmetric harmonic responses of the linear model in closed form, stable or not, the larger velocity first.
-
-    Parameters
-    ----------
-    block : Block
-        Symmetric.
-    frequency_ratio, amplitude_ratio : float
-        Ω and A.
-    restitution : float
-        e > 0.
-
-    Returns
-    -------
-    responses : list of SymmetricResponse
-        None, one or two. Whether the angle keeps its sign over the arc and whether the response is stable is not asked.
-
-    Raises
-    ------
-    ValueError
-        If the block is not symmetric.
-
-    Notes
-    -----
-    With F = A tan α/(α (1 + Ω²)), k = coth(π/2Ω), β the phase and v the velocity over α p, the arc's ends h = 0 at
-    x = 0 and π/Ω and h'(π/Ω) = −v/e give
-
-        F sin β = v (1 − 1/e)/(2 k),     F Ω cos β = v (1 + 1/e)/2 − 1/k,
-
-    whose squares make a quadratic equation for v.
-    """
-    if not block.is_symmetric:
-        raise ValueError("The block has unequal sides; a symmetric one was expected")
-    alpha, e = block.critical_angle, restitution
-    gain = amplitude_ratio * tan(alpha) / alpha / (1 + frequency_ratio**2)
-    half = pi / frequency_ratio / 2
-    k = cosh(half) / sinh(half)
-    across, along = (1 - 1 / e) / (2 * k), (1 + 1 / e) / (2 * frequency_ratio)
-    offset = 1 / (k * frequency_ratio)
-    # (across v)² + (along v − offset)² = gain²
-    square, middle, constant = across**2 + along**2, along * offset, offset**2 - gain**2
-    discriminant = middle**2 - square * constant
-    if discriminant < 0:
-        return []
-    roots = [(middle + sign * sqrt(discriminant)) / square for sign in (1, -1)]
-    return [
-        SymmetricResponse(atan2(across * v, along * v - offset) % (2 * pi), v * alpha * block.p) for v in roots if v > 0
-    ]
