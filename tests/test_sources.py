@@ -63,8 +63,8 @@ def test_a_change_in_a_reader_makes_no_prediction_anew(package):
     assert {stage: of(stage) for stage in before} == before
 
 
-def test_a_model_named_by_text_counts_and_one_that_is_left_out_does_not(package):
-    others = [f"colonnade.dynamics.models.{name}" for name in ("linear", "nonlinear")]
+def test_an_engine_counts_unless_its_models_are_left_out(package):
+    others = [f"colonnade.dynamics.models.{name}" for name in ("linear", "nonlinear", "plane")]
     linear, contact = of("predict"), of("predict", without=others)
     (package / "dynamics/plane/linear.py").open("a", encoding="utf-8").write("\nONE_MORE = 1\n")
     forget()

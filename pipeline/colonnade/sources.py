@@ -93,7 +93,7 @@ def _is_text(node: ast.stmt) -> bool:
 
 
 def _named(node: ast.AST) -> Iterator[str]:
-    """Give each name by which a module may be meant: imports, and texts such as "colonnade.dynamics.plane.linear"."""
+    """Give each name that is imported, and may be a module's; not what is imported only to check types."""
     if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
         children: Iterator[ast.AST] = iter(node.orelse)
     else:
@@ -102,8 +102,6 @@ def _named(node: ast.AST) -> Iterator[str]:
         yield from (alias.name for alias in node.names)
     elif isinstance(node, ast.ImportFrom) and node.module:
         yield from (f"{node.module}.{alias.name}" for alias in node.names)
-    elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield node.value.partition(":")[0]
     for child in children:
         yield from _named(child)
 

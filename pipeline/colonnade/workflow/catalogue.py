@@ -114,8 +114,9 @@ class Catalogue:
         name = " ".join([*made_by, *([model] if model else [])])
         if name not in self._seen["code"]:
             known = self._known["code"] if self._known["code"].get("package") == package else {}
-            others = [] if model is None else [f"{models.__name__}.{other}" for other in MODELS if other != model]
-            self._seen["code"][name] = known.get(name) or code_hash(made_by, alone=BESIDE, without=others)
+            self._seen["code"][name] = known.get(name) or code_hash(
+                made_by, alone=BESIDE, without=[] if model is None else _of_other_models(model)
+            )
         return str(self._seen["code"][name])
 
     def signature(self, paths: Iterable[Path], *others: Any) -> str:
@@ -140,6 +141,13 @@ class Catalogue:
         known: dict[str, Any] = dict(self._seen)
         known["sha256"] = hash_of(known)
         files.write_text(self._layout.catalogue, json.dumps(known, separators=(",", ":"), sort_keys=True) + "\n")
+
+
+def _of_other_models(name: str) -> set[str]:
+    """Give the modules by which only other models are reached."""
+    others = [other for other in MODELS if other != name]
+    kinds = {type(MODELS[other]).__module__ for other in others} - {type(MODELS[name]).__module__}
+    return kinds | {f"{models.__name__}.{other}" for other in others}
 
 
 def stored_attributes(path: Path) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from colonnade.campaign import Campaign, Test
@@ -20,6 +21,13 @@ if TYPE_CHECKING:
 
 COMPARED = {"predict": "predicted", "ensemble": "ensembles"}
 """Stages whose results `compare` takes by model, and as what."""
+
+
+FORMATS = "colonnade.readers"
+"""Formats of raw files are found by their names, which no import tells."""
+
+_STORED_BY = ("colonnade.store.description", "colonnade.store.variables", __name__)
+"""Modules that every result goes through."""
 
 
 @dataclass(frozen=True)
@@ -82,19 +90,23 @@ class Graph:
                 test.files,
                 ingest.IngestInputs.of(self.campaign, test),
                 partial(_ingest, self.campaign.folder),
-                ("colonnade.stages.ingest", "colonnade.readers"),
+                ingest,
+                FORMATS,
             ),
             self._step(
                 ResultId(test.id, "condition"),
                 {"recorded": self._of(test.id, "ingest")},
                 condition.ConditionInputs.of(self.campaign, test),
-                condition.condition,
+                partial(_by_name, condition.condition),
+                condition,
+                FORMATS,
             ),
             self._step(
                 ResultId(test.id, "rocking"),
                 {"conditioned": self._of(test.id, "condition")},
                 rocking.RockingInputs.of(self.campaign, test),
-                rocking.rocking,
+                partial(_by_name, rocking.rocking),
+                rocking,
             ),
         ]
         if test.kind == "free-vibration":
@@ -103,7 +115,8 @@ class Graph:
                     ResultId(test.id, "restitution"),
                     {"rocking": self._of(test.id, "rocking")},
                     restitution.RestitutionInputs.of(self.campaign, test),
-                    restitution.restitution,
+                    partial(_by_name, restitution.restitution),
+                    restitution,
                 )
             )
         return steps
@@ -116,8 +129,8 @@ class Graph:
             ResultId(specimen_id, "specimen"),
             identified,
             specimen.SpecimenInputs.of(self.campaign, specimen_id),
-            partial(_mapped, specimen.specimen),
-            ("colonnade.stages.specimen",),
+            specimen.specimen,
+            specimen,
         )
 
     def calibrating(self, specimen_id: str) -> Step:
@@ -128,7 +141,8 @@ class Graph:
             ResultId(specimen_id, "contact"),
             {"specimen": self._of(specimen_id, "specimen")},
             contact.ContactInputs.of(self.campaign, specimen_id),
-            contact.contact,
+            partial(_by_name, contact.contact),
+            contact,
         )
 
     def predicting(self, test: Test) -> list[Step]:
@@ -146,7 +160,8 @@ class Graph:
                     **self._identified(test),
                 },
                 predict.PredictInputs.of(self.campaign, test, model),
-                predict.predict,
+                partial(_by_name, predict.predict),
+                predict,
             )
             for model in models
         ]
@@ -160,7 +175,7 @@ class Graph:
                 {"rocking": self._of(test.id, "rocking")} | compared,
                 compare.CompareInputs.of(self.campaign, test),
                 _compare,
-                ("colonnade.stages.compare",),
+                compare,
             )
         )
         return steps
@@ -173,9 +188,11 @@ class Graph:
         upstream = {"conditioned": self._of(test.id, "condition"), "rocking": self._of(test.id, "rocking")}
         upstream |= (law or {"specimen": self._of(test.specimen, "specimen")}) | self._identified(test)
         if law:
-            inputs = contact_ensemble.ContactEnsembleInputs.of(self.campaign, test)
-            return self._step(result, upstream, inputs, contact_ensemble.contact_ensemble)
-        return self._step(result, upstream, ensemble.EnsembleInputs.of(self.campaign, test, model), ensemble.ensemble)
+            of_contact = contact_ensemble.ContactEnsembleInputs.of(self.campaign, test)
+            work = partial(_by_name, contact_ensemble.contact_ensemble)
+            return self._step(result, upstream, of_contact, work, contact_ensemble)
+        inputs = ensemble.EnsembleInputs.of(self.campaign, test, model)
+        return self._step(result, upstream, inputs, partial(_by_name, ensemble.ensemble), ensemble)
 
     def _law(self, test: Test, model: str) -> dict[str, Path]:
         """Return the law of contact of a model that needs one."""
@@ -193,25 +210,17 @@ class Graph:
         result: ResultId,
         upstream: Mapping[str, Path],
         inputs: BaseModel,
-        function: Callable[..., xr.Dataset],
-        made_by: tuple[str, ...] = (),
+        work: Callable[[Mapping[str, Any], Any], xr.Dataset],
+        stage: ModuleType,
+        *more: str,
     ) -> Step:
-        """Return the step of a stage's function, which takes the upstream results by their names unless `made_by`."""
-        work = function if made_by else partial(_by_name, function)
-        code = self.catalogue.code((*(made_by or (function.__module__,)), *_BESIDE_ALL), result.model)
+        """Return a step, made by the module of its stage and what else that imports by name."""
+        code = self.catalogue.code((stage.__name__, *more, *_STORED_BY), result.model)
         return Step(result, self.layout.path(result), dict(upstream), inputs, work, code)
-
-
-_BESIDE_ALL = ("colonnade.store.description", "colonnade.store.variables", __name__)
-"""Modules that every result goes through."""
 
 
 def _by_name(function: Callable[..., xr.Dataset], upstream: Mapping[str, Any], inputs: Any) -> xr.Dataset:
     return function(inputs=inputs, **upstream)
-
-
-def _mapped(function: Callable[..., xr.Dataset], upstream: Mapping[str, Any], inputs: Any) -> xr.Dataset:
-    return function(upstream, inputs)
 
 
 def _compare(upstream: Mapping[str, Any], inputs: Any) -> xr.Dataset:

@@ -18,7 +18,7 @@ FOLDER = Path(registry.__file__).parent
 
 
 def test_every_module_of_the_folder_is_in_the_registry_under_its_name():
-    modules = {path.stem for path in FOLDER.glob("*.py")} - {"__init__", "model", "registry"}
+    modules = {path.stem for path in FOLDER.glob("*.py")} - {"__init__", "model", "plane", "registry"}
     assert set(MODELS) == modules
     assert all(name == model.name for name, model in MODELS.items())
 

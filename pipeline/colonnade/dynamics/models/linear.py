@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from colonnade.dynamics.models.model import Line, PlaneModel
+from colonnade.dynamics.models.model import Line
+from colonnade.dynamics.models.plane import PlaneModel
 
 LINEAR = PlaneModel(
     name="linear",

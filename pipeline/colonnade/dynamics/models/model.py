@@ -95,18 +95,3 @@ class Model(ABC):
     def uplift_threshold(self, critical_angle: float) -> float:
         """Return a/g of the base above which a block at rest uplifts: α, or tan α."""
         return critical_angle if self.is_linearised else tan(critical_angle)
-
-
-@dataclass(frozen=True, kw_only=True)
-class PlaneModel(Model):
-    """A model of rocking in the plane."""
-
-    in_space: bool = False
-    members: int = 100
-    map_points: tuple[int, int] = (100, 150)
-
-    def run(self, case: Case) -> History:
-        """Run it; see `plane.run`."""
-        from colonnade.dynamics.plane.run import run
-
-        return run(self, case)

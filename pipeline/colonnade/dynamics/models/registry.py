@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from colonnade.dynamics.models.contact import CONTACT
 from colonnade.dynamics.models.linear import LINEAR
-from colonnade.dynamics.models.model import Model, PlaneModel
+from colonnade.dynamics.models.model import Model
 from colonnade.dynamics.models.nonlinear import NONLINEAR
+from colonnade.dynamics.models.plane import PlaneModel
 from colonnade.errors import nearest
 from colonnade.validation import text
 

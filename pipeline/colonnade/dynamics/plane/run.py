@@ -14,7 +14,8 @@ from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.validation import sided
 
 if TYPE_CHECKING:
-    from colonnade.dynamics.models.model import Case, PlaneModel
+    from colonnade.dynamics.models.model import Case
+from colonnade.dynamics.models.plane import PlaneModel
 
 LARGEST_ACCELERATION = 1e6
 """In g; more is no motion of a table."""
