@@ -14,8 +14,8 @@ from colonnade.errors import CampaignError
 from colonnade.stages.contact import law_of
 from colonnade.store import files
 from colonnade.workflow.calibration import calibrate
-from colonnade.workflow.map_plans import Wanted
-from colonnade.workflow.maps import make_maps
+from colonnade.workflow.maps.plans import Wanted
+from colonnade.workflow.maps.stability import make_maps
 
 BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 

@@ -6,8 +6,8 @@ import pytest
 
 from colonnade.store import files
 from colonnade.workflow.calibration import calibrate
-from colonnade.workflow.map_plans import Wanted
-from colonnade.workflow.maps import make_maps
+from colonnade.workflow.maps.plans import Wanted
+from colonnade.workflow.maps.stability import make_maps
 from colonnade.workflow.pooling import restitution_taken
 
 BODY = 'mass = "26.10 kg"}'

@@ -23,7 +23,7 @@ from colonnade.cli.progress import looking
 
 if TYPE_CHECKING:
     from colonnade.identification.response.boundaries import Misfit
-    from colonnade.workflow.maps import MapMade
+    from colonnade.workflow.maps.stability import MapMade
 
 
 HEADS = (
@@ -104,8 +104,8 @@ def map_command(
     """Make maps, show what they tell, and return the exit code."""
     from math import radians
 
-    from colonnade.workflow.map_plans import Wanted
-    from colonnade.workflow.maps import make_maps
+    from colonnade.workflow.maps.plans import Wanted
+    from colonnade.workflow.maps.stability import make_maps
 
     asked = Wanted(model, omega, amplitude, phase=radians(phase), **wanted)
     with looking(f"Mapping by the {' and the '.join(model)} model") as progress:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import settings
+from colonnade.dynamics.models.registry import MODELS
 from colonnade.figures.stored import record
 from colonnade.identification.response.base_motion import LEAST_MOTION
 from colonnade.identification.response.rank import WITHIN
@@ -111,6 +112,7 @@ def render(
     renderer = pages.Renderer(
         campaign=campaign,
         models=campaign.processing.predict.models,
+        registry=MODELS,
         gravity=quantity(campaign.gravity, "m/s²", 5),
         version=methods.software()[0][1],
     )

@@ -12,6 +12,7 @@ from colonnade.dynamics import models
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.errors import StoreError
 from colonnade.findings import from_text, to_text
+from colonnade.interruption import expect_none
 from colonnade.sources import code_hash, package_hash
 from colonnade.store import files, stamps
 from colonnade.store.layout import Layout
@@ -162,3 +163,16 @@ def _said(path: Path) -> dict[str, str]:
     stored = stored_attributes(path)
     said = {part: str(stored[part]) for part in KEPT if part in stored}
     return said | {"warnings": to_text(stored.get("warnings", []))} if stored else said
+
+
+def remove_altered(layout: Layout) -> list[str]:
+    """Remove the results of tests and specimens that are not as they were written; return a sentence on each."""
+    told = []
+    for path in layout.results_there():
+        expect_none()
+        try:
+            files.read(path)
+        except StoreError:
+            files.remove(path)
+            told.append(f"{path.relative_to(layout.home).as_posix()}: it was altered or damaged, so it is made again.")
+    return told

@@ -10,7 +10,7 @@ from colonnade.errors import CampaignError, nearest
 from colonnade.store.layout import Layout
 from colonnade.store.results import ASKED_FOR, results_of
 from colonnade.workflow.arguments import check_run
-from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.catalogue import Catalogue, remove_altered
 from colonnade.workflow.chain import clear_behind
 from colonnade.workflow.copies import with_copies
 from colonnade.workflow.execution.lock import only_run
@@ -19,7 +19,6 @@ from colonnade.workflow.raw_files import RawFiles, raw_files
 from colonnade.workflow.results import RunResult
 from colonnade.workflow.steps import Graph
 from colonnade.workflow.summary import write_summary
-from colonnade.workflow.verification import remove_altered
 from colonnade.workflow.walk import Progress, Walk
 
 

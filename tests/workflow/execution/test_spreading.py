@@ -21,8 +21,8 @@ from colonnade.workflow.chain import walk
 from colonnade.workflow.execution.lock import expect_run, only_run
 from colonnade.workflow.execution.processes import execute
 from colonnade.workflow.execution.spreading import spread
-from colonnade.workflow.map_plans import Wanted
-from colonnade.workflow.maps import make_maps
+from colonnade.workflow.maps.plans import Wanted
+from colonnade.workflow.maps.stability import make_maps
 from colonnade.workflow.raw_files import raw_files
 from colonnade.workflow.steps import Graph
 from colonnade.workflow.walk import Walk

@@ -43,4 +43,9 @@ class ContactModel(Model):
         )
 
 
-CONTACT = ContactModel(name="contact", line=Line("#0a8a5f", "short-dashed", 1.2), is_default=False)
+CONTACT = ContactModel(
+    name="contact",
+    line=Line("#0a8a5f", "short-dashed", 1.2),
+    definition="a body in space on base nodes, with penalty stiffness, critical damping fraction and Coulomb friction",
+    is_default=False,
+)

@@ -8,6 +8,8 @@ from colonnade.dynamics.models.plane import PlaneModel
 LINEAR = PlaneModel(
     name="linear",
     line=Line("#d1490f", "dashed", 1.1),
+    definition="θ̈ = p² (θ − α sgn θ − a/g), solved exactly between samples",
+    reference="spanos",
     is_linearised=True,
     is_default=True,
 )

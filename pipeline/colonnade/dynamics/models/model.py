@@ -61,6 +61,10 @@ class Model(ABC):
     name : str
         In settings, files and figures.
     line : Line
+    definition : str
+        Its equation, or what it is, for the report; how it is solved.
+    reference : str
+        Key of its source among the report's references; empty if it has none.
     in_space : bool
         Whether its restitution follows from a law of contact; if not, it needs e.
     is_linearised : bool
@@ -75,6 +79,8 @@ class Model(ABC):
 
     name: str
     line: Line
+    definition: str
+    reference: str = ""
     in_space: bool
     is_linearised: bool = False
     is_default: bool

@@ -16,7 +16,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId
 from colonnade.workflow.execution.blocks import Spread, blocks_of
-from colonnade.workflow.map_results import bring_up_to_date
+from colonnade.workflow.maps.results import bring_up_to_date
 
 if TYPE_CHECKING:
     import xarray as xr

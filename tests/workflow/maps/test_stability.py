@@ -20,9 +20,9 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId
 from colonnade.workflow import run
-from colonnade.workflow.map_plans import Wanted, measured_points
-from colonnade.workflow.maps import as_map, make_maps
-from colonnade.workflow.responses import as_response
+from colonnade.workflow.maps.plans import Wanted, measured_points
+from colonnade.workflow.maps.responses import as_response
+from colonnade.workflow.maps.stability import as_map, make_maps
 
 BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 FEW = Wanted(frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(6, 10), cycles=5.0)
@@ -222,8 +222,8 @@ def test_a_map_waits_for_no_run_but_says_that_one_is_under_way(small):
 
 MAP = """
 import sys
-from colonnade.workflow.map_plans import Wanted
-from colonnade.workflow.maps import make_maps
+from colonnade.workflow.maps.plans import Wanted
+from colonnade.workflow.maps.stability import make_maps
 wanted = Wanted(frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(60, 10), cycles=5.0)
 def told(done, total):
     print(done, flush=True)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from colonnade.dynamics.maps.plan import MapPlan
 
-MADE_BY = ("colonnade.dynamics.maps", "colonnade.workflow.maps", "colonnade.workflow.responses")
+MADE_BY = ("colonnade.dynamics.maps", "colonnade.workflow.maps")
 """What maps and steady responses are made by."""
 
 

@@ -21,9 +21,9 @@ from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId
 from colonnade.workflow.execution.blocks import Counted, Spread, blocks_of, in_blocks
 from colonnade.workflow.execution.lock import only_run
-from colonnade.workflow.map_plans import Wanted, measured_points, plan_of, restitution_of
-from colonnade.workflow.map_results import bring_up_to_date
-from colonnade.workflow.responses import make_responses
+from colonnade.workflow.maps.plans import Wanted, measured_points, plan_of, restitution_of
+from colonnade.workflow.maps.responses import make_responses
+from colonnade.workflow.maps.results import bring_up_to_date
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -1,0 +1,1 @@
+"""Stability maps and steady responses of a campaign: planned, made in blocks, stored, drawn."""
