@@ -45,7 +45,7 @@ def test_of_two_runs_at_once_one_works_and_the_other_is_refused(
             assert "Traceback" not in complaints
             if run.returncode:
                 refused += 1
-                assert "this campaign is being run already, by" in complaints
+                assert "this campaign is already being run, by" in complaints
                 other = next(each for each in runs if each is not run)
                 assert f"process {other.pid} on" in complaints or "by another process" in complaints
         assert small.contents() == expected

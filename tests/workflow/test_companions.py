@@ -81,7 +81,7 @@ def test_values_that_change_or_go_while_they_are_read_are_told(in_two_parts, mon
 
             still.setattr(steps, "_ingest", still_copying)
             result = in_two_parts.run(only="pulse-01", until="ingest", start_from="ingest")
-        assert "raw/pulse-01.R32: it changed while it was read" in result.stages[0].reason
+        assert "raw/pulse-01.R32: this file changed while it was being read" in result.stages[0].reason
 
 
 def test_missing_values_are_named_and_taken_up_once_they_are_there(in_two_parts):

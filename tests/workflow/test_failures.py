@@ -166,7 +166,7 @@ def test_a_file_that_changes_while_it_is_read_is_read_again(untouched, monkeypat
 
     monkeypatch.setattr(steps, "_ingest", still_writing)
     told = failures(untouched.run(only="pulse-01"))
-    assert "changed while it was read" in told["pulse-01"].reason
+    assert "changed while it was being read" in told["pulse-01"].reason
     assert not untouched.layout.stage("pulse-01", "ingest").exists()
     monkeypatch.undo()
     assert not untouched.run(only="pulse-01").failed

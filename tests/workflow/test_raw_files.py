@@ -48,5 +48,5 @@ def test_a_file_that_changes_while_it_is_read_is_told(untouched, seen, change):
     found = seen[0](Catalogue(untouched.layout))
     expect_unchanged(untouched.folder, found)
     change(untouched.raw("pulse-01"))
-    with pytest.raises(StoreError, match=r"raw/pulse-01\.csv: it changed while it was read"):
+    with pytest.raises(StoreError, match=r"raw/pulse-01\.csv: this file changed while it was being read"):
         expect_unchanged(untouched.folder, found)

@@ -27,7 +27,7 @@ def test_only_runs_the_tests_that_are_named_and_the_rest_is_pending(untouched):
         ({"until": "restitutoin"}, 'Did you mean "restitution"?'),
         ({"start_from": "ingets"}, 'Did you mean "ingest"?'),
         ({"only": ["puls-01"]}, 'Did you mean "pulse-01"?'),
-        ({"start_from": "predict", "until": "rocking"}, "comes before the one to start from"),
+        ({"start_from": "predict", "until": "rocking"}, "the last stage comes before the first"),
     ],
 )
 def test_a_slip_is_refused_with_the_nearest_name_and_nothing_is_written(untouched, options, said):

@@ -31,14 +31,14 @@ Look = Callable[[Path], Mapping[str, Any]]
 """Tells the stored attributes of a result."""
 
 _SHORT_OF_MEMORY = (
-    "The machine ran short of memory. What was finished is kept; run again with fewer workers (`--workers 1` takes the "
-    "least), or with less else open."
+    "The machine ran out of memory. Finished results are kept. Run again with fewer workers (`--workers 1` uses the "
+    "least memory), or close other programs first."
 )
 
 _WORKER_LOST = (
-    "The system stopped the process that worked on this test, and again when it was tried alone: memory ran out, or a "
-    "damaged raw file crashed the library that reads it. Run again with less else open; if it stays so, copy the raw "
-    "file from the recorder again, or export it as text."
+    "The system stopped the process that worked on this test, twice: the second time nothing else was running. Either "
+    "memory ran out, or a damaged raw file crashed the library that reads it. Close other programs and run again. If "
+    "the test still fails, copy the raw file from the recorder again, or export it as text."
 )
 
 
@@ -215,7 +215,7 @@ def _reason(chain: Chain, step: Step, error: Exception, attributes: Mapping[str,
     try:
         files.write_failed(step.path, reason, attributes=attributes)
     except StoreError as unwritable:
-        return f"{reason} And the failure itself could not be stored: {unwritable}"
+        return f"{reason} This failure could not be stored either: {unwritable}"
     return reason
 
 
@@ -238,6 +238,6 @@ def _internal_error(layout: Layout, step: Step, error: Exception) -> str:
     except StoreError:
         where = "its traceback could not be written"
     return (
-        f"Internal error in {step.result.stage}, {type(error).__name__} at {place}: {error}. This is a defect of "
-        f"colonnade, not of your campaign; {where}. Please report it with that file."
+        f"Internal error in {step.result.stage}, {type(error).__name__} at {place}: {error}. This is a bug in "
+        f"colonnade, not an error in your campaign; {where}. Please report it with that file."
     )

@@ -60,7 +60,7 @@ def expect_unchanged(folder: Path, raw: RawFiles) -> None:
             is_changed = True
         if is_changed:
             raise StoreError(
-                f"{name}: it changed while it was read, perhaps as the recorder is still writing. Run again after that."
+                f"{name}: this file changed while it was being read. Is the recorder still writing? Run again later."
             )
 
 

@@ -83,7 +83,7 @@ def run(
     loaded = load(Path(campaign))
     last, first = _known_stage("until", until) or "report", _known_stage("start_from", start_from)
     if first is not None and ASKED_FOR.index(first) > ASKED_FOR.index(last):
-        raise CampaignError(f"from {first} until {last}: the stage to stop at comes before the one to start from.")
+        raise CampaignError(f"from {first} until {last}: the last stage comes before the first.")
     tests = _chosen(loaded, (only,) if isinstance(only, str) else only)
     layout, notices = Layout.of(loaded.folder, results), list[str]()
     with only_run(layout) as name:

@@ -216,7 +216,7 @@ def test_what_cannot_be_mapped_is_told(small, wanted, specimens, found):
 def test_a_map_waits_for_no_run_but_says_that_one_is_under_way(small):
     from colonnade.workflow.execution.lock import only_run
 
-    with only_run(small.layout), pytest.raises(StoreError, match="being run already"):
+    with only_run(small.layout), pytest.raises(StoreError, match="already being run"):
         made(small)
 
 

@@ -103,6 +103,6 @@ def _held(layout: Layout) -> str:
     except (OSError, ValueError, KeyError, TypeError):
         who = "another process"
     return (
-        f"{layout.folder}: this campaign is being run already, by {who}. Wait until it has ended, or stop it; "
-        "results are written by one run at a time."
+        f"{layout.folder}: this campaign is already being run, by {who}. Wait for that run to end, or stop it: "
+        "only one run at a time may write results."
     )

@@ -78,8 +78,8 @@ def spread(
         yield from on_processes(work, items, count)
     except BrokenProcessPool as error:
         raise ColonnadeError(
-            f"{stopped(error)}, most often because memory ran out. What was finished is kept. "
-            "Run again with fewer workers (`--workers 1` takes the least memory)."
+            f"{stopped(error)}, most often because memory ran out. Finished results are kept. "
+            "Run again with fewer workers (`--workers 1` uses the least memory)."
         ) from error
 
 

@@ -111,7 +111,7 @@ def plan_of(
 
     _expect_bounded(wanted)
     if wanted.responses and wanted.motion is not None:
-        raise CampaignError("Steady responses are those to a sine: ask for them without a recorded motion.")
+        raise CampaignError("Steady responses are responses to a sine. Leave out the recorded motion.")
     motion, frequency = (None, None) if wanted.motion is None else _recorded(campaign, layout, wanted.motion)
     omegas = wanted.frequency_ratio or _around([point.frequency_ratio for point in points], USUAL_FREQUENCIES)
     largest = max((1.2 * point.amplitude_ratio for point in points), default=0.0)
@@ -168,9 +168,7 @@ def _space(campaign: Campaign, layout: Layout, specimen: str) -> InSpace:
     path = layout.stage(specimen, "contact")
     law = files.read(path) if path.is_file() else None
     if law is None or law.attrs["status"] != "done":
-        raise CampaignError(
-            f"{specimen}: its law of contact is not known yet. Run `colonnade calibrate` first, which finds it."
-        )
+        raise CampaignError(f"{specimen}: its law of contact is not known yet. Run `colonnade calibrate` first.")
     read = contact.ContactInputs.of(campaign, specimen)
     own = contact.law_of(law)
     return InSpace(contact.body_of(read, own), own, read.settings.step)
