@@ -198,7 +198,7 @@ def test_accelerometers_alone_give_the_angle_within_their_standard_error(shaken,
     error = _error(result, time, angle)
     assert np.mean(np.abs(error) < 3 * result["angle_deviation"].to_numpy()) > 0.95
     assert np.sqrt(np.mean(error**2)) < 0.05 * PRISM.critical_angle
-    assert "a slide cannot be separated from tilt" in result.attrs["separation"]
+    assert "slide cannot be separated from tilt" in result.attrs["separation"]
 
 
 def test_one_accelerometer_alone_gives_no_angle_and_costs_no_prediction(shaken, measure):
@@ -238,7 +238,7 @@ def test_residuals_tell_which_transducer_disagrees(shaken, measure):
 def test_a_gyroscope_that_contradicts_the_others_is_left_out_and_said(shaken, measure):
     _, time, angle, base = shaken
     result = measure(["laser", "gyroscope"], time, angle, base=base, spoilt={"gyroscope": -1.0})
-    assert "left out" in result.attrs["separation"]
+    assert "one gyroscope not used" in result.attrs["separation"]
     assert np.sqrt(np.nanmean(_error(result, time, angle) ** 2)) < 4e-3 * PRISM.critical_angle
     assert float(result["residual_to_reading"].sel(transducer="gyroscope")) > 1.5
 

@@ -120,7 +120,7 @@ def test_a_value_that_was_changed_in_the_file_is_told(tmp_path):
 
 
 def test_a_result_that_is_not_there_is_told(tmp_path):
-    with pytest.raises(StoreError, match="is not there"):
+    with pytest.raises(StoreError, match="result not found"):
         files.read(tmp_path / "a.nc")
 
 

@@ -83,12 +83,12 @@ def test_an_ensemble_of_the_contact_model_is_compared_and_reported_while_it_is_a
     page = (report / "tests" / "pulse-01.html").read_text(encoding="utf-8")
     assert "Contact model: predicted up to" in page
     methods = (report / "methods.html").read_text(encoding="utf-8")
-    assert "repeated 3 times with other friction (± 20%), damping fraction (± 20%)" in methods
-    assert "by the nonlinear and contact models" in methods
-    assert "Each but the contact model was repeated 5 times" in methods
+    assert "run 3 times with varied friction (± 20%), damping fraction (± 20%)" in methods
+    assert "and the nonlinear and contact models" in methods
+    assert "Each model except the contact model was run 5 times" in methods
     assert "α 0.5%; p 0.5%;" in methods
-    assert "a rigid body in space" in methods
-    assert "in steps of 90 µs" in methods
+    assert "here: rigid body" in methods
+    assert "time step 90 µs" in methods
     specimen = (report / "specimens" / "prism.html").read_text(encoding="utf-8")
     assert "critical damping fraction ξ at a node" in specimen
     assert "25, 0.408 to 1.63 kg and 4 to 16 N each" in specimen
@@ -96,7 +96,7 @@ def test_an_ensemble_of_the_contact_model_is_compared_and_reported_while_it_is_a
     in_space.edit("contact = {members = 3}", "contact = {members = 0}")
     in_space.run(until="report")
     assert "Contact model: predicted up to" not in (report / "tests" / "pulse-01.html").read_text(encoding="utf-8")
-    assert "with other friction" not in (report / "methods.html").read_text(encoding="utf-8")
+    assert "with varied friction" not in (report / "methods.html").read_text(encoding="utf-8")
 
 
 def test_a_specimen_without_a_law_fails_its_tests_with_what_to_do(in_space):

@@ -106,7 +106,7 @@ def test_a_folder_that_cannot_be_written_is_told(untouched):
 
 
 def fails(error):
-    def work(*arguments):
+    def work(*arguments, **named):
         raise error
 
     return work

@@ -74,7 +74,7 @@ def test_two_motions_are_not_one():
 
 
 @pytest.mark.parametrize(
-    ("scale", "words"), [(9.81, "g taken"), (1 / 9.81, "g taken"), (100.0, "Gal"), (2.0, "look at")]
+    ("scale", "words"), [(9.81, "g read as"), (1 / 9.81, "g read as"), (100.0, "Gal"), (2.0, "look at")]
 )
 def test_a_scale_of_an_acceleration_has_its_cause(scale, words):
     assert words in cause(scale, "acceleration")

@@ -86,7 +86,7 @@ def test_each_transducer_tells_the_scale_of_its_angle_by_itself(sound):
     [
         (10.0, "a gain wrong by a factor of 10"),
         (1 / 25.4, "inches read as mm"),
-        (1e-3, "thousand times"),
+        (1e-3, "factor of 1000"),
         (4.0, "look at its gain"),
     ],
 )

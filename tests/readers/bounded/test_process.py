@@ -73,7 +73,7 @@ def test_one_process_serves_all_files_and_each_is_read_in_a_copy(do: Deed) -> No
 
 @pytest.mark.parametrize(("deed", "name"), [("crash", "SIGSEGV"), ("abort", "SIGABRT")])
 def test_a_crash_fails_its_own_file_alone(do: Deed, deed: str, name: str) -> None:
-    with pytest.raises(ReadError, match=rf'free-01.hostile: what reads "hostile" crashed on it \({name}\)') as crash:
+    with pytest.raises(ReadError, match=rf'free-01.hostile: the reader of "hostile" crashed on it \({name}\)') as crash:
         do(deed)
     assert crash.value.__cause__ is None  # kept against the file
     server = do().channels[0].values[1]
@@ -152,7 +152,7 @@ def test_other_files_of_the_campaign_may_be_read_and_not_written(do: Deed, tmp_p
 
 
 def test_a_reader_that_lies_is_not_believed(do: Deed) -> None:
-    with pytest.raises(ReadError, match=r'free-01.hostile: what reads "hostile" crashed on it'):
+    with pytest.raises(ReadError, match=r'free-01.hostile: the reader of "hostile" crashed on it'):
         do("lie")
     assert do().channels
 

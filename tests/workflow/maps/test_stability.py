@@ -195,7 +195,7 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
         (Wanted(cycles=0.0), (), "at least one cycle"),
         (Wanted(motion="pulse-99"), (), 'no test "pulse-99"'),
         (Wanted(motion="pulse-01"), (), "pulse-01: its table motion cannot be stretched"),
-        (Wanted(motion="pulse-01", responses=True), (), "ask for them without a recorded motion"),
+        (Wanted(motion="pulse-01", responses=True), (), "Leave out the recorded motion"),
         (Wanted(ramp_shape="round"), (), 'Unknown ramp shape "round"'),
     ],
     ids=[

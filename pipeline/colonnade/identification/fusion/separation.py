@@ -135,8 +135,8 @@ def _text(names: tuple[str, ...], mixed: list[int], unseen: list[int], transduce
     notes = [f"{fitted}, from {count}"]
     if mixed:
         it, verb = "it" if len(names) == 1 else "these", "is" if len(mixed) == 1 else "are"
-        notes.append(f"{_listed([_WORDS[UNKNOWNS[index]] for index in mixed])} {verb} not separated from {it}")
-        notes[-1] += " and taken as zero"
+        unseparated = _listed([_WORDS[UNKNOWNS[index]] for index in mixed])
+        notes.append(f"{unseparated} cannot be separated from {it} and {verb} taken as zero")
     if unseen:
         notes.append(f"no transducer measures {_listed([_WORDS[UNKNOWNS[index]] for index in unseen], 'or')}")
     return "; ".join(notes)
