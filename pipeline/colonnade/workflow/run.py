@@ -99,7 +99,7 @@ def run(
         walk = Walk(graph, name, raw, first, last, workers, scheduler, progress, notices.append)
         walk.through(tests)
         outdated = (walk.stale() - walk.failed.keys()) | (loaded.tests.keys() - set(walk.kept))
-        write_summary(loaded, layout, catalogue, outdated=outdated, failed=walk.failed)
+        write_summary(loaded, layout, catalogue, outdated=outdated, failed=walk.failed, workers=workers)
         report = None
         if last == "report":
             report = bring_up_to_date(loaded, layout, catalogue, outdated)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
 
 import colonnade
 from colonnade.campaign import Campaign, Test
@@ -15,6 +17,7 @@ from colonnade.store.records.table import as_csv
 from colonnade.store.records.test import record_of_test
 from colonnade.store.results import results_of
 from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.execution.spreading import spread
 from colonnade.workflow.pooling import restitution_taken
 
 MADE_BY = ("colonnade.store", "colonnade.identification")
@@ -28,6 +31,7 @@ def write_summary(
     *,
     outdated: Collection[str] = (),
     failed: Mapping[str, str] | None = None,
+    workers: int | None = 1,
 ) -> Summary:
     """
     Write both summaries, where their content changed.
@@ -42,6 +46,8 @@ def write_summary(
         Tests whose stored results are not of this campaign file, these raw files or this program; they are pending.
     failed : mapping of str to str, optional
         Reasons of the tests that failed in this run, stored or not.
+    workers : int, optional
+        Processes in which results are read; None for one a core.
 
     Returns
     -------
@@ -53,7 +59,6 @@ def write_summary(
         If they cannot be written.
     """
     failures = failed or {}
-    tests = campaign.wherever_it_lies().tests
     summary = Summary(
         campaign=campaign.campaign,
         colonnade=colonnade.__version__,
@@ -61,27 +66,57 @@ def write_summary(
             name: record_of_specimen(campaign, name, restitution_taken(campaign, layout, name))
             for name in campaign.specimens
         },
-        tests={
-            name: _remembered(campaign, layout, catalogue, test, name in outdated, failures.get(name))
-            for name, test in tests.items()
-        },
+        tests=_records(campaign, layout, catalogue, outdated, failures, workers),
     )
     files.write_text(layout.summary_json, summary.text())
     files.write_text(layout.summary_csv, as_csv(summary))
     return summary
 
 
-def _remembered(
-    campaign: Campaign, layout: Layout, catalogue: Catalogue, test: Test, is_outdated: bool, failure: str | None
-) -> TestSummary:
-    """Record of a test: the last one if it was made from just these results, else a new one."""
+@dataclass(frozen=True)
+class _Asked:
+    """What the record of a test is made from, besides its results; the campaign holds no other test."""
+
+    campaign: Campaign
+    test: Test
+    is_outdated: bool
+    failure: str | None
+
+
+def _records(
+    campaign: Campaign,
+    layout: Layout,
+    catalogue: Catalogue,
+    outdated: Collection[str],
+    failures: Mapping[str, str],
+    workers: int | None,
+) -> dict[str, TestSummary]:
+    """Give the record of each test: the last one if it was made from just these results, else a new one."""
+    code = catalogue.code(MADE_BY)
+    signatures, found, waiting = {}, {}, []
+    for name, test in campaign.wherever_it_lies().tests.items():
+        asked = _Asked(replace(campaign, tests={name: test}), test, name in outdated, failures.get(name))
+        signatures[name] = _signature(asked, layout, catalogue, code)
+        known = catalogue.record(name, signatures[name])
+        if known is None:
+            waiting.append(asked)
+        else:
+            found[name] = TestSummary.model_validate_json(known)
+    for name, text in spread(partial(_record, layout), waiting, workers=workers):
+        catalogue.remember(name, signatures[name], text)
+        found[name] = TestSummary.model_validate_json(text)
+    return {name: found[name] for name in campaign.tests}
+
+
+def _signature(asked: _Asked, layout: Layout, catalogue: Catalogue, code: str) -> str:
+    campaign, test = asked.campaign, asked.test
     paths = [layout.path(result) for result in results_of(campaign, test)]
     entry = [repr(test), repr(campaign.specimens[test.specimen]), campaign.gravity, campaign.review(test.id).excluded]
     entry.append(repr(campaign.concerning(test.id)))
-    signature = catalogue.signature(paths, *entry, is_outdated, failure, catalogue.code(MADE_BY))
-    known = catalogue.record(test.id, signature)
-    if known is not None:
-        return TestSummary.model_validate_json(known)
-    record = record_of_test(campaign, test, read_test(campaign, layout, test, is_outdated=is_outdated, failure=failure))
-    catalogue.remember(test.id, signature, record.model_dump_json())
-    return record
+    return catalogue.signature(paths, *entry, asked.is_outdated, asked.failure, code)
+
+
+def _record(layout: Layout, asked: _Asked) -> tuple[str, str]:
+    """Read what is stored of a test; return its id, and its record as JSON."""
+    stored = read_test(asked.campaign, layout, asked.test, is_outdated=asked.is_outdated, failure=asked.failure)
+    return asked.test.id, record_of_test(asked.campaign, asked.test, stored).model_dump_json()
