@@ -2,60 +2,45 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Iterable, Iterator
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import settings
-from colonnade.dynamics.models.registry import MODELS
-from colonnade.figures.stored import record
 from colonnade.identification.response.base_motion import LEAST_MOTION
 from colonnade.identification.response.rank import WITHIN
 from colonnade.identification.restitution.choice import RULE
 from colonnade.identification.restitution.estimators.registry import ESTIMATORS
 from colonnade.interruption import expect_none
-from colonnade.report import addresses, channels, methods, overview, pages, problems, specimens_page, tests_page
+from colonnade.report import addresses, methods, overview, pages, problems, specimens_page
 from colonnade.report.agreement import agreement
-from colonnade.report.channels import ChannelRow
 from colonnade.report.methods import Used
-from colonnade.report.overview import SpanTest
+from colonnade.report.parts import Asked, Part, parts_of
 from colonnade.report.references import REFERENCES
 from colonnade.report.rows import TestRow
-from colonnade.report.specimens_page import FreeVibration, SpecimenPage
+from colonnade.report.specimens_page import SpecimenPage
 from colonnade.store import files, stamps
 from colonnade.store.layout import Layout
-from colonnade.store.provenance import hash_of
-from colonnade.store.records.stored import Stored, read_specimen, read_test
+from colonnade.store.records.stored import read_specimen
 from colonnade.store.records.summary import read_summary, records_of_tests
-from colonnade.store.records.wording import quantity
+
+IN_A_BLOCK = 5
+"""Tests whose pages are drawn one after the other, so that templates are not read again for each."""
+
+Spread = Callable[[Callable[[list[Asked]], list[Part]], list[list[Asked]]], Iterable[list[Part]]]
 
 
-@dataclass
-class Gathered:
-    """What is kept of the tests for the pages about all of them, light enough for thousands."""
-
-    rows: list[TestRow] = field(default_factory=list)
-    channels: dict[str, tuple[ChannelRow, ...]] = field(default_factory=dict)
-    spans: list[SpanTest] = field(default_factory=list)
-    free_vibrations: defaultdict[str, list[FreeVibration]] = field(default_factory=lambda: defaultdict(list))
-    used: Used = field(default_factory=Used)
-
-    def add(self, campaign: Campaign, row: TestRow, stored: Stored) -> None:
-        """Keep of a test what the other pages show."""
-        test, block = row.test, campaign.block(row.test.specimen)
-        self.rows.append(row)
-        self.channels[test.id] = channels.of_test(stored)
-        self.used.gather(test.id, stored)
-        if test.span is not None and any("rocking_angle" in dataset for dataset in stored.datasets.values()):
-            panel = record.span_panel(test, stored, block)
-            self.spans.append(SpanTest(row, panel, record.seen(row.record, stored)))
-        if stored.has("restitution"):
-            self.free_vibrations[test.specimen].append(specimens_page.free_vibration(row, stored, block))
-
-
-def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *, code: str = "", key: str = "") -> Path:
+def build(
+    campaign: Campaign,
+    layout: Layout,
+    outdated: Collection[str] = (),
+    *,
+    code: str = "",
+    key: str = "",
+    spread: Spread = map,
+) -> Path:
     """
     Write the report of a campaign.
 
@@ -70,6 +55,8 @@ def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *,
         Hash of the code. With it, pages of tests that would come out the same are not drawn again.
     key : str, optional
         Hash of all that the report is made from, for the stamp of the pages that show several tests.
+    spread : callable, optional
+        Calls a function once for each item, as `map` does, in other processes if it likes, in any order.
 
     Returns
     -------
@@ -84,7 +71,7 @@ def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *,
     """
     folder = layout.report.parent
     there = set()
-    for address, text, made_from in render(campaign, layout, outdated, code=code):
+    for address, text, made_from in render(campaign, layout, outdated, code=code, spread=spread):
         expect_none()
         if text is not None:
             files.write_text(folder / address, stamps.stamped(text, made_from or key))
@@ -95,7 +82,7 @@ def build(campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *,
 
 
 def render(
-    campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *, code: str = ""
+    campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *, code: str = "", spread: Spread = map
 ) -> Iterator[tuple[str, str | None, str]]:
     """
     Render the pages, the overview last.
@@ -109,21 +96,24 @@ def render(
     made_from : str
         Of the page of a test: hash of what it shows.
     """
-    renderer = pages.Renderer(
-        campaign=campaign,
-        models=campaign.processing.predict.models,
-        registry=MODELS,
-        gravity=quantity(campaign.gravity, "m/s²", 5),
-        version=methods.software()[0][1],
-    )
-    gathered = Gathered()
-    yield from _tests(renderer, campaign, layout, outdated, code, gathered)
-    groups, maps = overview.by_specimen(campaign, gathered.rows), overview.measured_maps(campaign, gathered.rows)
+    renderer = pages.renderer_of(campaign)
+    found: dict[str, Part] = {}
+    for parts in spread(partial(parts_of, campaign, layout, code), _blocks(campaign, layout, outdated)):
+        for part in parts:
+            yield addresses.of_test(part.row.id), part.text, part.made_from
+            found[part.row.id] = replace(part, text=None)
+    tests = [found[name] for name in campaign.tests]
+    rows = [part.row for part in tests]
+    used = Used()
+    for part in tests:
+        used.add(part.used)
+    groups, maps = overview.by_specimen(campaign, rows), overview.measured_maps(campaign, rows)
     specimens = []
     for name in campaign.specimens:
         pooled = read_specimen(campaign, layout, name)
-        gathered.used.versions |= pooled.versions
-        specimens.append(specimens_page.of_specimen(campaign, name, pooled, gathered.free_vibrations[name]))
+        used.versions |= pooled.versions
+        free = [part.free_vibration for part in tests if part.row.test.specimen == name and part.free_vibration]
+        specimens.append(specimens_page.of_specimen(campaign, name, pooled, free))
         yield (
             addresses.of_specimen(name),
             renderer.page(
@@ -136,15 +126,15 @@ def render(
             "",
         )
     shown = {
-        "tests": gathered.rows,
+        "tests": rows,
         "specimens": specimens,
-        "warnings": _warnings(gathered.rows, specimens),
+        "warnings": _warnings(rows, specimens),
         "groups": groups,
         "maps": maps,
-        "spans": overview.span_groups(gathered.spans),
-        "agreement": agreement({row.id: row.record.model_dump() for row in gathered.rows}),
-        "channels": gathered.channels,
-        "used": gathered.used,
+        "spans": overview.span_groups([part.span for part in tests if part.span is not None]),
+        "agreement": agreement({row.id: row.record.model_dump() for row in rows}),
+        "channels": {part.row.id: part.channels for part in tests},
+        "used": used,
         "settings": list(settings(campaign.processing)),
         "references": REFERENCES,
         "software": methods.software(),
@@ -163,37 +153,12 @@ def _warnings(tests: list[TestRow], specimens: list[SpecimenPage]) -> list[probl
     return problems.warning_groups(given)
 
 
-def _tests(
-    renderer: pages.Renderer,
-    campaign: Campaign,
-    layout: Layout,
-    outdated: Collection[str],
-    code: str,
-    gathered: Gathered,
-) -> Iterator[tuple[str, str | None, str]]:
-    """Render the page of each test, unless its page says that it was made from the same."""
+def _blocks(campaign: Campaign, layout: Layout, outdated: Collection[str]) -> list[list[Asked]]:
+    """Part the tests into blocks, each with the records and neighbours of its tests."""
     ids = [None, *campaign.tests, None]
-    elsewhere = campaign.wherever_it_lies()
     records = records_of_tests(campaign, read_summary(layout))
-    for before, test, after in zip(ids, campaign.tests.values(), ids[2:], strict=False):
-        stored = read_test(campaign, layout, test, is_outdated=test.id in outdated)
-        row = TestRow.of(campaign, test, records[test.id], stored)
-        gathered.add(campaign, row, stored)
-        address = addresses.of_test(test.id)
-        made_from = _made_from(elsewhere, row, stored, code, (before, after)) if code else ""
-        if made_from and made_from == stamps.key_of(layout.report.parent / address):
-            yield address, None, made_from
-            continue
-        page = tests_page.of_test(campaign, row, stored)
-        yield address, renderer.page("test", address, test=page, before=before, after=after), made_from
-
-
-def _made_from(
-    campaign: Campaign, row: TestRow, stored: Stored, code: str, neighbours: tuple[str | None, str | None]
-) -> str:
-    """Hash of all that the page of a test shows; paths of the campaign are those from its folder."""
-    test = campaign.tests[row.id]
-    around = (campaign.title, campaign.gravity, tuple(campaign.specimens), campaign.processing.predict.models)
-    own = (test, campaign.specimens[test.specimen], campaign.review(test.id))
-    found = stored.keys, row.failures, row.record, stored.raw_files
-    return hash_of([code, repr((found, around, own, neighbours))])
+    asked = [
+        Asked(test, before, after, records[test], test in outdated)
+        for before, test, after in zip(ids, campaign.tests, ids[2:], strict=False)
+    ]
+    return [asked[start : start + IN_A_BLOCK] for start in range(0, len(asked), IN_A_BLOCK)]

@@ -85,6 +85,13 @@ class Used:
         self._note("separation", stored.text("rocking", "separation"), test)
         self.versions |= stored.versions
 
+    def add(self, other: Used) -> None:
+        """Take over what another has gathered."""
+        for name, values in other.values.items():
+            for value, tests in values.items():
+                self.values.setdefault(name, {}).setdefault(value, {}).update(tests)
+        self.versions |= other.versions
+
     def _note(self, name: str, value: str, test: str) -> None:
         if value:
             self.values.setdefault(name, {}).setdefault(value, {})[test] = None

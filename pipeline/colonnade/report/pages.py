@@ -6,7 +6,10 @@ from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from colonnade import __version__
+from colonnade.campaign import Campaign
 from colonnade.campaign.settings import Setting
+from colonnade.dynamics.models.registry import MODELS
 from colonnade.report.addresses import of_specimen, of_test
 from colonnade.store.records import wording
 
@@ -72,3 +75,14 @@ def _setting(setting: Setting) -> str:
     if isinstance(value, str):
         return value
     return f"{value:g} {setting.unit}".rstrip()
+
+
+def renderer_of(campaign: Campaign) -> Renderer:
+    """Return the renderer of a campaign's pages."""
+    return Renderer(
+        campaign=campaign,
+        models=campaign.processing.predict.models,
+        registry=MODELS,
+        gravity=wording.quantity(campaign.gravity, "m/s²", 5),
+        version=__version__,
+    )

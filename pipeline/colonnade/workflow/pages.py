@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection
+from functools import partial
 from pathlib import Path
 
 from colonnade.campaign import Campaign
@@ -11,13 +12,16 @@ from colonnade.report.addresses import addresses
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.execution.spreading import spread
 from colonnade.workflow.freshness import Recipe
 
 MADE_BY = ("colonnade.report", "colonnade.store")
 """What the pages are made by."""
 
 
-def bring_up_to_date(campaign: Campaign, layout: Layout, catalogue: Catalogue, outdated: Collection[str]) -> Path:
+def bring_up_to_date(
+    campaign: Campaign, layout: Layout, catalogue: Catalogue, outdated: Collection[str], workers: int | None
+) -> Path:
     """
     Build the report where it is out of date.
 
@@ -28,6 +32,8 @@ def bring_up_to_date(campaign: Campaign, layout: Layout, catalogue: Catalogue, o
     catalogue : Catalogue
     outdated : collection of str
         Tests whose stored results are not of this campaign any more.
+    workers : int or None
+        Processes in which pages are drawn; None for one a core.
 
     Returns
     -------
@@ -56,7 +62,7 @@ def bring_up_to_date(campaign: Campaign, layout: Layout, catalogue: Catalogue, o
     if not (is_whole and all(catalogue.stamp(folder / page) == recipe.key for page in others)):
         from colonnade.report.build import build
 
-        build(campaign, layout, outdated, code=recipe.code, key=recipe.key)
+        build(campaign, layout, outdated, code=recipe.code, key=recipe.key, spread=partial(spread, workers=workers))
         for page in (*tests, *others):
             catalogue.stamp(folder / page)
     return layout.report

@@ -102,7 +102,7 @@ def run(
         write_summary(loaded, layout, catalogue, outdated=outdated, failed=walk.failed, workers=workers)
         report = None
         if last == "report":
-            report = bring_up_to_date(loaded, layout, catalogue, outdated)
+            report = bring_up_to_date(loaded, layout, catalogue, outdated, workers)
         catalogue.save()
     concerning = {name: loaded.concerning(name) for name in loaded.tests}
     return RunResult(tuple(walk.stages), layout.summary_json, report, loaded.warnings, concerning, tuple(notices))

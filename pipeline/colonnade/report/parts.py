@@ -1,0 +1,106 @@
+"""What the report draws and keeps of each test: its own page, and its part of the pages about all tests."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from colonnade.campaign import Campaign
+from colonnade.campaign.summary import TestSummary
+from colonnade.figures.stored import record
+from colonnade.report import addresses, channels, pages, specimens_page, tests_page
+from colonnade.report.channels import ChannelRow
+from colonnade.report.methods import Used
+from colonnade.report.overview import SpanTest
+from colonnade.report.rows import TestRow
+from colonnade.report.specimens_page import FreeVibration
+from colonnade.store import stamps
+from colonnade.store.layout import Layout
+from colonnade.store.provenance import hash_of
+from colonnade.store.records.stored import Stored, read_test
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A test whose page is asked for: its neighbours, its record, and whether its results are out of date."""
+
+    test: str
+    before: str | None
+    after: str | None
+    record: TestSummary
+    is_outdated: bool
+
+
+@dataclass(frozen=True)
+class Part:
+    """
+    What the report has of a test, light enough to keep of thousands once the text is written.
+
+    Attributes
+    ----------
+    row : TestRow
+    channels : tuple of ChannelRow
+    span : SpanTest or None
+        Of an earthquake test with a Span.
+    free_vibration : FreeVibration or None
+    used : Used
+        What its results were made with.
+    text : str or None
+        Its page; None if the page is there already.
+    made_from : str
+        Hash of what the page shows; empty if nobody asks.
+    """
+
+    row: TestRow
+    channels: tuple[ChannelRow, ...]
+    span: SpanTest | None
+    free_vibration: FreeVibration | None
+    used: Used
+    text: str | None
+    made_from: str
+
+
+def parts_of(campaign: Campaign, layout: Layout, code: str, block: Sequence[Asked]) -> list[Part]:
+    """
+    Read some tests, and draw the pages that do not say that they were made from the same.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    layout : Layout
+    code : str
+        Hash of the code; if empty, every page is drawn.
+    block : sequence of Asked
+    """
+    renderer = pages.renderer_of(campaign)
+    return [_part(renderer, campaign, layout, code, asked) for asked in block]
+
+
+def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: str, asked: Asked) -> Part:
+    test = campaign.tests[asked.test]
+    block = campaign.block(test.specimen)
+    stored = read_test(campaign, layout, test, is_outdated=asked.is_outdated)
+    row = TestRow.of(campaign, test, asked.record, stored)
+    used, span, free_vibration = Used(), None, None
+    used.gather(test.id, stored)
+    if test.span is not None and any("rocking_angle" in dataset for dataset in stored.datasets.values()):
+        span = SpanTest(row, record.span_panel(test, stored, block), record.seen(row.record, stored))
+    if stored.has("restitution"):
+        free_vibration = specimens_page.free_vibration(row, stored, block)
+    address, text = addresses.of_test(test.id), None
+    made_from = _made_from(campaign.wherever_it_lies(), row, stored, code, (asked.before, asked.after)) if code else ""
+    if not made_from or made_from != stamps.key_of(layout.report.parent / address):
+        page = tests_page.of_test(campaign, row, stored)
+        text = renderer.page("test", address, test=page, before=asked.before, after=asked.after)
+    return Part(row, channels.of_test(stored), span, free_vibration, used, text, made_from)
+
+
+def _made_from(
+    campaign: Campaign, row: TestRow, stored: Stored, code: str, neighbours: tuple[str | None, str | None]
+) -> str:
+    """Hash of all that the page of a test shows; paths of the campaign are those from its folder."""
+    test = campaign.tests[row.id]
+    around = (campaign.title, campaign.gravity, tuple(campaign.specimens), campaign.processing.predict.models)
+    own = (test, campaign.specimens[test.specimen], campaign.review(test.id))
+    found = stored.keys, row.failures, row.record, stored.raw_files
+    return hash_of([code, repr((found, around, own, neighbours))])
