@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from colonnade.arrays import Array
 from colonnade.signals.clock import resample, uniform_clock
@@ -123,14 +123,12 @@ def find_offset(reference: Array, values: Array, interval: float, *, longest: fl
     tell one period of a sine from the next. The standard error is that of a shift fitted by least squares. A steady
     sine that began before the records and outlasts them fits as well one period off: see `Offset.rival`.
     """
-    from scipy import signal  # a second that a run with nothing to do is spared
-
     first, second = reference - reference.mean(), values - values.mean()
     power = float(np.sqrt((first @ first) * (second @ second)))
     reach = min(int(np.ceil(longest / interval)), first.size - 2)
     if not power > 0 or reach < 1:
         return Offset(0.0, float("inf"), 0.0)
-    correlation = signal.correlate(second, first, mode="full", method="fft") / power
+    correlation = scipy.signal.correlate(second, first, mode="full", method="fft") / power
     middle = first.size - 1
     window = correlation[middle - reach : middle + reach + 1]
     best = int(np.argmax(window))
@@ -242,7 +240,7 @@ def link(reference: Record, record: Record, *, quantities: tuple[str, str], long
 
 def _is_better(turned: Offset, offset: Offset, time: Array, first: Array, second: Array, bandwidth_hz: float) -> bool:
     """Whether two records agree much better with the sign of one turned, where both have values."""
-    spline = CubicSpline(time, second)
+    spline = scipy.interpolate.CubicSpline(time, second)
 
     def unexplained(sign: float, shift: float) -> float:
         shared = (time + shift >= time[0]) & (time + shift <= time[-1])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from colonnade.arrays import Array, Mask
 
@@ -70,7 +70,9 @@ def resample(time: Array, values: Array, onto: Array, interval: float) -> tuple[
         knots = np.sort(np.concatenate([time, *filling]))
         heights = np.interp(knots, time, values)
     inside = np.clip(onto, time[0], time[-1])
-    resampled = CubicSpline(knots, heights)(inside) if knots.size > 3 else np.interp(inside, knots, heights)
+    resampled = (
+        scipy.interpolate.CubicSpline(knots, heights)(inside) if knots.size > 3 else np.interp(inside, knots, heights)
+    )
     after = np.clip(np.searchsorted(time, onto, side="right"), 1, max(time.size - 1, 1))
     within = time[after] - time[after - 1] > (LONGEST_BRIDGE + 0.5) * interval if time.size > 1 else np.ones(onto.size)
     slack = 1e-6 * interval

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from colonnade.arrays import Array
 
@@ -87,7 +87,7 @@ def find_rate(time: Array, reference: Array, values: Array, *, delay: float, ban
     In each stretch delay and gain are fitted by least squares. A scatter of the delays about the line that is larger
     than their standard errors widens that of the rate.
     """
-    spline = CubicSpline(time, values)
+    spline = scipy.interpolate.CubicSpline(time, values)
     found: list[tuple[float, float, float]] = []
     for start, stop in _stretches(time, reference, bandwidth_hz):
         # Each stretch starts from the delay of the one nearest to it.
@@ -130,7 +130,7 @@ def _stretches(time: Array, reference: Array, bandwidth_hz: float) -> list[tuple
 
 
 def _local_delay(
-    time: Array, reference: Array, values: CubicSpline, delay: float, bandwidth_hz: float
+    time: Array, reference: Array, values: scipy.interpolate.CubicSpline, delay: float, bandwidth_hz: float
 ) -> tuple[float, float, float] | None:
     """Middle, delay and standard error of a stretch; None where it does not agree or leaves the record."""
     centred = reference - reference.mean()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import acosh
 
 import numpy as np
+import scipy
 
 from colonnade.arrays import Array, Mask
 
@@ -60,10 +61,8 @@ def lowpass(values: Array, interval: float, cutoff_hz: float, order: int = 4) ->
     ValueError
         If the cut-off is not between zero and half the sampling rate.
     """
-    from scipy import signal  # a second that a run with nothing to do is spared
-
     sections, padding = lowpass_sections(values.shape[-1], interval, cutoff_hz, order)
-    return np.asarray(signal.sosfiltfilt(sections, values, padlen=padding), dtype=np.float64)
+    return np.asarray(scipy.signal.sosfiltfilt(sections, values, padlen=padding), dtype=np.float64)
 
 
 def lowpass_sections(count: int, interval: float, cutoff_hz: float, order: int = 4) -> tuple[Array, int]:
@@ -75,14 +74,12 @@ def lowpass_sections(count: int, interval: float, cutoff_hz: float, order: int =
     ValueError
         As `lowpass`.
     """
-    from scipy import signal
-
     nyquist = 0.5 / interval
     if not 0 < cutoff_hz < nyquist:
         raise ValueError(
             f"the cut-off is {cutoff_hz:g} Hz; it was expected between 0 and {nyquist:g} Hz, half the sampling rate"
         )
-    sections = np.asarray(signal.butter(order, cutoff_hz, fs=1 / interval, output="sos"))
+    sections = np.asarray(scipy.signal.butter(order, cutoff_hz, fs=1 / interval, output="sos"))
     # The odd extension has to outlast the filter's own memory; a short record has no more than itself to give.
     return sections, min(int(3 * order / (cutoff_hz * interval)), count - 1)
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array
@@ -160,13 +161,11 @@ def best_scale(record: Series, motion: Series) -> float:
 
 
 def _correlated(first: Series, second: Series) -> Match:
-    from scipy import signal  # a second that a run with nothing to do is spared
-
     one, other = first.acceleration, second.acceleration
     power = float(np.sqrt((one @ one) * (other @ other)))
     if not power > 0 or min(one.size, other.size) < FEWEST_SAMPLES:
         return Match(0.0, 0.0)
-    correlation = signal.correlate(one, other, mode="full", method="fft") / power
+    correlation = scipy.signal.correlate(one, other, mode="full", method="fft") / power
     best = int(np.argmax(np.abs(correlation)))
     return Match(float(correlation[best]), (best - other.size + 1) * first.interval)
 

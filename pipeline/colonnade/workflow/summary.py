@@ -8,7 +8,7 @@ from functools import partial
 
 import colonnade
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.summary import Summary, TestSummary
+from colonnade.campaign.summary import SpecimenSummary, Summary, TestSummary
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.specimen import record_of_specimen
@@ -20,7 +20,7 @@ from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.execution.spreading import spread
 from colonnade.workflow.pooling import restitution_taken
 
-MADE_BY = ("colonnade.store", "colonnade.identification")
+MADE_BY = ("colonnade.store", "colonnade.identification", "colonnade.stages.specimen")
 """What records are made by."""
 
 
@@ -62,15 +62,26 @@ def write_summary(
     summary = Summary(
         campaign=campaign.campaign,
         colonnade=colonnade.__version__,
-        specimens={
-            name: record_of_specimen(campaign, name, restitution_taken(campaign, layout, name))
-            for name in campaign.specimens
-        },
+        specimens={name: _of_specimen(campaign, layout, catalogue, name) for name in campaign.specimens},
         tests=_records(campaign, layout, catalogue, outdated, failures, workers),
     )
     files.write_text(layout.summary_json, summary.text())
     files.write_text(layout.summary_csv, as_csv(summary))
     return summary
+
+
+def _of_specimen(campaign: Campaign, layout: Layout, catalogue: Catalogue, name: str) -> SpecimenSummary:
+    """Give the record of a specimen: the last one if it was made from just this result and campaign, else a new one."""
+    from colonnade.stages.specimen import SpecimenInputs
+
+    inputs, subject = SpecimenInputs.of(campaign, name).model_dump_json(), f"specimen {name}"
+    entry = [inputs, repr(campaign.specimens[name]), campaign.gravity]
+    signature = catalogue.signature([layout.stage(name, "specimen")], *entry, catalogue.code(MADE_BY))
+    text = catalogue.record(subject, signature)
+    if text is None:
+        text = record_of_specimen(campaign, name, restitution_taken(campaign, layout, name)).model_dump_json()
+        catalogue.remember(subject, signature, text)
+    return SpecimenSummary.model_validate_json(text)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from math import hypot, tan
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from colonnade.arrays import Array
 from colonnade.dynamics.contact.body import ContactBody
@@ -121,7 +121,9 @@ def _ring_height(body: ContactBody, upward: Array, stiffness: Array, weight: flo
 
     highest = float((rise - middle).max())
     deepest = weight / float(stiffness.sum()) + 2.0 * float(rise.max())
-    return float(brentq(excess, highest - deepest - float(np.ptp(rise - middle)), highest, xtol=1e-15, rtol=1e-14))
+    return float(
+        scipy.optimize.brentq(excess, highest - deepest - float(np.ptp(rise - middle)), highest, xtol=1e-15, rtol=1e-14)
+    )
 
 
 def rotation_matrices(orientation: Array) -> Array:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import binary_dilation, maximum_filter1d, uniform_filter1d
+import scipy
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
@@ -117,7 +117,11 @@ def _rocking(interval: float, angle: Array, noise: float, p: float) -> Mask:
     magnitude = np.abs(angle)
     largest = float(magnitude.max())
     window = max(int(1.6 / p / interval), 3)
-    moves = maximum_filter1d(magnitude, window) > max(STANDING * noise, MOVES * largest)
-    deviation = np.sqrt(np.maximum(uniform_filter1d(angle**2, window) - uniform_filter1d(angle, window) ** 2, 0.0))
+    moves = scipy.ndimage.maximum_filter1d(magnitude, window) > max(STANDING * noise, MOVES * largest)
+    deviation = np.sqrt(
+        np.maximum(
+            scipy.ndimage.uniform_filter1d(angle**2, window) - scipy.ndimage.uniform_filter1d(angle, window) ** 2, 0.0
+        )
+    )
     held = (deviation < HELD * largest) & (magnitude > 0.1 * largest)
-    return np.asarray(moves & ~binary_dilation(held, iterations=window))
+    return np.asarray(moves & ~scipy.ndimage.binary_dilation(held, iterations=window))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import signal
 
 from colonnade.arrays import Array
 from colonnade.dynamics.kernel import kernel
@@ -122,7 +122,7 @@ def _filtered(values: Array, measurement: Measurement) -> Array:
     before = 2 * mirrored[0] - mirrored[padding:0:-1]
     after = 2 * mirrored[-1] - mirrored[-2 : -padding - 2 : -1]
     extended = np.ascontiguousarray(np.concatenate((before, mirrored, after)))
-    settled = np.asarray(signal.sosfilt_zi(sections))
+    settled = np.asarray(scipy.signal.sosfilt_zi(sections))
     for backwards in (False, True):
         _run_filter(extended, sections, settled, backwards)
     return np.ascontiguousarray(extended[padding + memory : padding + count].T)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy import ndimage
 
 from colonnade.arrays import Array
 from colonnade.signals.stretches import stretches
@@ -82,8 +82,8 @@ def fit_forcing(time: ArrayLike, motion: ArrayLike) -> Forcing | None:
             return None
         turning = values * np.exp(-2j * np.pi * frequency * times)
         level = 2 * (
-            ndimage.uniform_filter1d(turning.real, samples, mode="constant")
-            + 1j * ndimage.uniform_filter1d(turning.imag, samples, mode="constant")
+            scipy.ndimage.uniform_filter1d(turning.real, samples, mode="constant")
+            + 1j * scipy.ndimage.uniform_filter1d(turning.imag, samples, mode="constant")
         )
         steady = _steady_part(np.abs(level), samples)
         if steady.stop - steady.start < FEWEST_CYCLES * samples:

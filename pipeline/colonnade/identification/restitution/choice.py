@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from math import hypot
 
-from scipy import stats
+import scipy
 
 from colonnade.identification.restitution.estimators.estimator import Fit
 from colonnade.identification.restitution.estimators.history import UNLIKELY, NonlinearHistory
@@ -80,7 +80,7 @@ def _of_two(preferred: Estimate, other: Estimate) -> Estimate:
     close = abs(value - other.value) <= DISAGREEMENT * hypot(widened, other.standard_error)
     if not close or other.standard_error <= widened:
         return other
-    half = float(stats.norm.ppf((1 + other.level) / 2)) * widened
+    half = float(scipy.stats.norm.ppf((1 + other.level) / 2)) * widened
     return replace(preferred, low=value - half, high=value + half, standard_error=widened)
 
 

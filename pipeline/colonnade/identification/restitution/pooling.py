@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy import optimize, stats
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ def pool(values: ArrayLike, standard_errors: ArrayLike, *, level: float = 0.95) 
         )
     freedom = e.size - 1
     if freedom == 0:
-        half = float(stats.norm.ppf((1 + level) / 2)) * float(error[0])
+        half = float(scipy.stats.norm.ppf((1 + level) / 2)) * float(error[0])
         return Pooled(float(e[0]), float(e[0]) - half, float(e[0]) + half, float(error[0]), 0.0, level)
 
     def excess(variance: float) -> float:
@@ -63,11 +63,11 @@ def pool(values: ArrayLike, standard_errors: ArrayLike, *, level: float = 0.95) 
         return float((weights * (e - np.average(e, weights=weights)) ** 2).sum()) - freedom
 
     widest = float(np.ptp(e)) ** 2 * e.size
-    between = float(optimize.brentq(excess, 0.0, widest, xtol=1e-18)) if excess(0.0) > 0 else 0.0
+    between = float(scipy.optimize.brentq(excess, 0.0, widest, xtol=1e-18)) if excess(0.0) > 0 else 0.0
     weights = 1 / (error**2 + between)
     value = float(np.average(e, weights=weights))
     by_weights = float(1 / np.sqrt(weights.sum()))
     by_scatter = float(np.sqrt((weights * (e - value) ** 2).sum() / (freedom * weights.sum())))
     standard_error = max(by_weights, by_scatter)
-    half = float(stats.t.ppf((1 + level) / 2, freedom)) * standard_error
+    half = float(scipy.stats.t.ppf((1 + level) / 2, freedom)) * standard_error
     return Pooled(value, value - half, value + half, standard_error, float(np.sqrt(between)), level)

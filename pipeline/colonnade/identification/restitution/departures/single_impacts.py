@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import isfinite
 
-from scipy import stats
+import scipy
 
 from colonnade.identification.restitution.departures.departure import Departure
 from colonnade.identification.restitution.estimators.history_scatter import ScatteredFit
@@ -90,7 +90,7 @@ def speed_dependence(fit: ScatteredFit) -> tuple[Departure, ...]:
     """
     if not fit.has_trend or abs(fit.change) < LEAST_CHANGE:
         return ()
-    refuses = abs(fit.change) > LARGEST_CHANGE and fit.change_chance <= 2 * float(stats.norm.sf(SURE))
+    refuses = abs(fit.change) > LARGEST_CHANGE and fit.change_chance <= 2 * float(scipy.stats.norm.sf(SURE))
     end = "one value would mislead." if refuses else "the value given is the mean over the impacts seen."
     return (
         Departure(

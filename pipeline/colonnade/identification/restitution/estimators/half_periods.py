@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import exp, sqrt
 
 import numpy as np
-from scipy import optimize
+import scipy
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
@@ -164,7 +164,7 @@ def _height(phase: float, critical: float) -> float:
     low, high = 1e-6, 1 - 1e-9
     if excess(low) >= 0:
         return low
-    return high if excess(high) <= 0 else float(optimize.brentq(excess, low, high))
+    return high if excess(high) <= 0 else float(scipy.optimize.brentq(excess, low, high))
 
 
 def _times(decay: Decay) -> Array:

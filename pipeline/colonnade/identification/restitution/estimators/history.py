@@ -7,8 +7,8 @@ from math import sqrt
 from typing import ClassVar
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import stats
 
 from colonnade.arrays import Array
 from colonnade.identification.restitution.estimators.estimator import Estimator, Fit
@@ -240,10 +240,10 @@ def _probability(followed: DecayFit, noise: Noise, unknowns: int) -> float:
     freedom = int(freed.sum()) - (unknowns - 1)
     if freedom < 1 or not noise.level > 0:
         return 0.0
-    by_arc = float(stats.f.sf(lessened.sum() / freedom / noise.level, freedom, max(noise.freedom, 1.0)))
+    by_arc = float(scipy.stats.f.sf(lessened.sum() / freedom / noise.level, freedom, max(noise.freedom, 1.0)))
     excess = followed.mean_square / max(noise.variance, 1e-300)
     # Within arcs the power of the residual is held against that of the noise by its spectrum.
-    within = float(stats.f.sf(excess / ALLOWED_EXCESS, noise.freedom, noise.freedom))
+    within = float(scipy.stats.f.sf(excess / ALLOWED_EXCESS, noise.freedom, noise.freedom))
     return min(by_arc, within)
 
 
@@ -251,7 +251,7 @@ def _first_arc_left_over(followed: DecayFit, noise: Noise) -> bool:
     lessened, freed = _lessened(followed)
     if freed[0] == 0:
         return False
-    return bool(stats.f.sf(lessened[0] / freed[0] / noise.level, freed[0], max(noise.freedom, 1.0)) < 1e-3)
+    return bool(scipy.stats.f.sf(lessened[0] / freed[0] / noise.level, freed[0], max(noise.freedom, 1.0)) < 1e-3)
 
 
 def _covariance(followed: DecayFit, names: tuple[str, ...], noise: Noise, *, consistent: bool) -> Array:

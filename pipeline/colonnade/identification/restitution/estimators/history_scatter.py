@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from math import exp, isfinite
 
 import numpy as np
-from scipy import stats
+import scipy
 
 from colonnade.arrays import Array
 from colonnade.identification.restitution.estimators.estimator import Estimator
@@ -254,4 +254,4 @@ def _chance(change: float, error: float, impacts: int) -> float:
     """Probability that e of so many impacts changes as much by chance, by Student's t; 1 where that is not known."""
     if not (isfinite(change) and error > 0):
         return 1.0
-    return 2 * float(stats.t.sf(abs(change) / error, impacts - 2))
+    return 2 * float(scipy.stats.t.sf(abs(change) / error, impacts - 2))

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from math import sqrt
 
 import numpy as np
-from scipy import optimize
+import scipy
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
@@ -153,4 +153,4 @@ class _ScatteredMean:
 
         if spare < 1 or excess(0.0) <= 0 or excess(widest) >= 0:
             return 0.0
-        return float(optimize.brentq(excess, 0.0, widest, rtol=1e-3))
+        return float(scipy.optimize.brentq(excess, 0.0, widest, rtol=1e-3))

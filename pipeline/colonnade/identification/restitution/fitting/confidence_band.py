@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy import stats
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
@@ -57,4 +57,4 @@ def confidence_band(
     fit = problem.fit()
     at = np.column_stack((np.ones(theta.size), number))
     variance = ((at @ fit.covariance[:2, :2]) * at).sum(axis=1)
-    return np.asarray(float(stats.t.ppf((1 + level) / 2, fit.freedom)) * np.sqrt(variance))
+    return np.asarray(float(scipy.stats.t.ppf((1 + level) / 2, fit.freedom)) * np.sqrt(variance))

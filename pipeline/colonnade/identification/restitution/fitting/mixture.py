@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy import optimize, stats
+import scipy
 
 from colonnade.arrays import Array
 
@@ -69,7 +69,7 @@ class Mean:
 
 def mean_of_student(value: float, error: float, freedom: float, level: float) -> Mean:
     """Return a mean with a standard error of so many degrees of freedom: its interval is Student's."""
-    half = float(stats.t.ppf((1 + level) / 2, freedom)) * error
+    half = float(scipy.stats.t.ppf((1 + level) / 2, freedom)) * error
     return Mean(value, value - half, value + half, error, 0.0)
 
 
@@ -109,16 +109,16 @@ def mean_over_scatters(parts: MeanByScatter, level: float) -> Mean:
 
     def quantile(share: float) -> float:
         def excess(value: float) -> float:
-            return float(weight @ stats.t.cdf((value - centre) / error, parts.freedom) / weight.sum()) - share
+            return float(weight @ scipy.stats.t.cdf((value - centre) / error, parts.freedom) / weight.sum()) - share
 
         reach = spread
         while not excess(middle - reach) < 0 < excess(middle + reach):
             reach *= 2
-        return float(optimize.brentq(excess, middle - reach, middle + reach, xtol=1e-6 * spread))
+        return float(scipy.optimize.brentq(excess, middle - reach, middle + reach, xtol=1e-6 * spread))
 
     low, value, high = (quantile(share) for share in ((1 - level) / 2, 0.5, (1 + level) / 2))
     # Of the normal distribution whose interval is as wide.
-    normal = (high - low) / 2 / float(stats.norm.ppf((1 + level) / 2))
+    normal = (high - low) / 2 / float(scipy.stats.norm.ppf((1 + level) / 2))
     return Mean(value, low, high, normal, float(weight @ parts.scatter[kept] / weight.sum()))
 
 

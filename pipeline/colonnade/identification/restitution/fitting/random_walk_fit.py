@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy import stats
+import scipy
 
 from colonnade.arrays import Array
 
@@ -35,9 +35,9 @@ class RandomWalkFit:
 
     def is_sure(self, index: int, deviations: float) -> bool:
         """Whether a coefficient is not zero, as sure as `deviations` of a normal distribution are; by Student's t."""
-        chance = 2 * float(stats.norm.sf(deviations))
+        chance = 2 * float(scipy.stats.norm.sf(deviations))
         ratio = abs(float(self.coefficients[index])) / max(self.error(index), 1e-300)
-        return bool(2 * float(stats.t.sf(ratio, self.freedom)) < chance)
+        return bool(2 * float(scipy.stats.t.sf(ratio, self.freedom)) < chance)
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+import scipy
 
 from colonnade.arrays import Array
 from colonnade.identification.restitution.fitting.mixture import SCATTERS, MeanByScatter
@@ -270,4 +270,4 @@ def explained(transformed: SpectralModel, solved: Solution, columns: Array) -> f
     gained = ((vectors.T @ (score / scale))[known] ** 2 / values[known]).sum() / solved.level
     freed = int(known.sum())
     rest = max(products.freedom - products.lengths.size - freed, 1.0)
-    return float(stats.f.sf(gained / max(freed, 1), max(freed, 1), rest))
+    return float(scipy.stats.f.sf(gained / max(freed, 1), max(freed, 1), rest))
