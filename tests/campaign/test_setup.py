@@ -1,0 +1,115 @@
+"""Setups: recorders with their clocks, options of file formats, angles in SI."""
+
+from __future__ import annotations
+
+from math import radians
+
+import pytest
+from pydantic import ValidationError
+
+from colonnade.campaign.setup import Align, FileOptions, Setup
+
+CHANNELS = {"top": {"column": 1, "quantity": "other"}, "second": {"column": 1, "quantity": "other", "recorder": "daq2"}}
+
+
+def setup(**keys):
+    return Setup.model_validate({"channels": CHANNELS} | keys)
+
+
+def problems(**keys):
+    """Places below the setup and what is told there."""
+    with pytest.raises(ValidationError) as caught:
+        setup(**keys)
+    return {
+        ".".join(map(str, error["loc"])): error["msg"].removeprefix("Value error, ") for error in caught.value.errors()
+    }
+
+
+def test_the_main_recorder_is_the_setups_own_and_comes_first():
+    found = setup(
+        file={"format": "delimited", "delimiter": ";"},
+        sampling_rate="200 Hz",
+        recorders={"daq2": {"sampling_rate": "0.5 kHz"}, "daq1": {}},
+    ).recorders
+    assert list(found) == ["main", "daq2", "daq1"]
+    assert found["main"].file == FileOptions(format="delimited", options={"delimiter": ";"})
+    assert [recorder.sampling_rate for recorder in found.values()] == [200.0, 500.0, None]
+
+
+def test_nothing_but_channels_is_needed():
+    found = setup()
+    assert list(found.recorders) == ["main"]
+    assert found.file == FileOptions(format=None, options={})
+    assert (found.sampling_rate, found.catch, found.table_tilt) == (None, None, None)
+
+
+def test_a_setup_without_channels_is_refused():
+    assert "channels" in problems(channels={})
+
+
+@pytest.mark.parametrize(
+    ("written", "clock"),
+    [("trigger", "trigger"), ({"align": ["top", "second"]}, Align(channel="top", own_channel="second"))],
+    ids=["together", "linked"],
+)
+def test_a_clock_starts_with_the_main_one_or_is_linked_to_it(written, clock):
+    assert setup(recorders={"daq2": {"clock": written}}).recorders["daq2"].clock == clock
+
+
+@pytest.mark.parametrize(
+    "clock",
+    ["Trigger", 3, {}, {"align": ["top"]}, {"align": ["top", 2]}, {"align": "top"}, {"align": ["a", "b"], "by": 1}],
+    ids=["other word", "number", "empty", "one channel", "no name", "no list", "key too many"],
+)
+def test_what_is_no_clock_is_refused_with_what_was_expected(clock):
+    ((place, told),) = problems(recorders={"daq2": {"clock": clock}}).items()
+    assert place == "recorders.daq2.clock"
+    assert 'was found. Expected: "trigger" if the recorders start together' in told
+
+
+@pytest.mark.parametrize("name", ["main", "Main"])
+def test_an_additional_recorder_is_not_called_main(name):
+    ((_, told),) = problems(recorders={name: {}}).items()
+    assert told.startswith(f'"{name}" is the recorder of the setup\'s own `file`.')
+
+
+def test_angles_are_taken_to_radians_and_a_catch_is_positive():
+    found = setup(catch="12 deg", table_tilt="-0.1 deg")
+    assert found.catch == pytest.approx(radians(12.0), rel=1e-14)
+    assert found.table_tilt == pytest.approx(radians(-0.1), rel=1e-14)
+    assert "catch" in problems(catch="-0.3 rad")
+    assert "catch" in problems(catch="0 rad")
+
+
+@pytest.mark.parametrize(
+    ("file", "place", "told"),
+    [
+        ("a.csv", "file", '"a.csv" was found. A table was expected'),
+        ({"format": "delimted"}, "file.format", 'Unknown format "delimted". Did you mean "delimited"?'),
+        ({"format": 3}, "file.format", "Unknown format 3."),
+        (
+            {"format": "delimited", "delimeter": ";"},
+            "file.delimeter",
+            'Unknown option of format "delimited". Did you mean "delimiter"?',
+        ),
+        ({"delimeter": ";"}, "file.delimeter", 'Unknown option of format "'),
+        ({"format": "delimited", "decimal": 3}, "file.decimal", "3 was found: "),
+    ],
+    ids=[
+        "no table",
+        "mistyped format",
+        "number for a format",
+        "mistyped option",
+        "no format",
+        "option of another type",
+    ],
+)
+def test_a_wrong_option_of_a_file_is_told_at_its_key(file, place, told):
+    found = problems(file=file)
+    assert list(found) == [place]
+    assert found[place].startswith(told)
+
+
+def test_all_wrong_options_are_told_together():
+    found = problems(file={"format": "delimited", "delimeter": ";", "decimal": 3})
+    assert set(found) == {"file.delimeter", "file.decimal"}
