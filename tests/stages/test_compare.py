@@ -1,0 +1,202 @@
+"""Measured and predicted histories that are written by hand, compared in numbers that are known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from colonnade.dynamics.block import Block
+from colonnade.findings import MEASUREMENT, Severity
+from colonnade.stages.compare import CompareInputs, compare
+
+BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+ALPHA = BLOCK.critical_angle
+TIME = 2.0 + 0.01 * np.arange(200)
+SWING = 0.4 * np.sin(2 * np.pi * 3.0 * TIME)
+"""|θ|/α of a block that rocks."""
+
+
+def history(ratio, *, outcome="rocking", zero_offset=0.0):
+    """A rocking angle given in α, with what both `rocking` and `predict` say of it."""
+    ratio = np.asarray(ratio, dtype=float)
+    largest = int(np.nanargmax(np.abs(ratio)))
+    return xr.Dataset(
+        {
+            "rocking_angle": ("elapsed", ALPHA * ratio + zero_offset),
+            "peak_ratio": float(np.abs(ratio[largest])),
+            "peak_time": float(TIME[largest]),
+            "zero_offset": zero_offset,
+        },
+        coords={"elapsed": ("elapsed", TIME)},
+        attrs={"outcome": outcome},
+    )
+
+
+def unmeasured():
+    """What `rocking` gives without transducers."""
+    return xr.Dataset(coords={"elapsed": ("elapsed", TIME)}, attrs={"outcome": ""})
+
+
+def inputs(**changes):
+    return CompareInputs(block=BLOCK, **{"observed_outcome": None, **changes})
+
+
+def against(measured, predicted, **changes):
+    """The comparison with one model."""
+    return compare(measured, {"linear": predicted}, inputs(**changes)).isel(model=0)
+
+
+@pytest.mark.parametrize("shift", [-0.2, 0.0, 0.05])
+def test_a_constant_error_is_the_nrmse_over_the_whole_record(shift):
+    found = against(history(SWING), history(SWING + shift))
+    assert float(found["nrmse"]) == pytest.approx(abs(shift), abs=1e-12)
+    assert float(found["compared_until"]) == TIME[-1]
+
+
+def test_the_nrmse_of_a_sine_against_rest_is_its_root_mean_square():
+    whole = 0.4 * np.sin(2 * np.pi * 5 * np.arange(TIME.size) / TIME.size)
+    assert float(against(history(whole), history(0 * whole))["nrmse"]) == pytest.approx(0.4 / np.sqrt(2))
+
+
+@pytest.mark.parametrize("measured_falls", [True, False])
+def test_nothing_counts_from_where_either_first_passes_the_critical_angle(measured_falls):
+    falling = np.where(np.arange(TIME.size) < 120, SWING, 1.5)
+    pair = (falling, SWING + 0.1) if measured_falls else (SWING + 0.1, falling)
+    found = against(*map(history, pair))
+    assert float(found["nrmse"]) == pytest.approx(0.1)
+    assert float(found["compared_until"]) == TIME[119]
+
+
+def test_the_critical_angle_itself_is_not_passed():
+    found = against(history(np.where(TIME > 3, 0.999999, 0.0)), history(SWING))
+    assert float(found["compared_until"]) == TIME[-1]
+
+
+def test_what_lies_past_the_critical_angle_from_the_start_has_no_nrmse():
+    found = against(history(np.full(TIME.size, 1.2)), history(SWING))
+    assert np.isnan(found["nrmse"])
+    assert np.isnan(found["compared_until"])
+
+
+def test_samples_that_are_missing_in_either_do_not_count():
+    measured, predicted = SWING.copy(), SWING + 0.1
+    measured[20:40], predicted[60:90] = np.nan, np.nan
+    predicted[10] += 0.3
+    counted = TIME.size - 20 - 30
+    expected = np.sqrt((0.1**2 * (counted - 1) + 0.4**2) / counted)
+    assert float(against(history(measured), history(predicted))["nrmse"]) == pytest.approx(expected)
+
+
+def test_histories_without_a_common_sample_have_no_nrmse():
+    first, second = SWING.copy(), SWING.copy()
+    first[100:], second[:100] = np.nan, np.nan
+    assert np.isnan(against(history(first), history(second))["nrmse"])
+
+
+def test_the_measured_angle_counts_about_the_true_zero():
+    measured = history(SWING, zero_offset=0.01)
+    found = against(measured, history(SWING).assign(zero_offset=0.01))
+    assert float(found["nrmse"]) == pytest.approx(0.0, abs=1e-12)
+    assert float(found["zero_offset"]) == 0.01
+    assert float(against(measured, history(SWING))["nrmse"]) == pytest.approx(0.01 / ALPHA)
+
+
+def test_the_measured_angle_is_not_changed_in_place():
+    measured = history(SWING, zero_offset=0.01)
+    before = measured.copy(deep=True)
+    against(measured, history(SWING).assign(zero_offset=0.01))
+    xr.testing.assert_identical(measured, before)
+
+
+def test_models_stand_in_order_each_with_its_own_numbers():
+    shares = {"nonlinear": 0.5, "contact": 1.25, "linear": 1.0}
+    predicted = {
+        model: history(share * SWING, outcome="overturned" if model == "contact" else "rocking")
+        for model, share in shares.items()
+    }
+    found = compare(history(SWING), predicted, inputs())
+    order = ["contact", "linear", "nonlinear"]
+    assert found["model"].to_numpy().tolist() == order
+    assert found["predicted_outcome"].to_numpy().tolist() == ["overturned", "rocking", "rocking"]
+    rms = float(np.sqrt(np.mean(SWING**2)))
+    peak = float(np.abs(SWING).max())
+    for number, model in enumerate(order):
+        assert float(found["nrmse"][number]) == pytest.approx(abs(shares[model] - 1) * rms, abs=1e-12)
+        assert float(found["predicted_peak_ratio"][number]) == pytest.approx(shares[model] * peak)
+        assert float(found["peak_ratio_error"][number]) == pytest.approx((shares[model] - 1) * peak, abs=1e-12)
+    assert float(found["measured_peak_ratio"]) == pytest.approx(peak)
+    assert float(found["measured_peak_time"]) == TIME[np.argmax(np.abs(SWING))]
+
+
+def test_without_a_measured_angle_only_what_is_predicted_has_numbers():
+    found = against(unmeasured(), history(SWING), observed_outcome="rocking")
+    for name in ("nrmse", "compared_until", "peak_ratio_error", "measured_peak_ratio", "measured_peak_time"):
+        assert np.isnan(found[name]), name
+    assert float(found["predicted_peak_ratio"]) == pytest.approx(float(np.abs(SWING).max()))
+    assert found.attrs["outcome_measured"] == "rocking"
+    assert found.attrs["warnings"] == []
+
+
+def test_without_models_the_measured_peak_is_still_given():
+    found = compare(history(SWING), {}, inputs())
+    assert found.sizes["model"] == 0
+    assert float(found["measured_peak_ratio"]) == pytest.approx(float(np.abs(SWING).max()))
+
+
+@pytest.mark.parametrize(
+    ("measured", "observed", "agree"),
+    [
+        ("rocking", "rocking", True),
+        ("overturned", "overturned", True),
+        ("rocking", "not-overturned", True),
+        ("no-rocking", "not-overturned", True),
+        ("rocking", None, True),
+        ("", "overturned", True),
+        ("overturned", "not-overturned", False),
+        ("rocking", "overturned", False),
+        ("no-rocking", "rocking", False),
+    ],
+)
+def test_the_transducers_and_the_log_agree_or_it_is_serious(measured, observed, agree):
+    found = against(history(SWING, outcome=measured), history(SWING), observed_outcome=observed)
+    assert found.attrs["outcome_measured"] == (measured or observed)
+    warnings = found.attrs["warnings"]
+    assert (warnings == []) is agree
+    if not agree:
+        assert (warnings[0].kind, warnings[0].severity, warnings[0].follows) == (
+            "outcome",
+            Severity.SERIOUS,
+            MEASUREMENT,
+        )
+        assert f"The transducers show {measured}, the test log says {observed}" in warnings[0].text
+
+
+def test_a_sine_without_a_record_of_the_table_keeps_the_frequency_that_was_given():
+    found = against(history(SWING), history(SWING), observed_outcome="overturned", is_sine=True, frequency=3.0)
+    assert float(found["frequency_ratio"]) == pytest.approx(2 * np.pi * 3.0 / BLOCK.p)
+    assert found.attrs["response_order"] == ""
+    assert [each.kind for each in found.attrs["warnings"]] == ["outcome", "no steady sine"]
+
+
+def test_a_test_that_is_not_a_sine_has_no_order():
+    found = against(history(SWING), history(SWING), frequency=3.0)
+    assert "response_order" not in found.attrs
+    assert "frequency_ratio" not in found
+
+
+def test_of_a_free_vibration_the_peak_is_that_of_the_time_that_is_predicted():
+    decaying = np.exp(-(TIME - TIME[0])) * 0.8
+    predicted = np.where(TIME < 2.5, np.nan, decaying)
+    found = against(history(decaying), history(predicted), free_vibration=True)
+    assert float(found["measured_peak_time"]) == pytest.approx(2.5)
+    assert float(found["measured_peak_ratio"]) == pytest.approx(0.8 * np.exp(-0.5))
+    assert float(found["peak_ratio_error"]) == pytest.approx(0.0, abs=1e-12)
+    assert float(against(history(decaying), history(predicted))["measured_peak_ratio"]) == pytest.approx(0.8)
+
+
+def test_the_inputs_are_those_of_the_test(small_campaign):
+    shaken, free = (CompareInputs.of(small_campaign, small_campaign.tests[name]) for name in ("shake-01", "free-01"))
+    assert (shaken.observed_outcome, shaken.free_vibration, shaken.is_sine) == ("not-overturned", False, False)
+    assert (free.observed_outcome, free.free_vibration, free.frequency) == (None, True, None)
+    assert shaken.block.critical_angle == pytest.approx(ALPHA)
