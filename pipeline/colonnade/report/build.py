@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import settings
@@ -125,12 +126,18 @@ def render(
             ),
             "",
         )
-    shown = {
+    shown = _shown(campaign, tests, specimens, used) | {"groups": groups, "maps": maps}
+    for template, address in addresses.WHOLE.items():
+        yield address, renderer.page(template, address, **shown), ""
+
+
+def _shown(campaign: Campaign, tests: list[Part], specimens: list[SpecimenPage], used: Used) -> dict[str, Any]:
+    """Give what the pages about the whole campaign show."""
+    rows = [part.row for part in tests]
+    return {
         "tests": rows,
         "specimens": specimens,
         "warnings": _warnings(rows, specimens),
-        "groups": groups,
-        "maps": maps,
         "spans": overview.span_groups([part.span for part in tests if part.span is not None]),
         "agreement": agreement({row.id: row.record.model_dump() for row in rows}),
         "channels": {part.row.id: part.channels for part in tests},
@@ -143,8 +150,6 @@ def render(
         "within": f"{WITHIN:.0%}",
         "least_motion": LEAST_MOTION,
     }
-    for template, address in addresses.WHOLE.items():
-        yield address, renderer.page(template, address, **shown), ""
 
 
 def _warnings(tests: list[TestRow], specimens: list[SpecimenPage]) -> list[problems.WarningGroup]:
