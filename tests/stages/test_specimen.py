@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import xarray as xr
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
@@ -56,6 +56,7 @@ def test_one_test_keeps_its_normal_interval_at_the_level(level):
     assert float(found["level"]) == level
 
 
+@settings(max_examples=30)
 @given(st.lists(st.floats(0.5, 0.99), min_size=1, max_size=6), st.floats(1e-4, 0.05))
 def test_the_e_lies_among_those_of_the_tests_and_within_its_interval(values, error):
     found = specimen({f"free-{number}": identified(e, error) for number, e in enumerate(values)}, inputs())
