@@ -65,7 +65,7 @@ def kernel(function: Function) -> Function:
 
 @cache
 def _cache_folder() -> Path | None:
-    """Return the folder of these sources in the first place that can be written; None if there is none."""
+    """Return the cache folder of these sources, in the first place that can be written; None if nothing can."""
     name = FOLDER + _hash_of_sources()
     for place in _places():
         folder = place / name

@@ -126,7 +126,7 @@ class Catalogue:
         return hash_of([*(dict(said) | {"warnings": to_text(said.get("warnings", []))} for said in known), *others])
 
     def record(self, test: str, signature: str) -> str | None:
-        """Text of a test's record that was made from just this; None where there is none."""
+        """Text of a test's record that was made from just this, or None."""
         for known in (self._seen["records"].get(test), self._known["records"].get(test)):
             if known is not None and known[0] == signature:
                 self._seen["records"][test] = known

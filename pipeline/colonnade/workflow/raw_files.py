@@ -65,7 +65,7 @@ def expect_unchanged(folder: Path, raw: RawFiles) -> None:
 
 
 def sha256_of(path: Path) -> str | None:
-    """Hash a file; None if it cannot be read, which is told where it is read, or is a pipe or a device."""
+    """Hash a file; None if it is a pipe, a device or unreadable, which `ingest` reports."""
     try:
         if irregular(path):
             return None

@@ -91,7 +91,7 @@ def _crossing(low: float, high: float, angle: float, scaled: float, pull: float,
 @kernel
 def _turning_points(angle: float, scaled: float, pull: float, slope: float) -> tuple[float, float]:
     """
-    Return the x at which the angular velocity is zero, in order; inf where there is none.
+    Return the x at which the angular velocity is zero, in order; inf if the arc has no such point.
 
     The velocity is A sinh x + B cosh x + C, a quadratic in y = exp x: (A + B) y² + 2 C y + (B − A) = 0.
     """

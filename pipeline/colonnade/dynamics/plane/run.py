@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 from colonnade.dynamics.models.plane import PlaneModel
 
 LARGEST_ACCELERATION = 1e6
-"""In g; more is no motion of a table."""
+"""In g; no table reaches more."""
 
 LONGEST_SAMPLE = 300.0
 """In p dt; hyperbolic functions of more leave the range of floating-point numbers."""

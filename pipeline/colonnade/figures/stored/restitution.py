@@ -79,7 +79,7 @@ def peaks(identity: str, series: Sequence[PeakSeries], block: Block) -> Picture 
 
 
 def impact_series(test: Test, stored: Stored) -> ImpactSeries | None:
-    """Return e of each impact of a free vibration, None if there is none."""
+    """Return e of each impact of a free vibration, or None without impacts."""
     names = ("velocity", "restitution", "restitution_standard_error", "used")
     velocity, restitution, error, used = _columns(stored, *(f"impact_{name}" for name in names))
     if not restitution.size:

@@ -22,7 +22,7 @@ from colonnade.readers.hdf5.content import Variable, read_classic, read_hdf5
 from colonnade.readers.recording import TIME_UNITS, Recording
 
 MOST_COLUMNS = 1000
-"""Of one variable; a wider one is no table of channels."""
+"""Of one variable; a wider one does not hold channels."""
 SINCE = re.compile(r"(?P<unit>\w+)\s+since\s+(?P<moment>.+)", re.IGNORECASE)
 DAYS = {"d": 86400.0, "day": 86400.0, "days": 86400.0, "ns": 1e-9, "nanosecond": 1e-9, "nanoseconds": 1e-9}
 

@@ -12,7 +12,7 @@ from colonnade.readers.matlab.tree import Node, Numbers
 from colonnade.readers.text.heading import take_apart
 
 MOST_COLUMNS = 1000
-"""Of one matrix; a wider one is no table of channels."""
+"""Of one matrix; a wider one does not hold channels."""
 VALUE_FIELDS = frozenset(("values", "data", "value", "y", "signal"))
 NAME_FIELDS = frozenset(("label", "name", "signalname", "blockname", "title"))
 UNIT_FIELDS = frozenset(("unit", "units"))

@@ -233,7 +233,7 @@ def _settings(stored: object) -> Mapping[str, Any]:
 
 
 def _listed(attribute: object) -> list[str]:
-    """Return a list of text that was stored as an attribute, empty if there is none."""
+    """Return a list of text that was stored as an attribute; by default an empty one."""
     if not attribute:
         return []
     return [str(item) for item in attribute] if isinstance(attribute, (list, tuple)) else [str(attribute)]
