@@ -15,8 +15,8 @@ from colonnade.report.overview import SpanTest
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import FreeVibration
 from colonnade.store import stamps
+from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
-from colonnade.store.provenance import hash_of
 from colonnade.store.records.stored import Stored, read_test
 
 
@@ -88,19 +88,18 @@ def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: st
     if stored.has("restitution"):
         free_vibration = specimens_page.free_vibration(row, stored, block)
     address, text = addresses.of_test(test.id), None
-    made_from = _made_from(campaign.wherever_it_lies(), row, stored, code, (asked.before, asked.after)) if code else ""
+    made_from = _recipe(campaign.wherever_it_lies(), row, stored, code, (asked.before, asked.after)).key if code else ""
     if not made_from or made_from != stamps.key_of(layout.report.parent / address):
         page = tests_page.of_test(campaign, row, stored)
         text = renderer.page("test", address, test=page, before=asked.before, after=asked.after)
     return Part(row, channels.of_test(stored), span, free_vibration, used, text, made_from)
 
 
-def _made_from(
+def _recipe(
     campaign: Campaign, row: TestRow, stored: Stored, code: str, neighbours: tuple[str | None, str | None]
-) -> str:
-    """Hash of all that the page of a test shows; paths of the campaign are those from its folder."""
+) -> Recipe:
+    """Give all that the page of a test is made from; paths of the campaign are those from its folder."""
     test = campaign.tests[row.id]
     around = (campaign.title, campaign.gravity, tuple(campaign.specimens), campaign.processing.predict.models)
     own = (test, campaign.specimens[test.specimen], campaign.review(test.id))
-    found = stored.keys, row.failures, row.record, stored.raw_files
-    return hash_of([code, repr((found, around, own, neighbours))])
+    return Recipe("page", code, repr((around, own, row.record, row.failures, neighbours)), stored.keys)

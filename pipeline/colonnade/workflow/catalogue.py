@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from colonnade.findings import from_text, to_text
 from colonnade.interruption import expect_none
 from colonnade.sources import code_hash, package_hash
 from colonnade.store import files, stamps
+from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 
@@ -120,22 +121,22 @@ class Catalogue:
             )
         return str(self._seen["code"][name])
 
-    def signature(self, paths: Iterable[Path], *others: Any) -> str:
-        """Hash of what results say, and of whatever else a record is made from."""
-        known = [self.attributes(path) for path in paths]
-        return hash_of([*(dict(said) | {"warnings": to_text(said.get("warnings", []))} for said in known), *others])
+    def content(self, path: Path) -> str | None:
+        """Hash of what a result says of itself; None where it is not there."""
+        told = self.told("results", path, _said)
+        return hash_of(told[1]) if told else None
 
-    def record(self, test: str, signature: str) -> str | None:
-        """Text of a test's record that was made from just this, or None."""
-        for known in (self._seen["records"].get(test), self._known["records"].get(test)):
-            if known is not None and known[0] == signature:
-                self._seen["records"][test] = known
+    def record(self, subject: str, recipe: Recipe) -> str | None:
+        """Text of the record of a test or specimen that was made from just this, or None."""
+        for known in (self._seen["records"].get(subject), self._known["records"].get(subject)):
+            if known is not None and not recipe.why({"key": known[0]}):
+                self._seen["records"][subject] = known
                 return str(known[1])
         return None
 
-    def remember(self, test: str, signature: str, record: str) -> None:
-        """Keep a test's record for the next run."""
-        self._seen["records"][test] = [signature, record]
+    def remember(self, subject: str, recipe: Recipe, record: str) -> None:
+        """Keep a record for the next run."""
+        self._seen["records"][subject] = [recipe.key, record]
 
     def save(self) -> None:
         """Write what was looked at; the rest is gone from the campaign."""

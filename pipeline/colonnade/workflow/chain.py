@@ -14,12 +14,12 @@ from colonnade.errors import ColonnadeError, RunEndedError, StoreError
 from colonnade.findings import at_stage
 from colonnade.interruption import expect_none
 from colonnade.store import files
+from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin, global_attributes
 from colonnade.store.results import ASKED_FOR, ResultId
 from colonnade.workflow.catalogue import stored_attributes
 from colonnade.workflow.execution.lock import expect_run
-from colonnade.workflow.freshness import Recipe
 from colonnade.workflow.raw_files import RawFiles, expect_unchanged
 from colonnade.workflow.results import StageRun
 from colonnade.workflow.steps import Step

@@ -9,11 +9,10 @@ from pathlib import Path
 
 from colonnade.campaign import Campaign
 from colonnade.report.addresses import addresses
+from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
-from colonnade.store.provenance import hash_of
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.execution.spreading import spread
-from colonnade.workflow.freshness import Recipe
 
 MADE_BY = ("colonnade.report", "colonnade.store")
 """What the pages are made by."""
@@ -44,17 +43,11 @@ def bring_up_to_date(
     StoreError
         If a page cannot be written.
     """
-    told = {path: catalogue.attributes(path) for path in layout.results_there()}
     recipe = Recipe(
         "report",
         catalogue.code(MADE_BY),
         json.dumps([repr(campaign.wherever_it_lies()), sorted(outdated)]),
-        {
-            path.relative_to(layout.processed).as_posix(): hash_of(
-                [said.get(part) for part in ("key", "status", "content")]
-            )
-            for path, said in told.items()
-        },
+        {path.relative_to(layout.processed).as_posix(): catalogue.content(path) for path in layout.results_there()},
     )
     folder = layout.report.parent
     tests, others = addresses(campaign)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
@@ -10,6 +11,7 @@ import colonnade
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.summary import SpecimenSummary, Summary, TestSummary
 from colonnade.store import files
+from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
 from colonnade.store.records.specimen import record_of_specimen
 from colonnade.store.records.stored import read_test
@@ -75,12 +77,13 @@ def _of_specimen(campaign: Campaign, layout: Layout, catalogue: Catalogue, name:
     from colonnade.stages.specimen import SpecimenInputs
 
     inputs, subject = SpecimenInputs.of(campaign, name).model_dump_json(), f"specimen {name}"
-    entry = [inputs, repr(campaign.specimens[name]), campaign.gravity]
-    signature = catalogue.signature([layout.stage(name, "specimen")], *entry, catalogue.code(MADE_BY))
-    text = catalogue.record(subject, signature)
+    entry = json.dumps([inputs, repr(campaign.specimens[name]), campaign.gravity])
+    upstream = {"specimen": catalogue.content(layout.stage(name, "specimen"))}
+    recipe = Recipe("record", catalogue.code(MADE_BY), entry, upstream)
+    text = catalogue.record(subject, recipe)
     if text is None:
         text = record_of_specimen(campaign, name, restitution_taken(campaign, layout, name)).model_dump_json()
-        catalogue.remember(subject, signature, text)
+        catalogue.remember(subject, recipe, text)
     return SpecimenSummary.model_validate_json(text)
 
 
@@ -103,28 +106,27 @@ def _records(
     workers: int | None,
 ) -> dict[str, TestSummary]:
     """Give the record of each test: the last one if it was made from just these results, else a new one."""
-    code = catalogue.code(MADE_BY)
-    signatures, found, waiting = {}, {}, []
+    recipes, found, waiting = {}, {}, []
     for name, test in campaign.wherever_it_lies().tests.items():
         asked = _Asked(replace(campaign, tests={name: test}), test, name in outdated, failures.get(name))
-        signatures[name] = _signature(asked, layout, catalogue, code)
-        known = catalogue.record(name, signatures[name])
+        recipes[name] = _recipe(asked, layout, catalogue)
+        known = catalogue.record(name, recipes[name])
         if known is None:
             waiting.append(asked)
         else:
             found[name] = TestSummary.model_validate_json(known)
     for name, text in spread(partial(_record, layout), waiting, workers=workers):
-        catalogue.remember(name, signatures[name], text)
+        catalogue.remember(name, recipes[name], text)
         found[name] = TestSummary.model_validate_json(text)
     return {name: found[name] for name in campaign.tests}
 
 
-def _signature(asked: _Asked, layout: Layout, catalogue: Catalogue, code: str) -> str:
+def _recipe(asked: _Asked, layout: Layout, catalogue: Catalogue) -> Recipe:
     campaign, test = asked.campaign, asked.test
-    paths = [layout.path(result) for result in results_of(campaign, test)]
     entry = [repr(test), repr(campaign.specimens[test.specimen]), campaign.gravity, campaign.review(test.id).excluded]
-    entry.append(repr(campaign.concerning(test.id)))
-    return catalogue.signature(paths, *entry, asked.is_outdated, asked.failure, code)
+    entry += [repr(campaign.concerning(test.id)), asked.is_outdated, asked.failure]
+    upstream = {str(result): catalogue.content(layout.path(result)) for result in results_of(campaign, test)}
+    return Recipe("record", catalogue.code(MADE_BY), json.dumps(entry), upstream)
 
 
 def _record(layout: Layout, asked: _Asked) -> tuple[str, str]:

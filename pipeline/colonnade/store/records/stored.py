@@ -77,8 +77,8 @@ class Stored:
         Of each channel as recorded, by its id.
     settings : dict of (str, str or None) to mapping
         What each stage read of the campaign, as stored with its result.
-    keys : list of str
-        Of each result, what identifies it: its key and the hash of its content.
+    keys : dict of str to str
+        Of each result, by its name, what identifies it: its key and the hash of its content.
     is_foreign : bool
         Whether results are there that are not of this campaign any more; they are not read.
     """
@@ -91,7 +91,7 @@ class Stored:
     channels: dict[str, dict[str, Any]] = field(default_factory=dict)
     samples: dict[str, Samples] = field(default_factory=dict)
     settings: dict[Made, Mapping[str, Any]] = field(default_factory=dict)
-    keys: list[str] = field(default_factory=list)
+    keys: dict[str, str] = field(default_factory=dict)
     is_foreign: bool = False
 
     @property
@@ -158,7 +158,7 @@ class Stored:
         self.raw_files |= dict(zip(names, hashes, strict=False))
         if "colonnade_version" in attributes:
             self.versions[str(attributes["colonnade_version"])] = None
-        self.keys.append(f"{name} {attributes.get('key')} {attributes.get('content')}")
+        self.keys[name] = f"{attributes.get('key')} {attributes.get('content')}"
         self.settings[made] = _settings(attributes.get("settings"))
         if attributes.get("status") == "failed":
             self.failures.append(Failure(name, str(attributes.get("reason") or "no reason was stored")))

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 from colonnade.campaign import Campaign
 from colonnade.store import files
+from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin, global_attributes, hash_of
 from colonnade.store.results import ResultId
 from colonnade.workflow.catalogue import Catalogue, stored_attributes
 from colonnade.workflow.execution.blocks import forget
-from colonnade.workflow.freshness import Recipe
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -1,4 +1,4 @@
-"""Whether a result is up to date, by the content of what it is made from and never by dates; if it is not, why."""
+"""Whether a result, a record or a page is up to date, by what it is made from and never by dates; if not, why."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from colonnade.store.provenance import hash_of
 @dataclass(frozen=True)
 class Recipe:
     """
-    All that a result is made from: of a test, a specimen, a map, or a page of the report.
+    All that something is made from: a result of a test, a specimen or a map, a record of the summary, a page.
 
     Attributes
     ----------
@@ -22,9 +22,9 @@ class Recipe:
     code : str
         Hash of the code of that stage, see `sources.code_hash`.
     settings : str
-        What it reads of the campaign, as JSON.
+        What it reads of the campaign, as text; of a result as JSON.
     upstream : mapping of str to str
-        Hash of the content of each result or raw file that it reads; None where it is not there.
+        Hash of each result or raw file that it reads; None where it is not there.
     """
 
     stage: str
