@@ -84,3 +84,16 @@ def _symmetric_responses(
 def symmetric_responses_of_the_linear_model():
     """Symmetric harmonic responses of the linear model in closed form."""
     return _symmetric_responses
+
+
+@pytest.fixture
+def interpreted(monkeypatch):
+    """Run the kernels of some modules as the Python that they are written in: nothing is compiled for a few calls."""
+
+    def run(*modules):
+        for module in modules:
+            for name, value in list(vars(module).items()):
+                if hasattr(value, "py_func"):
+                    monkeypatch.setattr(module, name, value.py_func)
+
+    return run
