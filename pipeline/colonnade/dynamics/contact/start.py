@@ -120,7 +120,8 @@ def _ring_height(body: ContactBody, upward: Array, stiffness: Array, weight: flo
         return float(stiffness @ ((depth - rise) * half + rise * np.sin(half)) / np.pi) - weight
 
     highest = float((rise - middle).max())
-    deepest = weight / float(stiffness.sum()) + 2.0 * float(rise.max())
+    # Twice as deep as an upright body, of which the bound would else be the root itself, missed by rounding.
+    deepest = 2.0 * (weight / float(stiffness.sum()) + float(rise.max()))
     return float(
         scipy.optimize.brentq(excess, highest - deepest - float(np.ptp(rise - middle)), highest, xtol=1e-15, rtol=1e-14)
     )
