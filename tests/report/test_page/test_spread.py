@@ -1,7 +1,7 @@
 """What the page of a test says of a model's spread: the one verdict, with the horizon up to which it holds."""
 
 from colonnade.campaign.summary import PredictionSummary
-from colonnade.report.tests_page import _notes, verdict_sentence
+from colonnade.report.test_page.spread import verdict_sentence
 
 
 def predicted(horizon, rank, peak_rank, overturning):
@@ -28,9 +28,3 @@ def test_without_runs_enough_there_is_a_horizon_and_no_verdict():
 
 def test_without_runs_nothing_is_said():
     assert verdict_sentence("linear", PredictionSummary()) == ""
-
-
-def test_a_note_on_a_file_may_hold_a_semicolon(reported):
-    notes = _notes(reported["span-2.0"][1])
-    assert notes[-1] == 'span-2.0.csv: clock: column 1, "Time" (in s; rising)'
-    assert all(note.startswith("span-2.0.csv: ") for note in notes)

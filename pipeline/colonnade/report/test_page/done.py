@@ -1,0 +1,51 @@
+"""What was done: the entry of the campaign file, and how the raw files were read."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+
+from colonnade.report.rows import TestRow
+from colonnade.report.test_page.facts import Fact, known
+from colonnade.store.records.stored import Stored
+from colonnade.store.records.wording import number, quantity
+
+
+@dataclass(frozen=True)
+class Done:
+    """`facts` of the campaign file; `notes` on the raw files."""
+
+    facts: list[Fact]
+    notes: list[str]
+
+
+def of_test(row: TestRow, stored: Stored) -> Done:
+    """Say what was asked for, and what the readers noted."""
+    return Done(known(_facts(row)), _notes(stored))
+
+
+def _facts(row: TestRow) -> list[Fact]:
+    test = row.test
+    return [
+        ("setup", test.setup),
+        ("motion", test.motion or ""),
+        ("Span", "" if test.span is None else str(test.span)),
+        ("time scale", number(test.time_scale)),
+        ("frequency", quantity(test.frequency, "Hz")),
+        ("Ω = ω/p", number(row.record.frequency_ratio, 4)),
+        ("A = a/(g tan α)", number(row.record.amplitude_ratio, 4)),
+        ("part of the file", _interval(test.window) or "all"),
+        ("zero from", _interval(test.zero) if isinstance(test.zero, tuple) else test.zero),
+        ("notes", test.notes or ""),
+    ]
+
+
+def _interval(given: tuple[float, float] | None) -> str:
+    return f"{given[0]:g} s to {given[1]:g} s" if given is not None else ""
+
+
+def _notes(stored: Stored) -> list[str]:
+    """Split the notes on the files, each of which begins with the name of its file; a note may hold a semicolon."""
+    names = "|".join(re.escape(PurePosixPath(path).name) for path in stored.raw_files)
+    return list(filter(None, re.split(f"; (?=(?:{names}): )", stored.text("ingest", "notes"))))

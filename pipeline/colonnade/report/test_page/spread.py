@@ -1,0 +1,47 @@
+"""Whether the measured angle is within each model's own spread."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import nan
+
+from colonnade.campaign.summary import PredictionSummary
+from colonnade.dynamics.block import Block
+from colonnade.figures.output import Picture
+from colonnade.figures.stored import record
+from colonnade.identification.response.rank import FEWEST, is_within
+from colonnade.report.rows import TestRow
+from colonnade.store.records.stored import Stored
+from colonnade.store.records.wording import quantity
+
+
+@dataclass(frozen=True)
+class ModelSpread:
+    """`verdicts` are sentences, one a model; `bands` is None without an ensemble."""
+
+    verdicts: list[str]
+    bands: Picture | None
+
+
+def of_test(row: TestRow, stored: Stored, block: Block) -> ModelSpread:
+    """Say of each model whether the measured angle is within its spread, and draw the bands."""
+    verdicts = (verdict_sentence(model, predicted) for model, predicted in row.record.predicted.items())
+    return ModelSpread(list(filter(None, verdicts)), record.bands(row.test, stored, block))
+
+
+def verdict_sentence(model: str, predicted: PredictionSummary) -> str:
+    """Say whether the measured angle is within the model's own spread, up to its horizon."""
+    if predicted.horizon is None:
+        return ""
+    name, until = f"{model.capitalize()} model", quantity(predicted.horizon, "s", 4)
+    rank = predicted.within_spread
+    within = is_within(nan if rank is None else rank)
+    if within is None:
+        return f"{name}: predicted up to {until}; not ranked: that needs {FEWEST} runs and a measured angle."
+    said = [f"{rank:.0%} of the runs are closer to their median"]
+    if predicted.peak_rank is not None:
+        said.append(f"{predicted.peak_rank:.0%} stay below the measured peak")
+    if predicted.overturning_probability:
+        said.append(f"{predicted.overturning_probability:.0%} overturn")
+    where = "within" if within else "outside"
+    return f"{name}: the measured angle is {where} its own spread up to {until} ({'; '.join(said)})."
