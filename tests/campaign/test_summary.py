@@ -28,7 +28,7 @@ LATER = {
     "prediction": ["order", "horizon", "within_spread", "peak_rank", "overturning_probability"],
     "test": [
         "duration", "peak_slide", "release_ratio", "frequency", "order_reason", "impacts_per_cycle", "restitution",
-        "prototype",
+        "prototype", "date", "operator",
     ],
 }  # fmt: skip
 """What was added to contract 1 since: null where a writer does not know it."""

@@ -5,9 +5,11 @@ from __future__ import annotations
 import io
 import re
 import zipfile
+from datetime import date, datetime
 from pathlib import Path
 
 import pytest
+import xlwt
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -103,6 +105,37 @@ def test_a_log_gives_the_tests_whatever_wrote_it(name, tmp_path):
     assert (tests["3"].frequency, tests["3"].zero, tests["3"].files) == (3.5, "auto", {"main": folder / "d.csv"})
 
 
+def test_a_log_says_who_and_when_and_names_photos(tmp_path):
+    heads = [*HEADS, "date", "operator", "photos"]
+    said = (
+        ["26.04.2013", "M. Rossi", "photos/a.jpg; photos/b.png"],
+        ["2013-04-27", "Κ. Παπάς", "photos/a.jpg,photos/b.png"],
+        ["", "", ""],
+    )
+    rows = [[*row, *more] for row, more in zip(ROWS, said, strict=True)]
+    tests = with_log(tmp_path, "log.csv", table(";", [heads, *rows]).encode()).tests
+    assert [test.date for test in tests.values()] == [date(2013, 4, 26), date(2013, 4, 27), None]
+    assert [test.operator for test in tests.values()] == ["M. Rossi", "Κ. Παπάς", None]
+    assert [test.photos for test in tests.values()] == [("photos/a.jpg", "photos/b.png")] * 2 + [()]
+
+
+def test_a_date_of_excel_is_a_date(tmp_path):
+    book, written = xlwt.Workbook(), io.BytesIO()
+    sheet, style = book.add_sheet("log"), xlwt.easyxf(num_format_str="DD.MM.YYYY")
+    for number, row in enumerate([[*HEADS, "date"], *([*row, datetime(2013, 4, 26)] for row in ROWS)]):
+        for column, cell in enumerate(row):
+            sheet.write(number, column, cell, *([style] if isinstance(cell, datetime) else []))
+    book.save(written)
+    tests = with_log(tmp_path, "log.xls", written.getvalue()).tests
+    assert {test.date for test in tests.values()} == {date(2013, 4, 26)}
+
+
+def test_an_ambiguous_date_in_a_log_is_refused_by_row_and_column(tmp_path):
+    rows = [[*row, "04/05/2013"] for row in ROWS]
+    with pytest.raises(CampaignError, match=r'row 2, column "date": .*2013-05-04 or 2013-04-05'):
+        with_log(tmp_path, "log.csv", table(";", [[*HEADS, "date"], *rows]).encode())
+
+
 @pytest.mark.parametrize(
     ("row", "column", "cell", "told"),
     [
@@ -125,9 +158,9 @@ def test_a_wrong_cell_is_told_by_row_and_column(row, column, cell, told, tmp_pat
 
 
 def test_a_column_of_the_laboratorys_own_is_warned_of_and_a_mistyped_key_refused(tmp_path):
-    rows = [[*row, "Anna"] for row in ROWS]
-    campaign = with_log(tmp_path, "log.csv", table(";", [[*HEADS, "Operator"], *rows]).encode())
-    assert 'log.csv: column "Operator" is not a key of a test; it is ignored.' in map(str, campaign.warnings)
+    rows = [[*row, "sunny"] for row in ROWS]
+    campaign = with_log(tmp_path, "log.csv", table(";", [[*HEADS, "Weather"], *rows]).encode())
+    assert 'log.csv: column "Weather" is not a key of a test; it is ignored.' in map(str, campaign.warnings)
     with pytest.raises(CampaignError, match=r'log\.csv, row 1: unknown key "windw"\. Did you mean "window"\?'):
         with_log(tmp_path, "log.csv", table(";", [[*HEADS, "windw"], *rows]).encode())
 

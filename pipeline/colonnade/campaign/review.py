@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from datetime import date, datetime
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,8 +12,9 @@ from pydantic import BeforeValidator, Field, WithJsonSchema
 from colonnade.campaign.decision import Review, decided
 from colonnade.campaign.setup import Setup
 from colonnade.campaign.syntax.bounds import FACTOR, outside
+from colonnade.campaign.syntax.days import Day
 from colonnade.campaign.syntax.document import parse, read_text, refusal, validated
-from colonnade.campaign.syntax.fields import Interval, Text, number, one_of, schema_version, shown, text
+from colonnade.campaign.syntax.fields import Interval, Text, number, one_of, schema_version, shown
 from colonnade.campaign.syntax.places import Place, Source, key_lines
 from colonnade.campaign.syntax.rawpath import inside
 from colonnade.campaign.syntax.table import Table
@@ -33,15 +33,6 @@ def _tests(value: object) -> tuple[str, ...]:
     return tuple(dict.fromkeys(ids))
 
 
-def _day(value: object) -> str:
-    if isinstance(value, (date, datetime)):
-        return value.isoformat()
-    try:
-        return date.fromisoformat(text(value)).isoformat()
-    except ValueError:
-        raise ValueError(f"{shown(value)} was found. A date was expected, such as 2013-04-26.") from None
-
-
 def _factor(value: object) -> float:
     factor = number(value)
     if factor == 0.0:
@@ -56,7 +47,6 @@ Tests = Annotated[
     BeforeValidator(_tests),
     WithJsonSchema({"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 1}]}),
 ]
-Day = Annotated[str, BeforeValidator(_day), WithJsonSchema({"type": "string", "format": "date"})]
 Factor = Annotated[float, BeforeValidator(_factor), WithJsonSchema({"type": "number"})]
 
 

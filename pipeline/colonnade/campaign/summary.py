@@ -187,6 +187,10 @@ class TestSummary(_Record):
     """As in the campaign file."""
     span: Known = None
     """As in the campaign file."""
+    date: str | None = None
+    """Day of the test, as in the campaign file: year, month, day."""
+    operator: str | None = None
+    """As in the campaign file."""
     outcome: Outcome | None = None
     """Measured outcome."""
     observed_outcome: str | None = None

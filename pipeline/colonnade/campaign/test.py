@@ -9,6 +9,7 @@ from typing import Annotated
 from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema
 
 from colonnade.campaign.channel import MAIN
+from colonnade.campaign.syntax.days import Day
 from colonnade.campaign.syntax.fields import (
     INTERVAL_SCHEMA,
     Frequency,
@@ -18,6 +19,8 @@ from colonnade.campaign.syntax.fields import (
     interval,
     one_of,
     or_word,
+    shown,
+    text,
 )
 from colonnade.campaign.syntax.identifier import Identifier
 from colonnade.campaign.syntax.rawpath import inside
@@ -59,6 +62,20 @@ Files = Annotated[
         }
     ),
 ]
+
+
+def _photos(value: object) -> tuple[str, ...]:
+    """Take a list of paths as written: whether a photo can be shown is found out with the report."""
+    if not isinstance(value, (list, tuple)):
+        raise ValueError(f'{shown(value)} was found. A list of paths was expected, such as ["photos/free-01.jpg"].')
+    return tuple(dict.fromkeys(text(path).strip() for path in value))
+
+
+Photos = Annotated[
+    tuple[str, ...],
+    BeforeValidator(_photos),
+    WithJsonSchema({"type": "array", "items": {"type": "string", "minLength": 1}}),
+]
 Zero = Annotated[str | tuple[float, float], *or_word((BeforeValidator(interval), INTERVAL_SCHEMA), *ZEROS)]
 
 
@@ -89,5 +106,11 @@ class Test(Table):
     """Factor on the motion's time."""
     observed_outcome: Annotated[str, *one_of(*OUTCOMES)] | None = None
     """What was seen: "overturned", "not-overturned", "no-rocking" or "rocking"."""
+    date: Day | None = None
+    """The day of the test, such as 2013-04-26."""
+    operator: Text | None = None
+    """Who ran it."""
+    photos: Photos = ()
+    """Photos of it, JPEG or PNG, from the folder of the campaign file."""
     notes: Text | None = None
     """Anything worth keeping."""

@@ -22,6 +22,7 @@ EXCEL_SUFFIXES = (".xlsx", ".xlsm", ".xls", ".ods")
 _NUMBERS = ("span", "time_scale")
 _QUANTITIES = ("frequency", "window", "zero")
 _INTERVALS = ("window", "zero")
+_LISTS = ("photos",)
 _LARGEST_BYTES = 10_000_000
 _MOST_COLUMNS = 1000
 
@@ -181,6 +182,8 @@ def _value(key: str, cell: Any, decimal_comma: bool) -> Any:
     if key in _INTERVALS:
         parts = [part.strip() for part in re.split(r"[;,…]|\.\.\.|\bto\b", text.strip("[]")) if part.strip()]
         return [part.strip("\"'") for part in parts] if len(parts) > 1 else text
+    if key in _LISTS:
+        return [part.strip() for part in re.split("[;,]", text) if part.strip()]
     return text
 
 

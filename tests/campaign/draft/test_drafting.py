@@ -251,3 +251,21 @@ def test_the_real_shake_table_recordings_of_others(shared_data, tmp_path):
         "block_accel_26430": ("acceleration", "g's", "specimen"),
     }
     assert document["setups"][tests["sinewave-test1"]["setup"]]["sampling_rate"] == "? Hz"
+
+
+def test_the_day_of_a_file_is_drafted_and_what_no_file_tells_is_shown_once(folder):
+    times = [f"2013-04-26T10:15:{second:06.3f}" for second in np.arange(0.0, 5.0, 0.01)]
+    for name in ("free-01.csv", "free-02.csv"):
+        lines = [f"{time},{value:.6f}" for time, value in zip(times, DECAY, strict=False)]
+        (folder.path / name).write_text("\n".join(["Time,LVDT 1 [mm]", *lines, ""]), encoding="utf-8")
+    document, drafted = folder.draft()
+    assert [test["date"].isoformat() for test in document["tests"]] == ["2013-04-26"] * 2
+    assert drafted.text.count("date = 2013-04-26    # from the file's own time") == 2
+    assert drafted.text.count("# operator = ") == 1
+
+
+def test_a_file_without_a_date_leaves_the_day_to_people(folder):
+    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY})
+    document, drafted = folder.draft()
+    assert "date" not in document["tests"][0]
+    assert "# date = 2013-04-26" in drafted.text

@@ -151,3 +151,14 @@ def test_findings_are_in_order_with_what_follows_from_them(campaign):
     late = warning("no arc", "No arc was found.", follows=("gain",))
     test = record_of_test(campaign, campaign.tests["pulse-01"], Stored(findings=[late, serious("gain", "Ten times.")]))
     assert [(each.kind, each.explained) for each in test.warnings] == [("gain", False), ("no arc", True)]
+
+
+def test_the_record_says_who_and_when(tmp_path):
+    campaign = written(tmp_path, CAMPAIGN + 'date = "26.04.2013"\noperator = "Κ. Παπάς"\n')
+    said = record(campaign, {}, campaign.tests["pulse-01"])
+    assert (said.date, said.operator) == ("2013-04-26", "Κ. Παπάς")
+
+
+def test_a_test_of_unknown_day_has_none(campaign):
+    said = record(campaign, {})
+    assert (said.date, said.operator) == (None, None)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from datetime import date
 from pathlib import Path
 
 import numpy as np
@@ -77,6 +78,8 @@ class RawFile:
         Of the reader.
     writing : str
         How its numbers are written, as far as the reader says so.
+    day : date or None
+        Of its first sample, if the file gives it.
     """
 
     relative: str
@@ -86,6 +89,7 @@ class RawFile:
     duration: float | None
     warnings: tuple[str, ...]
     writing: str = ""
+    day: date | None = None
 
     @property
     def layout(self) -> tuple[object, ...]:
@@ -210,7 +214,8 @@ def _seen(relative: str, recording: Recording) -> RawFile:
     columns = tuple(_column(number, channel) for number, channel in enumerate(recording.channels, start=1))
     # Of `delimiter ";" (3 cells on …)` what files have in common.
     writing = "; ".join(note.partition(" (")[0] for note in recording.notes if note.startswith(WRITING))
-    return RawFile(relative, recording.format, columns, rate, duration, recording.warnings, writing)
+    day = recording.start and recording.start.date()
+    return RawFile(relative, recording.format, columns, rate, duration, recording.warnings, writing, day)
 
 
 def _column(number: int, channel: RecordedChannel) -> Column:

@@ -13,6 +13,7 @@ from colonnade.campaign.draft.kinds import kind_lines, largest_spreads, linked
 from colonnade.campaign.draft.layout import DraftSetup, DraftTest, names_of
 from colonnade.campaign.draft.lines import Line, comment, key, value
 from colonnade.campaign.draft.naming import unique
+from colonnade.campaign.draft.survey import RawFile
 from colonnade.campaign.draft.vocabulary import SHAPES, find, words
 
 _SIZES = {
@@ -209,9 +210,17 @@ def _tests(named: Sequence[_NamedSetup], specimens: dict[int, tuple[str, str]]) 
             Line("specimen", value(specimens[id(test)][0])),
             Line("setup", value(each.name)),
             Line("file", value(paths[MAIN] if len(paths) == 1 else paths), rate),
+            *_who_and_when(file, is_first=not lines[each.name]),
             *(comment(f"the file: {warning}") for warning in file.warnings[:3]),
         ]
     return lines
+
+
+def _who_and_when(file: RawFile, *, is_first: bool) -> list[Line | str]:
+    """Give the day that the file says, and once the keys that no file tells."""
+    known = [Line("date", file.day.isoformat(), "from the file's own time")] if file.day else []
+    asked = [comment('operator = "…"         who ran it; also photos = ["photos/….jpg"]')] if is_first else []
+    return [*known, *([] if known or not is_first else [comment("date = 2013-04-26")]), *asked]
 
 
 def _briefly(line: Line | str, asked: set[str]) -> Line | str:

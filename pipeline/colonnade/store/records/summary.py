@@ -11,6 +11,7 @@ from colonnade.dynamics.history import Outcome
 from colonnade.errors import StoreError
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store.layout import Layout
+from colonnade.store.records.test import as_given
 
 
 def read_summary(layout: Layout) -> Summary | None:
@@ -41,14 +42,7 @@ def records_of_tests(campaign: Campaign, summary: Summary | None) -> dict[str, T
     """Return the record of each test of a campaign; one that was never run is pending."""
     known = {} if summary is None else summary.tests
     return {
-        name: known.get(name)
-        or TestSummary(
-            status="pending",
-            kind=test.kind,
-            specimen=test.specimen,
-            span=test.span,
-            observed_outcome=test.observed_outcome,
-        )
+        name: known.get(name) or TestSummary(status="pending", **as_given(test))
         for name, test in campaign.tests.items()
     }
 

@@ -63,15 +63,24 @@ def record_of_test(campaign: Campaign, test: Test, stored: Stored) -> TestSummar
             Warned.of(found, explained=explained)
             for found, explained in in_order(stored.findings, campaign.concerning(test.id))
         ),
-        kind=test.kind,
-        specimen=test.specimen,
-        span=test.span,
-        observed_outcome=test.observed_outcome,
+        **as_given(test),
         restitution=_identified(stored) if stored.has("restitution") else None,
         prototype=_at_prototype(measured, scale) if scale is not None and stored.has("rocking") else None,
         predicted={model: _predicted(stored, model) for model in stored.models("predict")},
         **measured,
     )
+
+
+def as_given(test: Test) -> dict[str, Any]:
+    """Return what the record of a test repeats of the campaign file."""
+    return {
+        "kind": test.kind,
+        "specimen": test.specimen,
+        "span": test.span,
+        "date": test.date and test.date.isoformat(),
+        "operator": test.operator,
+        "observed_outcome": test.observed_outcome,
+    }
 
 
 def largest_motion(stored: Stored, name: str) -> float:
