@@ -7,7 +7,7 @@ import pytest
 
 from colonnade.figures.bands import bands_over_time
 from colonnade.figures.curve import Curve
-from colonnade.figures.histories import Spread, between
+from colonnade.figures.histories import Spread
 
 LEVELS = np.array([0.05, 0.25, 0.5, 0.75, 0.95])
 TIME = np.linspace(0.0, 10.0, 5001)
@@ -58,19 +58,6 @@ def test_each_model_has_its_horizon_marked_unless_it_is_the_records_end():
     marks = [[line.get_xdata()[0] for line in axes.lines if len(line.get_xdata()) == 2] for axes in figure.axes]
     assert marks == [[4.0], [7.0], []]
     assert ["horizon" in [text.get_text() for text in axes.texts] for axes in figure.axes] == [True, True, False]
-
-
-def test_thinning_keeps_the_extremes_of_the_band():
-    time, below, above = between(TIME, BANDS[0], BANDS[-1], intervals=50)
-    assert time.size <= 51
-    assert (below.min(), above.max()) == (BANDS[0].min(), BANDS[-1].max())
-    inside = np.searchsorted(np.linspace(0, 10, 51)[1:-1], TIME, side="right")
-    assert (below[inside] <= BANDS[0]).all()
-    assert (above[inside] >= BANDS[-1]).all()
-
-
-def test_a_short_band_is_drawn_as_it_is():
-    assert between(TIME[:10], BANDS[0][:10], BANDS[-1][:10])[0].tolist() == TIME[:10].tolist()
 
 
 def test_no_model_or_unpaired_levels_are_refused():

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from colonnade.figures import Curve, envelope
+from colonnade.figures.curve import between
 
 
 def noisy(samples: int = 60_000) -> Curve:
@@ -55,3 +56,24 @@ def test_a_gap_stays_a_gap():
 def test_arrays_of_different_length_are_refused():
     with pytest.raises(ValueError, match=r"time has shape \(3,\) and values \(2,\)"):
         envelope(Curve(np.zeros(3), np.zeros(2)))
+
+
+def a_band(samples: int = 5001) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    time = np.linspace(0.0, 10.0, samples)
+    centre = 0.4 * np.sin(4 * time)
+    return time, centre - 0.01 * time, centre + 0.01 * time
+
+
+def test_thinning_keeps_the_extremes_of_a_band():
+    given, lowest, highest = a_band()
+    time, below, above = between(given, lowest, highest, intervals=50)
+    assert time.size <= 51
+    assert (below.min(), above.max()) == (lowest.min(), highest.max())
+    inside = np.searchsorted(np.linspace(0, 10, 51)[1:-1], given, side="right")
+    assert (below[inside] <= lowest).all()
+    assert (above[inside] >= highest).all()
+
+
+def test_a_short_band_is_drawn_as_it_is():
+    time, below, above = a_band(10)
+    assert between(time, below, above)[0].tolist() == time.tolist()

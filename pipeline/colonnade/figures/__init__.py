@@ -8,7 +8,7 @@ from colonnade.figures.histories import Spread
 from colonnade.figures.maps.measured_map import measured_map
 from colonnade.figures.maps.response_orders import response_orders
 from colonnade.figures.maps.stability_map import stability_map
-from colonnade.figures.output import to_png, to_svg
+from colonnade.figures.output import to_csv, to_png, to_svg
 from colonnade.figures.record import Peak, Quantity, whole_record
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
 from colonnade.figures.restitution.history import fitted_history
@@ -16,6 +16,7 @@ from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_re
 from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
 from colonnade.figures.restitution.region import Region, joint_region
 from colonnade.figures.spans import SpanPanel, spans_side_by_side
+from colonnade.figures.table import table_of
 
 __all__ = [
     "Curve",
@@ -40,6 +41,8 @@ __all__ = [
     "response_orders",
     "spans_side_by_side",
     "stability_map",
+    "table_of",
+    "to_csv",
     "to_png",
     "to_svg",
     "whole_record",

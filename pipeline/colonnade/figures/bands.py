@@ -49,8 +49,7 @@ def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Fi
     for panel, (model, spread) in zip(axes, spreads.items(), strict=True):
         colour = model_style(model)["color"]
         for index in range(int((spread.levels < 0.5).sum())):
-            label = f"{spread.share(index):.0%} of the runs" if panel is axes[0] else None
-            shade(panel, spread, index, limit, colour, label=label)
+            shade(panel, spread, index, colour, label=f"{spread.share(index):.0%} of the runs")
         mark_horizon(panel, spread, colour)
         draw_angle(panel, measured, {}, limit)
         panel.set_ylabel(f"{ANGLE_LABEL}, {model}")

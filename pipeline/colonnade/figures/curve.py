@@ -1,4 +1,4 @@
-"""A curve over time, and its envelope that draws the same with a few hundred points."""
+"""A curve over time, and the envelopes of curves and bands that draw the same with a few hundred points."""
 
 from __future__ import annotations
 
@@ -63,6 +63,31 @@ def envelope(curve: Curve, *, intervals: int = INTERVALS) -> Curve:
     highest = _first_equal(np.maximum.reduceat(np.where(finite, values, -np.inf), starts), values, starts)
     index = np.unique(np.concatenate(([0, time.size - 1], lowest, highest)))
     return Curve(time[index], values[index])
+
+
+def between(time: Array, below: Array, above: Array, *, intervals: int = INTERVALS) -> tuple[Array, Array, Array]:
+    """
+    Thin a band to one lowest and one highest value an interval of time, so that nothing inside it is lost.
+
+    Parameters
+    ----------
+    time, below, above : ndarray, shape (n,)
+    intervals : int, optional
+
+    Returns
+    -------
+    time, below, above : ndarray
+        As given where there are at most two samples an interval; else one of each an interval.
+    """
+    if time.size <= 2 * intervals:
+        return time, below, above
+    starts = np.unique(np.searchsorted(time, np.linspace(time[0], time[-1], intervals + 1)[:-1]))
+    ends = np.append(starts[1:], time.size) - 1
+    return (
+        0.5 * (time[starts] + time[ends]),
+        np.fmin.reduceat(below, starts),
+        np.fmax.reduceat(above, starts),
+    )
 
 
 def _first_equal(extremes: Array, values: Array, starts: NDArray[np.intp]) -> NDArray[np.intp]:

@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array
-from colonnade.figures.curve import INTERVALS, Curve, envelope
+from colonnade.figures.curve import Curve
+from colonnade.figures.long import draw_band, draw_curve
 from colonnade.figures.style import INK, LIMIT, MEASURED, LineStyle, model_style
 
 SMALLEST_RATIO = 0.02
@@ -60,7 +61,6 @@ def draw_angle(
     limit: float,
     *,
     spreads: Mapping[str, Spread] | None = None,
-    intervals: int = INTERVALS,
     thinness: float = 1.0,
     limit_name: str = "α",
 ) -> None:
@@ -78,8 +78,6 @@ def draw_angle(
         Half range of the θ/α axis (see `limit_of`).
     spreads : mapping of str to Spread, optional
         The widest band of each model's ensemble, shaded below the lines, and its horizon.
-    intervals : int, optional
-        Of each curve's envelope.
     thinness : float, optional
         Factor on the width of the models' lines, where the measured one would be hidden below them.
     limit_name : str, optional
@@ -87,15 +85,13 @@ def draw_angle(
     """
     for model, spread in (spreads or {}).items():
         label = f"{spread.share(0):.0%} of runs"
-        shade(axes, spread, 0, limit, model_style(model)["color"], label=label, intervals=intervals)
+        shade(axes, spread, 0, model_style(model)["color"], label=label)
         mark_horizon(axes, spread, model_style(model)["color"])
     lines: list[tuple[Curve | None, str, LineStyle]] = [(measured, "measured", MEASURED)]
     lines += [(curve, f"{model} model", model_style(model, thinness)) for model, curve in predicted.items()]
     for curve, label, style in lines:
         if curve is not None:
-            # Clipped well outside the axis: a fallen block's ±π/2 would only lengthen the file.
-            time, values = envelope(curve, intervals=intervals)
-            axes.plot(time, np.clip(values, -2 * limit, 2 * limit), label=label, **style)
+            draw_curve(axes, curve, label=label, **style)
     if limit > 1.0:
         draw_limit(axes, 1.0, limit_name)
     axes.set_ylim(-limit, limit)
@@ -106,18 +102,15 @@ def draw_angle(
         )
 
 
-def shade(
-    axes: Axes, spread: Spread, index: int, limit: float, colour: str, *, label: str | None, intervals: int = INTERVALS
-) -> None:
-    """Shade one band of an ensemble, the widest being number 0, clipped well outside an axis of ± `limit`."""
-    time, below, above = between(spread.time, spread.bands[index], spread.bands[-1 - index], intervals=intervals)
-    axes.fill_between(
-        time,
-        np.clip(below, -2 * limit, 2 * limit),
-        np.clip(above, -2 * limit, 2 * limit),
+def shade(axes: Axes, spread: Spread, index: int, colour: str, *, label: str) -> None:
+    """Shade one band of an ensemble, the widest being number 0."""
+    draw_band(
+        axes,
+        spread.time,
+        spread.bands[index],
+        spread.bands[-1 - index],
         color=colour,
         alpha=SHADES[min(index, len(SHADES) - 1)],
-        linewidth=0,
         label=label,
         zorder=0.5,
     )
@@ -139,31 +132,6 @@ def mark_horizon(axes: Axes, spread: Spread, colour: str) -> None:
             fontsize=7,
             color=colour,
         )
-
-
-def between(time: Array, below: Array, above: Array, *, intervals: int = INTERVALS) -> tuple[Array, Array, Array]:
-    """
-    Thin a band to one lowest and one highest value an interval of time, so that nothing inside it is lost.
-
-    Parameters
-    ----------
-    time, below, above : ndarray, shape (n,)
-    intervals : int, optional
-
-    Returns
-    -------
-    time, below, above : ndarray
-        As given where there are at most two samples an interval; else one of each an interval.
-    """
-    if time.size <= 2 * intervals:
-        return time, below, above
-    starts = np.unique(np.searchsorted(time, np.linspace(time[0], time[-1], intervals + 1)[:-1]))
-    ends = np.append(starts[1:], time.size) - 1
-    return (
-        0.5 * (time[starts] + time[ends]),
-        np.fmin.reduceat(below, starts),
-        np.fmax.reduceat(above, starts),
-    )
 
 
 def limit_of(curves: Sequence[Curve]) -> float:

@@ -1,20 +1,25 @@
 """
-Figures as SVG text or as PNG: the only module that writes them.
+Figures as SVG text, as PNG, or as a CSV table of what they show: the only module that makes files of them.
 
 The same figure gives the same bytes. SVG text is small, and its ids are its own, so that many figures fit on a page.
 """
 
 from __future__ import annotations
 
+import csv
 import re
 from dataclasses import dataclass
 from functools import cached_property
-from io import BytesIO
+from io import BytesIO, StringIO
+from itertools import zip_longest
+from math import isfinite
 from xml.etree import ElementTree
 
 from matplotlib.figure import Figure
 
 from colonnade.figures.style import styled
+from colonnade.figures.table import table_of
+from colonnade.store.records.table import harmless
 
 NAMESPACE = "http://www.w3.org/2000/svg"
 LINK = "{http://www.w3.org/1999/xlink}href"
@@ -47,6 +52,26 @@ def to_png(figure: Figure, *, dpi: int = 150) -> bytes:
     with styled():
         figure.savefig(written, format="png", dpi=dpi, metadata={"Software": None})
     return written.getvalue()
+
+
+def to_csv(figure: Figure) -> str:
+    """
+    Return what a figure shows as CSV text: a row of headings with units, then numbers in nine digits.
+
+    Columns end where they have no more values; what is not known is empty.
+    """
+    table = table_of(figure)
+    written = StringIO()
+    writer = csv.writer(written, lineterminator="\n")
+    writer.writerow(map(harmless, table))
+    writer.writerows(zip_longest(*(map(_cell, column) for column in table.values()), fillvalue=""))
+    return written.getvalue()
+
+
+def _cell(value: float | str) -> str:
+    if isinstance(value, str):
+        return str(harmless(value))
+    return f"{value:.9g}" if isfinite(value) else ""
 
 
 def to_svg(figure: Figure, *, identity: str, title: str, description: str) -> str:

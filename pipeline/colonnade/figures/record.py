@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from colonnade.arrays import Array
-from colonnade.figures.curve import Curve, envelope
+from colonnade.figures.curve import Curve
 from colonnade.figures.histories import (
     Spread,
     draw_angle,
@@ -20,6 +20,7 @@ from colonnade.figures.histories import (
     scale_symmetric,
     time_limits,
 )
+from colonnade.figures.long import draw_curve
 from colonnade.figures.panels import legend_above, stacked_panels
 from colonnade.figures.style import BASE, MEASURED, model_style, styled
 
@@ -88,7 +89,15 @@ def whole_record(
     if impacts is not None and impacts.size:
         _mark_impacts(axes[0], impacts)
     if peak is not None and np.isfinite(peak).all() and abs(peak.ratio) < limit:
-        axes[0].plot([peak.time], [peak.ratio], "o", color=MEASURED["color"], markersize=5, markerfacecolor="none")
+        axes[0].plot(
+            [peak.time],
+            [peak.ratio],
+            "o",
+            color=MEASURED["color"],
+            markersize=5,
+            markerfacecolor="none",
+            gid="largest measured",
+        )
     if misfits:
         _draw_misfits(axes[1], misfits)
     for one, quantity in zip(axes[1 + bool(misfits) :], others, strict=True):
@@ -108,19 +117,20 @@ def _mark_impacts(axes: Axes, impacts: Array) -> None:
         transform=axes.get_xaxis_transform(),
         color=MEASURED["color"],
         linewidth=0.6,
+        gid="measured impact",
     )
 
 
 def _draw_misfits(axes: Axes, misfits: Mapping[str, Curve]) -> None:
     largest = max(largest_of(list(misfits.values())), 1e-3)
     for model, curve in misfits.items():
-        axes.plot(*envelope(curve), **model_style(model))
+        draw_curve(axes, curve, label=f"{model} model", **model_style(model))
     scale_symmetric(axes, largest)
     axes.set_ylabel("predicted −\nmeasured, / α")
 
 
 def _draw_quantity(axes: Axes, quantity: Quantity) -> None:
-    axes.plot(*envelope(quantity.curve), **BASE)
+    draw_curve(axes, quantity.curve, **BASE)
     largest = largest_of([quantity.curve]) or 1.0
     scale_symmetric(axes, largest)
     if quantity.level is not None and quantity.level < 1.12 * largest:

@@ -7,17 +7,14 @@ from typing import NamedTuple
 
 from matplotlib.figure import Figure
 
-from colonnade.figures.curve import Curve, envelope
+from colonnade.figures.curve import Curve
 from colonnade.figures.histories import ANGLE_LABEL, draw_angle, largest_of, limit_of, scale_symmetric, time_limits
+from colonnade.figures.long import draw_curve
 from colonnade.figures.panels import COLUMNS, legend_above, side_by_side
 from colonnade.figures.style import BASE, styled
 
 ANGLE_HEIGHT, BASE_HEIGHT = 1.35, 0.8
 """Heights of the panels, inches."""
-
-INTERVALS = 200
-"""Time intervals of a curve's envelope: a third of a figure's width shows no more."""
-
 
 THINNESS = 0.6
 """Of the models' lines beside their usual width."""
@@ -62,12 +59,12 @@ def spans_side_by_side(panels: Sequence[SpanPanel]) -> Figure:
     for column, panel in zip(grid, panels, strict=True):
         for one, model in zip(column, models or [""], strict=False):
             predicted = {model: panel.predicted[model]} if model in panel.predicted else {}
-            draw_angle(one, panel.measured, predicted, limit, intervals=INTERVALS, thinness=THINNESS, limit_name="")
+            draw_angle(one, panel.measured, predicted, limit, thinness=THINNESS, limit_name="")
             one.set_ylabel("")
         column[0].set_title(panel.title)
         if bases:
             if panel.base is not None:
-                column[-1].plot(*envelope(panel.base, intervals=INTERVALS), **BASE)
+                draw_curve(column[-1], panel.base, **BASE)
             scale_symmetric(column[-1], largest)
         column[-1].set_xlabel("time (s)")
         column[0].set_xlim(*time_limits([*curves, *bases]))

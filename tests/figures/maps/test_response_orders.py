@@ -25,9 +25,7 @@ def test_every_order_has_the_colour_that_its_legend_names():
     figure = response_orders(response(), [], OPTIONS)
     mesh = figure.axes[0].collections[0]
     numbers = mesh.get_array().reshape(5, 7)[:, 0]
-    assert [REGIONS[int(number)].name for number in numbers] == [
-        "at rest", "every cycle", "sub-harmonic 1/3", "irregular", "overturned"
-    ]  # fmt: skip
+    assert numbers.tolist() == [0, 1, 3, -1, -2]
     (legend,) = figure.legends
     named = dict(zip([text.get_text() for text in legend.get_texts()], legend.get_patches(), strict=True))
     assert list(named) == ["at rest", "every cycle", "sub-harmonic 1/3", "irregular", "overturned"]

@@ -143,4 +143,5 @@ def _draw_boundary(axes: Axes, boundaries: Sequence[Boundaries], name: str, labe
         linewidth=4.0,
         alpha=0.45,
         zorder=1,
+        gid=f"{label}, between",
     )

@@ -19,7 +19,6 @@ from colonnade.figures.histories import SMALLEST_RATIO
 from colonnade.figures.maps.measured_map import draw_points
 from colonnade.figures.maps.stability_map import (
     OVERTURNED_COLOUR,
-    cell_edges,
     scale_axes,
     words_of_restitution,
     words_of_sine,
@@ -126,20 +125,21 @@ def response_orders(response: SteadyResponse, points: Sequence[MapPoint], option
 
 def _draw_regions(axes: Axes, response: SteadyResponse) -> list[Orders]:
     """Draw the cells in the colours of their regions; return the regions there are."""
-    numbers = np.zeros(response.order.shape, dtype=np.int8)
-    for number, region in enumerate(REGIONS):
-        numbers[np.isin(response.order, region.orders)] = number
+    colours = {order: region.colour for region in REGIONS for order in region.orders}
+    orders = sorted(colours)
     axes.grid(False)
     axes.pcolormesh(
-        cell_edges(response.frequency_ratio),
-        cell_edges(response.amplitude_ratio),
-        numbers.T,
-        cmap=ListedColormap([region.colour for region in REGIONS]),
-        norm=BoundaryNorm(np.arange(len(REGIONS) + 1) - 0.5, len(REGIONS)),
+        response.frequency_ratio,
+        response.amplitude_ratio,
+        response.order.T,
+        cmap=ListedColormap([colours[order] for order in orders]),
+        norm=BoundaryNorm([*(order - 0.5 for order in orders), orders[-1] + 0.5], len(orders)),
+        shading="nearest",
         rasterized=True,
         zorder=0,
+        gid=f"order ({AT_REST} at rest, {IRREGULAR} irregular, {OVERTURNED} overturned)",
     )
-    return [region for number, region in enumerate(REGIONS) if (numbers == number).any()]
+    return [region for region in REGIONS if np.isin(response.order, region.orders).any()]
 
 
 def _draw_curves(
@@ -158,7 +158,8 @@ def _draw_curves(
             label=f"{name} = {others[row]:.2f}",
         )
         unlike = (orders[row] > 1) | (orders[row] == IRREGULAR)
-        axes.plot(ratios[unlike], amplitudes[row][unlike], ".", color=colour, markersize=4.0)
+        named = f"{name} = {others[row]:.2f}, sub-harmonic or irregular"
+        axes.plot(ratios[unlike], amplitudes[row][unlike], ".", color=colour, markersize=4.0, gid=named)
     largest = float(np.nanmax(amplitudes[chosen], initial=SMALLEST_RATIO)) if chosen else SMALLEST_RATIO
     axes.set_ylim(0.0, 1.3 * largest)
     axes.set_xlim(float(ratios[0]), float(ratios[-1]))

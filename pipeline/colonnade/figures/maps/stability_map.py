@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
@@ -63,14 +62,16 @@ def stability_map(
     scale_axes(axes, first.frequency_ratio, first.amplitude_ratio, points)
     axes.grid(False)
     axes.pcolormesh(
-        cell_edges(first.frequency_ratio),
-        cell_edges(first.amplitude_ratio),
+        first.frequency_ratio,
+        first.amplitude_ratio,
         first.overturning_fraction.T,
         cmap=SHADE,
         vmin=0.0,
         vmax=1.0,
+        shading="nearest",
         rasterized=True,
         zorder=0,
+        gid="share of the cell that overturns",
     )
     for chart in charts:
         _limits(axes, chart)
@@ -114,12 +115,6 @@ def scale_axes(axes: Axes, frequency_ratio: Array, amplitude_ratio: Array, point
         label_logarithmic(axes)
     axes.set_ylim(low, high)
     name_axes(axes)
-
-
-def cell_edges(centres: Array) -> Array:
-    """Edges of the cells around the centres; the outermost end at the centres themselves."""
-    middles = 0.5 * (centres[1:] + centres[:-1])
-    return np.concatenate([centres[:1], middles, centres[-1:]])
 
 
 def _words(charts: Sequence[StabilityMap]) -> str:

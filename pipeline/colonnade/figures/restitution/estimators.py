@@ -86,7 +86,7 @@ def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float | N
             _write(axes, place + GROUP / 2, group.title, -LEFT + 0.1, weight="bold")
             place += GROUP
         for row in group.rows:
-            _draw_row(axes, place + ROW / 2, row)
+            _draw_row(axes, place + ROW / 2, row, group.title)
             place += ROW
     if not any(np.isfinite(row.value) for group in groups for row in group.rows):
         axes.set_xticks([])
@@ -98,28 +98,29 @@ def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float | N
     return figure
 
 
-def _draw_row(axes: Axes, place: float, row: EstimateRow) -> None:
+def _draw_row(axes: Axes, place: float, row: EstimateRow, title: str) -> None:
     weight = "bold" if row.recommended else "normal"
     _write(axes, place, row.name, -LEFT + 0.2, weight=weight)
     if not np.isfinite(row.value):
         _write(axes, place, row.remark or "none", None, colour=SOFT)
         return
-    low, high = axes.get_xlim()
     colour = FIT["color"] if row.recommended else MEASURED["color"]
-    ends = np.clip([row.low, row.high], low, high)
-    if np.isfinite(ends).all() and ends[1] > ends[0]:
-        axes.plot(ends, [place, place], color=colour, linewidth=2.0 if row.recommended else 1.1)
-    beyond = row.value < low or row.value > high
-    mark = ("<" if row.value < low else ">") if beyond else ("D" if row.recommended else "o")
-    axes.plot(
-        [min(max(row.value, low), high)],
+    size = 5.0 if row.recommended else 4.0
+    axes.errorbar(
+        [row.value],
         [place],
-        mark,
+        xerr=np.maximum([[row.value - row.low], [row.high - row.value]], 0.0),
+        fmt="D" if row.recommended else "o",
         color=colour,
-        markersize=5.0 if row.recommended else 4.0,
-        clip_on=False,
-        zorder=3,
+        markersize=size,
+        elinewidth=2.0 if row.recommended else 1.1,
+        label=f"{title}, {row.name}" if title else row.name,
     )
+    low, high = axes.get_xlim()
+    if not low <= row.value <= high:
+        edge, mark = (0.0, "<") if row.value < low else (1.0, ">")
+        beside = axes.get_yaxis_transform()
+        axes.plot([edge], [place], mark, color=colour, markersize=size, clip_on=False, transform=beside)
     half = (row.high - row.low) / 2
     told = format_uncertain(row.value, half) if np.isfinite(half) else f"{row.value:.4f}"
     _write(axes, place, told, WIDTH - LEFT - RIGHT + 0.12, weight=weight)
@@ -151,7 +152,7 @@ def _draw_rigid(axes: Axes, rigid: float) -> None:
         where, told = 1.0, f"{told} →"
     else:
         where = (rigid - low) / (high - low)
-        axes.axvline(rigid, **LIMIT)
+        axes.axvline(rigid, label="rigid body", **LIMIT)
         told = f" {told} "
     axes.annotate(
         told,

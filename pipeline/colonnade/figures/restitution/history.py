@@ -6,8 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from colonnade.figures.curve import Curve, envelope
+from colonnade.figures.curve import Curve
 from colonnade.figures.histories import draw_angle, largest_of, limit_of, scale_symmetric, time_limits
+from colonnade.figures.long import draw_curve
 from colonnade.figures.panels import legend_above, stacked_panels
 from colonnade.figures.style import FAINT, INK, MEASURED, model_style, styled
 
@@ -46,7 +47,7 @@ def fitted_history(measured: Curve | None, fitted: Curve, residual: Curve, *, mo
     figure, axes = stacked_panels([ANGLE_HEIGHT, RESIDUAL_HEIGHT])
     shown = [curve for curve in (measured, fitted) if curve is not None]
     draw_angle(axes[0], measured, {}, limit_of(shown))
-    axes[0].plot(*envelope(fitted), label=f"fitted, {model} model", **model_style(model))
+    draw_curve(axes[0], fitted, label=f"fitted, {model} model", **model_style(model))
     _draw_residual(axes[1], residual)
     axes[0].set_xlim(*time_limits(shown))
     axes[-1].set_xlabel("time (s)")
@@ -57,7 +58,7 @@ def fitted_history(measured: Curve | None, fitted: Curve, residual: Curve, *, mo
 def _draw_residual(axes: Axes, residual: Curve) -> None:
     residual = Curve(residual.time, 1e3 * residual.values)
     largest = max(largest_of([residual]), SMALLEST_RESIDUAL)
-    axes.plot(*envelope(residual), color=MEASURED["color"], linewidth=0.7)
+    draw_curve(axes, residual, label="measured − fitted", color=MEASURED["color"], linewidth=0.7)
     axes.axhline(0.0, color=FAINT, linewidth=0.7)
     scale_symmetric(axes, largest)
     axes.set_ylabel("measured −\nfitted (10⁻³ α)")

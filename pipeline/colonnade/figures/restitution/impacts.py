@@ -129,7 +129,7 @@ def _draw_impacts(axes: Axes, impacts: ImpactSeries, mark: str, *, named: bool) 
 
 def _draw_level(axes: Axes, level: Level) -> None:
     if np.isfinite(level.low) and np.isfinite(level.high):
-        axes.axhspan(level.low, level.high, color=FIT["color"], alpha=0.18, linewidth=0)
+        axes.axhspan(level.low, level.high, color=FIT["color"], alpha=0.18, linewidth=0, gid=f"{level.name}, interval")
     axes.axhline(level.value, label=level.name, **FIT)
 
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
+from colonnade.figures.long import draw_band
 from colonnade.figures.panels import legend_outside
 from colonnade.figures.style import FAINT, FIT, MEASURED, blank_figure, styled
 from colonnade.identification.restitution.arcs.energy import released_energy
@@ -102,7 +103,7 @@ def peak_decay(series: Sequence[PeakSeries], block: Block, *, axes: Sequence[Axe
 
 
 def _draw_peaks(axes: Axes, peaks: PeakSeries, block: Block) -> None:
-    number = np.arange(1, peaks.angle.size + 1)
+    number = np.arange(1.0, peaks.angle.size + 1)
     critical = block.critical_angle_at(peaks.angle)
     shown = np.isfinite(peaks.angle) & (np.abs(peaks.angle) < critical) & (peaks.angle != 0)
     size = np.clip(np.abs(peaks.angle), 0.0, critical)
@@ -134,9 +135,7 @@ def _draw_peaks(axes: Axes, peaks: PeakSeries, block: Block) -> None:
         axes.plot(number[fitted], line, label="fit", zorder=3, **FIT)
         if peaks.band is not None and np.isfinite(peaks.band[fitted]).any():
             wide = np.exp(peaks.band[fitted])
-            axes.fill_between(
-                number[fitted], line / wide, line * wide, color=FIT["color"], alpha=0.18, linewidth=0, label="95 % band"
-            )
+            draw_band(axes, number[fitted], line / wide, line * wide, color=FIT["color"], alpha=0.18, label="95 % band")
     axes.set_yscale("log")
     axes.set_xlim(0, max(peaks.angle.size + 1, axes.get_xlim()[1]))
     axes.set_title(peaks.title)

@@ -18,7 +18,7 @@ def as_csv(summary: Summary) -> str:
     text = io.StringIO()
     writer = csv.DictWriter(text, columns or ["test"], lineterminator="\n")
     writer.writeheader()
-    writer.writerows({column: _harmless(value) for column, value in row.items()} for row in rows)
+    writer.writerows({column: harmless(value) for column, value in row.items()} for row in rows)
     return text.getvalue()
 
 
@@ -40,7 +40,7 @@ def _columns(prefix: str, record: BaseModel, without: set[str] | None = None) ->
     return {f"{prefix}_{name}": value for name, value in record.model_dump(exclude=without).items()}
 
 
-def _harmless(value: Any) -> Any:
+def harmless(value: Any) -> Any:
     """Quote what a spreadsheet would calculate; a bare carriage return would end the row."""
     if not isinstance(value, str):
         return value

@@ -1,0 +1,176 @@
+"""The table of a figure holds what was drawn, whatever the figure."""
+
+from __future__ import annotations
+
+import csv
+import io
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+from matplotlib.figure import Figure
+
+from colonnade.figures import Curve, Quantity, whole_record
+from colonnade.figures.histories import Spread
+from colonnade.figures.long import draw_band, draw_curve
+from colonnade.figures.output import to_csv
+from colonnade.figures.record import Peak
+from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
+from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
+from colonnade.figures.table import table_of
+
+TIME = np.linspace(0.0, 20.0, 20_001)
+NUMBERS = st.floats(-1e6, 1e6, width=32)
+
+
+def panel():
+    axes = Figure().subplots()
+    axes.set_xlabel("time (s)")
+    axes.set_ylabel("slide\n(mm)")
+    return axes
+
+
+def read(text: str) -> dict[str, list[str]]:
+    heads, *rows = csv.reader(io.StringIO(text))
+    return dict(zip(heads, zip(*rows, strict=True), strict=True))
+
+
+@settings(max_examples=50, deadline=None)
+@given(
+    curves=st.lists(arrays.arrays(np.float64, st.integers(2, 40), elements=NUMBERS), min_size=1, max_size=4),
+    names=st.lists(st.text(min_size=1, max_size=12), min_size=4, max_size=4),
+)
+def test_every_drawn_line_is_in_the_table_with_all_its_samples(curves, names):
+    """Whatever they are called: also alike, or like what a spreadsheet would calculate."""
+    axes = panel()
+    for values, name in zip(curves, names, strict=False):
+        draw_curve(axes, Curve(np.arange(values.size) / 8, values), label=name)
+    table = table_of(axes.figure)
+    columns = [np.asarray(column) for heading, column in table.items() if heading.startswith("slide (mm)")]
+    assert len(columns) == len(curves)
+    for column, values in zip(columns, curves, strict=True):
+        np.testing.assert_array_equal(column, values)
+    longest = max(map(np.size, curves))
+    written = list(csv.reader(io.StringIO(to_csv(axes.figure))))
+    assert len(written) == 1 + longest
+    assert {len(row) for row in written} == {len(table)}
+    assert not any(cell.startswith(("=", "+", "@")) for cell in written[0])
+
+
+def test_a_record_gives_one_time_and_a_column_a_curve_at_full_length():
+    measured, linear = Curve(TIME, np.sin(TIME)), Curve(TIME, np.cos(TIME))
+    base = Quantity("base\n(m/s²)", Curve(TIME, np.tan(TIME)))
+    spread = Spread(TIME, np.array([0.05, 0.5, 0.95]), np.sin(TIME) + np.array([[-0.1], [0.0], [0.1]]), 0.0, 5.0)
+    impacts = np.array([1.0, 2.5])
+    figure = whole_record(
+        measured,
+        {"linear": linear},
+        misfits={"linear": Curve(TIME, linear.values - measured.values)},
+        base=[base],
+        impacts=impacts,
+        peak=Peak(1.0, 0.5),
+        spreads={"linear": spread},
+    )
+    before = to_csv(figure)
+    table = table_of(figure)
+    assert list(table) == [
+        "time (s)",
+        "θ / α, measured",
+        "θ / α, linear model",
+        "time (s), measured impact",
+        "time (s), largest measured",
+        "θ / α, largest measured",
+        "θ / α, 90% of runs, low",
+        "θ / α, 90% of runs, high",
+        "predicted − measured, / α, linear model",
+        "base (m/s²)",
+    ]
+    for heading, values in {
+        "time (s)": TIME,
+        "θ / α, measured": measured.values,
+        "base (m/s²)": base.curve.values,
+        "θ / α, 90% of runs, high": spread.bands[-1],
+        "time (s), measured impact": impacts,
+    }.items():
+        np.testing.assert_array_equal(table[heading], values)
+    figure.savefig(io.BytesIO())
+    assert to_csv(figure) == before
+
+
+def test_a_gap_is_an_empty_cell_and_a_shorter_column_ends():
+    axes = panel()
+    draw_curve(axes, Curve(np.array([0.0, 1.0, 2.0]), np.array([1.0, np.nan, 3.0])), label="a")
+    axes.plot([5.0], [6.0], label="b")
+    assert to_csv(axes.figure) == ('time (s),"slide (mm), a","time (s), b","slide (mm), b"\n0,1,5,6\n1,,,\n2,3,,\n')
+
+
+def test_error_bars_give_the_value_and_both_ends():
+    axes = panel()
+    axes.errorbar([1.0, 2.0], [5.0, 6.0], yerr=[[1.0, 2.0], [3.0, 4.0]], xerr=0.5, fmt="o", label="peaks", capsize=2)
+    table = {heading: list(column) for heading, column in table_of(axes.figure).items()}
+    assert table == {
+        "time (s)": [1.0, 2.0],
+        "time (s), low": [0.5, 1.5],
+        "time (s), high": [1.5, 2.5],
+        "slide (mm), peaks": [5.0, 6.0],
+        "slide (mm), peaks, low": [4.0, 4.0],
+        "slide (mm), peaks, high": [8.0, 10.0],
+    }
+
+
+def test_points_bands_marks_and_intervals_are_all_there():
+    axes = panel()
+    axes.scatter([1.0, 2.0], [3.0, 4.0], label="points")
+    draw_band(axes, np.array([0.0, 1.0]), np.array([1.0, 2.0]), np.array([3.0, 4.0]), label="95 %")
+    axes.vlines([7.0, 8.0], [1.0, 2.0], [2.0, 3.0], label="bracket")
+    axes.axhspan(0.1, 0.2, gid="interval")
+    axes.axhline(9.0)
+    table = {heading: list(map(float, column)) for heading, column in table_of(axes.figure).items()}
+    assert table == {
+        "time (s)": [1.0, 2.0],
+        "slide (mm), points": [3.0, 4.0],
+        "time (s), 95 %": [0.0, 1.0],
+        "slide (mm), 95 %, low": [1.0, 2.0],
+        "slide (mm), 95 %, high": [3.0, 4.0],
+        "time (s), bracket": [7.0, 8.0],
+        "slide (mm), bracket, low": [1.0, 2.0],
+        "slide (mm), bracket, high": [2.0, 3.0],
+        "slide (mm), interval, low": [pytest.approx(0.1)],
+        "slide (mm), interval, high": [pytest.approx(0.2)],
+    }
+
+
+def test_a_field_gives_each_cell():
+    axes = panel()
+    values = np.arange(6.0).reshape(2, 3)
+    axes.pcolormesh([1.0, 2.0, 3.0], [10.0, 20.0], values, shading="nearest", gid="share")
+    table = table_of(axes.figure)
+    assert list(table) == ["time (s)", "slide (mm)", "share"]
+    assert list(zip(*table.values(), strict=True))[4] == (2.0, 20.0, 4.0)
+
+
+def test_single_values_are_rows_with_their_names():
+    level = Level(0.97, 0.96, 0.98, "e identified")
+    impacts = ImpactSeries("free-01", np.array([1.0, 2.0]), np.array([0.9, 0.95]), np.full(2, 0.01), np.ones(2, bool))
+    table = table_of(impact_restitution([impacts], level=level, rigid=0.955))
+    assert list(table["series"]) == ["e identified", "rigid body", "e identified, interval"]
+    assert table["e of each impact"][:2] == [0.97, 0.955]
+    assert table["e of each impact, high"][2] == pytest.approx(0.98)
+
+
+def test_estimates_are_a_row_each():
+    rows = [EstimateRow("by peaks", 0.97, 0.96, 0.98), EstimateRow("by history", 0.975, 0.973, 0.977, True)]
+    table = table_of(
+        estimators_side_by_side([EstimateGroup("free-01", rows), EstimateGroup("free-02", rows)], rigid=0.95)
+    )
+    assert list(table["series"])[:4] == [
+        "free-01, by peaks",
+        "free-01, by history",
+        "free-02, by peaks",
+        "free-02, by history",
+    ]
+    for ending, index in (("", 1), (", low", 2), (", high", 3)):
+        given = [row[index] for row in rows] * 2
+        assert list(table[f"coefficient of restitution e{ending}"])[:4] == pytest.approx(given)
