@@ -20,7 +20,7 @@ def clock(monkeypatch):
 
 
 def test_a_line_comes_only_after_some_time_and_not_at_the_end(clock, capsys):
-    with progress.looking("Reading raw files") as advance:
+    with progress.work_progress("Reading raw files") as advance:
         advance(1, 3)
         clock.now += progress.EVERY
         advance(2, 3)
@@ -32,7 +32,7 @@ def test_a_line_comes_only_after_some_time_and_not_at_the_end(clock, capsys):
 
 def test_a_run_names_the_test_and_the_stage(clock, capsys):
     stage = StageRun("free-01", "rocking", "done")
-    with progress.following() as show:
+    with progress.run_progress() as show:
         clock.now += progress.EVERY
         show(stage, 4, 20)
     assert capsys.readouterr().err == f"free-01 rocking: 4 of 20 after {progress.EVERY:.0f} s\n"

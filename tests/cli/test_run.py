@@ -139,7 +139,7 @@ def test_many_findings_of_a_kind_are_not_as_many_lines(capsys):
 def test_a_log_gets_a_line_of_progress_now_and_then(capsys, monkeypatch):
     moments = iter([0.0, 1.0, 11.0, 12.0, 22.0])
     monkeypatch.setattr(progress.time, "monotonic", lambda: next(moments))
-    with progress.looking("Reading raw files") as advance:
+    with progress.work_progress("Reading raw files") as advance:
         for done in range(1, 5):
             advance(done, 5)
     assert capsys.readouterr().err.splitlines() == [

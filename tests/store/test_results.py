@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from colonnade.campaign import load
-from colonnade.store.results import ASKED_FOR, STAGES, ResultId, models_of, results_of
+from colonnade.store.results import RUN_STAGES, STAGES, ResultId, models_of, results_of
 
 CAMPAIGN = """
 schema = 1
@@ -33,13 +33,13 @@ def campaign(tmp_path):
 
 
 def test_the_stages_that_can_be_asked_for_are_those_of_the_contract():
-    assert " ".join(ASKED_FOR) == "ingest condition rocking restitution predict ensemble compare report"
+    assert " ".join(RUN_STAGES) == "ingest condition rocking restitution predict ensemble compare report"
 
 
 @pytest.mark.parametrize(("stage", "with_"), [("specimen", "restitution"), ("contact", "predict"), ("map", "report")])
 def test_what_is_of_a_specimen_comes_with_a_stage_of_its_tests(stage, with_):
     assert ResultId("prism", stage).is_of_specimen
-    assert ResultId("prism", stage).order == ASKED_FOR.index(with_)
+    assert ResultId("prism", stage).order == RUN_STAGES.index(with_)
 
 
 def test_no_two_results_share_a_file():

@@ -90,8 +90,8 @@ class Campaign:
     warnings: tuple[Finding, ...] = ()
     reviews: dict[str, Review] = field(default_factory=dict)
 
-    def wherever_it_lies(self) -> Campaign:
-        """Return the same campaign with all paths from its folder: that of a copy elsewhere is equal to it."""
+    def with_relative_paths(self) -> Campaign:
+        """Return the campaign with paths relative to its folder, so that a copy elsewhere gives the same."""
 
         def within(path: Path) -> Path:
             return path.relative_to(self.folder)

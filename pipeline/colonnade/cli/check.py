@@ -11,7 +11,7 @@ import rich_click as click
 from colonnade.cli.console import count, say, show_json
 from colonnade.cli.findings import probable_cause, records_of, show_by_kind
 from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, strict_option
-from colonnade.cli.progress import looking
+from colonnade.cli.progress import work_progress
 
 if TYPE_CHECKING:
     from colonnade.workflow.check import CampaignCheck
@@ -36,7 +36,7 @@ def check(campaign: Path, strict: bool, as_json: bool) -> int:
     from colonnade.workflow.check import check as check_campaign
 
     loaded = load(campaign)
-    with looking("Reading raw files") as progress:
+    with work_progress("Reading raw files") as progress:
         checked = check_campaign(loaded, progress)
     if as_json:
         show_json(_record(checked))

@@ -10,7 +10,7 @@ import rich_click as click
 
 from colonnade.cli.console import count, say, show_json, show_table
 from colonnade.cli.options import json_option
-from colonnade.cli.progress import looking
+from colonnade.cli.progress import work_progress
 
 if TYPE_CHECKING:
     from colonnade.campaign.draft import CampaignDraft
@@ -33,7 +33,7 @@ def init(folder: Path, as_json: bool) -> int:
     from colonnade.campaign.draft import draft
     from colonnade.store.files import write_text
 
-    with looking("Reading raw files") as advance:
+    with work_progress("Reading raw files") as advance:
         drafted = draft(folder, progress=advance)
     write_text(drafted.path, drafted.text)
     if as_json:

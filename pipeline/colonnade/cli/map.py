@@ -19,7 +19,7 @@ from colonnade.cli.options import (
     specimen_option,
     workers_option,
 )
-from colonnade.cli.progress import looking
+from colonnade.cli.progress import work_progress
 
 if TYPE_CHECKING:
     from colonnade.identification.response.boundaries import Misfit
@@ -108,7 +108,7 @@ def map_command(
     from colonnade.workflow.maps.stability import make_maps
 
     asked = Wanted(model, omega, amplitude, phase=radians(phase), **wanted)
-    with looking(f"Mapping by the {' and the '.join(model)} model") as progress:
+    with work_progress(f"Mapping by the {' and the '.join(model)} model") as progress:
         made = make_maps(
             campaign,
             asked,

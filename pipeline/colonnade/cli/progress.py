@@ -15,26 +15,26 @@ if TYPE_CHECKING:
     from colonnade.workflow import StageRun
 
 EVERY = 10.0
-"""s, between two lines of progress if the output is not a terminal."""
+"""Seconds between two lines of progress if the output is not a terminal."""
 
 
 @contextmanager
-def looking(what: str) -> Iterator[Callable[[int, int], None]]:
-    """Show how far work is; the callable takes how much is done, and of how much."""
+def work_progress(what: str) -> Iterator[Callable[[int, int], None]]:
+    """Show the progress of some work; the callable takes how much is done, and the total."""
     with _shown(what) as show:
         yield lambda done, total: show(what, done, total)
 
 
 @contextmanager
-def following() -> Iterator[Callable[[StageRun, int, int], None]]:
-    """Show a run as it goes on; the callable takes each stage that ended, how many have ended, and of how many."""
+def run_progress() -> Iterator[Callable[[StageRun, int, int], None]]:
+    """Show the progress of a run; the callable takes each stage that ended, the number of tests done, and the total."""
     with _shown("Looking for what is out of date") as show:
         yield lambda stage, done, total: show(f"{stage.subject} {stage.stage}", done, total)
 
 
 @contextmanager
 def _shown(what: str) -> Iterator[Callable[[str, int, int], None]]:
-    """Show how far work is; the callable takes what is worked on, how much is done, and of how much."""
+    """Show a bar or lines; the callable takes the present item, how much is done, and the total."""
     console = messages()
     if not console.is_terminal:
         yield _Lines()

@@ -12,8 +12,8 @@ import rich_click as click
 from colonnade.cli.console import say, show_json, show_table
 from colonnade.cli.findings import all_records, probable_cause, show_by_kind
 from colonnade.cli.options import CAMPAIGN, campaign_argument, work_options
-from colonnade.cli.progress import following
-from colonnade.store.results import ASKED_FOR
+from colonnade.cli.progress import run_progress
+from colonnade.store.results import RUN_STAGES
 
 if TYPE_CHECKING:
     from colonnade.workflow import RunResult, StageRun
@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     """,
 )
 @campaign_argument
-@click.option("--until", type=click.Choice(ASKED_FOR), metavar="STAGE", help="Stop after this stage.")
+@click.option("--until", type=click.Choice(RUN_STAGES), metavar="STAGE", help="Stop after this stage.")
 @click.option(
-    "--from", "start_from", type=click.Choice(ASKED_FOR), metavar="STAGE", help="Redo this stage and all that follow."
+    "--from", "start_from", type=click.Choice(RUN_STAGES), metavar="STAGE", help="Redo this stage and all that follow."
 )
 @work_options
 def run(campaign: Path, *, as_json: bool, strict: bool, **choices: Any) -> int:
@@ -97,7 +97,7 @@ def run_with_progress(campaign: Path, **choices: Any) -> RunResult:
     """Run a campaign with a bar on stderr."""
     from colonnade.workflow import run
 
-    with following() as progress:
+    with run_progress() as progress:
         return run(campaign, progress=progress, **choices)
 
 
@@ -123,7 +123,7 @@ def failed_rows(result: RunResult) -> list[tuple[str, str, str]]:
     """Test or specimen, stage and reason of all that failed, now or in an earlier run; its probable cause first."""
     findings = result.findings
     return [
-        (stage.subject, stage.stage, f"{probable_cause(findings.get(stage.told_of, []), where='above')}{stage.reason}")
+        (stage.subject, stage.stage, f"{probable_cause(findings.get(stage.heading, []), where='above')}{stage.reason}")
         for stage in result.stages
         if stage.action == "failed"
     ]

@@ -88,7 +88,9 @@ def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: st
     if stored.has("restitution"):
         free_vibration = specimens_page.free_vibration(row, stored, block)
     address, text = addresses.of_test(test.id), None
-    made_from = _recipe(campaign.wherever_it_lies(), row, stored, code, (asked.before, asked.after)).key if code else ""
+    made_from = (
+        _recipe(campaign.with_relative_paths(), row, stored, code, (asked.before, asked.after)).key if code else ""
+    )
     if not made_from or made_from != stamps.key_of(layout.report.parent / address):
         page = tests_page.of_test(campaign, row, stored)
         text = renderer.page("test", address, test=page, before=asked.before, after=asked.after)

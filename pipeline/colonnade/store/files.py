@@ -1,9 +1,9 @@
 """
 NetCDF and text on disk: whole or not at all.
 
-A file is made in memory (a long one is not, see `long_arrays`), written beside its place under a temporary name and put
-there in one step; so a kill at any instant leaves the old file or the new one. Reading compares the stored hash of the
-values.
+A file is written in the same folder under a temporary name and renamed in one step, so a kill at any instant leaves the
+old file or the new one. NetCDF is made in memory first, except for long arrays (see `long_arrays`). Reading checks the
+stored hash of the values.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ from colonnade.store.own_files import own_files
 from colonnade.store.provenance import content_hash, coverage, is_long
 
 PARTIAL = ".partial"
-"""Ending of temporary names; what is left of a killed run ends so."""
+"""Ending of temporary names, as a killed run leaves them."""
 
 _COMPRESSION = {"zlib": True, "complevel": 4, "shuffle": True}
 _LABEL = "_name"
 
-Told = TypeVar("Told")
+Result = TypeVar("Result")
 
 _permit: ContextVar[Callable[[], None] | None] = ContextVar("permit", default=None)
 
@@ -43,7 +43,7 @@ _permit: ContextVar[Callable[[], None] | None] = ContextVar("permit", default=No
 @contextmanager
 def only_while(expect_permit: Callable[[], None]) -> Iterator[None]:
     """
-    Ask before each file that is put in place or removed in this context.
+    In this context, ask for permission before each file that is put in place or removed.
 
     Parameters
     ----------
@@ -71,15 +71,15 @@ def write(dataset: xr.Dataset, path: Path, *, attributes: Mapping[str, Any]) -> 
     dataset : xr.Dataset
         Values and attributes as the stage returns them; it is described here.
     path : Path
-        Its folder is made where it is not there.
+        Its folder is made if necessary.
     attributes : mapping
-        Global attributes besides the dataset's own, with `stage`.
+        Global attributes in addition to the dataset's own; `stage` is among them.
 
     Returns
     -------
     stored : xr.Dataset
-        With what `read` gives; its attribute `content` is the hash of the values, and of the attributes that a later
-        stage may read.
+        As `read` gives it. Its attribute `content` is the hash of the values and of the attributes that a later stage
+        may read.
 
     Raises
     ------
@@ -118,7 +118,7 @@ def read(path: Path) -> xr.Dataset:
     Raises
     ------
     StoreError
-        If it is not there, is no whole NetCDF file, or its values differ from those that were written.
+        If it is missing, is not a whole NetCDF file, or its values differ from those that were written.
     """
     try:
         with netCDF4.Dataset(path.name, memory=path.read_bytes()) as opened:
@@ -142,7 +142,7 @@ def read_attributes(path: Path) -> dict[str, Any]:
     Raises
     ------
     StoreError
-        If the file is not there or is no NetCDF file.
+        If the file is missing or is not a NetCDF file.
     """
     try:
         with netCDF4.Dataset(path) as opened:
@@ -191,7 +191,7 @@ def write_bytes(path: Path, data: bytes | memoryview) -> None:
 
 
 def remove(path: Path) -> bool:
-    """Remove a file where it is there, and tell whether it was."""
+    """Remove a file if it exists; return whether it did."""
     _expect_permit()
     try:
         path.unlink()
@@ -203,7 +203,7 @@ def remove(path: Path) -> bool:
 
 
 def sweep(folder: Path) -> None:
-    """Remove temporary files that a killed run left; only for the one who holds the lock."""
+    """Remove temporary files that a killed run left; only the holder of the lock may call it."""
     for path in own_files(folder):
         if path.name.startswith(".") and path.name.endswith(PARTIAL):
             remove(path)
@@ -216,7 +216,7 @@ def _to_bytes(dataset: xr.Dataset, path: Path) -> memoryview:
 
 
 def _prepared(dataset: xr.Dataset) -> xr.Dataset:
-    """Tell xarray how each variable is stored."""
+    """Set how xarray stores each variable."""
     # Text as text: of an empty array of objects xarray would make numbers.
     texts = {name: value.astype(str) for name, value in dataset.variables.items() if value.dtype.kind == "O"}
     prepared = _without_labels(dataset.assign(texts))
@@ -263,8 +263,8 @@ def _put_long(path: Path, dataset: xr.Dataset) -> str:
     prepared = _prepared(dataset)
 
     def write_to(partial: Path) -> str:
-        with ThreadPoolExecutor(1) as beside:
-            content = beside.submit(content_hash, dataset)
+        with ThreadPoolExecutor(1) as pool:
+            content = pool.submit(content_hash, dataset)
             write_file(partial, prepared, content)
         return content.result()
 
@@ -281,14 +281,14 @@ def _put(path: Path, data: bytes | memoryview) -> None:
     _in_one_step(path, write_to)
 
 
-def _in_one_step(path: Path, write_to: Callable[[Path], Told]) -> Told:
-    """Let a file be written under a temporary name and put it in place."""
+def _in_one_step(path: Path, write_to: Callable[[Path], Result]) -> Result:
+    """Have a file written under a temporary name, then put it in place."""
     partial = path.with_name(f".{path.name}.{os.getpid()}{PARTIAL}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         partial.unlink(missing_ok=True)  # it may be a link
         try:
-            told = write_to(partial)
+            result = write_to(partial)
             _expect_permit()
             partial.replace(path)
         except BaseException:  # Ctrl-C too: nothing half-written stays
@@ -296,7 +296,7 @@ def _in_one_step(path: Path, write_to: Callable[[Path], Told]) -> Told:
             raise
     except OSError as error:
         raise _unwritable(path, error) from error
-    return told
+    return result
 
 
 def _unwritable(path: Path, error: OSError) -> StoreError:

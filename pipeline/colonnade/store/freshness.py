@@ -13,18 +13,18 @@ from colonnade.store.provenance import hash_of
 @dataclass(frozen=True)
 class Recipe:
     """
-    All that something is made from: a result of a test, a specimen or a map, a record of the summary, a page.
+    All that something is made from: a result, a record of the summary, or a page of the report.
 
     Attributes
     ----------
     stage : str
-        What makes it.
+        Name of the stage that makes it.
     code : str
         Hash of the code of that stage, see `sources.code_hash`.
     settings : str
         What it reads of the campaign, as text; of a result as JSON.
     upstream : mapping of str to str
-        Hash of each result or raw file that it reads; None where it is not there.
+        Hash of each result or raw file that it reads; None for a missing one.
     """
 
     stage: str
@@ -34,7 +34,7 @@ class Recipe:
 
     @property
     def key(self) -> str:
-        """Hash that is stored with the result: with another one, it is out of date."""
+        """Hash that is stored with the result; if it differs, the result is out of date."""
         return hash_of({"stage": self.stage, **self._ingredients})
 
     @property
@@ -43,18 +43,18 @@ class Recipe:
 
     @property
     def attributes(self) -> dict[str, str]:
-        """What is stored with the result, so that `why` can tell what changed since."""
+        """What is stored with the result, so that `why` can say what changed since."""
         ingredients = json.dumps(self._ingredients, sort_keys=True)
         return {"key": self.key, "ingredients": ingredients, "settings": self.settings}
 
     def why(self, stored: Mapping[str, Any]) -> str:
         """
-        Say why a result has to be made again.
+        Say why a result has to be recomputed.
 
         Parameters
         ----------
         stored : mapping
-            The attributes that are stored with it; empty if it is not there or damaged.
+            The attributes that are stored with it; empty if it is missing or damaged.
 
         Returns
         -------

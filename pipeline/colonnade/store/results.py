@@ -15,12 +15,12 @@ WITHOUT_PREDICTION = ("tilt", "other")
 @dataclass(frozen=True)
 class Stage:
     """
-    A stage of the data's way.
+    A stage, the step from earlier results to one of the next kind.
 
     Attributes
     ----------
     file : str
-        Where its result is within `processed`, without suffix, given the subject and the model.
+        Path of its result within `processed`, without suffix, by subject and model.
     summary : str
         What its result holds, for the file's own description.
     source : str
@@ -28,8 +28,8 @@ class Stage:
     of : str
         Whether its subject is a test or a specimen.
     goes_with : str
-        Stage of `ASKED_FOR` with which a run comes here; empty if that is its own name. No run makes maps: they come
-        with the report, behind everything else.
+        Stage of `RUN_STAGES` that a run names for this one; empty if it is its own. A run makes no maps: they count
+        with the report, after everything else.
     """
 
     file: str
@@ -98,16 +98,16 @@ STAGES = {
         goes_with="report",
     ),
 }
-"""In the order of the data's way."""
+"""All stages, in their order."""
 
-ASKED_FOR = (*(name for name, stage in STAGES.items() if not stage.goes_with), "report")
-"""Stages by which a run is asked to start or to stop, in their order; the report comes last."""
+RUN_STAGES = (*(name for name, stage in STAGES.items() if not stage.goes_with), "report")
+"""Stages at which a run can be asked to start or to stop, in their order; the report comes last."""
 
 
 @dataclass(frozen=True, order=True)
 class ResultId:
     """
-    What a result is of, and what made it.
+    Names one result: its subject, its stage and, if need be, its model.
 
     Attributes
     ----------
@@ -129,7 +129,7 @@ class ResultId:
     model: str | None = None
 
     def __str__(self) -> str:
-        """Name the result among those of its subject."""
+        """Return its name among the results of its subject."""
         return f"{self.stage} {self.model}" if self.model else self.stage
 
     @property
@@ -144,8 +144,8 @@ class ResultId:
 
     @property
     def order(self) -> int:
-        """Place in `ASKED_FOR` of the stage that it goes with."""
-        return ASKED_FOR.index(STAGES[self.stage].goes_with or self.stage)
+        """Place of its stage in `RUN_STAGES`."""
+        return RUN_STAGES.index(STAGES[self.stage].goes_with or self.stage)
 
 
 def models_of(campaign: Campaign, test: Test) -> tuple[str, ...]:

@@ -1,6 +1,6 @@
 """What is out of date, in which order, in how many processes."""
 
-from colonnade.workflow.results import RunResult, StageRun
+from colonnade.workflow.outcome import RunResult, StageRun
 from colonnade.workflow.run import run
 
 __all__ = ["RunResult", "StageRun", "run"]

@@ -1,4 +1,4 @@
-"""Laws of contact of a campaign's specimens: those that its settings ask for are stored, others only shown."""
+"""The laws of contact of a campaign's specimens: those for its own settings are stored, others are only shown."""
 
 from __future__ import annotations
 
@@ -15,8 +15,7 @@ from colonnade.errors import CampaignError, ColonnadeError, nearest
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow.catalogue import Catalogue, stored_attributes
-from colonnade.workflow.chain import Chain
-from colonnade.workflow.chain import walk as walk_chain
+from colonnade.workflow.chain import Chain, bring_up_to_date
 from colonnade.workflow.execution.lock import only_run
 from colonnade.workflow.execution.spreading import spread
 from colonnade.workflow.steps import Graph
@@ -34,26 +33,26 @@ class Calibrated:
     Attributes
     ----------
     specimen, mesh, body : str
-        Its id; of the settings; what it is made of, for people.
+        Id of the specimen; mesh as in the settings; description of the body for people.
     step : float
         s.
     target, restitution : float or None
-        e asked for, and that of the free vibration; None where it failed.
+        e asked for, and e of the model's free vibration; None if the calibration failed.
     source : str
-        What the latter is: `IDENTIFIED` from the rocking angle, or the `VELOCITY_RATIO` if the identification gives no
-        e; empty where it failed.
+        How the latter was found: `IDENTIFIED` from the rocking angle, or the `VELOCITY_RATIO` if the identification
+        gives no e; empty if the calibration failed.
     velocity_ratio : float or None
         Mean velocity ratio of the impacts of the same free vibration.
     damping_fraction, effective_damping, stiffness : float or None
-        ξ at each node, of the whole body, and N/m³.
+        ξ at each node, ξ of the whole body, and the stiffness, N/m³.
     energy_residual : float or None
-        Of the run with this law.
+        Of the model's free vibration with this law.
     reason : str
-        Why it failed, or does not agree; else empty.
+        Why the calibration failed, or missed its target; else empty.
     path : Path or None
-        Where it is stored: of the campaign's own settings.
+        Where the law is stored; None unless it is for the campaign's own settings.
     seconds : float
-        Of computing; 0 where it was stored already.
+        Time of computing; 0 if the law was stored already.
     """
 
     specimen: str
@@ -75,7 +74,7 @@ class Calibrated:
 
 @dataclass(frozen=True)
 class _Task:
-    """A law to be found: through the store by a chain if the campaign's own settings ask for it, else only shown."""
+    """A law to be found; `chain` stores it if it is for the campaign's own settings, else it is only shown."""
 
     campaign: Campaign
     layout: Layout
@@ -103,7 +102,7 @@ def calibrate(
     specimens : sequence of str, optional
         Ids; default all.
     meshes : sequence of str, optional
-        Bodies; default that of the settings.
+        Meshes; default that of the settings.
     steps : sequence of float, optional
         s; default that of the settings.
     workers : int, optional
@@ -121,7 +120,7 @@ def calibrate(
     CampaignError
         If the campaign file is not usable, or a specimen is not in it or not identified yet.
     StoreError
-        If a run is under way, or results cannot be written.
+        If a run is in progress, or results cannot be written.
     """
     loaded = load(Path(campaign))
     layout = Layout.of(loaded.folder, results)
@@ -130,17 +129,17 @@ def calibrate(
             raise CampaignError(f'{loaded.path.name} has no specimen "{name}".{nearest(name, loaded.specimens)}')
     chosen = list(specimens or loaded.specimens)
     own = loaded.processing.predict.contact
-    with only_run(layout) as run:
+    with only_run(layout) as run_id:
         for name in chosen:
             is_given = loaded.specimens[name].restitution is not None
             if not is_given and stored_attributes(layout.stage(name, "specimen")).get("status") != "done":
                 raise CampaignError(f"{name}: its restitution is not known yet. Run `colonnade identify` first.")
         graph = Graph(loaded, layout, Catalogue(layout))
-        walk = Walk(graph, run, workers=1)
+        walk = Walk(graph, run_id, workers=1)
         walk.pool()
         for name in chosen:
-            if name in walk.unknown:
-                raise CampaignError(f"{name}: {walk.unknown[name]}")
+            if name in walk.failed_specimens:
+                raise CampaignError(f"{name}: {walk.failed_specimens[name]}")
         tasks = []
         for name, mesh, step in product(chosen, meshes or (own.mesh,), steps or (own.step,)):
             settings = own.model_copy(update={"mesh": mesh, "step": step})
@@ -151,14 +150,14 @@ def calibrate(
 
 
 def _calibrated(numbered: tuple[int, _Task]) -> tuple[int, Calibrated]:
-    """Calibrate one, through the store where it is what the campaign's settings ask for."""
+    """Find one law; store it if it is for the campaign's own settings."""
     number, task = numbered
     campaign, layout = task.campaign, task.layout
     started = time.perf_counter()
     path = None
     if task.chain is not None:
         path = layout.stage(task.specimen, "contact")
-        [done] = walk_chain(task.chain)
+        [done] = bring_up_to_date(task.chain)
         result, reason = (None, done.reason) if done.action == "failed" else (files.read(path), "")
     else:
         from colonnade.stages import contact
@@ -204,5 +203,5 @@ def _known(result: xr.Dataset | None) -> dict[str, float | None]:
 
 
 def _warning(result: xr.Dataset | None) -> str:
-    """Return why a law that was found does not agree, if it does not."""
+    """Return why a law missed its target, if it did."""
     return "" if result is None else " ".join(map(str, result.attrs["warnings"]))

@@ -1,4 +1,4 @@
-"""What raw files, results and pages say of themselves, known again without opening them."""
+"""The catalogue: what raw files, results and pages held when they were last opened, so that they need not be again."""
 
 from __future__ import annotations
 
@@ -20,29 +20,29 @@ from colonnade.store.layout import Layout
 from colonnade.store.provenance import hash_of
 
 KEPT = ("key", "status", "reason", "content", "ingredients")
-"""Attributes of a result that tell whether it is up to date and what it leads to."""
+"""Attributes of a result that decide whether it, and what follows from it, is up to date."""
 
-BESIDE = ("colonnade.campaign", "colonnade.store", "colonnade.workflow")
-"""Rooms of which a stage's own imports count, not theirs: what they read reaches it as settings and results."""
+OWN_CODE_ONLY = ("colonnade.campaign", "colonnade.store", "colonnade.workflow")
+"""Rooms whose own code counts for a result, but not what they import: that reaches a stage as settings and results."""
 
 Mark = tuple[int, int, int]
-"""Size (bytes), time (ns) and inode of a file. A file that is put in place by a rename gets another inode."""
+"""Size (bytes), time (ns) and inode of a file. A file that replaces another by a rename has another inode."""
 
 _KINDS = ("raw", "results", "pages", "records", "code")
 
 
 def mark_of(path: Path) -> Mark:
-    """Return what a file's mark is now; raises OSError if it is not there."""
+    """Return the present mark of a file; raises OSError if there is no such file."""
     status = os.stat(path)  # noqa: PTH116 — ten thousand times a run
     return status.st_size, status.st_mtime_ns, status.st_ino
 
 
 class Catalogue:
     """
-    What the files of a campaign said when they were last opened, kept from run to run.
+    What the files of a campaign held when they were last opened, kept from run to run.
 
-    A file of the same size, time and inode says the same. The catalogue only saves time: without it, or if it is not as
-    it was written, the files are opened.
+    A file of the same size, time and inode holds the same. The catalogue only saves time: if it is missing or was
+    altered, the files are opened.
 
     Parameters
     ----------
@@ -62,9 +62,9 @@ class Catalogue:
             pass
         self._seen: dict[str, dict[str, Any]] = {kind: {} for kind in _KINDS}
 
-    def told(self, kind: str, path: Path, ask: Callable[[Path], Any], *more: Any) -> tuple[Mark, Any] | None:
+    def lookup(self, kind: str, path: Path, ask: Callable[[Path], Any], *more: Any) -> tuple[Mark, Any] | None:
         """
-        Return what a file says, asked only where it changed.
+        Return what a file holds; it is opened only if it changed.
 
         Parameters
         ----------
@@ -72,13 +72,13 @@ class Catalogue:
             raw, results or pages.
         path : Path
         ask : callable
-            Opens the file and returns what it says, as JSON can hold it.
+            Opens the file and returns what it holds, as JSON can hold it.
         *more
-            What else its answer follows from.
+            What else the answer depends on.
 
         Returns
         -------
-        told : (Mark, answer) or None
+        found : (Mark, answer) or None
             None if there is no such file.
         """
         name = " ".join([os.path.relpath(path, self._layout.home).replace(os.sep, "/"), *map(hash_of, more)])
@@ -94,15 +94,15 @@ class Catalogue:
         return mark, self._seen[kind][name][1]
 
     def attributes(self, path: Path) -> Mapping[str, Any]:
-        """`KEPT` of a result and the findings in it; empty where it is not there or damaged."""
-        told = self.told("results", path, _said)
-        said = told[1] if told else {}
-        return {**said, "warnings": from_text(said["warnings"])} if "warnings" in said else said
+        """Attributes `KEPT` of a result and its findings; empty if it is missing or damaged."""
+        found = self.lookup("results", path, _kept)
+        kept = found[1] if found else {}
+        return {**kept, "warnings": from_text(kept["warnings"])} if "warnings" in kept else kept
 
     def stamp(self, page: Path) -> str:
-        """Key of what a page shows; empty where it is not there or was altered."""
-        told = self.told("pages", page, stamps.key_of)
-        return str(told[1]) if told else ""
+        """Key of what a page shows; empty if it is missing or was altered."""
+        found = self.lookup("pages", page, stamps.key_of)
+        return str(found[1]) if found else ""
 
     def code(self, made_by: Sequence[str], model: str | None = None) -> str:
         """
@@ -117,17 +117,17 @@ class Catalogue:
         if name not in self._seen["code"]:
             known = self._known["code"] if self._known["code"].get("package") == package else {}
             self._seen["code"][name] = known.get(name) or code_hash(
-                made_by, alone=BESIDE, without=[] if model is None else _of_other_models(model)
+                made_by, alone=OWN_CODE_ONLY, without=[] if model is None else _of_other_models(model)
             )
         return str(self._seen["code"][name])
 
     def content(self, path: Path) -> str | None:
-        """Hash of what a result says of itself; None where it is not there."""
-        told = self.told("results", path, _said)
-        return hash_of(told[1]) if told else None
+        """Hash of the attributes `KEPT` of a result and its findings; None if it is missing."""
+        found = self.lookup("results", path, _kept)
+        return hash_of(found[1]) if found else None
 
     def record(self, subject: str, recipe: Recipe) -> str | None:
-        """Text of the record of a test or specimen that was made from just this, or None."""
+        """Text of the record of a test or specimen if it was made by this recipe, else None."""
         for known in (self._seen["records"].get(subject), self._known["records"].get(subject)):
             if known is not None and not recipe.why({"key": known[0]}):
                 self._seen["records"][subject] = known
@@ -139,41 +139,43 @@ class Catalogue:
         self._seen["records"][subject] = [recipe.key, record]
 
     def save(self) -> None:
-        """Write what was looked at; the rest is gone from the campaign."""
+        """Write what this run looked at; other entries belong to files that are gone."""
         known: dict[str, Any] = dict(self._seen)
         known["sha256"] = hash_of(known)
         files.write_text(self._layout.catalogue, json.dumps(known, separators=(",", ":"), sort_keys=True) + "\n")
 
 
 def _of_other_models(name: str) -> set[str]:
-    """Give the modules by which only other models are reached."""
+    """Give the modules that only other models use."""
     others = [other for other in MODELS if other != name]
     kinds = {type(MODELS[other]).__module__ for other in others} - {type(MODELS[name]).__module__}
     return kinds | {f"{models.__name__}.{other}" for other in others}
 
 
 def stored_attributes(path: Path) -> dict[str, Any]:
-    """Attributes of a result, empty where it is not there or damaged (and so has to be made again)."""
+    """Attributes of a result; empty if it is missing or damaged, and so has to be recomputed."""
     try:
         return files.read_attributes(path)
     except StoreError:
         return {}
 
 
-def _said(path: Path) -> dict[str, str]:
+def _kept(path: Path) -> dict[str, str]:
     stored = stored_attributes(path)
-    said = {part: str(stored[part]) for part in KEPT if part in stored}
-    return said | {"warnings": to_text(stored.get("warnings", []))} if stored else said
+    kept = {part: str(stored[part]) for part in KEPT if part in stored}
+    return kept | {"warnings": to_text(stored.get("warnings", []))} if stored else kept
 
 
 def remove_altered(layout: Layout) -> list[str]:
-    """Remove the results of tests and specimens that are not as they were written; return a sentence on each."""
-    told = []
+    """Remove results of tests and specimens that were altered since they were written; return a sentence on each."""
+    notices = []
     for path in layout.results_there():
         expect_none()
         try:
             files.read(path)
         except StoreError:
             files.remove(path)
-            told.append(f"{path.relative_to(layout.home).as_posix()}: it was altered or damaged, so it is made again.")
-    return told
+            notices.append(
+                f"{path.relative_to(layout.home).as_posix()}: it was altered or damaged, so it is recomputed."
+            )
+    return notices

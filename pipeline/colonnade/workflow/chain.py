@@ -1,4 +1,4 @@
-"""The steps of one test or specimen, one after the other, in a process of their own."""
+"""A chain: the steps of one test or specimen, brought up to date one after the other, often in a worker process."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from colonnade.store import files
 from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin, global_attributes
-from colonnade.store.results import ASKED_FOR, ResultId
+from colonnade.store.results import RUN_STAGES, ResultId
 from colonnade.workflow.catalogue import stored_attributes
 from colonnade.workflow.execution.lock import expect_run
+from colonnade.workflow.outcome import StageRun
 from colonnade.workflow.raw_files import RawFiles, expect_unchanged
-from colonnade.workflow.results import StageRun
 from colonnade.workflow.steps import Step
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Look = Callable[[Path], Mapping[str, Any]]
-"""Tells the stored attributes of a result."""
+"""Returns the stored attributes of a result, given its path."""
 
 _SHORT_OF_MEMORY = (
     "The machine ran out of memory. Finished results are kept. Run again with fewer workers (`--workers 1` uses the "
@@ -45,24 +45,24 @@ _WORKER_LOST = (
 @dataclass(frozen=True)
 class Chain:
     """
-    The steps of one test or specimen that a worker walks through.
+    The steps of one test or specimen, with all that a worker needs to make them.
 
     Attributes
     ----------
     steps : sequence of Step
-        One at least.
+        At least one.
     results : sequence of ResultId
-        All that the test has: what lies behind a failure is taken away.
+        All results of the test: those that follow a failed one are removed.
     layout : Layout
     campaign_file : Path
     origin : Origin
         The campaign, as each result names it.
-    run : str
+    run_id : str
         The run that it belongs to; nothing is written once that has ended.
-    redo_from : str or None
-        Stage from which on results are made again whatever their state.
+    start_from : str or None
+        First stage whose results are recomputed whatever their state.
     raw : mapping of str to RawFile
-        The raw files by path from the campaign's folder, as they were hashed.
+        The raw files as they were hashed, by path within the campaign's folder.
     """
 
     steps: Sequence[Step]
@@ -70,8 +70,8 @@ class Chain:
     layout: Layout
     campaign_file: Path
     origin: Origin
-    run: str
-    redo_from: str | None
+    run_id: str
+    start_from: str | None
     raw: RawFiles
 
     @property
@@ -80,70 +80,72 @@ class Chain:
         return self.steps[0].result.subject
 
 
-def walk(chain: Chain) -> list[StageRun]:
+def bring_up_to_date(chain: Chain) -> list[StageRun]:
     """
-    Bring a chain up to date, up to the first step that fails; what lies behind a failure is taken away.
+    Bring a chain up to date, up to the first step that fails; results that follow a failed one are removed.
 
     Raises
     ------
     RunEndedError
         If the run that it belongs to has ended.
     """
-    with files.only_while(partial(expect_run, chain.layout, chain.run)):
-        runs = list(_walked(chain))
+    with files.only_while(partial(expect_run, chain.layout, chain.run_id)):
+        runs = list(_runs(chain))
         if runs[-1].action != "failed":
             files.remove(chain.layout.error_log(chain.steps[0].result))
     return runs
 
 
-def _walked(chain: Chain) -> Iterator[StageRun]:
+def if_up_to_date(chain: Chain, look: Look) -> list[StageRun] | None:
+    """Return what `bring_up_to_date` would for a chain with nothing to do, by the attributes from `look`; else None."""
+    runs: list[StageRun] = []
+    for step in chain.steps:
+        if _is_outdated(chain, step, look):
+            return None
+        runs.append(_unchanged(step, look(step.path)))
+        if runs[-1].action == "failed":
+            break
+    return runs
+
+
+def worker_lost(chain: Chain) -> StageRun:
+    """Report a chain whose process was stopped; no failure is stored, so that the next run tries again."""
+    stopped = next(
+        (step for step in chain.steps if _is_outdated(chain, step, stored_attributes)), chain.steps[-1]
+    ).result
+    remove_later(chain.layout, chain.results, stopped.order - 1)
+    return StageRun(stopped.subject, stopped.stage, "failed", stopped.model, _WORKER_LOST)
+
+
+def remove_later(layout: Layout, results: Sequence[ResultId], order: int) -> None:
+    """Remove a test's results of stages after the one of this order: nothing may follow from a failure."""
+    for result in results:
+        if result.order > order:
+            files.remove(layout.path(result))
+
+
+def _runs(chain: Chain) -> Iterator[StageRun]:
     made: dict[Path, xr.Dataset] = {}
     for number, step in enumerate(chain.steps):
-        expect_run(chain.layout, chain.run)
-        run = _advance(chain, step, made)
+        expect_run(chain.layout, chain.run_id)
+        run = _run_step(chain, step, made)
         yield run
         if run.action == "failed":
-            clear_behind(chain.layout, chain.results, step.result.order)
+            remove_later(chain.layout, chain.results, step.result.order)
             return
         wanted = {path for later in chain.steps[number + 1 :] for path in later.upstream.values()}
         for path in made.keys() - wanted:
             del made[path]
 
 
-def lost(chain: Chain) -> StageRun:
-    """Say of a chain whose process was stopped at which step that was; nothing is kept, so that the next run tries."""
-    stopped = next((step for step in chain.steps if _why(chain, step, stored_attributes)), chain.steps[-1]).result
-    clear_behind(chain.layout, chain.results, stopped.order - 1)
-    return StageRun(stopped.subject, stopped.stage, "failed", stopped.model, _WORKER_LOST)
-
-
-def clear_behind(layout: Layout, results: Sequence[ResultId], order: int) -> None:
-    """Take away a test's results of stages after the one of this order: nothing may follow from a failure."""
-    for result in results:
-        if result.order > order:
-            files.remove(layout.path(result))
-
-
-def is_fresh(chain: Chain, look: Look) -> list[StageRun] | None:
-    """Return what `walk` would say of a chain whose results, as `look` tells of them, are up to date; else None."""
-    runs: list[StageRun] = []
-    for step in chain.steps:
-        if _why(chain, step, look):
-            return None
-        runs.append(_standing(step, look(step.path)))
-        if runs[-1].action == "failed":
-            break
-    return runs
-
-
-def _advance(chain: Chain, step: Step, made: dict[Path, xr.Dataset]) -> StageRun:
-    """Bring one result up to date; the results made on this walk are not read again."""
+def _run_step(chain: Chain, step: Step, made: dict[Path, xr.Dataset]) -> StageRun:
+    """Bring one result up to date; `made` holds the results of this chain, which are not read again."""
     expect_none()
     stored = stored_attributes(step.path)
     recipe = _recipe(chain, step, lambda path: made[path].attrs if path in made else stored_attributes(path))
-    because = _because(chain, step, recipe, stored)
+    because = _why(chain, step, recipe, stored)
     if not because:
-        return _standing(step, stored)
+        return _unchanged(step, stored)
     started = time.perf_counter()
     subject, stage, model = step.result.subject, step.result.stage, step.result.model
     attributes = _attributes(chain, step, recipe)
@@ -160,7 +162,7 @@ def _advance(chain: Chain, step: Step, made: dict[Path, xr.Dataset]) -> StageRun
         raise
     except Exception as error:
         expect_none()  # an interrupt in the import of a compiled module comes as an ImportError
-        reason = _reason(chain, step, error, attributes)
+        reason = _store_failure(chain, step, error, attributes)
         return StageRun(subject, stage, "failed", model, reason, because, time.perf_counter() - started)
     found = tuple(at_stage(result.attrs.get("warnings", []), stage))
     return StageRun(subject, stage, "done", model, "", because, time.perf_counter() - started, found)
@@ -174,18 +176,18 @@ def _recipe(chain: Chain, step: Step, look: Look) -> Recipe:
     return Recipe(step.result.stage, step.code, step.inputs.model_dump_json(), upstream)
 
 
-def _why(chain: Chain, step: Step, look: Look) -> str:
+def _is_outdated(chain: Chain, step: Step, look: Look) -> bool:
+    return bool(_why(chain, step, _recipe(chain, step, look), look(step.path)))
+
+
+def _why(chain: Chain, step: Step, recipe: Recipe, stored: Mapping[str, Any]) -> str:
     """Say why a result has to be made; empty if it does not."""
-    return _because(chain, step, _recipe(chain, step, look), look(step.path))
-
-
-def _because(chain: Chain, step: Step, recipe: Recipe, stored: Mapping[str, Any]) -> str:
-    if chain.redo_from is not None and step.result.order >= ASKED_FOR.index(chain.redo_from):
+    if chain.start_from is not None and step.result.order >= RUN_STAGES.index(chain.start_from):
         return "asked for"
     return recipe.why(stored)
 
 
-def _standing(step: Step, stored: Mapping[str, Any]) -> StageRun:
+def _unchanged(step: Step, stored: Mapping[str, Any]) -> StageRun:
     subject, stage, model = step.result.subject, step.result.stage, step.result.model
     if stored.get("status") == "failed":
         return StageRun(subject, stage, "failed", model, str(stored.get("reason", "")))
@@ -201,15 +203,15 @@ def _attributes(chain: Chain, step: Step, recipe: Recipe) -> dict[str, Any]:
     return attributes
 
 
-def _reason(chain: Chain, step: Step, error: Exception, attributes: Mapping[str, Any]) -> str:
-    """Return why a step failed, and store that, unless it says nothing of the data: then the next run tries again."""
+def _store_failure(chain: Chain, step: Step, error: Exception, attributes: Mapping[str, Any]) -> str:
+    """Return why a step failed, and store it; a failure of the machine is not stored, so that the next run retries."""
     if isinstance(error, ColonnadeError):
         reason = str(error)
     elif isinstance(error, MemoryError):
         reason = _SHORT_OF_MEMORY
-    else:  # a defect of ours: told as such, the other tests go on
+    else:  # a bug in colonnade: reported as such, the other tests go on
         reason = _internal_error(chain.layout, step, error)
-    if _is_of_the_machine(error):
+    if _is_machine_failure(error):
         files.remove(step.path)
         return reason
     try:
@@ -219,8 +221,8 @@ def _reason(chain: Chain, step: Step, error: Exception, attributes: Mapping[str,
     return reason
 
 
-def _is_of_the_machine(error: Exception) -> bool:
-    """Whether disk, memory or an interrupted import failed."""
+def _is_machine_failure(error: Exception) -> bool:
+    """Whether the disk, the memory or an interrupted import caused it, not the data."""
     if isinstance(error, (StoreError, MemoryError, ImportError)):
         return True
     cause = error.__cause__
@@ -228,7 +230,7 @@ def _is_of_the_machine(error: Exception) -> bool:
 
 
 def _internal_error(layout: Layout, step: Step, error: Exception) -> str:
-    """Write the traceback to the error.log of the test or specimen; return what to tell."""
+    """Write the traceback to the error.log of the test or specimen; return the message."""
     frames = traceback.extract_tb(error.__traceback__)
     place = f"{frames[-1].filename.rpartition('colonnade')[2].lstrip('/')}:{frames[-1].lineno}" if frames else "?"
     log = layout.error_log(step.result)

@@ -1,4 +1,4 @@
-"""Raw files that are copies of others: a folder that was copied and not filled gives one recording twice."""
+"""Raw files of different tests with the same bytes, as in a folder that was copied but not yet filled."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from colonnade.findings import Finding, serious
 from colonnade.workflow.raw_files import sha256_of
 
 NAMED = 3
-"""Copies that are named."""
+"""Number of copies that the warning names."""
 
 Digests = Mapping[str, Mapping[str, str | None]]
-"""By test, of each of its raw files (path from the campaign's folder) the SHA-256; None where it is not known."""
+"""SHA-256 of each raw file, by test and by path within the campaign's folder; None if it is unknown."""
 
 
 def with_copies(campaign: Campaign, digests: Digests) -> Campaign:
-    """Give the campaign with a warning of raw files of different tests that hold the same bytes, if there are any."""
+    """Return the campaign, with a warning if raw files of different tests hold the same bytes."""
     return replace(campaign, warnings=(*campaign.warnings, *_copies(digests)))
 
 
@@ -35,13 +35,13 @@ def _copies(digests: Digests) -> Iterator[Finding]:
                 copied[path] = f"{path} is a copy of {original} of {other}"
                 tests |= {test: None}
     if copied:
-        told = "; ".join(list(copied.values())[:NAMED])
+        named = "; ".join(list(copied.values())[:NAMED])
         more = f"; and {len(copied) - NAMED} more" if len(copied) > NAMED else ""
         are = f"{len(copied)} raw files hold" if len(copied) > 1 else "A raw file holds"
         yield serious(
             "copied file",
-            f"{are} the same bytes as that of another test: {told}{more}. Was a folder copied and not yet filled with "
-            f"its own recordings? Put them in their place, or take out {_listed(list(tests))}.",
+            f"{are} the same bytes as that of another test: {named}{more}. Was a folder copied and not yet filled with "
+            f"its own recordings? Put them in their place, or delete the entries of {_listed(list(tests))}.",
         )
 
 
@@ -50,7 +50,7 @@ def _listed(tests: list[str]) -> str:
 
 
 def digests_of_equal_sizes(campaign: Campaign) -> Digests:
-    """Hash the raw files of a campaign of which another has the same size; others are no copies."""
+    """Hash the raw files that have the same size as another one; the others cannot be copies."""
     names: dict[Path, int] = {}
     for test in campaign.tests.values():
         for path in test.files.values():

@@ -1,4 +1,4 @@
-"""The report as the last result of a run: built unless its pages are whole and show just what is stored."""
+"""The report as the last result of a run: rebuilt unless all pages are there and show what is stored."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.execution.spreading import spread
 
 MADE_BY = ("colonnade.report", "colonnade.store")
-"""What the pages are made by."""
+"""Packages whose code makes the pages; what they import counts too."""
 
 
-def bring_up_to_date(
+def update_report(
     campaign: Campaign, layout: Layout, catalogue: Catalogue, outdated: Collection[str], workers: int | None
 ) -> Path:
     """
-    Build the report where it is out of date.
+    Build the report if it is out of date.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def bring_up_to_date(
     layout : Layout
     catalogue : Catalogue
     outdated : collection of str
-        Tests whose stored results are not of this campaign any more.
+        Tests whose stored results are out of date.
     workers : int or None
         Processes in which pages are drawn; None for one a core.
 
@@ -46,7 +46,7 @@ def bring_up_to_date(
     recipe = Recipe(
         "report",
         catalogue.code(MADE_BY),
-        json.dumps([repr(campaign.wherever_it_lies()), sorted(outdated)]),
+        json.dumps([repr(campaign.with_relative_paths()), sorted(outdated)]),
         {path.relative_to(layout.processed).as_posix(): catalogue.content(path) for path in layout.results_there()},
     )
     folder = layout.report.parent

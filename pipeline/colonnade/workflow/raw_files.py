@@ -1,4 +1,4 @@
-"""The raw files of tests: what is in them, by hash, and which other files they are in."""
+"""The raw files of tests: the hash of each, and of the companion files that hold a part of it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from colonnade.workflow.catalogue import Catalogue, Mark, mark_of
 
 @dataclass(frozen=True)
 class RawFile:
-    """A raw file as it was hashed: its SHA-256, None where it could not be read, and its mark."""
+    """A raw file as it was hashed: its SHA-256, None if it could not be read, and its mark."""
 
     sha256: str | None
     mark: Mark = (0, 0, 0)
@@ -29,16 +29,16 @@ class RawFile:
 
 
 RawFiles = Mapping[str, RawFile]
-"""By their paths from the campaign's folder."""
+"""Raw files by path within the campaign's folder."""
 
 
 def raw_files(campaign: Campaign, test: Test, catalogue: Catalogue) -> RawFiles:
-    """Look at each raw file of a test, and at the other files that it is in."""
+    """Hash the raw files of a test, and their companion files."""
     found: dict[str, RawFile] = {}
     for recorder, path in test.files.items():
         how = campaign.setups[test.setup].recorders[recorder].file
-        found[_name(campaign, path)], beside = _looked_at(campaign.folder, path, how, catalogue)
-        for name in beside:
+        found[_name(campaign, path)], companion_names = _looked_at(campaign.folder, path, how, catalogue)
+        for name in companion_names:
             other = path.with_name(Path(name).name or path.name)
             found.setdefault(_name(campaign, other), _looked_at(campaign.folder, other, None, catalogue)[0])
     return found
@@ -46,12 +46,12 @@ def raw_files(campaign: Campaign, test: Test, catalogue: Catalogue) -> RawFiles:
 
 def expect_unchanged(folder: Path, raw: RawFiles) -> None:
     """
-    Ask whether raw files are still as they were hashed; a recorder may still be writing.
+    Check that raw files are still as they were hashed; a recorder may still be writing.
 
     Raises
     ------
     StoreError
-        If one is not.
+        If one has changed.
     """
     for name, file in raw.items():
         try:
@@ -80,7 +80,7 @@ def _name(campaign: Campaign, path: Path) -> str:
 
 
 def _looked_at(folder: Path, path: Path, how: FileOptions | None, catalogue: Catalogue) -> tuple[RawFile, list[str]]:
-    """Return a file, and by `how` it is read the names of the files beside it that hold a part of it."""
+    """Return a raw file and, read by the options `how`, the names of its companion files."""
 
     def ask(path: Path) -> tuple[str | None, list[str]]:
         digest = sha256_of(path)
@@ -88,13 +88,13 @@ def _looked_at(folder: Path, path: Path, how: FileOptions | None, catalogue: Cat
             return digest, []
         try:
             return digest, [other.name for other in companions(path, how.format, how.options, within=folder)]
-        except ReadError:  # told where the file is read
+        except ReadError:  # reported when the file is read
             return digest, []
 
     if not path.resolve().is_relative_to(folder):  # reading refuses it
         return RawFile(None), []
-    told = catalogue.told("raw", path, ask, *([] if how is None else [how.model_dump()]))
-    if told is None or told[1][0] is None:
+    entry = catalogue.lookup("raw", path, ask, *([] if how is None else [how.model_dump()]))
+    if entry is None or entry[1][0] is None:
         return RawFile(None), []
-    mark, (digest, beside) = told
-    return RawFile(digest, mark), beside
+    mark, (digest, companion_names) = entry
+    return RawFile(digest, mark), companion_names

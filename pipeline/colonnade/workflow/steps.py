@@ -1,4 +1,4 @@
-"""The graph of results: what each one reads, the file that it is kept in, and the function that makes it."""
+"""The graph of results: what each result reads, its file, and the function that makes it."""
 
 from __future__ import annotations
 
@@ -20,34 +20,33 @@ if TYPE_CHECKING:
     from pydantic import BaseModel
 
 COMPARED = {"predict": "predicted", "ensemble": "ensembles"}
-"""Stages whose results `compare` takes by model, and as what."""
-
+"""Stages whose results `compare` takes by model, and the name of the argument."""
 
 FORMATS = "colonnade.readers"
-"""Formats of raw files are found by their names, which no import tells."""
+"""The readers: formats are loaded by name, so that no import of a stage shows that they are used."""
 
 _STORED_BY = ("colonnade.store.description", "colonnade.store.variables", __name__)
-"""Modules that every result goes through."""
+"""Modules that take part in every result."""
 
 
 @dataclass(frozen=True)
 class Step:
     """
-    How one result is made.
+    What is needed to make one result.
 
     Attributes
     ----------
     result : ResultId
     path : Path
-        Of its file.
+        File of the result.
     upstream : dict of str to Path
-        Results that it reads, by name; of ingest, raw files by recorder.
+        Results that it reads, by name; for ingest, raw files by recorder.
     inputs : BaseModel
         The stage's own model of what it reads of the campaign.
     work : callable
-        Takes the upstream results by name and the inputs, returns the result.
+        Takes the upstream results (for ingest, the raw paths) by name and the inputs; returns the result.
     code : str
-        Hash of the code that it is made by.
+        Hash of the code that makes it.
     """
 
     result: ResultId
@@ -73,7 +72,7 @@ class Graph:
     campaign : Campaign
     layout : Layout
     catalogue : Catalogue
-        Knows the hash of the code.
+        Gives the hash of the code.
     """
 
     campaign: Campaign
@@ -146,7 +145,7 @@ class Graph:
         )
 
     def predicting(self, test: Test) -> list[Step]:
-        """Return the steps from what was measured in a test to how far predictions agree."""
+        """Return the steps from what was measured in a test to the comparison with its predictions."""
         from colonnade.stages import compare, predict
 
         models = models_of(self.campaign, test)
@@ -181,7 +180,7 @@ class Graph:
         return steps
 
     def _repeating(self, test: Test, model: str) -> Step:
-        """Return the step that repeats the prediction of a model over what is not exactly known."""
+        """Return the step that repeats a model's prediction over what is not known exactly."""
         from colonnade.stages import contact_ensemble, ensemble
 
         result, law = ResultId(test.id, "ensemble", model), self._law(test, model)
@@ -199,7 +198,7 @@ class Graph:
         return {"contact": self._of(test.specimen, "contact")} if MODELS[model].in_space else {}
 
     def _identified(self, test: Test) -> dict[str, Path]:
-        """Return what a free vibration itself gave: the zero of its angle."""
+        """Return the result of a free vibration's own identification, which gives the zero of its angle."""
         return {"identified": self._of(test.id, "restitution")} if test.kind == "free-vibration" else {}
 
     def _of(self, subject: str, stage: str) -> Path:
@@ -214,7 +213,7 @@ class Graph:
         stage: ModuleType,
         *more: str,
     ) -> Step:
-        """Return a step, made by the module of its stage and what else that imports by name."""
+        """Return a step; its code is that of the module of its stage, and of `more` that it loads by name."""
         code = self.catalogue.code((stage.__name__, *more, *_STORED_BY), result.model)
         return Step(result, self.layout.path(result), dict(upstream), inputs, work, code)
 

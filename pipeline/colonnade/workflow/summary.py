@@ -1,4 +1,4 @@
-"""summary.json and summary.csv, rebuilt from the results, which are the truth."""
+"""summary.json and summary.csv, rebuilt from the results."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from colonnade.workflow.execution.spreading import spread
 from colonnade.workflow.pooling import restitution_taken
 
 MADE_BY = ("colonnade.store", "colonnade.identification", "colonnade.stages.specimen")
-"""What records are made by."""
+"""Packages whose code makes the records; what they import counts too."""
 
 
 def write_summary(
@@ -36,18 +36,18 @@ def write_summary(
     workers: int | None = 1,
 ) -> Summary:
     """
-    Write both summaries, where their content changed.
+    Write both summaries if their content changed.
 
     Parameters
     ----------
     campaign : Campaign
     layout : Layout
     catalogue : Catalogue
-        Spares reading the results of tests that are as they were.
+        Spares reading the results of unchanged tests.
     outdated : collection of str, optional
-        Tests whose stored results are not of this campaign file, these raw files or this program; they are pending.
+        Tests whose stored results are out of date; they are reported as pending.
     failed : mapping of str to str, optional
-        Reasons of the tests that failed in this run, stored or not.
+        Why tests failed in this run, whether stored or not.
     workers : int, optional
         Processes in which results are read; None for one a core.
 
@@ -58,7 +58,7 @@ def write_summary(
     Raises
     ------
     StoreError
-        If they cannot be written.
+        If a file cannot be written.
     """
     failures = failed or {}
     summary = Summary(
@@ -73,7 +73,7 @@ def write_summary(
 
 
 def _of_specimen(campaign: Campaign, layout: Layout, catalogue: Catalogue, name: str) -> SpecimenSummary:
-    """Give the record of a specimen: the last one if it was made from just this result and campaign, else a new one."""
+    """Return the record of a specimen: the last one if nothing that it is made from changed, else a new one."""
     from colonnade.stages.specimen import SpecimenInputs
 
     inputs, subject = SpecimenInputs.of(campaign, name).model_dump_json(), f"specimen {name}"
@@ -89,7 +89,7 @@ def _of_specimen(campaign: Campaign, layout: Layout, catalogue: Catalogue, name:
 
 @dataclass(frozen=True)
 class _Asked:
-    """What the record of a test is made from, besides its results; the campaign holds no other test."""
+    """What the record of a test is made from, apart from its results; the campaign holds this test alone."""
 
     campaign: Campaign
     test: Test
@@ -105,9 +105,9 @@ def _records(
     failures: Mapping[str, str],
     workers: int | None,
 ) -> dict[str, TestSummary]:
-    """Give the record of each test: the last one if it was made from just these results, else a new one."""
+    """Return the record of each test: the last one if nothing that it is made from changed, else a new one."""
     recipes, found, waiting = {}, {}, []
-    for name, test in campaign.wherever_it_lies().tests.items():
+    for name, test in campaign.with_relative_paths().tests.items():
         asked = _Asked(replace(campaign, tests={name: test}), test, name in outdated, failures.get(name))
         recipes[name] = _recipe(asked, layout, catalogue)
         known = catalogue.record(name, recipes[name])

@@ -17,7 +17,7 @@ from colonnade.campaign import load
 from colonnade.errors import ColonnadeError, RunEndedError
 from colonnade.store import files
 from colonnade.workflow.catalogue import Catalogue
-from colonnade.workflow.chain import walk
+from colonnade.workflow.chain import bring_up_to_date
 from colonnade.workflow.execution.lock import expect_run, only_run
 from colonnade.workflow.execution.processes import execute
 from colonnade.workflow.execution.spreading import spread
@@ -123,7 +123,7 @@ def test_a_scheduler_that_is_not_there_is_told(monkeypatch):
 
 @pytest.mark.parametrize("address", ["no address", "127.0.0.1:notaport"], ids=str)
 def test_what_is_no_address_is_told(address):
-    with pytest.raises(ColonnadeError, match="that is no address"):
+    with pytest.raises(ColonnadeError, match="that is not an address"):
         list(spread(whose, [1], scheduler=address))
 
 
@@ -224,10 +224,10 @@ def test_a_cluster_whose_workers_all_end_is_told_and_not_waited_for(soon):
 
 def test_a_worker_that_outlives_its_run_writes_nothing(untouched, undisturbed):
     with pytest.raises(RunEndedError):
-        walk(ingesting(untouched, "before this one"))
+        bring_up_to_date(ingesting(untouched, "before this one"))
     with only_run(untouched.layout) as run:
         late = ingesting(untouched, run)
-        assert [stage.action for stage in walk(late)] == ["done"]
+        assert [stage.action for stage in bring_up_to_date(late)] == ["done"]
     path = untouched.layout.stage("pulse-01", "ingest")
     with files.only_while(lambda: expect_run(untouched.layout, run)):
         for change in (lambda: files.remove(path), lambda: files.write_text(path, "late")):

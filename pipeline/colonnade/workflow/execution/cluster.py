@@ -1,4 +1,4 @@
-"""Calls that do not depend on each other, on the workers of a Dask cluster that is there already."""
+"""Independent calls on the workers of a running Dask cluster."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ Tell = Callable[[str], None]
 """Takes a sentence about the run itself, such as that the system stopped a worker."""
 
 AHEAD = 2
-"""Items that are handed out a thread, the first of which it works on: few are lost with it."""
+"""Items handed out to each thread, of which it works on the first; so few are lost if it is stopped."""
 _PATIENCE = 10
 """Seconds until a scheduler answers, and until it has a worker."""
 _LOOK = 1.0
-"""Seconds between two looks at which workers there are."""
+"""Seconds between two looks at the list of workers."""
 
 _ADDRESS = re.compile(r"([a-z]+://)?[^\s/]+:\d{1,5}")
 
 _one_at_a_time = threading.Lock()
-"""Held on a worker: netCDF's library is not made for several threads of one process."""
+"""Held while a worker works: netCDF's library does not support several threads of one process."""
 
 
 def on_cluster(work: Callable[[Item], Result], items: Sequence[Item], scheduler: str, tell: Tell) -> Iterator[Result]:
@@ -53,7 +53,7 @@ def on_cluster(work: Callable[[Item], Result], items: Sequence[Item], scheduler:
     if not items:
         return
     if not _ADDRESS.fullmatch(scheduler):
-        raise ColonnadeError(_no_scheduler(scheduler, "that is no address"))
+        raise ColonnadeError(_no_scheduler(scheduler, "that is not an address"))
     try:
         client = distributed.Client(scheduler, timeout=_PATIENCE, set_as_default=False)
     except OSError as error:
@@ -72,7 +72,7 @@ class _Watch:
     client : distributed.Client
     scheduler : str
     workers : dict of str to str
-        By address, which process each is.
+        Description of each worker's process, by address.
     tell : callable
     """
 
@@ -84,12 +84,12 @@ class _Watch:
 
     def look(self) -> None:
         """
-        Tell of workers that are gone since the last look.
+        Report workers that have gone since the last look.
 
         Raises
         ------
         ColonnadeError
-            If there are none for some time, or the scheduler is gone.
+            If there have been none for some time, or the scheduler has gone.
         """
         now = time.monotonic()
         if now - self._looked < _LOOK:
@@ -102,7 +102,7 @@ class _Watch:
         for address in self._known.keys() - there.keys():
             self._tell(
                 f"{address}: this worker ({self._known.pop(address)}) left the cluster before the work was done: it "
-                "was stopped, most often because memory ran out. What it worked on is given to another worker."
+                "was stopped, most often because memory ran out. Its work is given to another worker."
             )
         self._known |= dict.fromkeys(there.keys() - self._known.keys(), "one that came later")
         self.threads = sum(there.values()) or self.threads
@@ -114,9 +114,9 @@ class _Watch:
             )
 
     def gone(self) -> ColonnadeError:
-        """Return what to say where the scheduler does not answer any more."""
+        """Return the error for a scheduler that does not answer any more."""
         return ColonnadeError(
-            f"{self.scheduler}: the scheduler of the Dask cluster ended before the work was done. What was finished is "
+            f"{self.scheduler}: the scheduler of the Dask cluster ended before the work was done. Finished results are "
             "kept, and its workers write nothing more. Start the cluster again and run again, or run without "
             "--scheduler."
         )

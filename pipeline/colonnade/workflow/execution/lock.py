@@ -1,4 +1,4 @@
-"""One run at a time in a campaign, by a lock of the operating system, which a crash frees."""
+"""One run at a time in a campaign, by a lock of the operating system, which is freed even by a crash."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from colonnade.store.own_files import own_files
 @contextmanager
 def only_run(layout: Layout) -> Iterator[str]:
     """
-    Hold a campaign's lock, and sweep what a killed run left half-written.
+    Hold a campaign's lock, and remove what a killed run left half-written.
 
     Yields
     ------
-    run : str
-        The run's own name, by which other processes know that it still goes on (`expect_run`).
+    run_id : str
+        Name of the run, by which other processes ask whether it still goes on (`expect_run`).
 
     Raises
     ------
@@ -49,18 +49,18 @@ def only_run(layout: Layout) -> Iterator[str]:
             f"{layout.processed}: results cannot be written here ({error.strerror or error}). A folder with room that "
             "you may write to was expected; free some space, or give another folder with --results."
         ) from error
-    run = uuid4().hex
+    run_id = uuid4().hex
     after_a_kill = layout.lock_holder.exists()
     try:
         _sweep(layout)
         holder = {
-            "run": run,
+            "run": run_id,
             "process": os.getpid(),
             "host": platform.node(),
             "since": datetime.now().astimezone().isoformat("T", "seconds"),
         }
         write_text(layout.lock_holder, json.dumps(holder) + "\n")
-        yield run
+        yield run_id
     finally:
         try:
             remove(layout.lock_holder)
@@ -70,9 +70,9 @@ def only_run(layout: Layout) -> Iterator[str]:
             lock.release()
 
 
-def expect_run(layout: Layout, run: str) -> None:
+def expect_run(layout: Layout, run_id: str) -> None:
     """
-    Ask whether a run still goes on; a worker of a cluster may outlive it, and a thread of one cannot be stopped.
+    Check that a run still goes on: a worker of a cluster may outlive it, and its threads cannot be stopped.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def expect_run(layout: Layout, run: str) -> None:
         holder = json.loads(layout.lock_holder.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         holder = None
-    if not isinstance(holder, dict) or holder.get("run") != run:
+    if not isinstance(holder, dict) or holder.get("run") != run_id:
         raise RunEndedError(f"{layout.home}: the run that asked for this has ended; nothing more is written for it.")
 
 

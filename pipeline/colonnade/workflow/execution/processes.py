@@ -1,4 +1,4 @@
-"""Chains in several processes, none of which outlives the run."""
+"""Chains in several processes; none outlives the run."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from colonnade.errors import ColonnadeError
 from colonnade.interruption import expect_none
-from colonnade.workflow.chain import Chain, lost, walk
+from colonnade.workflow.chain import Chain, bring_up_to_date, worker_lost
 from colonnade.workflow.execution.cluster import AHEAD, Tell
 from colonnade.workflow.execution.spreading import on_processes, spread, stopped
-from colonnade.workflow.results import StageRun
+from colonnade.workflow.outcome import StageRun
 
 
 def execute(
@@ -30,25 +30,25 @@ def execute(
     scheduler : str or None
         Address of a running Dask scheduler whose workers are used instead; they share the campaign's folder.
     tell : callable, optional
-        Told of workers that were stopped.
+        Called with a sentence if a worker was stopped.
 
     Yields
     ------
-    ended : list of StageRun
-        Of one chain, in the order in which they end.
+    runs : list of StageRun
+        What became of the stages of one chain; chains in the order in which they end.
 
     Raises
     ------
     ColonnadeError
-        If the cluster is not there, runs other code, does not see the folder or ends before the work does.
+        If the cluster does not answer, runs other code, does not see the folder or ends before the work does.
 
     Notes
     -----
-    Where the system stops a worker, what may have been its chain is tried again alone; one that loses its worker again
-    has failed, and the others go on.
+    If the system stops a worker, the chains that it may have worked on are tried again, each alone. One that loses its
+    worker again has failed; the others go on.
     """
     if scheduler is not None:
-        yield from spread(_walk_there, chains, scheduler=scheduler, tell=tell)
+        yield from spread(_in_cluster, chains, scheduler=scheduler, tell=tell)
         return
     import joblib
 
@@ -56,7 +56,7 @@ def execute(
     if count <= 1:
         for chain in chains:
             expect_none()
-            yield walk(chain)
+            yield bring_up_to_date(chain)
         return
     from joblib.externals.loky.process_executor import BrokenProcessPool
 
@@ -78,7 +78,7 @@ def execute(
                 try:
                     yield from (runs for _, runs in _in_workers({number: chain}, count))
                 except BrokenProcessPool:
-                    yield [lost(chain)]
+                    yield [worker_lost(chain)]
 
 
 def _in_workers(chains: Mapping[int, Chain], count: int) -> Iterator[tuple[int, list[StageRun]]]:
@@ -87,11 +87,11 @@ def _in_workers(chains: Mapping[int, Chain], count: int) -> Iterator[tuple[int, 
 
 def _in_worker(numbered: tuple[int, Chain]) -> tuple[int, list[StageRun]]:
     number, chain = numbered
-    return number, walk(chain)
+    return number, bring_up_to_date(chain)
 
 
-def _walk_there(chain: Chain) -> list[StageRun]:
-    """Walk a chain on a worker of a cluster, which has to see the campaign's folder."""
+def _in_cluster(chain: Chain) -> list[StageRun]:
+    """Bring a chain up to date on a worker of a cluster, which has to see the campaign's folder."""
     if not chain.campaign_file.is_file():
         raise ColonnadeError(
             f"{chain.campaign_file}: a worker on {platform.node()} does not see this file. A folder that all of the "
@@ -102,4 +102,4 @@ def _walk_there(chain: Chain) -> list[StageRun]:
             f"{chain.layout.processed}: a worker on {platform.node()} does not see this folder of results. A folder "
             "that all of the cluster's workers share under the same path was expected; give another one with --results."
         )
-    return walk(chain)
+    return bring_up_to_date(chain)

@@ -1,4 +1,4 @@
-"""Calls that do not depend on each other, on processes of this machine; on a Dask cluster, see `cluster`."""
+"""Independent calls on processes of this machine; for a Dask cluster, see `cluster`."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 _PATROL = 0.1
-"""Seconds between two looks of a worker at whether its parent is alive."""
+"""Seconds between two checks of a worker that its parent is alive."""
 
 _EXIT_CODES = re.compile(r"The exit codes of the workers are \{(.+)\}")
-"""What joblib says of processes that ended by themselves, such as "SIGKILL(-9)"."""
+"""How joblib reports processes that ended by themselves, such as "SIGKILL(-9)"."""
 
 
 def spread(
@@ -40,16 +40,16 @@ def spread(
     Parameters
     ----------
     work : callable
-        Of a module, not a lambda: other processes import it.
+        A function of a module, not a lambda: other processes import it.
     items : sequence
-        What it takes, light to send.
+        Arguments of the calls, small enough to send.
     workers : int, optional
         Processes of this machine; one a core by default. With one, all is done in this process.
     scheduler : str, optional
         Address of a running Dask scheduler, as "tcp://10.0.0.1:8786": its workers are used instead. Each of their
         processes does one item at a time.
     tell : callable, optional
-        Told of workers that were stopped.
+        Called with a sentence if a worker was stopped.
 
     Yields
     ------
@@ -84,23 +84,23 @@ def spread(
 
 
 def stopped(error: BaseException) -> str:
-    """Say that a worker process ended by itself, and how, as far as joblib's exception tells it."""
+    """Say that a worker process ended by itself and, if joblib's exception gives it, how."""
     found = _EXIT_CODES.search(str(error))
     return f"A worker process was stopped{f' ({found[1]})' if found else ''}"
 
 
 def on_processes(work: Callable[[Item], Result], items: Iterable[Item], count: int) -> Iterator[Result]:
     """
-    Call a function once for each item, in processes of this machine none of which outlives this one.
+    Call a function once for each item, in processes of this machine; none outlives this process.
 
     Parameters
     ----------
     work : callable
-        Of a module, not a lambda: other processes import it.
+        A function of a module, not a lambda: other processes import it.
     items : iterable
-        What it takes, light to send.
+        Arguments of the calls, small enough to send.
     count : int
-        Processes, two at least. They stay for the next call.
+        Processes, at least two. They stay for the next call.
 
     Yields
     ------
@@ -114,7 +114,7 @@ def on_processes(work: Callable[[Item], Result], items: Iterable[Item], count: i
     """
     import joblib
 
-    # A worker that has grown is replaced, and Ctrl-C leaves work undone: of neither does joblib have to tell.
+    # A worker that has grown is replaced, and Ctrl-C leaves work undone: joblib need not warn of either.
     warnings.filterwarnings("ignore", "A worker stopped while some jobs were given", UserWarning)
     warnings.filterwarnings("ignore", ".*You could benefit from adjusting the input task iterator", UserWarning)
     # Each settles in as it starts, not with its first item: one that never gets any has to notice its parent's end too.
@@ -135,12 +135,12 @@ def on_processes(work: Callable[[Item], Result], items: Iterable[Item], count: i
 @contextmanager
 def _stopped_quietly(results: Any) -> Iterator[None]:
     """Stop the workers at the end, on Ctrl-C before the lock is given back."""
-    told = threading.excepthook
+    original = threading.excepthook
 
     def tell(failure: threading.ExceptHookArgs) -> None:
         # Stopped before its first items were sent, loky looks for them in vain once its workers are gone.
         if failure.exc_type is not KeyError:
-            told(failure)
+            original(failure)
 
     try:
         yield
@@ -149,7 +149,7 @@ def _stopped_quietly(results: Any) -> Iterator[None]:
         try:
             results.close()
         finally:
-            threading.excepthook = told
+            threading.excepthook = original
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""A map or the steady responses of a specimen, made in blocks where they are out of date, and stored."""
+"""A map or the steady responses of a specimen: made in blocks if they are out of date, and stored."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from colonnade.dynamics.maps.plan import MapPlan
 
 MADE_BY = ("colonnade.dynamics.maps", "colonnade.workflow.maps")
-"""What maps and steady responses are made by."""
+"""Packages whose code makes maps and steady responses; what they import counts too."""
 
 
 def bring_up_to_date(
@@ -35,7 +35,7 @@ def bring_up_to_date(
     make: Callable[[Path, str], xr.Dataset],
 ) -> tuple[xr.Dataset, str]:
     """
-    Make a result over Ω and A where it is out of date.
+    Make a result over Ω and A if it is out of date.
 
     Parameters
     ----------
@@ -43,13 +43,13 @@ def bring_up_to_date(
     layout : Layout
     result : ResultId
     plan : MapPlan
-        Its block, axes and motion count for whether the result is up to date.
+        If its block, axes or motion change, the result is out of date.
     settings : mapping
-        All else that it follows from.
+        All else that the result depends on.
     restitution_source : str
         Stored with it.
     make : callable
-        Takes the folder of its blocks and its key; returns it.
+        Takes the folder of its blocks and its key; returns the result.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What a run says of itself."""
+"""What a run returns: what became of each stage, and all that was found."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ class StageRun:
     action : str
         done, up-to-date or failed, now or in an earlier run.
     model : str or None
-        Where the stage runs once a model.
+        Of a stage that runs once for each model.
     reason : str
         Why it failed.
     because : str
         Why it ran: "never run", "raw file changed", "settings changed", "upstream changed", "code changed" or "asked
-        for"; empty where it did not.
+        for"; empty if it did not run.
     seconds : float
     findings : tuple of Finding
-        What its result says of itself, now or in an earlier run.
+        The findings in its result, from now or an earlier run.
     """
 
     subject: str
@@ -53,8 +53,8 @@ class StageRun:
         return ResultId(self.subject, self.stage, self.model).is_of_specimen
 
     @property
-    def told_of(self) -> str:
-        """Whom its findings are about: a test's id, or a specimen's after that word."""
+    def heading(self) -> str:
+        """Name under which its findings are listed: the id of a test, or "specimen" and its id."""
         return f"specimen {self.subject}" if self.is_of_specimen else self.subject
 
 
@@ -69,13 +69,13 @@ class RunResult:
     summary : Path
         summary.json.
     report : Path or None
-        The report's page, None where the run stopped before it.
+        The report's first page; None if the run stopped before it.
     of_campaign : tuple of Finding
-        What the campaign file and its test log were found to hold.
+        Findings about the campaign file and its test log.
     concerning : mapping of str to tuple of Finding
-        What of it is about the specimen or the set-up of each test.
+        Those of them that are about the specimen or the set-up of each test.
     notices : tuple of str
-        What befell the run itself, such as that the system stopped a worker.
+        What happened to the run itself, such as that the system stopped a worker.
     """
 
     stages: tuple[StageRun, ...]
@@ -87,19 +87,19 @@ class RunResult:
 
     @property
     def failed(self) -> bool:
-        """Whether a stage failed, now or in an earlier run whose failure still stands."""
+        """Whether a stage failed, now or in an earlier run whose failure is still up to date."""
         return any(stage.action == "failed" for stage in self.stages)
 
     @property
     def findings(self) -> dict[str, list[tuple[Finding, bool]]]:
         """
-        What was found, by test, specimen or "campaign file", each put in order by `in_order`.
+        Findings by test, specimen or "campaign file", each list ordered by `in_order`.
 
-        Without the subjects of which there is nothing to tell.
+        Subjects without findings are left out.
         """
         found: dict[str, list[Finding]] = {"campaign file": list(self.of_campaign)}
         for stage in self.stages:
-            found.setdefault(stage.told_of, []).extend(stage.findings)
+            found.setdefault(stage.heading, []).extend(stage.findings)
         return {
             subject: in_order(findings, self.concerning.get(subject, ()))
             for subject, findings in found.items()
@@ -108,6 +108,6 @@ class RunResult:
 
     @property
     def has_warnings(self) -> bool:
-        """Whether there is a finding that is more than a note."""
+        """Whether any finding is more serious than a note."""
         every = [*self.of_campaign, *(finding for stage in self.stages for finding in stage.findings)]
         return any(finding.severity is not Severity.NOTE for finding in every)
