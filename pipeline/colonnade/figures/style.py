@@ -35,13 +35,6 @@ BASE: LineStyle = {"color": SOFT, "linestyle": "-", "linewidth": 0.8}
 FIT: LineStyle = {"color": "#8a3fa8", "linestyle": "-", "linewidth": 1.2}
 LIMIT: LineStyle = {"color": FAINT, "linestyle": (0, (1.0, 2.5)), "linewidth": 1.0}
 
-DASHES: dict[str, tuple[float, tuple[float, ...]]] = {
-    "dashed": (0, (5.0, 1.6)),
-    "dash-dotted": (0, (7.0, 1.6, 1.6, 1.6)),
-    "short-dashed": (0, (2.2, 1.4)),
-}
-"""Dashes of the models by the names that the registry of models uses: distinct on a grey print."""
-
 
 def model_style(model: str, thinness: float = 1.0) -> LineStyle:
     """
@@ -53,7 +46,7 @@ def model_style(model: str, thinness: float = 1.0) -> LineStyle:
         If there is no such model.
     """
     line = model_of(model).line
-    return {"color": line.color, "linestyle": DASHES[line.dash], "linewidth": thinness * line.width}
+    return {"color": line.color, "linestyle": (0, line.dash), "linewidth": thinness * line.width}
 
 
 @contextmanager

@@ -14,6 +14,9 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.chart import assemble, stability_map
 from colonnade.dynamics.maps.column import _fraction, _intervals, map_column
 from colonnade.dynamics.maps.plan import plan_map
+from colonnade.dynamics.models import registry
+from colonnade.dynamics.models.linear import LINEAR
+from colonnade.dynamics.models.model import Model
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_outcomes
 from colonnade.dynamics.restitution_law import RestitutionLaw
@@ -212,6 +215,21 @@ def test_the_library_offers_the_map():
     assert colonnade.stability_map is stability_map
 
 
+def test_a_model_without_kernels_is_run_under_a_sampled_sine(monkeypatch):
+    class OfAnotherMaker(Model):
+        def run(self, case):
+            return LINEAR.run(case)
+
+    other = OfAnotherMaker(**{**vars(LINEAR), "name": "other"})
+    monkeypatch.setitem(registry.MODELS, "other", other)
+    axes = {"frequency_ratio": [2.0, 5.0], "amplitude_ratio": np.linspace(1.0, 8.0, 8)}
+    by_run, by_kernel = (
+        stability_map(PRISM, model=name, restitution=0.976, cycles=3, **axes) for name in ("other", "linear")
+    )
+    np.testing.assert_array_equal(by_run.outcome, by_kernel.outcome)
+    assert len(np.unique(by_run.outcome)) > 1
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -225,7 +243,7 @@ def test_the_library_offers_the_map():
         ({"ramp_shape": "line"}, 'Unknown ramp shape "line"'),
         ({"phase": math.inf}, "phase is inf"),
         ({"width": 1e-5}, "edge is 0.0001 and width 1e-05"),
-        ({"model": "contact"}, 'Unknown plane model "contact"'),
+        ({"model": "contact"}, "The contact model needs `space`"),
         ({"motion_frequency": 3.0}, "needs its motion_frequency"),
         ({"motion": Motion([0.0, 0.0], 0.1), "motion_frequency": 3.0}, "no acceleration at all"),
         ({"threads": 0}, "threads is 0"),

@@ -4,23 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from math import ceil, log2, pi
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Codes
 from colonnade.dynamics.maps.plan import MapPlan
+from colonnade.dynamics.models.registry import PLANE_MODELS
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic import OUTCOMES, Harmonic, harmonic_outcomes
 from colonnade.dynamics.rock import rock
 
-if TYPE_CHECKING:
-    from colonnade.dynamics.maps.space import InSpace
-
 Runs = Callable[[Array], Codes]
-"""Outcomes of some A."""
+"""Returns the outcomes at some A."""
 
 
 @dataclass(frozen=True)
@@ -85,27 +83,17 @@ def _runs(plan: MapPlan, frequency_ratio: float) -> Runs:
         motion = plan.motion
         dt = motion.dt * plan.motion_frequency * 2 * pi / (frequency_ratio * block.p)
         unit = motion.acceleration * (block.uplift_acceleration / motion.peak)
-        if plan.space is not None:
-            return _in_space(plan.space, unit, dt, block.gravity)
-
-        def recorded(amplitudes: Array) -> Codes:
-            found = [
-                rock(block, Motion(unit * amplitude, dt), restitution=plan.restitution, model=plan.model).outcome
-                for amplitude in amplitudes
-            ]
-            return np.array([OUTCOMES.index(outcome) for outcome in found], dtype=np.int8)
-
-        return recorded
+        return _sampled(plan, unit, dt)
 
     harmonic = Harmonic.cycles(
         frequency_ratio * block.p, plan.cycles, phase=plan.phase, ramp=plan.ramp, ramp_shape=plan.ramp_shape
     )
 
-    if plan.space is not None:
+    if plan.model not in PLANE_MODELS:
         from colonnade.dynamics.maps.space import sampled
 
         wave, dt = sampled(harmonic)
-        return _in_space(plan.space, block.uplift_acceleration * wave, dt, block.gravity)
+        return _sampled(plan, block.uplift_acceleration * wave, dt)
 
     def sine(amplitudes: Array) -> Codes:
         return harmonic_outcomes(block, harmonic, amplitudes, plan.restitution, plan.model)
@@ -113,13 +101,21 @@ def _runs(plan: MapPlan, frequency_ratio: float) -> Runs:
     return sine
 
 
-def _in_space(space: InSpace, unit: Array, dt: float, gravity: float) -> Runs:
-    from colonnade.dynamics.maps.space import outcomes
+def _sampled(plan: MapPlan, unit: Array, dt: float) -> Runs:
+    """Run a sampled base motion, with its acceleration at A = 1 (m/s²) and its step (s), at some A."""
+    if plan.space is not None:
+        from colonnade.dynamics.maps.space import outcomes
 
-    def moved(amplitudes: Array) -> Codes:
-        return outcomes(space, unit, dt, amplitudes, gravity)
+        return partial(outcomes, plan.space, unit, dt, gravity=plan.block.gravity)
 
-    return moved
+    def runs(amplitudes: Array) -> Codes:
+        found = [
+            rock(plan.block, Motion(unit * amplitude, dt), restitution=plan.restitution, model=plan.model).outcome
+            for amplitude in amplitudes
+        ]
+        return np.array([OUTCOMES.index(outcome) for outcome in found], dtype=np.int8)
+
+    return runs
 
 
 def _intervals(scan: Array, overturned: NDArray[np.bool_], runs: Runs, edge: float) -> Array:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.history import NO_ROCKING_RATIO
-from colonnade.dynamics.models.registry import DEFAULT, model_of, plane_model_of
+from colonnade.dynamics.models.registry import DEFAULT, model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic import RAMP_SHAPES, Restitution, check_ramp_shape, restitution_up_to
 from colonnade.dynamics.restitution_law import RestitutionLaw
@@ -168,8 +168,8 @@ def plan_map(
         If an argument is out of its range, an axis does not increase or the model is not known.
     """
     instance("block", block, Block)
-    if space is None:
-        plane_model_of(model)
+    if space is None and model_of(model).in_space:
+        raise ValueError(f"The {model} model needs `space`; a model in the plane was expected without it")
     check_ramp_shape(ramp_shape)
     frequencies = _axis("frequency_ratio", frequency_ratio, 1)
     amplitudes = _axis("amplitude_ratio", amplitude_ratio, 2)

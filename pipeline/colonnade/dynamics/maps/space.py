@@ -17,13 +17,13 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic import OUTCOMES, Harmonic
 
 SAMPLES_A_CYCLE = 100
-"""Of the sine that the contact model is driven by, linear between them: off by 5e-4 of its amplitude at most."""
+"""Samples of a sine for models without harmonic kernels, linear between them: error at most 5e-4 of its amplitude."""
 
 
 @dataclass(frozen=True)
 class InSpace:
     """
-    What the contact model needs beside the plan of a map.
+    What the contact model needs in addition to the plan of a map.
 
     Attributes
     ----------

@@ -1,1 +1,1 @@
-"""One registry of the models of rocking; one module a model says what it needs, gives, costs and looks like."""
+"""The models of rocking, one module each, and their registry."""

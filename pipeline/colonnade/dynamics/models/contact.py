@@ -13,10 +13,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class ContactModel(Model):
-    """A rigid body on a law of contact; each run costs some thousand times that of a model in the plane."""
+    """A rigid body on a law of contact; a run takes some thousand times as long as that of a model in the plane."""
 
     in_space: bool = True
-    members: int = 0
     map_points: tuple[int, int] = (14, 31)
 
     def run(self, case: Case) -> ContactHistory:
@@ -45,7 +44,7 @@ class ContactModel(Model):
 
 CONTACT = ContactModel(
     name="contact",
-    line=Line("#0a8a5f", "short-dashed", 1.2),
+    line=Line("#0a8a5f", (2.2, 1.4), 1.2),
     definition="a body in space on base nodes, with penalty stiffness, critical damping fraction and Coulomb friction",
     is_default=False,
 )

@@ -1,4 +1,4 @@
-"""What a model of rocking says of itself, and what it is asked for."""
+"""What a model of rocking is: its properties, and how it is run."""
 
 from __future__ import annotations
 
@@ -24,21 +24,21 @@ class Line:
     Attributes
     ----------
     color : str
-        As in HTML; told apart by colour-blind readers (after Okabe and Ito).
-    dash : str
-        Name of a dash of the figures' style; distinct on a grey print.
+        As in HTML; colour-blind readers can distinguish the models (after Okabe and Ito).
+    dash : tuple of float
+        Lengths of dashes and gaps in turn, over the width of the line; distinct on a grey print.
     width : float
         Points.
     """
 
     color: str
-    dash: str
+    dash: tuple[float, ...]
     width: float
 
 
 @dataclass(frozen=True)
 class Case:
-    """What a model is asked to run; arguments as of `rock`, already checked."""
+    """What a model has to run; the arguments of `rock`, already checked."""
 
     block: Block
     motion: Motion | None
@@ -59,7 +59,7 @@ class Model(ABC):
     Attributes
     ----------
     name : str
-        In settings, files and figures.
+        Its name in settings, files and figures.
     line : Line
     definition : str
         Its equation, or what it is, for the report; how it is solved.
@@ -71,10 +71,8 @@ class Model(ABC):
         Whether its equation is linear in θ.
     is_default : bool
         Whether a campaign uses it unless its settings name others.
-    members : int
-        Runs of its ensemble unless the settings give another number; 0 for none, if a run is expensive.
     map_points : tuple of int
-        Ω and A of a stability map unless others are asked for.
+        Default number of Ω and of A of a stability map.
     """
 
     name: str
@@ -84,7 +82,6 @@ class Model(ABC):
     in_space: bool
     is_linearised: bool = False
     is_default: bool
-    members: int
     map_points: tuple[int, int]
 
     @abstractmethod
@@ -95,7 +92,7 @@ class Model(ABC):
         Raises
         ------
         ValueError
-            If the case asks for what the model does not have.
+            If the case has an argument that the model does not support.
         """
 
     def uplift_threshold(self, critical_angle: float) -> float:

@@ -1,9 +1,9 @@
-"""What the models in the plane have in common."""
+"""The models in the plane that the kernels of `dynamics.plane` solve: the linear and the nonlinear one."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, final
 
 from colonnade.dynamics.models.model import Case, Model
 
@@ -11,12 +11,16 @@ if TYPE_CHECKING:
     from colonnade.dynamics.history import History
 
 
+@final
 @dataclass(frozen=True, kw_only=True)
 class PlaneModel(Model):
-    """A model of rocking in the plane."""
+    """
+    A model that has kernels in the plane.
+
+    Maps call the kernels and not `run`, so a model with another `run` is a subclass of `Model`.
+    """
 
     in_space: bool = False
-    members: int = 100
     map_points: tuple[int, int] = (100, 150)
 
     def run(self, case: Case) -> History:

@@ -11,23 +11,23 @@ from colonnade.errors import nearest
 from colonnade.validation import text
 
 MODELS: dict[str, Model] = {model.name: model for model in (LINEAR, NONLINEAR, CONTACT)}
-"""In the order of tables and figures."""
+"""All models, in the order of tables and figures."""
 
 PLANE_MODELS: dict[str, PlaneModel] = {name: model for name, model in MODELS.items() if isinstance(model, PlaneModel)}
-"""Those that need e, which is identified with them, and have kernels for harmonic motion."""
+"""Those that kernels solve, also under harmonic motion."""
 
 DEFAULT = LINEAR.name
-"""Model of one run unless another is asked for: the quickest."""
+"""Default model of a single run: the fastest."""
 
 
 def model_of(name: str) -> Model:
     """
-    Return the model of a name.
+    Return a model by its name.
 
     Raises
     ------
     ValueError
-        If there is none, with the nearest name.
+        If the name is unknown; the message gives the nearest one.
     """
     if text("model", name, "the name of a model") not in MODELS:
         raise ValueError(f'Unknown model "{name}".{nearest(name, MODELS)}')
@@ -36,12 +36,12 @@ def model_of(name: str) -> Model:
 
 def plane_model_of(name: str) -> PlaneModel:
     """
-    Return the plane model of a name.
+    Return a model with kernels in the plane by its name.
 
     Raises
     ------
     ValueError
-        If there is none, with the nearest name.
+        If the name is unknown; the message gives the nearest one.
     """
     if text("model", name, "the name of a model") not in PLANE_MODELS:
         raise ValueError(f'Unknown plane model "{name}".{nearest(name, PLANE_MODELS)}')

@@ -26,15 +26,11 @@ if TYPE_CHECKING:
     from colonnade.dynamics.motion import Motion
 
 USUAL_FREQUENCIES = (1.0, 8.0)
-"""Ω of a map of a specimen that was not tested by sines."""
+"""Ω of a map of a specimen without sine tests."""
 LOWEST_AMPLITUDE, USUAL_AMPLITUDE = 0.5, 8.0
-"""A from which a map starts, and up to which it goes at least: the upper limit lies high above the tests."""
-USUAL_POINTS = (100, 150)
-"""Ω and A of a map."""
-USUAL_POINTS_IN_SPACE = (14, 31)
-"""The same of a map by the contact model, a run of which costs as much as thousands of the others."""
+"""Smallest A of a map, and the least value of its largest A: the upper limit is far above the tests."""
 LARGEST_AMPLITUDE_IN_SPACE = 3.5
-"""A up to which such a map goes, where the tests do not go further."""
+"""The same largest A if the contact model is among the models."""
 
 
 @dataclass(frozen=True)
@@ -45,15 +41,15 @@ class Wanted:
     Attributes
     ----------
     models : tuple of str
-        Each gets a map of its own, and several a picture together, with limits that are found alike.
+        Each gets a map of its own; several share a picture, with limits found by the same rule.
     frequency_ratio, amplitude_ratio : pair of float or None
-        First and last Ω and A; by default they hold the specimen's sine tests.
+        First and last Ω and A; by default they include the specimen's sine tests.
     points : pair of int or None
-        How many of each; `USUAL_POINTS`, or of the contact model `USUAL_POINTS_IN_SPACE`, by default.
+        How many of each; by default the `map_points` of the model.
     cycles, phase, ramp, ramp_shape : float, str
         Of the sine, see `dynamics.maps.chart.stability_map`.
     motion : str or None
-        Id of a sine test whose recorded table motion is taken instead, stretched to Ω and scaled to A.
+        Id of a sine test whose recorded table motion is used instead, stretched to Ω and scaled to A.
     responses : bool
         Also the steady responses to the sine, over the same Ω and A.
     """
@@ -100,12 +96,12 @@ def plan_of(
     model : str
     restitution : float or pair of float
     points : sequence of MapPoint
-        Sine tests that the map holds, where nothing else is wanted.
+        Sine tests that the map has to include, unless `wanted` gives its axes.
 
     Raises
     ------
     CampaignError
-        If what is wanted is out of its range.
+        If a value of `wanted` is out of its range.
     """
     from colonnade.dynamics.maps.plan import EDGE, STEPS_A_WIDTH, WIDTH, plan_map
 
@@ -116,16 +112,17 @@ def plan_of(
     omegas = wanted.frequency_ratio or _around([point.frequency_ratio for point in points], USUAL_FREQUENCIES)
     largest = max((1.2 * point.amplitude_ratio for point in points), default=0.0)
     space = _space(campaign, layout, specimen) if MODELS[model].in_space else None
-    with_space = any(MODELS[name].in_space for name in wanted.models)
-    usual = LARGEST_AMPLITUDE_IN_SPACE if with_space else USUAL_AMPLITUDE
+    in_space = [MODELS[name] for name in wanted.models if MODELS[name].in_space]
+    usual = LARGEST_AMPLITUDE_IN_SPACE if in_space else USUAL_AMPLITUDE
     amplitudes = wanted.amplitude_ratio or (LOWEST_AMPLITUDE, max(usual, float(np.ceil(largest * 2) / 2)))
-    in_space = wanted.points or USUAL_POINTS_IN_SPACE
-    grid = in_space if space is not None else wanted.points or USUAL_POINTS
-    # A contact map runs its own points only: what is narrower than four of them makes no limit, nor does it for the
-    # models that are laid beside it.
-    spacing = (amplitudes[1] - amplitudes[0]) / (in_space[1] - 1)
-    width = STEPS_A_WIDTH * spacing if with_space else WIDTH
-    edge = EDGE if space is None else spacing / 8
+    grid = wanted.points or MODELS[model].map_points
+    width, edge = WIDTH, EDGE
+    if in_space:
+        # A contact map runs its own points only: an interval narrower than four of them makes no limit, nor does it
+        # on the maps of other models in the same picture.
+        points_in_space = wanted.points or in_space[0].map_points
+        spacing = (amplitudes[1] - amplitudes[0]) / (points_in_space[1] - 1)
+        width, edge = STEPS_A_WIDTH * spacing, EDGE if space is None else spacing / 8
     try:
         return plan_map(
             campaign.block(specimen),
@@ -144,7 +141,7 @@ def plan_of(
             space=space,
         )
     except ValueError as error:
-        raise CampaignError(f"This map cannot be made: {error}.") from error
+        raise CampaignError(f"This map cannot be made: {str(error).rstrip('.')}.") from error
 
 
 def _expect_bounded(wanted: Wanted) -> None:
