@@ -151,6 +151,9 @@ MISTAKES = {
     ),
 }
 
+UNTIL = {"wrapped rows": "rocking", "copied folder": "rocking"}
+"""Where the free vibration is sound, one mistake (the wrong component) is enough to show that its e adds nothing."""
+
 
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_the_first_screen_gives_the_true_cause(mistake, sound, tmp_path, capsys, monkeypatch):
@@ -159,7 +162,8 @@ def test_the_first_screen_gives_the_true_cause(mistake, sound, tmp_path, capsys,
     folder = tmp_path / "campaign"
     shutil.copytree(sound, folder)
     plant(folder)
-    for command in (("check", str(folder)), ("run", str(folder), "--until", "restitution", "--workers", "1")):
+    until = UNTIL.get(mistake, "restitution")
+    for command in (("check", str(folder)), ("run", str(folder), "--until", until, "--workers", "1")):
         capsys.readouterr()
         invoke(command)
         screen = "\n".join(capsys.readouterr().out.splitlines()[:SCREEN])
