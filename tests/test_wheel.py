@@ -54,8 +54,7 @@ def test_package_data_is_there(commands, tmp_path, data):
 
 def test_a_raw_file_becomes_a_page(commands, tmp_path):
     shutil.copytree(EXAMPLE, tmp_path / "example", ignore=shutil.ignore_patterns("processed", "report"))
-    # One process: each would compile anew what none has imported yet.
-    done = run(commands / "colonnade", "run", "example", "--workers", "1", folder=tmp_path)
+    done = run(commands / "colonnade", "run", "example", folder=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
     pages = list((tmp_path / "example" / "report" / "tests").glob("*.html"))
     assert pages

@@ -1,0 +1,69 @@
+"""A signal is noted, whatever becomes of its exception."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+from types import SimpleNamespace
+
+import pytest
+
+from colonnade import interruption
+
+
+@pytest.fixture(autouse=True)
+def nothing_noted(monkeypatch):
+    monkeypatch.setattr(interruption, "_noted", [])
+
+
+def test_work_goes_on_while_no_signal_came():
+    assert not interruption.noted()
+    interruption.expect_none()
+
+
+def test_a_signal_stops_at_once_and_at_every_point_after():
+    with pytest.raises(KeyboardInterrupt):
+        interruption.note(signal.SIGTERM, None)
+    assert interruption.noted()
+    for _ in range(2):
+        with pytest.raises(KeyboardInterrupt):
+            interruption.expect_none()
+
+
+def dropped(kind):
+    """As Python tells of an exception that it cannot raise."""
+    return SimpleNamespace(exc_type=kind, exc_value=None, exc_traceback=None, err_msg=None, object=None)
+
+
+def test_an_interrupt_that_python_dropped_is_sent_again(monkeypatch):
+    sent = []
+    monkeypatch.setattr(interruption, "_send", sent.append)
+    monkeypatch.setattr(
+        interruption.threading, "Timer", lambda wait, call, given: SimpleNamespace(start=lambda: call(*given))
+    )
+    interruption._noted.append(signal.SIGINT)
+    interruption._dropped(dropped(KeyboardInterrupt))
+    assert sent == [signal.SIGINT]
+
+
+@pytest.mark.parametrize("kind", [ValueError, KeyboardInterrupt])
+def test_other_dropped_exceptions_are_shown_as_usual(monkeypatch, kind):
+    shown = []
+    monkeypatch.setattr(sys, "__unraisablehook__", shown.append)
+    if kind is ValueError:
+        interruption._noted.append(signal.SIGINT)
+    interruption._dropped(dropped(kind))
+    assert [each.exc_type for each in shown] == [kind]
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="signals of this kind are POSIX's")
+@pytest.mark.parametrize(
+    ("before", "is_listened_to"), [("", True), ("signal.signal(signal.SIGINT, signal.SIG_IGN)", False)]
+)
+def test_a_signal_that_a_shell_ignores_stays_ignored(before, is_listened_to):
+    lines = ["import signal", before, "from colonnade import interruption as i", "i.listen()"]
+    lines += ["print(signal.getsignal(signal.SIGTERM) is i.note, signal.getsignal(signal.SIGINT) is i.note)"]
+    lines += ["i.stop_listening()", "print(signal.getsignal(signal.SIGTERM) == signal.SIG_IGN)"]
+    told = subprocess.run([sys.executable, "-c", "\n".join(lines)], capture_output=True, text=True)
+    assert told.stdout.split() == ["True", str(is_listened_to), "True"], told.stderr

@@ -1,0 +1,104 @@
+"""What the checks of arguments accept and return; that every public call uses them is held by test_arguments."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from colonnade.validation import described, instance, number, samples, sided, text, whole
+
+
+@given(st.floats(allow_nan=False), st.floats(allow_nan=False), st.floats(allow_nan=False))
+def test_a_number_is_taken_in_its_closed_or_open_range(value, one, other):
+    low, high = sorted((one, other))
+    for bounds, is_inside in (
+        ({"low": low, "high": high}, low <= value <= high),
+        ({"above": low, "below": high}, (low == -math.inf or value > low) and (high == math.inf or value < high)),
+    ):
+        if is_inside:
+            assert number("x", value, "a number", finite=False, **bounds) == value
+        else:
+            with pytest.raises(ValueError, match=r"^x is "):
+                number("x", value, "a number", finite=False, **bounds)
+
+
+@pytest.mark.parametrize("value", [2, 2.0, np.float32(2), np.int8(2), np.array(2), True + np.uint8(1)])
+def test_every_kind_of_number_is_one(value):
+    found = number("x", value, "a number")
+    assert (found, type(found)) == (2.0, float)
+
+
+def test_the_message_says_what_was_found_with_its_unit_and_what_was_expected():
+    with pytest.raises(ValueError, match=r"^mass is -3\.0 kg; a positive number was expected$"):
+        number("mass", -3.0, "a positive number", above=0.0, unit="kg")
+
+
+def test_one_value_stands_for_both_sides():
+    assert sided("e", 0.9, "e") == (0.9, 0.9)
+    assert sided("e", (0.9, 0.8), "e") == sided("e", np.array([0.9, 0.8]), "e") == (0.9, 0.8)
+    with pytest.raises(ValueError, match=r"shape \(3,\); e, or a pair of them, was expected"):
+        sided("e", [0.9, 0.8, 0.7], "e")
+
+
+def test_a_whole_number_is_not_rounded():
+    assert whole("seed", 3.0, 0, 9) == 3
+    with pytest.raises(ValueError, match=r"seed is 3\.5; a whole number from 0 to 9 was expected"):
+        whole("seed", 3.5, 0, 9)
+
+
+def test_an_array_comes_back_contiguous_and_in_double_precision():
+    given_array = np.asfortranarray(np.arange(6, dtype=np.int16).reshape(2, 3))
+    found = samples("x", given_array, dimensions=(1, 2))
+    assert found.flags.c_contiguous
+    assert found.dtype == np.float64
+    np.testing.assert_array_equal(found, given_array)
+
+
+@pytest.mark.parametrize(
+    ("values", "options", "message"),
+    [
+        ([[1.0]], {}, r"shape \(1, 1\); a one-dimensional array with at least one number"),
+        ([1.0], {"fewest": 2, "each": "sample"}, "with at least 2 samples"),
+        ([1.0, math.nan], {}, "not finite at number 1; fill or cut the gap first"),
+        ([1.0, math.inf], {"gaps": True}, "a finite number, or NaN for a missing one"),
+        (np.ma.masked_array([1.0, 2.0], [0, 1]), {"gaps": True}, r"values.filled\(numpy.nan\)"),
+        ([[1.0], [1.0, 2.0]], {}, "is not an array of numbers"),
+        ("text", {}, "x is the text 'text'; an array of real numbers"),
+    ],
+)
+def test_what_is_no_such_array_is_told(values, options, message):
+    with pytest.raises(ValueError, match=message):
+        samples("x", values, **options)
+
+
+def test_gaps_are_kept_where_they_may_be():
+    np.testing.assert_array_equal(samples("x", [1.0, math.nan], gaps=True), [1.0, math.nan])
+
+
+def test_an_object_and_a_text_are_of_their_kind():
+    assert instance("x", 3, int) == 3
+    assert text("x", "a", "a name") == "a"
+    with pytest.raises(ValueError, match="x is the text '3'; a int was expected"):
+        instance("x", "3", int)
+    with pytest.raises(ValueError, match="x is 3; a name was expected"):
+        text("x", 3, "a name")
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        (np.ma.masked, "masked"),
+        (b"ab", "the text b'ab'"),
+        ("a" * 99, "the text '" + "a" * 40 + "'"),
+        (np.datetime64("2024-01-01"), "the date or time difference 2024-01-01"),
+        ([[1], [1, 2]], "a ragged list"),
+        (10**50, "a int"),
+        (None, "None"),
+    ],
+)
+def test_a_value_is_described_in_a_few_words(value, words):
+    assert described(value) == words
