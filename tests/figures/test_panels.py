@@ -1,5 +1,8 @@
+import re
+
 import pytest
 
+from colonnade.figures.output import to_svg
 from colonnade.figures.panels import COLUMNS, legend_above, side_by_side, stacked_panels
 
 
@@ -7,7 +10,7 @@ def test_stacked_panels_share_their_time_and_only_the_lowest_has_its_numbers():
     figure, axes = stacked_panels([2.0, 0.8, 0.8])
     axes[0].set_xlim(0, 7)
     assert [one.get_xlim() for one in axes] == [(0, 7)] * 3
-    assert [one.xaxis.get_tick_params()["labelbottom"] for one in axes] == [False, False, True]
+    assert [one.xaxis.get_visible() for one in axes] == [False, False, True]
     heights = [one.get_position().height * figure.get_size_inches()[1] for one in axes]
     assert heights == pytest.approx([2.0, 0.8, 0.8])
 
@@ -44,3 +47,13 @@ def test_without_a_name_there_is_no_legend():
 def test_no_panel_is_refused(draw):
     with pytest.raises(ValueError, match="at least one"):
         draw()
+
+
+def test_an_upper_panel_borrows_the_upright_grid_of_the_lowest_one():
+    figure, (upper, lower) = stacked_panels([1.0, 1.0])
+    lower.set_xlim(0, 7)
+    [grid] = upper.artists
+    assert grid.lines().tolist() == [0, 1, 2, 3, 4, 5, 6, 7]
+    drawn = to_svg(figure, identity="panels", title="", description="")
+    assert any(path.count("M") == 8 for path in re.findall(r'd="([^"]*)"', drawn))
+    assert not upper.xaxis.get_visible()

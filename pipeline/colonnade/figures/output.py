@@ -33,12 +33,17 @@ _FONT = re.compile(r"font(-family)?:([^;]*?)'DejaVu Sans'[^;]*")
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure with its id in a page, its title, and what is seen in it, for those who do not see it."""
+    """
+    A figure with its id in a page, its title, and what is seen in it, for those who do not see it.
+
+    `note` is what its caption has to add, as that only a part is drawn.
+    """
 
     figure: Figure
     identity: str
     title: str
     description: str
+    note: str = ""
 
     @cached_property
     def svg(self) -> str:

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.axis import XAxis
+from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
+from matplotlib.path import Path
 
-from colonnade.figures.style import WIDTH
+from colonnade.arrays import Array
+from colonnade.figures.style import WIDTH, grid_line
 
 LEFT, RIGHT, TOP, BOTTOM, GAP = 0.92, 0.5, 0.34, 0.44, 0.14
 """Room for labels left and right, the legend above, the time axis below, and between panels; inches."""
@@ -92,12 +97,53 @@ def side_by_side(columns: int, heights: Sequence[float], *, title: float = 0.2) 
                 sharex=grid[0][0] if grid else panels[0] if panels else None,
                 sharey=grid[0][index] if grid else None,
             )
-            one.tick_params(labelbottom=index == len(heights) - 1, labelleft=place == 0)
+            one.tick_params(labelleft=place == 0)
             one.yaxis.set_label_coords(-LABEL / width, 0.5)
             panels.append(one)
             top -= height + GAP
+        for one in panels[:-1]:
+            borrow_grid(one, panels[-1])
         grid.append(panels)
     return figure, grid
+
+
+class _BorrowedGrid(Artist):
+    """Upright grid lines where another panel's horizontal axis has its ticks."""
+
+    def __init__(self, axis: XAxis) -> None:
+        super().__init__()
+        self._axis = axis
+        self._color, self._width = grid_line()
+        self.set_zorder(0.4)
+
+    def lines(self) -> Array:
+        """Return where the lines are now."""
+        low, high = sorted(self._axis.get_view_interval())
+        ticks = np.asarray(self._axis.get_majorticklocs(), dtype=float)
+        return ticks[(ticks >= low) & (ticks <= high)]
+
+    def draw(self, renderer: RendererBase) -> None:
+        """Draw all lines as one path."""
+        ticks = self.lines()
+        gc = renderer.new_gc()
+        gc.set_foreground(self._color)
+        gc.set_linewidth(float(np.asarray(renderer.points_to_pixels(self._width))))
+        vertices = np.column_stack((np.repeat(ticks, 2), np.tile((0.0, 1.0), ticks.size)))
+        codes = np.tile(np.array((Path.MOVETO, Path.LINETO), dtype=np.uint8), ticks.size)
+        renderer.draw_path(gc, Path(vertices, codes), self.get_transform())
+        gc.restore()
+
+
+def borrow_grid(panel: Axes, below: Axes) -> None:
+    """
+    Give a panel the upright grid lines of the one below it instead of an axis of its own.
+
+    An axis makes an artist for each tick, mark, line and label, hidden ones too: this halves the time of a panel.
+    """
+    panel.xaxis.set_visible(False)
+    grid = _BorrowedGrid(below.xaxis)
+    grid.set_transform(panel.get_xaxis_transform())
+    panel.add_artist(grid)
 
 
 def legend_above(figure: Figure, axes: Sequence[Axes]) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypedDict
 
 import matplotlib
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from colonnade.dynamics.models.registry import model_of
@@ -65,6 +66,12 @@ def _settings() -> Any:
         matplotlib.rc_file(STYLE_FILE, use_default_template=False)
         settings = matplotlib.rcParams.copy()
     return {name: settings[name] for name in settings if name != "backend"}
+
+
+def grid_line() -> tuple[str, float]:
+    """Return colour and width (points) of grid lines."""
+    settings = _settings()
+    return to_hex(settings["grid.color"]), float(settings["grid.linewidth"])
 
 
 def blank_figure(height: float) -> Figure:

@@ -1,3 +1,7 @@
+import numpy as np
+
+from colonnade.figures.curve import Curve
+from colonnade.figures.spans import SpanPanel
 from colonnade.figures.stored import record
 
 
@@ -28,3 +32,14 @@ def test_each_model_has_a_panel_of_its_spread(known):
     picture = record.bands(test, stored, block)
     assert len(picture.figure.axes) == 2
     assert "of its runs overturn." in picture.description
+
+
+def test_of_many_spans_some_are_drawn_and_the_caption_says_so():
+    curve = Curve(np.array([0.0, 1.0]), np.array([0.0, 0.1]))
+    panels = [SpanPanel(f"Span {k}", curve, {"linear": curve}, curve) for k in range(40)]
+    picture = record.spans("spans", "Spans", "", panels)
+    titles = [title for axes in picture.figure.axes if (title := axes.get_title(loc="left"))]
+    assert len(titles) == record.MOST_SPANS
+    assert (titles[0], titles[-1]) == ("Span 0", "Span 39")
+    assert picture.note.startswith("12 of 40 tests are drawn")
+    assert record.spans("spans", "Spans", "", panels[:12]).note == ""

@@ -91,10 +91,10 @@ def impact_restitution(
     for index, one in enumerate(series):
         _draw_impacts(axes, one, MARKS[index % len(MARKS)], named=1 < len(series) <= MOST_NAMED)
     if level is not None and np.isfinite(level.value):
-        _draw_level(axes, level)
+        draw_level(axes, level)
     axes.set_ylim(*_limits(series, level))
     if rigid is not None:
-        _draw_rigid(axes, rigid)
+        draw_rigid(axes, rigid)
     if not any(np.isfinite(one.restitution).any() for one in series):
         axes.text(0.5, 0.5, "no impacts", transform=axes.transAxes, ha="center", va="center")
     axes.yaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
@@ -127,13 +127,15 @@ def _draw_impacts(axes: Axes, impacts: ImpactSeries, mark: str, *, named: bool) 
             )
 
 
-def _draw_level(axes: Axes, level: Level) -> None:
+def draw_level(axes: Axes, level: Level) -> None:
+    """Draw a value of e over the whole panel, with its interval."""
     if np.isfinite(level.low) and np.isfinite(level.high):
         axes.axhspan(level.low, level.high, color=FIT["color"], alpha=0.18, linewidth=0, gid=f"{level.name}, interval")
     axes.axhline(level.value, label=level.name, **FIT)
 
 
-def _draw_rigid(axes: Axes, rigid: float) -> None:
+def draw_rigid(axes: Axes, rigid: float) -> None:
+    """Draw the rigid-body value if the axis reaches it, else write it at the edge."""
     low, high = axes.get_ylim()
     if low < rigid < high:
         axes.axhline(rigid, label="rigid body", **LIMIT)

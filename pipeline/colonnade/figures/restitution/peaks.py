@@ -96,7 +96,7 @@ def peak_decay(series: Sequence[PeakSeries], block: Block, *, axes: Sequence[Axe
     for one in axes:
         if lowest < 1.0:
             one.set_ylim(bottom=max(one.get_ylim()[0], lowest))
-        _label_energies(one)
+        label_energies(one)
     if own:
         legend_outside(figure, axes)
     return figure
@@ -152,7 +152,7 @@ def _lowest(peaks: PeakSeries, block: Block) -> float:
     return BELOW * float(released_energy(size[known], critical[known]).min()) if known.any() else 1.0
 
 
-def _label_energies(axes: Axes) -> None:
+def label_energies(axes: Axes) -> None:
     """Label 1, 2 and 5 of each decade where few decades are shown, so that at least two labels stand at any scale."""
     lowest, highest = axes.get_ylim()
     axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if highest < 1e3 * lowest else (1.0,), numticks=12))

@@ -37,6 +37,9 @@ BASE = (
 )
 """Motions of the base, likewise."""
 
+MOST_SPANS = 12
+"""Earthquake tests that are drawn side by side."""
+
 SHADED = "nonlinear"
 """The model whose band is shaded on the overlay, if there are several."""
 
@@ -87,8 +90,12 @@ def span_panel(test: Test, stored: Stored, block: Block) -> SpanPanel:
 
 
 def spans(identity: str, title: str, description: str, panels: Sequence[SpanPanel]) -> Picture:
-    """Draw earthquake tests of one motion side by side, in the order given."""
-    return Picture(spans_side_by_side(panels), identity, title, description)
+    """Draw earthquake tests of one motion side by side, in the order given; of many, some that are spread evenly."""
+    if len(panels) <= MOST_SPANS:
+        return Picture(spans_side_by_side(panels), identity, title, description)
+    chosen = [panels[index] for index in np.linspace(0, len(panels) - 1, MOST_SPANS).round().astype(int)]
+    note = f"{MOST_SPANS} of {len(panels)} tests are drawn, spread evenly; each is drawn whole on its own page."
+    return Picture(spans_side_by_side(chosen), identity, title, description, note)
 
 
 def seen(record: TestSummary, stored: Stored) -> str:
