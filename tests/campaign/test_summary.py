@@ -25,7 +25,9 @@ CONTRACT = """
 
 LATER = {
     "specimen": ["prototype"],
-    "prediction": ["order", "horizon", "within_spread", "peak_rank", "overturning_probability"],
+    "prediction": [
+        "order", "horizon", "within_spread", "peak_low", "peak_high", "peak_rank", "overturning_probability",
+    ],
     "test": [
         "duration", "peak_slide", "release_ratio", "frequency", "order_reason", "impacts_per_cycle", "restitution",
         "prototype", "date", "operator",

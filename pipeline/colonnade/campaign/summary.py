@@ -99,6 +99,10 @@ class PredictionSummary(_Record):
     within_spread: Known = None
     """Rank of the measured angle: share of the model's runs that are closer to their median, by their largest scaled
     distance up to the horizon. Within the model's own spread: at most 0.95."""
+    peak_low: Known = None
+    """Lower end of the band that holds the peaks of 95 % of the model's runs, as max |θ| / α."""
+    peak_high: Known = None
+    """Its upper end; null where more than 2.5 % of the runs overturn."""
     peak_rank: Known = None
     """Share of the model's runs whose peak is below the measured one."""
     overturning_probability: Known = None

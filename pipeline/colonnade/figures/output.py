@@ -25,6 +25,9 @@ NAMESPACE = "http://www.w3.org/2000/svg"
 LINK = "{http://www.w3.org/1999/xlink}href"
 FONTS = "'DejaVu Sans', Verdana, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 
+_TEST = "test:"
+"""Begins the address of a test in a figure."""
+
 _IDENTITY = re.compile(r"[A-Za-z][A-Za-z0-9._-]*")
 _REFERENCE = re.compile(r"url\(#([^)]+)\)")
 _BEYOND_HUNDREDTHS = re.compile(r"(?<=\.\d\d)\d+")
@@ -49,6 +52,11 @@ class Picture:
     def svg(self) -> str:
         """The `<svg>` element, written once: a second layout of the same figure would move it by a hair."""
         return to_svg(self.figure, identity=self.identity, title=self.title, description=self.description)
+
+
+def link_to(test: str) -> str:
+    """Return the address by which a mark of a figure leads to a test; pages know where that is."""
+    return f"{_TEST}{test}"
 
 
 def to_png(figure: Figure, *, dpi: int = 150) -> bytes:
@@ -110,7 +118,7 @@ def to_svg(figure: Figure, *, identity: str, title: str, description: str) -> st
     _drop(root, {f"{{{NAMESPACE}}}metadata", f"{{{NAMESPACE}}}style"})
     _rename(root, identity)
     _shorten(root)
-    _describe(root, identity, title, description)
+    _describe(root, identity, title, description, role="group" if _name_links(root) else "img")
     ElementTree.register_namespace("", NAMESPACE)
     return ElementTree.tostring(root, encoding="unicode")
 
@@ -159,12 +167,25 @@ def _shorten(root: ElementTree.Element) -> None:
         element.tail = None
 
 
-def _describe(root: ElementTree.Element, identity: str, title: str, description: str) -> None:
+def _name_links(root: ElementTree.Element) -> bool:
+    """Give each link the id of its test as name; return whether there is any."""
+    links = [element for element in root.iter(f"{{{NAMESPACE}}}a") if element.get("href", "").startswith(_TEST)]
+    for element in links:
+        name = element.attrib["href"].removeprefix(_TEST)
+        element.attrib.pop("target", None)
+        element.set("aria-label", name)
+        title = ElementTree.Element(f"{{{NAMESPACE}}}title")
+        title.text = name
+        element.insert(0, title)
+    return bool(links)
+
+
+def _describe(root: ElementTree.Element, identity: str, title: str, description: str, *, role: str) -> None:
     for name in ("width", "height", "version"):
         root.attrib.pop(name, None)
     root.attrib |= {
         "id": identity,
-        "role": "img",
+        "role": role,
         "aria-labelledby": f"{identity}-title {identity}-description",
         "stroke-linejoin": "round",
         "stroke-linecap": "butt",

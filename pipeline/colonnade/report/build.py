@@ -15,9 +15,12 @@ from colonnade.identification.response.rank import WITHIN
 from colonnade.identification.restitution.choice import RULE
 from colonnade.identification.restitution.estimators.registry import ESTIMATORS
 from colonnade.interruption import expect_none
-from colonnade.report import addresses, methods, overview, pages, problems, specimens_page
+from colonnade.report import addresses, methods, pages, problems, specimens_page
 from colonnade.report.agreement import agreement
 from colonnade.report.methods import Used
+from colonnade.report.overview_page import groups, maps, peaks, spans
+from colonnade.report.overview_page.attention import attention
+from colonnade.report.overview_page.confusion import confusions
 from colonnade.report.parts import Asked, Part, parts_of
 from colonnade.report.references import REFERENCES
 from colonnade.report.rows import TestRow
@@ -108,7 +111,7 @@ def render(
     used = Used()
     for part in tests:
         used.add(part.used)
-    groups, maps = overview.by_specimen(campaign, rows), overview.measured_maps(campaign, rows)
+    grouped, mapped = groups.by_specimen(campaign, rows), maps.measured_maps(campaign, rows)
     specimens = []
     for name in campaign.specimens:
         pooled = read_specimen(campaign, layout, name)
@@ -121,24 +124,30 @@ def render(
                 "specimen",
                 addresses.of_specimen(name),
                 specimen=specimens[-1],
-                groups=[group for group in groups if group.specimen == name],
-                maps=[drawn for drawn in maps if drawn.specimen == name],
+                groups=[group for group in grouped if group.specimen == name],
+                maps=[drawn for drawn in mapped if drawn.specimen == name],
             ),
             "",
         )
-    shown = _shown(campaign, tests, specimens, used) | {"groups": groups, "maps": maps}
+    shown = _shown(campaign, tests, specimens, used) | {"groups": grouped, "maps": mapped}
     for template, address in addresses.WHOLE.items():
         yield address, renderer.page(template, address, **shown), ""
 
 
 def _shown(campaign: Campaign, tests: list[Part], specimens: list[SpecimenPage], used: Used) -> dict[str, Any]:
     """Give what the pages about the whole campaign show."""
-    rows = [part.row for part in tests]
+    rows, models = [part.row for part in tests], campaign.processing.predict.models
+    findings, mistaken, worst = _warnings(rows, specimens), confusions(rows, models), peaks.worst(rows, models)
     return {
         "tests": rows,
         "specimens": specimens,
-        "warnings": _warnings(rows, specimens),
-        "spans": overview.span_groups([part.span for part in tests if part.span is not None]),
+        "warnings": findings,
+        "attention": attention(rows, models, findings, mistaken),
+        "confusions": mistaken,
+        "worst": worst,
+        "peaks": peaks.picture(peaks.points(rows, models, worst)),
+        "thumbnails": {part.row.id: part.thumbnail for part in tests},
+        "spans": spans.span_groups([part.span for part in tests if part.span is not None]),
         "agreement": agreement({row.id: row.record.model_dump() for row in rows}),
         "channels": {part.row.id: part.channels for part in tests},
         "used": used,

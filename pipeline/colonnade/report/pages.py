@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -10,6 +11,7 @@ from colonnade import __version__
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import Setting
 from colonnade.dynamics.models.registry import MODELS
+from colonnade.figures.output import link_to
 from colonnade.report.addresses import of_specimen, of_test
 from colonnade.store.records import wording
 
@@ -23,6 +25,11 @@ KINDS = {
     "other": "Other tests",
 }
 """Kinds of test in words, in the order in which they stand."""
+
+_SECTION = re.compile(r'<section id="([\w-]+)">\s*<h2>(.*?)</h2>', re.DOTALL)
+
+_MARK = re.compile(f'href="{link_to("")}([^"]+)"')
+"""Link of a mark in a figure to a test."""
 
 
 class Renderer:
@@ -51,6 +58,7 @@ class Renderer:
             "listed": wording.listed,
             "test_page": of_test,
             "specimen_page": of_specimen,
+            "sections": _sections,
         }
         self._environment.filters |= {
             "setting": _setting,
@@ -64,7 +72,13 @@ class Renderer:
     def page(self, template: str, address: str, **given: Any) -> str:
         """Return the page that stands at an address within the report's folder."""
         root = "../" * address.count("/")
-        return self._environment.get_template(f"{template}.html.jinja").render(here=address, root=root, **given)
+        text = self._environment.get_template(f"{template}.html.jinja").render(here=address, root=root, **given)
+        return _MARK.sub(lambda found: f'href="{root}{of_test(found[1])}"', text)
+
+
+def _sections(body: str) -> list[tuple[str, str]]:
+    """Find the sections of a page for its table of contents: id and title, as its templates wrote them."""
+    return _SECTION.findall(body)
 
 
 def _setting(setting: Setting) -> str:

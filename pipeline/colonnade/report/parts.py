@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from colonnade.campaign import Campaign
 from colonnade.campaign.summary import TestSummary
 from colonnade.figures.stored import record
+from colonnade.figures.stored.curves import measured_ratio
 from colonnade.report import addresses, channels, pages, specimens_page, tests_page
 from colonnade.report.channels import ChannelRow
 from colonnade.report.methods import Used
-from colonnade.report.overview import SpanTest
+from colonnade.report.overview_page import thumbnails
+from colonnade.report.overview_page.spans import SpanTest
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import FreeVibration
 from colonnade.store import stamps
@@ -40,6 +42,8 @@ class Part:
     ----------
     row : TestRow
     channels : tuple of ChannelRow
+    thumbnail : str
+        Its measured rocking angle as a polyline.
     span : SpanTest or None
         Of an earthquake test with a Span.
     free_vibration : FreeVibration or None
@@ -53,6 +57,7 @@ class Part:
 
     row: TestRow
     channels: tuple[ChannelRow, ...]
+    thumbnail: str
     span: SpanTest | None
     free_vibration: FreeVibration | None
     used: Used
@@ -94,7 +99,8 @@ def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: st
     if not made_from or made_from != stamps.key_of(layout.report.parent / address):
         page = tests_page.of_test(campaign, row, stored)
         text = renderer.page("test", address, test=page, before=asked.before, after=asked.after)
-    return Part(row, channels.of_test(stored), span, free_vibration, used, text, made_from)
+    thumbnail = thumbnails.polyline(measured_ratio(stored, block))
+    return Part(row, channels.of_test(stored), thumbnail, span, free_vibration, used, text, made_from)
 
 
 def _recipe(

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import nan
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.summary import PredictionSummary, TestSummary
+from colonnade.findings import Severity
+from colonnade.identification.response.rank import is_within
 from colonnade.store.records.stored import Failure, Stored
 from colonnade.store.records.wording import agree
 
@@ -67,6 +70,12 @@ class TestRow:
         return bool(self.record.outcome or any(self.predicted(model).outcome for model in self.models))
 
     @property
+    def severities(self) -> list[tuple[str, int]]:
+        """How many findings it has of each severity, the worst first; those that it has none of are left out."""
+        found = [finding.severity for finding in self.record.warnings]
+        return [(severity, found.count(severity)) for severity in Severity if severity in found]
+
+    @property
     def differing(self) -> list[str]:
         """Models whose outcome is not the measured (or observed) one."""
         return [model for model in self.models if self.agrees(model) is False]
@@ -78,3 +87,9 @@ class TestRow:
     def agrees(self, model: str) -> bool | None:
         """Return whether a model's outcome is the measured (or observed) one, None if either is not known."""
         return agree(self.outcome, self.predicted(model).outcome or "")
+
+    def verdict(self, model: str) -> str:
+        """Return whether the measured angle is "within" or "outside" a model's own spread, empty if not judged."""
+        rank = self.predicted(model).within_spread
+        within = is_within(nan if rank is None else rank)
+        return "" if within is None else "within" if within else "outside"

@@ -11,7 +11,7 @@ DESK, TELEPHONE = (1200, 900), (380, 700)
 OUTSIDE = """() => [...document.querySelectorAll('body *')].filter(element =>
   !element.closest('.scroll') && element.getBoundingClientRect().right > document.documentElement.clientWidth + 1
 ).map(element => element.outerHTML.slice(0, 200))"""
-ADDRESSES = "() => [...document.querySelectorAll('a[href]')].map(link => link.href)"
+ADDRESSES = "() => [...document.querySelectorAll('a[href]')].map(a => new URL(a.getAttribute('href'), a.baseURI).href)"
 SERIOUS = ("serious", "critical")
 KINDS = (
     *("index.html", "quality.html", "problems.html", "methods.html", "specimens/prism.html"),

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
+from colonnade.figures.output import link_to
 from colonnade.figures.style import LIMIT, MEASURED, SOFT, blank_figure, styled
 from colonnade.identification.response.boundaries import Boundaries, Bracket, MapPoint, bracket_boundaries
 
@@ -32,7 +33,7 @@ LOGARITHMIC = 6.0
 
 
 @styled()
-def measured_map(points: Sequence[MapPoint], *, axes: Axes | None = None) -> Figure:
+def measured_map(points: Sequence[MapPoint], *, linked: bool = False, axes: Axes | None = None) -> Figure:
     """
     Draw the measured map of a specimen.
 
@@ -40,6 +41,8 @@ def measured_map(points: Sequence[MapPoint], *, axes: Axes | None = None) -> Fig
     ----------
     points : sequence of MapPoint
         Its sine tests.
+    linked : bool, optional
+        Whether each mark leads to its test, see `output.link_to`.
     axes : Axes, optional
         To draw into; a new figure with its legend otherwise.
 
@@ -65,19 +68,23 @@ def measured_map(points: Sequence[MapPoint], *, axes: Axes | None = None) -> Fig
     _draw_scale(axes, points)
     for name, label, colour in BOUNDARIES:
         _draw_boundary(axes, bracket_boundaries(points), name, label, colour)
-    draw_points(axes, points)
+    draw_points(axes, points, linked=linked)
     figure = cast(Figure, axes.get_figure(root=True))
     if own:
         figure.legend(loc="outside upper left", ncols=5, columnspacing=1.2, handletextpad=0.5, borderaxespad=0.2)
     return figure
 
 
-def draw_points(axes: Axes, points: Sequence[MapPoint], *, prefix: str = "") -> None:
-    """Draw sine tests by outcome, those with a sub-harmonic response with its order; `prefix` begins their labels."""
+def draw_points(axes: Axes, points: Sequence[MapPoint], *, prefix: str = "", linked: bool = False) -> None:
+    """
+    Draw sine tests by outcome, those with a sub-harmonic response with its order.
+
+    `prefix` begins their labels; if `linked`, each leads to its test.
+    """
     for outcome, look in MARKERS.items():
         chosen = [point for point in points if point.outcome == outcome]
         if chosen:
-            axes.scatter(
+            places = axes.scatter(
                 [point.frequency_ratio for point in chosen],
                 [point.amplitude_ratio for point in chosen],
                 s=26,
@@ -86,6 +93,8 @@ def draw_points(axes: Axes, points: Sequence[MapPoint], *, prefix: str = "") -> 
                 zorder=4,
                 **look,
             )
+            if linked:
+                places.set_urls([link_to(point.test) for point in chosen])
     for point in points:
         if isinstance(point.order, int) and point.order > 1:
             axes.annotate(

@@ -23,7 +23,11 @@ SHADE = LinearSegmentedColormap.from_list("overturning", ["#ffffff", OVERTURNED_
 
 @styled()
 def stability_map(
-    charts: StabilityMap | Sequence[StabilityMap], points: Sequence[MapPoint] = (), *, axes: Axes | None = None
+    charts: StabilityMap | Sequence[StabilityMap],
+    points: Sequence[MapPoint] = (),
+    *,
+    linked: bool = False,
+    axes: Axes | None = None,
 ) -> Figure:
     """
     Draw a stability map.
@@ -35,6 +39,8 @@ def stability_map(
         the limits are drawn.
     points : sequence of MapPoint, optional
         Measured sine tests.
+    linked : bool, optional
+        Whether each of them leads to its test, see `output.link_to`.
     axes : Axes, optional
         To draw into; a new figure with its legend and with the options of the first map otherwise.
 
@@ -75,7 +81,7 @@ def stability_map(
     )
     for chart in charts:
         _limits(axes, chart)
-    draw_points(axes, points, prefix="measured: ")
+    draw_points(axes, points, prefix="measured: ", linked=linked)
     figure = cast(Figure, axes.get_figure(root=True))
     if own:
         axes.set_title(_words(charts), fontsize=8, color=SOFT)

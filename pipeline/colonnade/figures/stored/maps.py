@@ -19,7 +19,7 @@ def tested(identity: str, points: Sequence[MapPoint]) -> Picture:
     outcomes = [point.outcome for point in points]
     described = ", ".join(f"{outcomes.count(outcome)} {outcome}" for outcome in dict.fromkeys(outcomes))
     return Picture(
-        measured_map(points),
+        measured_map(points, linked=True),
         identity,
         "Sine tests by outcome over frequency ratio Ω and amplitude ratio A",
         f"{len(points)} tests: {described}.",

@@ -20,6 +20,7 @@ from colonnade.campaign.summary import (
 )
 from colonnade.dynamics.similitude import at_prototype
 from colonnade.findings import in_order
+from colonnade.identification.response.rank import BAND
 from colonnade.store.records.stored import FOREIGN, Stored
 
 COMPARED = ("nrmse", "horizon", "within_spread", "peak_rank", "overturning_probability")
@@ -134,12 +135,24 @@ def _sine(test: Test, stored: Stored) -> dict[str, Any]:
 
 
 def _predicted(stored: Stored, model: str) -> PredictionSummary:
+    low, high = _peak_band(stored, model)
     return PredictionSummary(
         outcome=cast(Outcome, stored.text("predict", "outcome", model)),
         peak_ratio=stored.value("predict", "peak_ratio", model),
+        peak_low=low,
+        peak_high=high,
         order=_order(stored.by("model", "compare", "predicted_response_order").get(model, "")),
         **{name: stored.compared(name, model) for name in COMPARED},
     )
+
+
+def _peak_band(stored: Stored, model: str) -> tuple[float, float]:
+    """Return the band that holds the peaks of 95 % of a model's runs; NaN where it ends with runs that overturn."""
+    peaks = stored.array("ensemble", "member_peak_ratio", model)
+    if not peaks.size:
+        return nan, nan
+    low, _, high = np.quantile(np.where(np.isfinite(peaks), peaks, np.inf), BAND, method="inverted_cdf")
+    return float(low) if np.isfinite(low) else nan, float(high) if np.isfinite(high) else nan
 
 
 def _order(text: str) -> Order:

@@ -1,0 +1,152 @@
+"""Predicted over measured peaks: how far each model agrees with all tests that rocked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
+
+from colonnade.figures.output import link_to
+from colonnade.figures.style import INK, LIMIT, WIDTH, model_style, styled
+
+LEAST_SPAN = 0.1, 1.0
+"""Of both axes, at least."""
+
+ROOM = 1.25
+"""Factor by which the axes reach beyond the points; predictions outside, and overturning, are marked at the edge."""
+
+
+class PeakPoint(NamedTuple):
+    """
+    One prediction of a test that rocked.
+
+    Attributes
+    ----------
+    measured : float
+        max |θ|/α.
+    predicted : float or None
+        None if the model overturns.
+    low, high : float or None
+        Ends of the band that holds 95 % of the model's runs; None where it is not known. Of a band that ends with
+        runs that overturn, only `low` is known.
+    test : str
+        Id of the test that its mark leads to.
+    number : int or None
+        Under which the test is named.
+    """
+
+    measured: float
+    predicted: float | None
+    low: float | None
+    high: float | None
+    test: str
+    number: int | None = None
+
+
+@styled()
+def predicted_over_measured(points: Mapping[str, Sequence[PeakPoint]]) -> Figure:
+    """
+    Draw predicted against measured peaks on logarithmic axes, a panel a model, with the line of equal peaks.
+
+    Parameters
+    ----------
+    points : mapping of str to sequence of PeakPoint
+        By model.
+
+    Returns
+    -------
+    figure : Figure
+
+    Raises
+    ------
+    ValueError
+        If there is no point.
+
+    Notes
+    -----
+    Bars are the bands of the model's runs. A triangle at the upper edge is a test that the model overturns, one at the
+    lower edge a prediction too small for the axis.
+    """
+    drawn = {model: own for model, own in points.items() if own}
+    if not drawn:
+        raise ValueError("no prediction was given; at least one point was expected")
+    limits = _limits([point for own in drawn.values() for point in own])
+    side = min(WIDTH / max(len(drawn), 2), 3.4)
+    figure = Figure(figsize=(WIDTH, side + 0.2), layout="constrained")
+    panels = figure.subplots(1, max(len(drawn), 2), sharex=True, sharey=True, squeeze=False)[0]
+    for axes in panels[len(drawn) :]:
+        axes.remove()
+    for axes, (model, own) in zip(panels, drawn.items(), strict=False):
+        _scale(axes, limits)
+        _draw(axes, model, own, limits)
+        axes.set_title(f"{model} model")
+        axes.set_xlabel("measured max |θ|/α")
+    panels[0].set_ylabel("predicted max |θ|/α")
+    return figure
+
+
+def _limits(points: Sequence[PeakPoint]) -> tuple[float, float]:
+    """Range of the measured peaks, widened to those predicted within a factor of ten."""
+    measured = np.array([point.measured for point in points])
+    low, high = min(float(measured.min()), LEAST_SPAN[0]), max(float(measured.max()), LEAST_SPAN[1])
+    near = [point.predicted for point in points if point.predicted and low / 10 <= point.predicted <= 10 * high]
+    return min([low, *near]) / ROOM, max([high, *near]) * ROOM
+
+
+def _scale(axes: Axes, limits: tuple[float, float]) -> None:
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlim(*limits)
+    axes.set_ylim(*limits)
+    axes.set_box_aspect(1)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if limits[1] < 100 * limits[0] else (1.0,)))
+        axis.set_minor_locator(NullLocator())
+        axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.plot(limits, limits, **LIMIT)
+
+
+def _draw(axes: Axes, model: str, points: Sequence[PeakPoint], limits: tuple[float, float]) -> None:
+    low, high = limits
+    color = model_style(model)["color"]
+    bars = [point for point in points if point.low is not None]
+    if bars:
+        # One line with gaps: a bar each would make a page of a thousand tests heavy.
+        across = np.array([[point.measured, point.measured, np.nan] for point in bars]).ravel()
+        ends = [[max(point.low or low, low), point.high or high, np.nan] for point in bars]
+        axes.plot(across, np.array(ends).ravel(), color=color, linewidth=0.8, alpha=0.45, zorder=2)
+    marked: dict[str, list[tuple[PeakPoint, float]]] = {"o": [], "^": [], "v": []}
+    for point in points:
+        if point.predicted is None or point.predicted > high:
+            marked["^"].append((point, high / 1.06))
+        elif point.predicted < low:
+            marked["v"].append((point, low * 1.06))
+        else:
+            marked["o"].append((point, point.predicted))
+    for marker, own in marked.items():
+        if own:
+            places = axes.scatter(
+                [point.measured for point, _ in own],
+                [height for _, height in own],
+                s=14 if marker == "o" else 26,
+                marker=marker,
+                facecolors="white",
+                edgecolors=color,
+                linewidths=0.9,
+                zorder=3,
+            )
+            places.set_urls([link_to(point.test) for point, _ in own])
+    for point, height in (each for own in marked.values() for each in own):
+        if point.number is not None:
+            axes.annotate(
+                str(point.number),
+                (point.measured, height),
+                xytext=(4, 2 if height < high / 1.2 else -8),
+                textcoords="offset points",
+                fontsize=7,
+                color=INK,
+            )

@@ -1,0 +1,61 @@
+"""What needs a look before anything else: failures, serious findings, missed outcomes, warnings, misfits outside."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from colonnade.findings import Severity
+from colonnade.report.overview_page.confusion import Cell, Confusion
+from colonnade.report.problems import WarningGroup
+from colonnade.report.rows import TestRow
+
+
+@dataclass(frozen=True)
+class Attention:
+    """
+    What needs a look, the most urgent first.
+
+    Attributes
+    ----------
+    failed : list of TestRow
+    serious : list of WarningGroup
+        Findings that make results wrong; what follows from another one is not among them.
+    missed : list of (str, Cell)
+        Model, and tests whose outcome it misses.
+    warnings : list of WarningGroup
+    outside : list of (str, list of str)
+        Model, and tests whose measured angle is outside its own spread.
+    explained, notes : int
+        Findings that follow from another one, and notes; they are counted only.
+    """
+
+    failed: list[TestRow]
+    serious: list[WarningGroup]
+    missed: list[tuple[str, Cell]]
+    warnings: list[WarningGroup]
+    outside: list[tuple[str, list[str]]]
+    explained: int
+    notes: int
+
+    @property
+    def is_needed(self) -> bool:
+        """Whether there is anything to look at."""
+        return bool(self.failed or self.serious or self.missed or self.warnings or self.outside)
+
+
+def attention(
+    tests: Sequence[TestRow], models: Sequence[str], groups: Sequence[WarningGroup], confusions: Sequence[Confusion]
+) -> Attention:
+    """Gather what needs a look; `groups` are the findings of all tests and specimens, the worst first."""
+    causes = [group for group in groups if not group.first.explained]
+    outside = [(model, [row.id for row in tests if row.verdict(model) == "outside"]) for model in models]
+    return Attention(
+        failed=[row for row in tests if row.record.status == "failed"],
+        serious=[group for group in causes if group.first.severity == Severity.SERIOUS],
+        missed=[(each.model, cell) for each in confusions for cell in each.wrong],
+        warnings=[group for group in causes if group.first.severity == Severity.WARNING],
+        outside=[(model, names) for model, names in outside if names],
+        explained=len(groups) - len(causes),
+        notes=sum(group.first.severity == Severity.NOTE for group in causes),
+    )

@@ -1,0 +1,93 @@
+// Filters and sorts the table of all tests. Without it the whole table stands.
+(function () {
+  "use strict";
+  const form = document.getElementById("filter");
+  const table = document.getElementById("tests-table");
+  if (!form || !table) return;
+  const body = table.tBodies[0];
+  const heads = Array.from(table.querySelectorAll("th[data-column]"));
+  const shown = form.querySelector("output");
+
+  // Place of each named column in a row: the picture, which has no name, is behind the first four.
+  const place = {};
+  const inOrder = ["test", "specimen", "kind", "status", "", "pga", "outcome", "peak"]
+    .concat(heads.slice(7).map(function (head) { return head.dataset.column; }));
+  inOrder.forEach(function (name, index) { place[name] = index; });
+
+  const rows = Array.from(body.rows, function (row) {
+    const cells = Array.from(row.cells, function (cell) { return cell.textContent.replace(/\s+/g, " ").trim(); });
+    return { row: row, cells: cells, words: cells.join(" ").toLowerCase() };
+  });
+
+  function fits(cell, wanted, name) {
+    if (name === "outcome") return cell.replace(/^– observed: /, "").split(" ")[0] === wanted;
+    if (name === "status") return cell.includes(wanted);
+    return cell.split(" ")[0] === wanted;
+  }
+
+  function filter() {
+    const wanted = Array.from(form.querySelectorAll("select"), function (select) { return [select.name, select.value]; })
+      .filter(function (pair) { return pair[1]; });
+    const words = form.elements.words.value.toLowerCase().split(/\s+/).filter(Boolean);
+    let count = 0;
+    rows.forEach(function (each) {
+      const stays = wanted.every(function (pair) { return fits(each.cells[place[pair[0]]], pair[1], pair[0]); })
+        && words.every(function (word) { return each.words.includes(word); });
+      if (each.row.hidden === stays) each.row.hidden = !stays;
+      count += stays;
+    });
+    shown.textContent = count + " of " + rows.length + " tests";
+  }
+
+  function value(text) {
+    const number = parseFloat(text);
+    return Number.isNaN(number) ? text : number;
+  }
+
+  function sort(head) {
+    const index = place[head.dataset.column];
+    const down = head.getAttribute("aria-sort") === "ascending";
+    heads.forEach(function (other) { other.removeAttribute("aria-sort"); });
+    head.setAttribute("aria-sort", down ? "descending" : "ascending");
+    const isNumber = head.classList.contains("number");
+    const names = new Intl.Collator(undefined, { numeric: true });
+    const keyed = rows.map(function (each) {
+      const text = each.cells[index];
+      return { each: each, key: isNumber ? value(text) : text, missing: text === "–" || text === "" };
+    });
+    keyed.sort(function (one, other) {
+      if (one.missing || other.missing) return one.missing - other.missing;
+      const order = isNumber ? one.key - other.key : names.compare(one.key, other.key);
+      return down ? -order : order;
+    });
+    const all = document.createDocumentFragment();
+    keyed.forEach(function (entry) { all.append(entry.each.row); });
+    body.append(all);
+  }
+
+  heads.forEach(function (head) {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.append.apply(button, Array.from(head.childNodes));
+    button.addEventListener("click", function () { sort(head); });
+    head.append(button);
+  });
+
+  form.addEventListener("input", filter);
+  form.addEventListener("submit", function (event) { event.preventDefault(); });
+  form.addEventListener("reset", function () { setTimeout(filter); });
+  document.addEventListener("click", function (event) {
+    const link = event.target.closest("a[data-filter]");
+    if (!link) return;
+    event.preventDefault();
+    form.reset();
+    new URLSearchParams(link.dataset.filter).forEach(function (wanted, name) {
+      if (form.elements[name]) form.elements[name].value = wanted;
+    });
+    filter();
+    document.getElementById("tests").scrollIntoView();
+    (form.querySelector("select") || form.elements.words).focus({ preventScroll: true });
+  });
+  window.addEventListener("pageshow", filter);
+  form.hidden = false;
+})();

@@ -1,0 +1,60 @@
+import numpy as np
+import pytest
+
+from colonnade.figures.agreement import PeakPoint, predicted_over_measured
+from colonnade.figures.output import to_svg
+
+
+def point(measured, predicted, low=None, high=None, number=None, test="a"):
+    return PeakPoint(measured, predicted, low, high, test, number)
+
+
+def panel(*points):
+    return predicted_over_measured({"linear": points}).axes[0]
+
+
+def test_each_model_has_a_panel_with_the_same_logarithmic_axes():
+    figure = predicted_over_measured({"linear": [point(0.2, 0.3)], "nonlinear": [point(0.02, 0.02)]})
+    one, other = figure.axes
+    assert (one.get_title(loc="left"), other.get_title(loc="left")) == ("linear model", "nonlinear model")
+    assert one.get_xlim() == one.get_ylim() == other.get_xlim() == other.get_ylim()
+    assert one.get_xscale() == one.get_yscale() == "log"
+    assert one.get_xlim()[0] < 0.02
+
+
+def test_marks_are_at_measured_and_predicted():
+    (marks,) = panel(point(0.2, 0.3), point(0.5, 0.4)).collections
+    assert np.asarray(marks.get_offsets()).tolist() == [[0.2, 0.3], [0.5, 0.4]]
+
+
+def test_what_has_no_place_on_the_axis_is_marked_at_its_edge():
+    axes = panel(point(0.2, 0.3), point(0.3, None), point(0.4, 1e-9))
+    low, high = axes.get_ylim()
+    heights = [float(np.asarray(marks.get_offsets())[0, 1]) for marks in axes.collections]
+    assert heights[0] == 0.3
+    assert 0.9 * high < heights[1] < high
+    assert low < heights[2] < 1.1 * low
+
+
+def test_a_band_that_ends_with_overturning_reaches_the_upper_edge():
+    axes = panel(point(0.2, 0.3, 0.25, 0.4), point(0.5, 0.6, 0.45, None))
+    bars = np.asarray(axes.lines[1].get_ydata())
+    assert bars[:2].tolist() == [0.25, 0.4]
+    assert bars[3:5].tolist() == [0.45, axes.get_ylim()[1]]
+
+
+def test_named_tests_carry_their_number():
+    assert [text.get_text() for text in panel(point(0.2, 0.3, number=7), point(0.4, 0.4)).texts] == ["7"]
+
+
+def test_every_mark_leads_to_its_test():
+    figure = predicted_over_measured(
+        {"linear": [point(0.2, 0.3, test="a"), point(0.4, 0.4, test="b"), point(0.3, None, test="c")]}
+    )
+    svg = to_svg(figure, identity="peaks", title="t", description="d")
+    assert [f'href="test:{name}"' in svg for name in "abc"] == [True] * 3
+
+
+def test_nothing_to_draw_is_refused():
+    with pytest.raises(ValueError, match="at least one point"):
+        predicted_over_measured({"linear": []})

@@ -1,0 +1,39 @@
+"""Rows of the table of all tests: those of the small campaign, and others of the same test with another record."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from colonnade.campaign.summary import PredictionSummary, TestSummary
+from colonnade.report.rows import TestRow
+
+
+@pytest.fixture
+def rows(reported) -> list[TestRow]:
+    return [row for row, _ in reported.values()]
+
+
+@pytest.fixture
+def row_of(reported) -> Callable[..., TestRow]:
+    """Make a row: `row_of("a", "rocking", 0.4, linear=("rocking", 0.5))`; other keywords go into its record."""
+    given = reported["span-2.0"][0]
+
+    def make(name: str, outcome: str | None, peak: float | None = None, **more: Any) -> TestRow:
+        predicted = {
+            model: PredictionSummary(outcome=said[0], peak_ratio=said[1], **(said[2] if len(said) > 2 else {}))
+            for model in ("linear", "nonlinear")
+            if (said := more.pop(model, None))
+        }
+        record = TestSummary(
+            **{"status": "done", "kind": "earthquake", "specimen": "prism"} | more,
+            outcome=outcome,
+            peak_ratio=peak,
+            predicted=predicted,
+        )
+        return replace(given, test=given.test.model_copy(update={"id": name}), record=record, failures=())
+
+    return make
