@@ -10,6 +10,7 @@ from math import isfinite, nan
 from typing import Any
 
 from colonnade import __version__
+from colonnade.dynamics.models.registry import MODELS
 from colonnade.store.records import wording
 from colonnade.store.records.stored import Stored
 
@@ -19,6 +20,7 @@ LIBRARIES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "pandas", "matplotl
 _LONGEST = 6
 
 _ANY_ENSEMBLE = "any ensemble"
+_ENSEMBLE_IN_SPACE = "ensemble in space"
 
 _STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
     "spike threshold": ("ingest", "settings.spike_threshold", "{:g} robust standard deviations"),
@@ -49,10 +51,10 @@ _STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
     "horizon": (_ANY_ENSEMBLE, "measurement.settings.horizon", "{:g} α"),
     "deviation of zero": (_ANY_ENSEMBLE, "measurement.settings.angle_zero", "{:g} α"),
     "deviation of angle gain": (_ANY_ENSEMBLE, "measurement.settings.angle_gain", "{:.1%}"),
-    "runs in space": ("ensemble contact", "settings.members", "{:d}"),
-    "range of friction": ("ensemble contact", "settings.friction", "± {:.0%}"),
-    "range of damping": ("ensemble contact", "settings.damping_fraction", "± {:.0%}"),
-    "range of rotation": ("ensemble contact", "settings.out_of_plane", "± {:g} rad"),
+    "runs in space": (_ENSEMBLE_IN_SPACE, "settings.members", "{:d}"),
+    "range of friction": (_ENSEMBLE_IN_SPACE, "settings.friction", "± {:.0%}"),
+    "range of damping": (_ENSEMBLE_IN_SPACE, "settings.damping_fraction", "± {:.0%}"),
+    "range of rotation": (_ENSEMBLE_IN_SPACE, "settings.out_of_plane", "± {:g} rad"),
 }
 """Settings by the name that the text uses: stage, path in its inputs, and how the value is written."""
 
@@ -67,9 +69,11 @@ class Used:
     def gather(self, test: str, stored: Stored) -> None:
         """Take note of what a test's results were made with."""
         for (stage, model), inputs in stored.settings.items():
-            # The contact model's ensemble varies other things than those of the plane models.
-            own = {"ensemble contact"} if (stage, model) == ("ensemble", "contact") else {stage}
-            own |= {_ANY_ENSEMBLE} if stage == "ensemble" else set()
+            own = {stage}
+            if stage == "ensemble":
+                # An ensemble in space varies other things than one in the plane.
+                in_space = model is not None and MODELS[model].in_space
+                own = {_ANY_ENSEMBLE, _ENSEMBLE_IN_SPACE if in_space else stage}
             for name, (read_by, path, form) in _STORED.items():
                 value = _at(inputs, path) if read_by in own else None
                 self._note(name, "" if value is None else _written(value, form), test)

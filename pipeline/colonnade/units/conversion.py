@@ -196,6 +196,22 @@ def same_unit(first: str, second: str) -> bool:
     return one.dimension == other.dimension and abs(one.factor - other.factor) <= 1e-9 * abs(one.factor)
 
 
+def is_physical(unit: str) -> bool:
+    """
+    Whether a unit is known and that of a physical quantity, neither a recorder's counts nor a plain number.
+
+    Examples
+    --------
+    >>> is_physical("mm/V"), is_physical("counts"), is_physical("furlong")
+    (True, False, False)
+    """
+    try:
+        dimension = dict(resolve(unit).dimension)
+    except UnitError:
+        return False
+    return bool(dimension.keys() - {"count"})
+
+
 def from_si(value: float, unit: str) -> float:
     """
     Express an SI value in `unit`.

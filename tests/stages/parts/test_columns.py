@@ -34,6 +34,7 @@ def channel(**changes):
         "time": None,
         "quantity": "displacement",
         "unit": "mm",
+        "gain": None,
         "factor": 1e-3,
         "offset": 0.0,
         "full_scale": None,
@@ -95,6 +96,23 @@ def test_units_that_differ_are_serious_and_both_are_shown(of_file, of_campaign):
     assert (finding.kind, finding.severity) == ("unit", Severity.SERIOUS)
     for words in ("channel top: free-01.csv", f'"{of_file}"', f'"{of_campaign}"', '"Top left"'):
         assert words in finding.text
+
+
+@pytest.mark.parametrize("own", ["counts", "LSB", "Einheiten", "1"])
+def test_a_recorders_own_unit_is_noted_where_the_campaign_file_explains_it(own):
+    column = RecordedChannel("Top", own, VALUES, heading="Top left")
+    (finding,) = unit_findings(RECORDING, column, "top", channel(unit="V", gain="10 mm/V"))
+    assert (finding.kind, finding.severity) == ("unit", Severity.NOTE)
+    for words in (f'"{own}"', '"Top left"', "unit (V) and gain (10 mm/V) were used"):
+        assert words in finding.text
+
+
+@pytest.mark.parametrize(("of_file", "gain"), [("counts", None), ("mV", "10 mm/V")])
+def test_counts_taken_for_millimetres_and_another_known_unit_stay_serious(of_file, gain):
+    unit = "mm" if gain is None else "V"
+    column = RecordedChannel("Top", of_file, VALUES)
+    (finding,) = unit_findings(RECORDING, column, "top", channel(unit=unit, gain=gain))
+    assert finding.severity == Severity.SERIOUS
 
 
 def test_a_window_takes_its_edges_and_leaves_out_what_has_no_time():

@@ -22,6 +22,7 @@ def _channel(on, direction=(1.0, 0.0, 0.0), **changed):
         "time": None,
         "quantity": "acceleration",
         "unit": "g",
+        "gain": None,
         "factor": 9.80665,
     }
     return ChannelInputs(

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from colonnade.campaign import load
 from colonnade.findings import serious, warning
 from colonnade.store.records.stored import FOREIGN, Failure, Stored
 from colonnade.store.records.test import record_of_test
@@ -15,35 +14,9 @@ SCALE = 20.0
 TIME = np.arange(0.0, 10.0, 0.01)
 
 
-CAMPAIGN = """
-schema = 1
-campaign = "one"
-title = "One pulse"
-
-[specimens]
-prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg", scale = 20}
-
-[setups.frame.channels]
-top = {column = "top", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
-direction = [1, 0, 0], relative_to = "table"}
-
-[[tests]]
-id = "pulse-01"
-kind = "pulse"
-file = "raw/pulse-01.csv"
-specimen = "prism"
-setup = "frame"
-"""
-
-
-def written(folder, text=CAMPAIGN):
-    (folder / "campaign.toml").write_text(text, encoding="utf-8")
-    return load(folder)
-
-
 @pytest.fixture
-def campaign(tmp_path):
-    return written(tmp_path)
+def campaign(written):
+    return written()
 
 
 def record(campaign, results, test=None):
@@ -97,8 +70,8 @@ def test_the_slide_of_a_specimen_that_fell_counts_while_it_stood(campaign):
     assert record(campaign, {"rocking": rocking(overturning_time=5.0)}).peak_slide == pytest.approx(0.01)
 
 
-def test_without_a_scale_there_is_no_prototype(tmp_path):
-    assert record(written(tmp_path, CAMPAIGN.replace(", scale = 20", "")), {"rocking": rocking()}).prototype is None
+def test_without_a_scale_there_is_no_prototype(written):
+    assert record(written(", scale = 20"), {"rocking": rocking()}).prototype is None
 
 
 def test_a_free_vibrations_peak_is_known_once_it_was_compared(campaign):
@@ -153,8 +126,8 @@ def test_findings_are_in_order_with_what_follows_from_them(campaign):
     assert [(each.kind, each.explained) for each in test.warnings] == [("gain", False), ("no arc", True)]
 
 
-def test_the_record_says_who_and_when(tmp_path):
-    campaign = written(tmp_path, CAMPAIGN + 'date = "26.04.2013"\noperator = "Κ. Παπάς"\n')
+def test_the_record_says_who_and_when(written):
+    campaign = written(more='date = "26.04.2013"\noperator = "Κ. Παπάς"\n')
     said = record(campaign, {}, campaign.tests["pulse-01"])
     assert (said.date, said.operator) == ("2013-04-26", "Κ. Παπάς")
 

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.figures.panels import legend_above, stacked_panels
-from colonnade.figures.style import FAINT, FIT, INK, LIMIT, MEASURED, styled
+from colonnade.figures.restitution.marks import draw_marks
+from colonnade.figures.style import FIT, INK, LIMIT, styled
 
 HEIGHT = 2.4
 """Of the panel, inches."""
@@ -106,25 +107,9 @@ def impact_restitution(
 
 def _draw_impacts(axes: Axes, impacts: ImpactSeries, mark: str, *, named: bool) -> None:
     shown = np.isfinite(impacts.restitution) & np.isfinite(impacts.velocity)
-    label = impacts.title if named else "impact used"
-    for chosen, face, text in (
-        (shown & impacts.used, MEASURED["color"], label),
-        (shown & ~impacts.used, "white", "impact left out"),
-    ):
-        if chosen.any():
-            axes.errorbar(
-                impacts.velocity[chosen],
-                impacts.restitution[chosen],
-                yerr=2 * np.nan_to_num(impacts.standard_error[chosen]),
-                fmt=mark,
-                markersize=3.0,
-                markerfacecolor=face,
-                markeredgecolor=MEASURED["color"],
-                markeredgewidth=0.8,
-                ecolor=FAINT,
-                elinewidth=0.8,
-                label=text,
-            )
+    labels = (impacts.title if named else "impact used", "impact left out")
+    bars = 2 * impacts.standard_error
+    draw_marks(axes, impacts.velocity, impacts.restitution, bars, shown, impacts.used, labels, mark=mark)
 
 
 def draw_level(axes: Axes, level: Level) -> None:

@@ -15,7 +15,8 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.figures.long import draw_band
 from colonnade.figures.panels import legend_outside
-from colonnade.figures.style import FAINT, FIT, MEASURED, blank_figure, styled
+from colonnade.figures.restitution.marks import draw_marks
+from colonnade.figures.style import FIT, blank_figure, styled
 from colonnade.identification.restitution.arcs.energy import released_energy
 
 COLUMNS = 3
@@ -110,25 +111,8 @@ def _draw_peaks(axes: Axes, peaks: PeakSeries, block: Block) -> None:
     low = np.clip(size - 2 * peaks.standard_error, 1e-3 * size, critical)
     high = np.clip(size + 2 * peaks.standard_error, 0.0, critical)
     energy, lowest, highest = (released_energy(angle, critical) for angle in (size, low, high))
-    for chosen, face, label in (
-        (shown & peaks.used, MEASURED["color"], "peak used"),
-        (shown & ~peaks.used, "white", "peak left out"),
-    ):
-        if not chosen.any():
-            continue
-        axes.errorbar(
-            number[chosen],
-            energy[chosen],
-            yerr=np.nan_to_num([energy[chosen] - lowest[chosen], highest[chosen] - energy[chosen]]),
-            fmt="o",
-            markersize=2.8,
-            markerfacecolor=face,
-            markeredgecolor=MEASURED["color"],
-            markeredgewidth=0.8,
-            ecolor=FAINT,
-            elinewidth=0.8,
-            label=label,
-        )
+    bars = np.array([energy - lowest, highest - energy])
+    draw_marks(axes, number, energy, bars, shown, peaks.used, ("peak used", "peak left out"), size=2.8)
     fitted = np.isfinite(peaks.fitted_angle)
     if fitted.any():
         line = released_energy(np.abs(peaks.fitted_angle[fitted]), critical[fitted])

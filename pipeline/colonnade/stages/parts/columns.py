@@ -55,11 +55,22 @@ def find_column(recording: Recording, name: str, channel: ChannelInputs, rate: f
 
 
 def unit_findings(recording: Recording, column: RecordedChannel, name: str, channel: ChannelInputs) -> list[Finding]:
-    """Report a unit of the file that is not the one of the campaign file."""
-    if column.unit is None or channel.unit is None:
+    """
+    Report a unit of the file that is not the one of the campaign file.
+
+    A recorder's own unit, such as counts, only names what the campaign file explains by its unit and gain.
+    """
+    if column.unit is None or channel.unit is None or units.same_unit(column.unit, channel.unit):
         return []
-    if units.same_unit(column.unit, channel.unit):
-        return []
+    if channel.gain is not None and not units.is_physical(column.unit):
+        return [
+            note(
+                "unit",
+                f'channel {name}: {recording.path.name} says "{column.unit}" for column "{column.heading}", which '
+                f"is not the unit of a physical quantity. The campaign file's unit ({channel.unit}) and gain "
+                f"({channel.gain}) were used.",
+            )
+        ]
     return [
         serious(
             "unit",

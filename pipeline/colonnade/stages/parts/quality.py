@@ -31,6 +31,7 @@ class ChannelInputs(Inputs):
     time: str | int | None
     quantity: str
     unit: str | None
+    gain: str | None
     factor: float
     offset: float
     full_scale: float | None
