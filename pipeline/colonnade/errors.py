@@ -36,7 +36,7 @@ class StoreError(ColonnadeError):
 
 
 class RunEndedError(ColonnadeError):
-    """The run that this process works for has ended: nothing may be written any more."""
+    """The run that this process works for has ended; it must not write anything."""
 
 
 _LONGEST = 60

@@ -1,5 +1,5 @@
 """
-Findings: what colonnade reports while it continues, each with its severity, causes before what follows from them.
+Findings: what colonnade reports while it continues, each with its severity, causes before symptoms.
 
 A finding is written for the person in the laboratory, like an error. It stays with the result that it is about:
 from a stage's warnings into the NetCDF file, the summary, the report and the output of the commands.

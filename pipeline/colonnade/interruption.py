@@ -1,5 +1,5 @@
 """
-Ctrl-C and a polite kill, noted as they come.
+Ctrl-C and SIGTERM, noted when they arrive.
 
 Python raises KeyboardInterrupt wherever its main thread is. In a callback or a finaliser it prints the exception and
 goes on, and a compiled module may make another exception of it. So the signal is noted too: it is sent again if Python
@@ -48,7 +48,7 @@ def note(signum: int, frame: FrameType | None) -> None:
 
 
 def noted() -> bool:
-    """Whether a signal came, whatever became of its exception."""
+    """Whether a signal came, even if its exception was lost."""
     return bool(_noted)
 
 

@@ -1,4 +1,4 @@
-"""The package's own sources: which modules one needs, and a hash of what they do, whatever their docstrings say."""
+"""The package's own sources: which modules a module needs, and a hash of their code without docstrings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Stretches of samples in a row, and lines over missing ones."""
+"""Stretches of consecutive samples, and linear interpolation over missing ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a campaign is: specimens, setups, channels, tests and settings, read from campaign.toml and the test log."""
+"""A campaign: specimens, setups, channels, tests and settings, read from campaign.toml and the test log."""
 
 from colonnade.campaign.campaign import Campaign
 from colonnade.campaign.channel import Channel

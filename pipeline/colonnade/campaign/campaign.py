@@ -1,4 +1,4 @@
-"""The campaign: the file as written, and what it becomes."""
+"""The campaign: the file as written, and the values parsed from it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Channels: which column of which recorder is what, where on the specimen or the table, and how it becomes SI."""
+"""Channels: the column and recorder of each, what it measures and where, and how it becomes SI."""
 
 from __future__ import annotations
 

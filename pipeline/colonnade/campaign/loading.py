@@ -1,4 +1,4 @@
-"""Reads campaign.toml and review.toml: text to tables, tables to models, and all problems reported at once."""
+"""Loading of campaign.toml and review.toml: text to tables, tables to models; all problems are reported at once."""
 
 from __future__ import annotations
 

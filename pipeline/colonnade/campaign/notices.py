@@ -1,4 +1,4 @@
-"""What in a valid campaign file no stage uses yet, looks odd, or cannot be right: reported, never refused."""
+"""Entries of a valid campaign file that are not used yet, look odd, or cannot be right: reported, never refused."""
 
 from __future__ import annotations
 

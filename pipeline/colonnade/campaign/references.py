@@ -1,4 +1,4 @@
-"""Names that have to exist and ids that have to differ: checked on the file as written, to report all at once."""
+"""Names that must exist and ids that must differ: checked on the file as written, so that all are reported at once."""
 
 from __future__ import annotations
 

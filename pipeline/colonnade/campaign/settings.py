@@ -1,5 +1,5 @@
 """
-Settings of the processing: every number that a stage takes from the campaign, with its default and what it does.
+Settings of the processing: each with its default and what it does.
 
 One model holds what one stage reads. A stage keeps that model in its inputs; of a `Processing` that is given for it,
 only the fields of the model are stored with the result and enter its key.

@@ -1,4 +1,4 @@
-"""Setups: how the raw files are read, which recorders there were, and the channels."""
+"""Setups: how the raw files are read, the recorders, and the channels."""
 
 from __future__ import annotations
 

@@ -220,9 +220,9 @@ class TestSummary(_Record):
     amplitude_ratio: Known = None
     """A = a / (g tan α) of a sine test, a the amplitude while the table's recorded motion is steady."""
     order: Order = None
-    """Order of a sine test's response: 1 harmonic, n sub-harmonic 1/n, or irregular; null where it cannot be told."""
+    """Order of a sine test's response: 1 harmonic, n sub-harmonic 1/n, or irregular; null if it is not known."""
     order_reason: str | None = None
-    """What the order was judged by, or why it cannot be told."""
+    """What the order is based on, or why it cannot be determined."""
     impacts_per_cycle: Known = None
     """Impacts a period of the table, of a sine test."""
     restitution: IdentifiedSummary | None = None

@@ -1,4 +1,4 @@
-"""Tests: what was done with which specimen in which setup, and where its raw files are."""
+"""Tests: the specimen, the setup, what was done, and the raw files."""
 
 from __future__ import annotations
 

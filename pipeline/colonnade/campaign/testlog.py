@@ -64,13 +64,13 @@ def read_log(path: Path) -> Log:
     Returns
     -------
     log : Log
-        Empty cells are keys not given. A column that is no key is left out with a warning, but refused where its
+        Empty cells are keys not given. A column that is not a key is left out with a warning, but refused where its
         name is nearly that of a key. `file.daq2` is the file of recorder daq2.
 
     Raises
     ------
     ValueError
-        If the file is not there or not readable as a table; the message is a finished sentence.
+        If the file is missing or cannot be read as a table; the message is a finished sentence.
     """
     cells, decimal_comma = _cells(path)
     heads_row = next((index for index, row in enumerate(cells) if any(map(_filled, row))), None)

@@ -1,4 +1,4 @@
-"""`colonnade calibrate`: the contact damping with which each specimen rocks with its restitution."""
+"""`colonnade calibrate`: the contact damping that gives each specimen its restitution."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`colonnade check`: the campaign and its raw files, looked at as `run` would, and nothing written."""
+"""`colonnade check`: checks the campaign and its raw files as `run` would, and writes nothing."""
 
 from __future__ import annotations
 

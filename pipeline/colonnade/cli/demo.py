@@ -1,4 +1,4 @@
-"""`colonnade demo`: the virtual campaign, written, run, and compared with its truth."""
+"""`colonnade demo`: writes the virtual campaign, runs it, and compares the results with the truth."""
 
 from __future__ import annotations
 

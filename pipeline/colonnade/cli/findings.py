@@ -1,4 +1,4 @@
-"""Findings on a terminal: by kind, the worst first, causes before what follows from them."""
+"""Findings on a terminal: by kind, the worst first, causes before symptoms."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`colonnade init`: a campaign.toml to start from, guessed from the raw files."""
+"""`colonnade init`: a draft of campaign.toml, guessed from the raw files."""
 
 from __future__ import annotations
 

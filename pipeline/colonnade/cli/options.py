@@ -12,7 +12,7 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 class LateChoice(click.Choice):  # type: ignore[type-arg]
-    """A choice whose names are asked for only when they are needed, so that every command starts quickly."""
+    """A choice whose names are loaded only when they are needed, so that every command starts quickly."""
 
     def __init__(self, names: Callable[[], Iterable[str]]) -> None:
         self.case_sensitive = True

@@ -1,4 +1,4 @@
-"""Density: whether lengths, mass and inertia of a block can be of one body, and what was probably mistaken if not."""
+"""Density: whether lengths, mass and inertia fit one body and, if not, what is probably wrong."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import warnings
 from math import pi
 
 LIGHTEST, HEAVIEST = 100.0, 23_000.0
-"""kg/m³: what blocks are made of lies between cork or a hollow box, and osmium."""
+"""kg/m³: blocks are between cork or a hollow box, and osmium."""
 
 FOAM = 20.0
 """kg/m³, below which not even a foam stands: something is wrong."""

@@ -1,4 +1,4 @@
-"""What an engine gives back: a rocking history and its outcome."""
+"""The result of a model: a rocking history and its outcome."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ class History:
     ----------
     block : Block
     time, angle, angular_velocity : ndarray, shape (n,)
-        s, rad, rad/s, at the samples of the base motion. A block past return lies at ±π/2.
+        s, rad, rad/s, at the samples of the base motion. A block past return ends at ±π/2.
     impact_times, impact_velocities, rebound_velocities : ndarray, shape (m,)
         s; rad/s just before each impact, and e times that just after it.
     overturning_time : float
-        s, when |θ| passed α for good; NaN where the block stands in the end.
+        s, when |θ| passed α for good; NaN if the block does not overturn.
     model : str
         Whose equation it solves.
     """

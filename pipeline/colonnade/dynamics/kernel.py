@@ -1,4 +1,4 @@
-"""The one way in which numerical kernels are compiled, and the folder in which their machine code is kept."""
+"""How numerical kernels are compiled, and the folder that caches their machine code."""
 
 from __future__ import annotations
 

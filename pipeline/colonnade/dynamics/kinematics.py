@@ -1,4 +1,4 @@
-"""Where the points of a rocking block are: exact finite rotation about the active pole."""
+"""Positions of the points of a rocking block, by exact finite rotation about the active pole."""
 
 from __future__ import annotations
 
@@ -73,8 +73,8 @@ def point_displacement(angle: ArrayLike, at: ArrayLike, block: Block, slide: Arr
 @dataclass(frozen=True)
 class Pose:
     """
-    Where a block is, beside its rest: rotation by `angle` about +y, then by `out_of_plane_angle` about x, then by `yaw`
-    about z.
+    The pose of a block relative to rest: rotation by `angle` about +y, then by `out_of_plane_angle` about x, then by
+    `yaw` about z.
 
     Attributes
     ----------

@@ -34,7 +34,7 @@ class Motion:
     Raises
     ------
     ValueError
-        If there is no sample, a sample is not finite, the lengths differ or `dt` is not positive.
+        If the motion is empty, a sample is not finite, the lengths differ or `dt` is not positive.
     """
 
     def __init__(

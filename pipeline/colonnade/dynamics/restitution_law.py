@@ -1,4 +1,4 @@
-"""Restitution that depends on the speed of the impact, as a table that the engines read."""
+"""Restitution that depends on the speed of the impact, as a table for the kernels."""
 
 from __future__ import annotations
 

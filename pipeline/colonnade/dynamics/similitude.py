@@ -45,7 +45,7 @@ def at_prototype(quantity: str, value: float, scale: float) -> float:
     (10.0, 1.2591)
     """
     if quantity not in EXPONENTS:
-        raise ValueError(f"{quantity!r} is no quantity that scales; one of {', '.join(EXPONENTS)} was expected")
+        raise ValueError(f"{quantity!r} is not a quantity that scales; one of {', '.join(EXPONENTS)} was expected")
     if not scale > 0:
         raise ValueError(f"scale is {scale}; a positive number was expected")
     return float(value * scale ** EXPONENTS[quantity])

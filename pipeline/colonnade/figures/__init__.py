@@ -1,4 +1,4 @@
-"""Figures of the project: each function takes histories or peaks and returns a matplotlib Figure."""
+"""Figures: each function takes data and returns a matplotlib Figure."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ INTERVALS = 600
 
 
 class Curve(NamedTuple):
-    """Times (s) and values of one line, both shape (n,); NaN where there is no value."""
+    """Times (s) and values of one line, both shape (n,); NaN for a missing value."""
 
     time: Array
     values: Array

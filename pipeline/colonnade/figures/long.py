@@ -18,7 +18,7 @@ INTERVALS_PER_INCH = 104.0
 
 
 class LongLine(Line2D):
-    """A line over rising times; `get_data` gives every sample, whatever is drawn of them."""
+    """A line over rising times; `get_data` gives every sample, even those that are not drawn."""
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw the envelope of the part in view."""
@@ -51,7 +51,7 @@ class LongBand(PolyCollection):
     Attributes
     ----------
     time, below, above : ndarray
-        Every sample, whatever is drawn of them.
+        Every sample, even if it is not drawn.
     """
 
     def __init__(self, time: Array, below: Array, above: Array, **look: Any) -> None:

@@ -107,7 +107,7 @@ def to_svg(figure: Figure, *, identity: str, title: str, description: str) -> st
     Raises
     ------
     ValueError
-        If `identity` is no valid id.
+        If `identity` is not a valid id.
     """
     if not _IDENTITY.fullmatch(identity):
         raise ValueError(f"{identity!r} cannot be an id; a letter, then letters, digits, '.', '_' or '-' were expected")

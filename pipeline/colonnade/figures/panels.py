@@ -25,7 +25,7 @@ ROOMY = 4
 """Lines up to which a legend has its usual spacing; more, as all models with a band, have to stand closer."""
 
 COLUMNS = 3
-"""Columns beside each other: more would be too narrow to read."""
+"""Largest number of columns side by side: more would be too narrow to read."""
 
 
 def stacked_panels(heights: Sequence[float]) -> tuple[Figure, list[Axes]]:

@@ -32,7 +32,7 @@ class SpanPanel(NamedTuple):
 @styled()
 def spans_side_by_side(panels: Sequence[SpanPanel]) -> Figure:
     """
-    Draw earthquake tests beside each other, a row of panels for each model, all with the same scales.
+    Draw earthquake tests side by side, a row of panels for each model, all with the same scales.
 
     Parameters
     ----------

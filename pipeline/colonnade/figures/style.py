@@ -44,7 +44,7 @@ def model_style(model: str, thinness: float = 1.0) -> LineStyle:
     Raises
     ------
     ValueError
-        If there is no such model.
+        If the model is unknown.
     """
     line = model_of(model).line
     return {"color": line.color, "linestyle": (0, line.dash), "linewidth": thinness * line.width}

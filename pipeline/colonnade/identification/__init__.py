@@ -1,1 +1,1 @@
-"""What the recordings say of the specimen, on plain arrays."""
+"""Identification: what the recordings show of the specimen, on plain arrays."""

@@ -1,4 +1,4 @@
-"""What a run found of a virtual campaign, next to what is true."""
+"""The results of a virtual campaign, compared with the truth."""
 
 from __future__ import annotations
 

@@ -97,7 +97,7 @@ class Flavour:
         return "\n".join([*lines, *samples, ""]).encode(self.encoding)
 
     def heading(self, name: str, unit: str) -> str:
-        """Name of a column as it stands in the file."""
+        """Name of a column as written in the file."""
         return f"{name} [{unit}]" if self.units_in_names else name
 
 
@@ -110,7 +110,7 @@ GERMAN = Flavour(
     units_in_names=True,
     declared=True,
 )
-"""Semicolons, decimal commas, Latin-1 and a preamble, all of it told in the campaign file."""
+"""Semicolons, decimal commas, Latin-1 and a preamble, all of it given in the campaign file."""
 
 COMMAS = Flavour()
 """Comma-separated, names above a row of units."""

@@ -37,7 +37,7 @@ class Transducer:
     recorded_unit : str
         "V", or a unit in which the recorder has written the physical value already.
     offset : float
-        Physical value of 0 V, known from calibration and told in the campaign; m or m/s².
+        Physical value of 0 V, known from calibration and given in the campaign; m or m/s².
     at : tuple of float or None
         Material point on the specimen, m.
     direction : tuple of float

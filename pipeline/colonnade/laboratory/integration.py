@@ -54,7 +54,7 @@ class Integration:
     passed : float
         When |θ| passed α outwards, s; NaN while the block is below it.
     resting, caught : bool
-        The block stands, or lies in its safety frame.
+        The block stands, or rests in its safety frame.
     """
 
     def __init__(self, block: Block, time: Array, restitution: float, catch: float, held: float) -> None:

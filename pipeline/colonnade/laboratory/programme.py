@@ -59,7 +59,7 @@ def write_campaign(
     Parameters
     ----------
     folder : Path or str
-        Where campaign.toml, raw/ and truth/ go; made where it is not there.
+        Folder of campaign.toml, raw/ and truth/; made if necessary.
     seed : int, optional
         Of noise, offsets, spikes and the exact releases. The same seed gives the same files.
     motion : Path, optional
@@ -76,7 +76,7 @@ def write_campaign(
     Raises
     ------
     ReadError
-        If the record is not there or cannot be read.
+        If the record is missing or cannot be read.
     CampaignError
         If the folder holds a campaign that the laboratory did not write.
     StoreError

@@ -1,4 +1,4 @@
-"""The tests of a virtual campaign are run: each is simulated, measured, and written as raw files with its truth."""
+"""Runs the tests of a virtual campaign: each is simulated, measured, and written as raw files with its truth."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the virtual specimen truly does on the virtual table, and what became of it."""
+"""The true motion of the virtual specimen on the virtual table, and its outcome."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""From a raw file to a recording, as recorded. Nothing else in the package knows a format."""
+"""From a raw file to a recording, as recorded. No other part of the package knows the formats."""

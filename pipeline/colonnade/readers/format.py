@@ -1,4 +1,4 @@
-"""What a raw format is: what recognises its files, what reads them, and what can be said about them."""
+"""A raw format: how its files are recognised and read, and its options."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from colonnade.readers.recording import Recording, Window
 @dataclass(frozen=True)
 class Recognition:
     """
-    Whether a file looks like a format's, with the reason, which is shown if no format takes it.
+    Whether a file looks like one of a format, with the reason, which is shown if no format recognises it.
 
     Attributes
     ----------
     yes : bool
     reason : str
     is_known : bool
-        Whether the file is known to be of a format that is not read here, as `reason` says: no other format is asked.
+        Whether the file is in a known format that is not read here, as `reason` says; no other format is tried.
     """
 
     yes: bool
@@ -31,7 +31,7 @@ class Recognition:
 
 
 class Options(BaseModel):
-    """What can be said about a file of a format; nothing has to be, and nothing can unless a format adds to it."""
+    """The options of a format, all optional; none unless the format adds some."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -48,21 +48,21 @@ class Format:
     summary : str
         One line for `show formats`.
     suffixes : tuple of str
-        Usual file name endings, such as `.csv`; they are shown, never relied on.
+        Usual file name endings, such as `.csv`; they are shown, but recognition does not use them.
     recognise : callable
         Path -> Recognition, from the head of the file.
     read : callable
         (Path, options) -> Recording, which is refused if no channel has values; raises ReadError.
     options : type of Options
-        What can be said about a file of this format; all of it optional.
+        Options for files of this format, all optional.
     read_window : callable or None
         (Path, options, Window) -> Recording that holds at least the window, in memory for little more than that.
     modules : tuple of str
-        What `read` imports only then; the bounded process imports it once for all files.
+        Heavy packages that `read` imports; the bounded process imports them once for all files.
     companions : callable or None
         (Path, options) -> names of the other files that hold a part of it, all in its folder; raises ReadError.
     in_process : bool
-        Whether `read` runs in this process: text, taken apart by code of our own. All else is read in the bounded one.
+        Whether `read` runs in this process, as for text parsed by this package; others run in the bounded process.
     """
 
     name: str

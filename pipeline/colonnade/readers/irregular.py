@@ -1,4 +1,4 @@
-"""What a path leads to if not to a file: a pipe or a device, once opened, may never answer or never end."""
+"""Paths that do not lead to a regular file, such as pipes and devices: opening one may block for ever."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a raw file holds, as recorded: channels in the file's own units, with the evidence for all that was sniffed."""
+"""The content of a raw file, as recorded: channels in the file's own units, with the evidence for every guess."""
 
 from __future__ import annotations
 

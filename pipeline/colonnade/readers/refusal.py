@@ -1,4 +1,4 @@
-"""What is said of a file that cannot be opened, or that its parser stumbles over."""
+"""Messages for a file that cannot be opened, or that its parser cannot read."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from colonnade.errors import ReadError, nearest
 
 @contextmanager
 def refusing(path: Path, kind: str) -> Iterator[None]:
-    """Turn whatever a parser stumbles over, in a file that is read as a kind, into a message of what to do."""
+    """Turn any exception of a parser into a message that says what to do."""
     try:
         yield
     except (ReadError, MemoryError):

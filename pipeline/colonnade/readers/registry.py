@@ -1,4 +1,4 @@
-"""Which formats there are, and which one reads a file."""
+"""The formats by name, and the choice of the one that reads a file."""
 
 from __future__ import annotations
 
@@ -27,19 +27,19 @@ OWN = (
     *("binary.famos", "text.lvm", "matlab.file", "binary.mdf", "text.mts", "hdf5.netcdf", "strong_motion.peer"),
     *("tdms.file", "binary.uff", "waveform.file"),
 )
-"""Modules of this folder that read a format, and say so by their `FORMAT`."""
+"""Modules of this folder with a format, as their `FORMAT`."""
 GROUP = "colonnade.formats"
-"""Entry points of this group are the formats that other packages add."""
+"""Group of the entry points by which other packages add formats."""
 MOST_GENERAL = "delimited"
-"""The format that takes almost any text: every other one is asked before it."""
+"""The format that recognises almost any text: it is tried last."""
 
 LONG_FILE = 100_000_000
-"""Bytes from which on a file is not read further than it is needed."""
+"""Size, bytes, from which on only the part of a file that is needed is read."""
 
 
 @cache
 def formats() -> dict[str, Format]:
-    """All formats by name, in the order in which they are asked about a file; the most general one last."""
+    """All formats by name, in the order in which they are tried; the most general one last."""
     own: list[Format] = [import_module(f"colonnade.readers.{module}").FORMAT for module in OWN]
     known = {format.name: format for format in own}
     known |= {point.name: point.load() for point in entry_points(group=GROUP) if point.name not in known}
@@ -129,7 +129,7 @@ def companions_here(path: Path, format: str, options: Mapping[str, Any]) -> tupl
 
 
 def read_here(path: Path, format: str, options: Mapping[str, Any], window: Window | None) -> Recording:
-    """Read a raw file in this process, whatever its format; `read` says the rest."""
+    """Read a raw file in this process, whatever its format; see `read`."""
     chosen = _named(format)
     return _guarded(chosen, path, chosen.options(**options), window)
 

@@ -1,4 +1,4 @@
-"""How far a model agrees with a campaign: right outcomes, and with them always the misfits and the model's spread."""
+"""How well a model agrees with a campaign: right outcomes, always with the misfits and the model's spread."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The report: pages that stand alone, made from the store whatever became of the tests."""
+"""The report: self-contained pages, made from the store even if tests failed."""
 
 from __future__ import annotations
 
@@ -52,9 +52,9 @@ def build(
     ----------
     campaign : Campaign
     layout : Layout
-        Where its results lie. Tests that failed or were never run are reported as such.
+        Where its results are. Tests that failed or were never run are reported as such.
     outdated : collection of str, optional
-        Tests whose stored results are not of this campaign any more: they are pending, and not shown.
+        Tests whose stored results are out of date: they are pending, and not shown.
     code : str, optional
         Hash of the code. With it, pages of tests that would come out the same are not drawn again.
     key : str, optional
@@ -65,8 +65,8 @@ def build(
     Returns
     -------
     overview : Path
-        ``report/index.html``; the others lie beside it. The same results give the same bytes, and an unchanged page is
-        not written again. Pages of tests and specimens that are not in the campaign any more are removed.
+        ``report/index.html``; the others are next to it. The same results give the same bytes, and an unchanged page is
+        not written again. Pages of tests and specimens that have left the campaign are removed.
 
     Raises
     ------
@@ -96,7 +96,7 @@ def render(
     address : str
         Within the report's folder.
     text : str or None
-        None if the page of a test is there already.
+        None if the page of a test is up to date.
     made_from : str
         Of the page of a test: hash of what it shows.
     """

@@ -1,4 +1,4 @@
-"""What the report says of a channel: what was recorded, its verdicts, and what conditioning did to it."""
+"""A channel in the report: what was recorded, its verdicts, and how it was conditioned."""
 
 from __future__ import annotations
 

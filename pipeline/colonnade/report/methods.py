@@ -1,4 +1,4 @@
-"""What was really used: the settings stored with the results, gathered over the tests, and the words around them."""
+"""The methods as used: the settings stored with the results, gathered over the tests, with their wording."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from colonnade.store.records import wording
 from colonnade.store.records.stored import Stored
 
 LIBRARIES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "pandas", "matplotlib")
-"""Libraries whose versions are told."""
+"""Libraries whose versions are shown."""
 
 _LONGEST = 6
 

@@ -1,4 +1,4 @@
-"""Pages from templates: one environment, and for each page the way back to the report's folder."""
+"""Pages from templates: one environment, and for each page its path back to the report's folder."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _MARK = re.compile(f'href="{link_to("")}([^"]+)"')
 
 class Renderer:
     """
-    Renders templates; what people wrote is shown as text.
+    Renders templates; text of users is escaped.
 
     Parameters
     ----------

@@ -36,7 +36,7 @@ class Asked:
 @dataclass(frozen=True)
 class Part:
     """
-    What the report has of a test, light enough to keep of thousands once the text is written.
+    What the report keeps of a test; small enough for thousands of tests once the text is written.
 
     Attributes
     ----------
@@ -50,9 +50,9 @@ class Part:
     used : Used
         What its results were made with.
     text : str or None
-        Its page; None if the page is there already.
+        Its page; None if the page is up to date.
     made_from : str
-        Hash of what the page shows; empty if nobody asks.
+        Hash of what the page shows; empty if it is not needed.
     """
 
     row: TestRow
@@ -67,7 +67,7 @@ class Part:
 
 def parts_of(campaign: Campaign, layout: Layout, code: str, block: Sequence[Asked]) -> list[Part]:
     """
-    Read some tests, and draw the pages that do not say that they were made from the same.
+    Read some tests, and draw those of their pages that are out of date.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Everything that went wrong or looks odd: failures with their reasons, and warnings of the same text together."""
+"""Failures with their reasons, and warnings grouped by their text."""
 
 from __future__ import annotations
 

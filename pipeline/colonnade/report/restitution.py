@@ -1,4 +1,4 @@
-"""What is stored of a free vibration's restitution, in words: every estimator, the departures, what was assumed."""
+"""The stored restitution of a free vibration in words: every estimator, the departures, and the assumptions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How late one recorder is against another, from two records of the same motion."""
+"""The delay of one recorder relative to another, from two records of the same motion."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ WEAKEST_CORRELATION = 0.7
 """Two records that agree less than this are not of the same motion, or there was none."""
 
 BANDWIDTH = 10.0
-"""Hz; recorders are aligned on what their linked channels share below it, where a displacement's noise is no matter."""
+"""Hz; recorders are aligned on what their linked channels share below it, where displacements have little noise."""
 
 FEWEST_SAMPLES = 16
 """That two records have to share."""
 
 RIVAL_EVIDENCE = 10.0
-"""Log-likelihood by which one delay has to be better than another to be told from it."""
+"""Difference of log-likelihood needed to prefer one delay to another."""
 
 OPPOSED = 2.0
 """Times less that has to be left unexplained with the sign of one record turned, before the sign is doubted."""
@@ -110,7 +110,7 @@ def find_offset(reference: Array, values: Array, interval: float, *, longest: fl
     longest : float
         Largest delay of either sign that is looked for, s.
     bandwidth_hz : float
-        Of both records: it tells how many of their samples are independent.
+        Of both records: it determines how many of their samples are independent.
 
     Returns
     -------
@@ -199,7 +199,7 @@ def link(reference: Record, record: Record, *, quantities: tuple[str, str], long
     reference, record : Record
         The same motion, each with its delay taken off its times.
     quantities : (str, str)
-        Of both; a "displacement" beside an "acceleration" is differentiated twice.
+        Of both; a "displacement" is differentiated twice if the other is an "acceleration".
     longest : float
         Largest delay of either sign that is looked for, s.
     sign : float

@@ -1,4 +1,4 @@
-"""How much faster one recorder's clock runs than another's, from two records of the same motion."""
+"""The rate of one recorder's clock relative to another's, from two records of the same motion."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import scipy
 from colonnade.arrays import Array
 
 STRETCHES = 8
-"""Parts of the motion, of equal information, in each of which the delay is found."""
+"""Number of parts of the motion, of equal information; the delay is found in each."""
 
 FEWEST_STRETCHES = 4
 """That have to agree with a line."""
@@ -75,7 +75,7 @@ def find_rate(time: Array, reference: Array, values: Array, *, delay: float, ban
     delay : float
         How late `values` are as a whole, s.
     bandwidth_hz : float
-        Of both records: it tells how many of their samples are independent.
+        Of both records: it determines how many of their samples are independent.
 
     Returns
     -------

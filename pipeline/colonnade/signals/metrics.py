@@ -1,4 +1,4 @@
-"""How far two histories agree."""
+"""Measures of how well two histories agree."""
 
 from __future__ import annotations
 

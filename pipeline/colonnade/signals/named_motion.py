@@ -1,4 +1,4 @@
-"""Whether a recorded acceleration is the motion it is said to be: polarity, time scale, parts of it, another motion."""
+"""Whether a recorded acceleration is the named motion: polarity, time scale, missing parts, or another motion."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ STANDS_OUT = 6.0
 """Times the difference of the quiet stretches by which one differs."""
 
 QUIET = 0.2
-"""Share of the stretches that are taken as quiet."""
+"""Share of the stretches that count as quiet."""
 
 OTHERWISE = 0.7
 """Of a stretch's own motion; one that differs by less follows it, if badly."""
@@ -185,7 +185,7 @@ def _below(series: Series, cutoff_hz: float) -> Series:
 
 
 def _cutoff(motion: Series) -> float:
-    """Frequency below which most of a motion's power lies, Hz: what a table follows and noise does not hide."""
+    """Frequency below which most of a motion's power is, Hz: a table can follow it, and noise does not hide it."""
     spectrum = np.abs(np.fft.rfft(motion.acceleration - motion.acceleration.mean())) ** 2
     frequency = np.fft.rfftfreq(motion.acceleration.size, motion.interval)
     share = np.cumsum(spectrum) / max(float(spectrum.sum()), 1e-300)
@@ -243,7 +243,7 @@ def _differences(record: Series, name: str, motion: Series, found: Match, scale:
 
 
 def _usual_gain(recorded: Array, given: Array, starts: NDArray[np.intp], size: int) -> float:
-    """Recorded over given: the median of the stretches by their energy, so that a missing one is no matter."""
+    """Recorded over given: the median of the stretches by their energy, so that a missing one does not matter."""
     stretches = [slice(start, start + size) for start in starts]
     energy = np.array([given[each] @ given[each] for each in stretches])
     gains = np.array([recorded[each] @ given[each] for each in stretches]) / np.maximum(energy, 1e-300)

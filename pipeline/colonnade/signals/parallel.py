@@ -1,4 +1,4 @@
-"""Long arrays at the same time: in as many threads as there are processors, with the same result as one by one."""
+"""Work on several long arrays in threads, with the same result as one by one."""
 
 from __future__ import annotations
 

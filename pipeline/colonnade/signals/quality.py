@@ -1,4 +1,4 @@
-"""Quality of a record: small checks that return what they flag with the reason; values are never changed."""
+"""Quality of a record: small checks that return the flagged samples and the reason; values are never changed."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from colonnade.findings import Finding, Severity
 from colonnade.signals.stretches import filled_in, stretches
 
 ENOUGH = 100_000
-"""Samples from which a median is known well enough."""
+"""Number of samples that is enough for a median."""
 
 NEIGHBOURHOOD = 201
-"""Samples whose roughness a spike is held against."""
+"""Samples whose roughness a spike is compared with."""
 
 BLOCK = 1 << 15
-"""Samples that are looked at together: what is computed of them stays near the processor."""
+"""Samples processed together, so that they stay in the processor's cache."""
 
 FEW = 0.02
-"""Share of doubtful samples up to which their neighbourhoods are looked at one by one."""
+"""Share of doubtful samples up to which their neighbourhoods are examined one by one."""
 
 
 FEW_SPIKES = 0.001
@@ -31,10 +31,10 @@ FEW_SPIKES = 0.001
 
 
 BEYOND = 1.1
-"""Of the range; no recorder gives values so much larger."""
+"""Times the range; no recorder gives values so much larger."""
 
 FEW_BEYOND = 0.01
-"""Share of the samples that may be beyond it: spikes and overflows are not the unit."""
+"""Share of the samples that may be beyond it: spikes and overflows do not mean a wrong unit."""
 
 FIRST = 10
 """Samples with which a channel begins."""
@@ -53,7 +53,7 @@ class Flag(IntEnum):
 @dataclass(frozen=True)
 class Verdict:
     """
-    What a check says of a record.
+    The result of a check of a record.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class Verdict:
     where : ndarray of bool, shape (n,)
         The samples it applies to.
     reason : str
-        Empty where all is good.
+        Empty if all is good.
     kind : str
     severity : Severity
         Of the finding that it makes.
@@ -295,7 +295,7 @@ def check_dead(values: Array, reference: Array, *, share: float) -> Verdict:
 
 
 def is_finite(values: Array) -> bool:
-    """Whether all values are numbers, which their sum tells at once but for very large ones."""
+    """Whether all values are finite; their sum shows it at once, except for very large ones."""
     with np.errstate(all="ignore"):
         return bool(np.isfinite(values.sum())) or bool(np.isfinite(values).all())
 

@@ -1,4 +1,4 @@
-"""One channel's record on an even clock of its own, and from there on the clock of a test."""
+"""One channel's record, first on its own even clock, then on the clock of the test."""
 
 from __future__ import annotations
 

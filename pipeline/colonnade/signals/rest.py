@@ -1,4 +1,4 @@
-"""Rest: the stretch of a record on which the specimen stands still."""
+"""Rest: the stretch of a record in which the specimen stands still."""
 
 from __future__ import annotations
 

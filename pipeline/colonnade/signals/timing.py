@@ -1,4 +1,4 @@
-"""Time columns: which stamps can be relied on, the even clock behind rounded ones, and what is wrong with them."""
+"""Time columns: the reliable stamps, the even clock behind rounded ones, and their faults."""
 
 from __future__ import annotations
 

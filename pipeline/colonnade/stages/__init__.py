@@ -1,1 +1,1 @@
-"""The stages, one module each: what it reads, the work, how the result is described."""
+"""The stages, one module each: the inputs, the work, and the description of the result."""

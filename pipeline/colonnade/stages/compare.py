@@ -1,4 +1,4 @@
-"""Compare: measured and predicted -> how far they agree."""
+"""Compare: measured and predicted -> how well they agree."""
 
 from __future__ import annotations
 

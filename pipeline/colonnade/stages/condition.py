@@ -1,4 +1,4 @@
-"""Condition: recorded channels -> one uniform clock, de-spiked, low-passed without delay, zeroed at rest."""
+"""Condition: recorded channels -> one uniform clock, de-spiked, low-pass filtered without delay, zeroed at rest."""
 
 from __future__ import annotations
 

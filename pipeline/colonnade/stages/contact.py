@@ -87,7 +87,7 @@ def calibrate_specimen(inputs: ContactInputs, restitution: float) -> Calibration
     ----------
     inputs : ContactInputs
     restitution : float
-        e that is asked for.
+        e to be reached.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Ensemble of the contact model: over its friction, its damping, and how straight the specimen stood at the start."""
+"""Ensemble of the contact model: over friction, damping and the rotation out of the plane at the start."""
 
 from __future__ import annotations
 

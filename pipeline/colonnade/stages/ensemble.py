@@ -1,4 +1,4 @@
-"""Ensemble: recorded base motion, specimen and what is not exactly known -> bands of a model, odds of overturning."""
+"""Ensemble: recorded base motion, specimen and uncertain inputs -> bands of a model, probability of overturning."""
 
 from __future__ import annotations
 

@@ -73,7 +73,7 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
     -------
     identified : xr.Dataset
         `restitution` with its interval, the recommended one; `estimate` by each `estimator`, `restitution_history` from
-        the whole history by each model; peaks, impacts with e of each, the fitted history with what it leaves over, and
+        the whole history by each model; peaks, impacts with e of each, the fitted history with its residual, and
         the joint region of e and the critical angle. Where e cannot be identified it is NaN and the attribute `reason`
         (of the histories, `history_reason`) says why: that is a result, not a failure.
 

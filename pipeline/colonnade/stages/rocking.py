@@ -85,7 +85,7 @@ def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
     ------
     StageError
         If nothing of the test is usable, or ground-relative transducers lack the table's displacement. Transducers
-        that do not see the rotation are only warned of where the base motion is there, as a prediction needs no more.
+        that do not see the rotation give only a warning if the base motion is known, as a prediction needs no more.
     """
     warnings: list[Finding] = []
     time = conditioned["elapsed"].to_numpy()

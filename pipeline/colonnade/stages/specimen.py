@@ -1,4 +1,4 @@
-"""Specimen: what all free vibrations of a specimen say together, and the one rule for the e that is used."""
+"""Specimen: the e of all its free vibrations together, and the one rule for the e that predictions use."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 """
-What each variable of a stage's result is: attributes from the table of variables, or from its channel.
+Description of each variable of a result: attributes from the table of variables, or from its channel.
 
 A variable that neither the table nor the naming of channels knows is an error, so that nothing enters the store
 undescribed.
@@ -171,7 +171,7 @@ def _attributes(name: str, dataset: xr.Dataset) -> tuple[dict[str, Any], str]:
         return quality.attributes() | _flag_attributes(name), "int8"
     raise StoreError(
         f"variable '{name}' of {dict(dataset[name].sizes)} is not described: it is not in the table of variables, and "
-        f"without the attributes `channel` and `quantity` it is no channel either." + nearest(name, VARIABLES)
+        f"without the attributes `channel` and `quantity` it is not a channel either." + nearest(name, VARIABLES)
     )
 
 

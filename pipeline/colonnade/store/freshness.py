@@ -1,4 +1,4 @@
-"""Whether a result, a record or a page is up to date, by what it is made from and never by dates; if not, why."""
+"""Whether a result, a record or a page is up to date, by what it is made from, never by dates; and if not, why."""
 
 from __future__ import annotations
 

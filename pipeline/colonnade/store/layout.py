@@ -1,4 +1,4 @@
-"""Where everything that colonnade writes for a campaign lies."""
+"""The paths of everything that colonnade writes for a campaign."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Layout:
     @classmethod
     def of(cls, folder: Path, results: Path | str | None) -> Layout:
         """
-        Lay out the results of a campaign in the folder that was asked for.
+        Return the layout of a campaign's results in the given folder.
 
         Raises
         ------
@@ -118,7 +118,7 @@ class Layout:
         return self.figure(ResultId(specimen, "map", "+".join(models)))
 
     def blocks(self, result: ResultId) -> Path:
-        """Folder of the finished blocks of a result that is under way."""
+        """Folder of the finished blocks of an unfinished result."""
         path = self.path(result)
         return path.with_name(f".{path.stem}")
 

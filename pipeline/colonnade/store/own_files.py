@@ -1,4 +1,4 @@
-"""What is in a folder of results, without following a link out of it."""
+"""The files in a folder of results, without following a link out of it."""
 
 from __future__ import annotations
 

@@ -90,7 +90,7 @@ def global_attributes(origin: Origin, result: ResultId, *, now: datetime | None 
 
 
 def coverage(dataset: xr.Dataset) -> dict[str, str]:
-    """Tell the span of a record's main clock as ACDD does; nothing where there is none."""
+    """Give the span of a record's main clock as ACDD asks; empty without a clock."""
     if "elapsed" not in dataset or dataset["elapsed"].size < 2:
         return {}
     elapsed = dataset["elapsed"].to_numpy()
@@ -154,7 +154,7 @@ def _little_endian(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def is_long(variable: xr.Variable) -> bool:
-    """Whether a variable is a long array of numbers: it is hashed by itself, and stored as it is."""
+    """Whether a variable is a long array of numbers: it has its own hash, and is stored uncompressed."""
     return variable.size > LONG and variable.dtype.kind in "fiu"
 
 

@@ -1,4 +1,4 @@
-"""The results of a campaign: their stages in order, the file that each is kept in, and which results a test has."""
+"""The results of a campaign: their stages in order, the file of each, and the results that a test has."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The stamp of a page: its last line says what it was made from and, by a hash, how it was written."""
+"""The stamp of a page: its last line holds the key of what it was made from, and a hash of its text."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def stamped(text: str, key: str) -> str:
 
 
 def key_of(path: Path) -> str:
-    """Return what a page was made from; empty if it is not there, not stamped, or altered since it was written."""
+    """Return the key of what a page was made from; empty if it is missing, not stamped, or was altered."""
     try:
         data = path.read_bytes()
     except OSError:

@@ -1,4 +1,4 @@
-"""The dimensions that colonnade knows, what can be recorded, and how they are called in messages."""
+"""The dimensions that colonnade knows, the quantities that can be recorded, and their names in messages."""
 
 from __future__ import annotations
 

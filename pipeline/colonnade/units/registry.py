@@ -1,5 +1,5 @@
 """
-The laboratory's units: a registry of their own, and the spellings that recorders give them.
+The units of laboratories: their own registry, and the spellings that recorders use.
 
 `g` is the gravity unit 9.80665 m/s², never the gram, and `Gal` is 1 cm/s², never the gallon. Angles have a dimension
 here, so that rad/s and Hz are not taken for each other.

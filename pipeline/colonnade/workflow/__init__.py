@@ -1,4 +1,4 @@
-"""What is out of date, in which order, in how many processes."""
+"""The workflow: what is out of date, in which order it is recomputed, and in how many processes."""
 
 from colonnade.workflow.outcome import RunResult, StageRun
 from colonnade.workflow.run import run

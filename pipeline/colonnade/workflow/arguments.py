@@ -23,12 +23,12 @@ def check_run(
     progress: Any,
 ) -> None:
     """
-    Check that each argument is of its kind; `stages` holds those that name a stage.
+    Check the type of each argument; `stages` holds those that name a stage.
 
     Raises
     ------
     ValueError
-        If one is not; the message names it.
+        If one has the wrong type; the message names it.
     """
     for name, value, may_be_none in (("campaign", campaign, False), ("results", results, True)):
         if not (isinstance(value, (str, Path)) or (may_be_none and value is None)):

@@ -1,4 +1,4 @@
-"""Check: what a run would refuse or warn of, found by doing its measuring part in memory; nothing is written."""
+"""Check: what a run would refuse or warn of, found by running its first stages in memory; nothing is written."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from colonnade.workflow.copies import digests_of_equal_sizes, with_copies
 @dataclass
 class Checked:
     """
-    What is to be said of one test.
+    The problems and findings of one test.
 
     Attributes
     ----------
     problems : list of str
         Why it would fail.
     findings : list of Finding
-        What a run would warn of, as far as it shows without identification and prediction.
+        What a run would warn of, without identification and prediction.
     concerning : tuple of Finding
-        What is to be said of its specimen and set-up in the campaign file.
+        Findings on its specimen and set-up in the campaign file.
     """
 
     problems: list[str] = field(default_factory=list)
@@ -47,7 +47,7 @@ class Checked:
 @dataclass(frozen=True)
 class CampaignCheck:
     """
-    What is to be said of a campaign.
+    The problems and findings of a campaign.
 
     Attributes
     ----------
@@ -66,7 +66,7 @@ class CampaignCheck:
 
     @property
     def has_warnings(self) -> bool:
-        """Whether there is a finding that is more than a note."""
+        """Whether any finding is more serious than a note."""
         findings = [*self.campaign.warnings, *(found for each in self.tests.values() for found in each.findings)]
         return any(found.severity is not Severity.NOTE for found in findings)
 
@@ -82,7 +82,7 @@ Reading = Callable[[Path, str, str], Recording]
 
 def check(campaign: Campaign, progress: Callable[[int, int], None] = lambda done, total: None) -> CampaignCheck:
     """
-    Read every raw file of a campaign and take each test as far as its prediction would begin.
+    Read every raw file of a campaign, and run each test as far as the start of its prediction.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def _missing_columns(campaign: Campaign, test: Test, recordings: dict[str, Recor
 
 def _measure(campaign: Campaign, test: Test, recordings: dict[str, Recording], findings: list[Finding]) -> None:
     """
-    Do what a run does up to the start of a prediction; what each stage warns of is added to the findings.
+    Run the stages up to the start of a prediction; the warnings of each stage are added to the findings.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The e of a campaign's specimens, as predictions use it."""
+"""The e of each specimen that predictions use."""
 
 from __future__ import annotations
 

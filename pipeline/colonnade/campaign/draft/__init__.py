@@ -1,4 +1,4 @@
-"""A campaign file to start from, guessed from the raw files: what is known, what is guessed and why, what is asked."""
+"""A draft of campaign.toml from the raw files: what is known, what is guessed and why, and what is asked."""
 
 from colonnade.campaign.draft.drafting import CampaignDraft, Question, draft
 

@@ -1,4 +1,4 @@
-"""Channels of a setup that is being drafted: for each column what it is, why, and what has to be asked."""
+"""Channels of a drafted setup: for each column what it measures, why, and what has to be asked."""
 
 from __future__ import annotations
 

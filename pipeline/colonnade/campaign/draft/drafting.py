@@ -1,4 +1,4 @@
-"""A campaign.toml to start from, guessed from a folder of raw files."""
+"""A draft of campaign.toml, guessed from a folder of raw files."""
 
 from __future__ import annotations
 

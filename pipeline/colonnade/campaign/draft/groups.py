@@ -1,4 +1,4 @@
-"""A folder with files of many kinds: which of them are recordings of tests is asked first, and little else."""
+"""A folder with files of many kinds: the draft first asks which of them are recordings of tests."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What kind of test a file holds, by its name and by how table and specimen move."""
+"""The kind of test in a file, by its name and by how table and specimen move."""
 
 from __future__ import annotations
 

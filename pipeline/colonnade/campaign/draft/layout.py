@@ -1,4 +1,4 @@
-"""Which files were recorded alike: setups with their recorders, and the tests with a file of each."""
+"""Files that were recorded in the same way: setups with their recorders, and tests with a file of each recorder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lines of a campaign file that is being drafted: known, guessed with a reason, or asked."""
+"""Lines of a drafted campaign file: known, guessed with a reason, or asked."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Line:
     reason : str
         Why it is guessed so; empty if it is plain.
     question : str
-        What a person should look at; empty if there is no doubt.
+        What a person should check; empty if there is no doubt.
     """
 
     key: str

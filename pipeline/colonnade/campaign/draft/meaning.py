@@ -1,4 +1,4 @@
-"""What a column measures, and on what, by its unit and its name."""
+"""What a column measures, and on which body, by its unit and its name."""
 
 from __future__ import annotations
 

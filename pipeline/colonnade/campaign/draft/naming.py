@@ -1,4 +1,4 @@
-"""Ids made of the names of files and columns, that every file system can hold and that differ."""
+"""Unique ids from the names of files and columns, valid in every file system."""
 
 from __future__ import annotations
 

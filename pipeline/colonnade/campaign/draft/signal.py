@@ -1,4 +1,4 @@
-"""What a column's signal looks like: dead, counting, a steady sine, dying away."""
+"""What a column's signal looks like: constant, a counter, a steady sine, or decaying."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is in a folder of raw files: every file that a format reads, its columns and what their signals look like."""
+"""The content of a folder of raw files: each readable file, its columns and what their signals look like."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Words by which laboratories name their columns and files, in the languages in which they do."""
+"""Words that laboratories use in the names of columns and files, in several languages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The text of a campaign file that is being drafted."""
+"""The text of a drafted campaign file."""
 
 from __future__ import annotations
 
@@ -217,7 +217,7 @@ def _tests(named: Sequence[_NamedSetup], specimens: dict[int, tuple[str, str]]) 
 
 
 def _who_and_when(file: RawFile, *, is_first: bool) -> list[Line | str]:
-    """Give the day that the file says, and once the keys that no file tells."""
+    """Give the day in the file and, once, the keys that no file contains."""
     known = [Line("date", file.day.isoformat(), "from the file's own time")] if file.day else []
     asked = [comment('operator = "…"         who ran it; also photos = ["photos/….jpg"]')] if is_first else []
     return [*known, *([] if known or not is_first else [comment("date = 2013-04-26")]), *asked]

@@ -1,4 +1,4 @@
-"""Between which values the quantities and numbers of a campaign lie: beyond them it is a slip, and nothing computes."""
+"""Bounds of the quantities and numbers of a campaign: a value beyond them is a mistake."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ def day(value: object) -> date:
     Raises
     ------
     ValueError
-        If it is not a day between 1900 and 2100, or if day and month cannot be told apart: ``04/05/2013``.
+        If it is not a day between 1900 and 2100, or if it is not clear which number is the day: ``04/05/2013``.
 
     Examples
     --------
@@ -60,8 +60,8 @@ def _written(text: str) -> date | None:
     day_first, month_first = _calendar_day(year, second, first), _calendar_day(year, first, second)
     if day_first and month_first and day_first != month_first:
         raise ValueError(
-            f"{shown(text)} is {day_first} or {month_first}: day and month cannot be told apart. Write the year first, "
-            "such as 2013-04-26."
+            f"{shown(text)} is {day_first} or {month_first}: it is not clear which number is the day. Write the "
+            "year first, such as 2013-04-26."
         )
     return day_first or month_first
 

@@ -1,4 +1,4 @@
-"""TOML files of a campaign as text and as tables, refused in words where they are neither."""
+"""The TOML files of a campaign as text and as tables, with plain messages if they are neither."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The kinds of value in a campaign file, parsed to SI; what does not parse is refused with what was expected."""
+"""The kinds of value in a campaign file, parsed to SI; an error says what was expected."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The base of every table of a campaign file: frozen, strict about keys, and plain in what it says about wrong ones."""
+"""The base of every table of a campaign file: frozen, strict about keys, with plain messages about wrong ones."""
 
 from __future__ import annotations
 

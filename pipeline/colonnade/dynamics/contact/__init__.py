@@ -1,1 +1,1 @@
-"""The block as a solid body on a table that it touches at the nodes of its base: contact, friction, elasticity."""
+"""The contact model: a solid body that touches the table at the nodes of its base, with friction and elasticity."""

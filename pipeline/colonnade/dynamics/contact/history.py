@@ -1,4 +1,4 @@
-"""What the contact engine gives back: motion in space, impacts, forces and the energy balance."""
+"""The result of the contact engine: motion in space, impacts, forces and the energy balance."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ LARGEST_RESIDUAL = 0.01
 """Of the energy balance, over its largest part; beyond it the run says that the balance does not close."""
 
 CHATTER = 0.05
-"""An arc between two contacts that rises less than this share of what its speed could lift it to is no arc."""
+"""An arc between two contacts that rises less than this share of what its speed allows does not count."""
 
 SMALLEST_ARC = 1e-4
-"""Of α: as little is no arc either."""
+"""Of α: neither is a smaller one."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The modes of an elastic body that a run keeps: those that its step follows."""
+"""The modes of an elastic body that a run keeps: those slow enough for its step."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Many runs of one motion over what is not known exactly."""
+"""Ensembles: many runs of one motion with varied inputs."""

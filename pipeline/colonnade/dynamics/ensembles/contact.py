@@ -1,4 +1,4 @@
-"""Runs of the contact model over what nobody knows exactly: friction, contact damping, how straight it was let go."""
+"""Ensembles of the contact model over friction, contact damping and the position at release."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Thousands of re-runs of one recorded motion over what is not exactly known: bands, overturning, sensitivity."""
+"""Thousands of runs of one recorded motion over uncertain inputs: bands, overturning, sensitivity."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rank correlation (Spearman 1904) of what the members of an ensemble drew and did."""
+"""Rank correlation (Spearman 1904) between the inputs and the results of an ensemble."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What of a test is not exactly known, and what one member of an ensemble takes for it."""
+"""The uncertain inputs of a test, and their values in one member of an ensemble."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from colonnade.dynamics.motion import MOST_SAMPLES, Motion
 from colonnade.validation import number, whole
 
 INPUTS = ("restitution", "critical_angle", "p", "gain", "clock", "cutoff", "theta0")
-"""What is drawn once a member, in the order of `draw_inputs`; the noise is drawn beside it."""
+"""Inputs drawn once for each member, in the order of `draw_inputs`; the noise is drawn separately."""
 
 HIGHEST_ORDER = 20
 """Of a low-pass before it is run forwards and backwards; none is steeper."""
@@ -24,7 +24,7 @@ _NEGLIGIBLE = 1e-3
 @dataclass(frozen=True)
 class Uncertainty:
     """
-    Standard deviations of what a rocking history follows from; zero where it is taken as exact.
+    Standard deviations of the inputs of a rocking history; zero for an exact one.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class Uncertainty:
     Raises
     ------
     ValueError
-        If a deviation is negative or not finite, or the filter is uncertain where there is none.
+        If a deviation is negative or not finite, or the filter is uncertain but no filter was used.
     """
 
     restitution: float = 0.0
@@ -152,7 +152,7 @@ class MotionDraws:
         shape[0] = 0.0  # the mean of the noise was taken off with the zero
         power = 2.0 * float(np.sum(shape**2))
         self._noise = uncertainty.noise * shape * self._length / np.sqrt(2.0 * power) if power > 0.0 else 0.0 * shape
-        # The record without its filter, to be filtered anew.
+        # The record without its filter, to be filtered again.
         self._spectrum = None
         if uncertainty.filter > 0.0:
             self._spectrum = np.fft.rfft(motion.acceleration, self._length) * (1.0 + self._power)

@@ -33,7 +33,7 @@ class MapColumn:
     overturning_fraction : ndarray, shape (m,)
         Share of the cell around each A, halfway to its neighbours, that overturns.
     lower, upper : float
-        Limits in A; NaN where there is none.
+        Limits in A; NaN if there is none.
     intervals : ndarray, shape (k, 2)
         Every interval of A that overturns, from and to, with edges to the plan's `edge`.
     """
@@ -58,7 +58,7 @@ def map_column(plan: MapPlan, index: int) -> MapColumn:
     Returns
     -------
     column : MapColumn
-        The same to the last bit in whatever order and process columns are computed.
+        The same to the last bit, whatever the order and the process in which columns are computed.
 
     Notes
     -----

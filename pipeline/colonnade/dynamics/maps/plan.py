@@ -112,7 +112,7 @@ class MapPlan:
 
     @property
     def options(self) -> dict[str, Any]:
-        """Everything the result depends on beside block and axes, by name."""
+        """Everything else that the result depends on, apart from block and axes, by name."""
         forcing: dict[str, Any]
         if self.motion is None:
             forcing = {"cycles": self.cycles, "phase": self.phase, "ramp": self.ramp, "ramp_shape": self.ramp_shape}
@@ -160,7 +160,7 @@ def plan_map(
     space: InSpace | None = None,
 ) -> MapPlan:
     """
-    Check what a map is asked for, and put it together; arguments as for `stability_map`.
+    Check the arguments of a map and make its plan; arguments as for `stability_map`.
 
     Raises
     ------

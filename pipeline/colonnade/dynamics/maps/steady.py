@@ -1,4 +1,4 @@
-"""Steady response to a harmonic base motion: after how many cycles it repeats, and how large it is."""
+"""Steady response to a harmonic base motion: the number of cycles after which it repeats, and its amplitude."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an impact leaves: its restitution, whether the block then rests, and whether, left alone, it stands at last."""
+"""After an impact: the restitution, whether the block rests, and whether it would come to rest by itself."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def survives_free_rocking(height: float, rate: float, here: int, sides: Sides, l
         arriving = p[here] * sqrt(max(rate * rate - beyond * beyond + critical[here] ** 2, 0.0))
         after = restitution_of(sides.restitution, sides.speeds, here, arriving) * arriving
         return bool(after <= p[there] * critical[there])
-    # The energy tells whether the block passes α, outwards, or from beyond it back inwards.
+    # The energy shows whether the block passes α, outwards, or from beyond it back inwards.
     energy = 0.5 * rate * rate + _hill(critical[here] - height)
     passed = height > critical[here]
     if (passed and (rate >= 0.0 or energy <= 0.0)) or (not passed and rate > 0.0 and energy > 0.0):

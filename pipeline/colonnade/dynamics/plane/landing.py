@@ -1,4 +1,4 @@
-"""What bounds on the derivatives of a height tell of a piece of an arc: whether the block comes down within it."""
+"""Whether the block comes down within a piece of an arc, by bounds on the derivatives of its height."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ Jet = tuple[float, float, float, float]
 """Height above the base, s θ, and its first three derivatives by x = p t."""
 
 SHORTEST_STEP = 1e-7
-"""In x: what happens within is not told apart."""
+"""In x: events closer than this are not separated."""
 
 FRESH = 1e-4
 """In x: the beginning of an arc after uplift, where rounding could feign a landing; it rises 1e-9 α."""
@@ -19,10 +19,10 @@ def verdict(width: float, start: Jet, end: Jet, fourth: float, fifth: float) -> 
     """
     Tell what happens between two points, the first at h ≥ 0; the bounds are those of |h''''| and |h'''''| in between.
 
-    Returns 1 where there is no impact, −1 where h falls to 0 exactly once, 0 where the bounds cannot tell.
+    Returns 1 where there is no impact, −1 where h falls to 0 exactly once, 0 where the bounds do not decide.
     """
     eighth = 0.125 * width * width
-    # A function lies above the lower of its ends less width²/8 of what its second derivative is at most.
+    # A function is above the lower of its ends less width²/8 of what its second derivative is at most.
     most = max(start[2], end[2]) + eighth * fourth
     if end[0] < 0.0:
         steepest = max(abs(start[3]), abs(end[3])) + eighth * fifth

@@ -116,7 +116,7 @@ def _impact(
     """
     Find the first x in [0, end] at which the block, rocking on `side`, comes to θ = 0; inf where it does not.
 
-    With h = s θ ≥ 0 and |a/g| ≤ `largest`, h'' lies between −(α + largest) and h + largest: that often tells at once
+    With h = s θ ≥ 0 and |a/g| ≤ `largest`, h'' is between −(α + largest) and h + largest: that often tells at once
     that the block rises too fast to come down, or falls throughout.
     """
     height, climb = side * angle, side * scaled
@@ -252,7 +252,7 @@ def _march(
     """
     Propagate sample by sample for as long as no impact can hide inside one and |θ| ≤ α; return where that ends.
 
-    A chord lies above a curve by at most x²/8 times its largest second derivative: where both ends are higher than
+    A chord is above a curve by at most x²/8 times its largest second derivative: where both ends are higher than
     that, there is no impact between them; nor where it leaves the one end, or comes to the other, faster than
     (α + largest) x/2. `factors` and `bounds` are those of `WholeSamples` on this side.
     """

@@ -24,7 +24,7 @@ class Reactions:
     time : ndarray, shape (n,)
         s, of the history's samples.
     horizontal, vertical : ndarray, shape (n,)
-        N, along +x and +z, between impacts; NaN where the block lies.
+        N, along +x and +z, between impacts; NaN where the block has overturned.
     required_friction : ndarray, shape (n,)
         |H|/N, dimensionless; inf where the vertical force does not press.
     impact_times, impact_friction : ndarray, shape (m,)

@@ -1,4 +1,4 @@
-"""The block as the kernels of the plane models take it: what each of its two sides is."""
+"""The block in the form that the kernels of the plane models use: the numbers of its two sides."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One step of a block that rocks under a sampled base motion, whichever equation it is solved by."""
+"""One step of a block that rocks under a sampled base motion, for either equation."""
 
 from __future__ import annotations
 

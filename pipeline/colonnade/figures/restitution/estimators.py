@@ -56,7 +56,7 @@ def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float | N
     ----------
     groups : sequence of EstimateGroup
     rigid : float, optional
-        Rigid-body value: a line where the axis reaches it, else told at its edge.
+        Rigid-body value: a line if the axis reaches it, else written at its edge.
 
     Returns
     -------

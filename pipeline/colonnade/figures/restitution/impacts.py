@@ -71,9 +71,9 @@ def impact_restitution(
     series : sequence of ImpactSeries
         One a free vibration; bars are ± two standard errors.
     level : Level, optional
-        The value taken as constant.
+        The value if e is constant.
     rigid : float, optional
-        Rigid-body value, drawn where the axis reaches it, else told at its edge.
+        Rigid-body value, drawn if the axis reaches it, else written at its edge.
 
     Returns
     -------

@@ -1,1 +1,1 @@
-"""Figures of stored results: which curves go into which figure, and what is said to those who do not see it."""
+"""Figures of stored results: the curves of each figure, and its description for those who cannot see it."""

@@ -27,7 +27,7 @@ MOTIONS = (
     ("out_of_plane_angle", "out-of-plane angle", "out of plane", "mrad"),
     ("yaw", "yaw", "yaw", "mrad"),
 )
-"""Motions of a specimen besides its rocking angle: variable, words, label of an axis, unit."""
+"""Other motions of a specimen than its rocking angle: variable, words, label of an axis, unit."""
 
 BASE = (
     ("base_acceleration", "base acceleration", "base", "m/s²"),
@@ -58,7 +58,7 @@ def record(test: Test, record: TestSummary, stored: Stored, block: Block) -> Pic
         base=base,
         impacts=stored.array("rocking", "impact_time"),
         peak=_peak(record, measured),
-        # Shades of several models on each other cannot be told apart: those of the others are in `bands` alone.
+        # Shades of several models on each other cannot be distinguished: those of the others are in `bands` alone.
         spreads=dict(sorted(spreads(stored, block).items(), key=lambda item: item[0] != SHADED)[:1]),
     )
     title = f"{test.id}: rocking angle, measured and predicted"

@@ -1,4 +1,4 @@
-"""What gyroscopes and accelerometers on the specimen read as it moves: rates and specific force in its own axes."""
+"""Readings of gyroscopes and accelerometers on the moving specimen: rates and specific force in its own axes."""
 
 from __future__ import annotations
 

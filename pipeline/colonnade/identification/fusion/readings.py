@@ -1,4 +1,4 @@
-"""What identification is given of one test: readings of each kind, the table's motion, the circumstances."""
+"""The input of the fusion: readings of each kind of transducer, the table's motion, and circumstances of the test."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a transducer reads for a pose of the specimen, and how the reading changes with the pose."""
+"""The reading of a transducer for a pose of the specimen, and how it changes with the pose."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which parts of a pose a set-up of transducers separates, and which it does not."""
+"""Which components of a pose a set-up of transducers can separate."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Best history of states whose changes are measured, and which are known now and then: a Kalman smoother."""
+"""A Kalman smoother for states whose changes are measured, and whose values are known now and then."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def smooth(
     process : ndarray, shape (n, s, s)
         Covariance of the noise of each step.
     readings, variances : ndarray, shape (n, s)
-        Of each state by itself; a variance of infinity means no reading.
+        Of each state alone; a variance of infinity means no reading.
     start : ndarray, shape (s,)
         Variance of each state before the first reading, about zero.
 

@@ -1,1 +1,1 @@
-"""What cannot be right: channels held against each other and against the equation of motion."""
+"""Plausibility: channels compared with each other and with the equation of motion."""

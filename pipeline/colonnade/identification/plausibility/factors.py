@@ -1,4 +1,4 @@
-"""Factors by which readings are wrong when a unit or a gain is, and what each is a sign of."""
+"""Typical factors of a wrong unit or gain, and the mistake that each points to."""
 
 from __future__ import annotations
 

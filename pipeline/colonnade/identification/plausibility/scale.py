@@ -1,4 +1,4 @@
-"""How large a transducer's rotation is against the equation of motion, from its record alone."""
+"""The scale of a transducer's rotation relative to the equation of motion, from its record alone."""
 
 from __future__ import annotations
 

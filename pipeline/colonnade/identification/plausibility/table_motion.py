@@ -1,4 +1,4 @@
-"""Whether a table's acceleration and its displacement are of the same motion, in the same units."""
+"""Whether the table's acceleration and displacement are the same motion in the same units."""
 
 from __future__ import annotations
 

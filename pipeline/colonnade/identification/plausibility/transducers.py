@@ -116,7 +116,7 @@ def suspicions(interval: float, rotation: Rotation, acceleration: Array | None, 
 
     Notes
     -----
-    Each transducer's scale is found by itself, see `scale_of`, so that a wrong one can be named.
+    Each transducer's scale is found separately, see `scale_of`, so that a wrong one can be named.
     """
     scales = _scales(interval, rotation, acceleration, block)
     known = [index for index, scale in enumerate(scales) if scale.is_known]

@@ -1,1 +1,1 @@
-"""What a response shows: outcome, order, impacts, forcing, and its rank among runs of a model."""
+"""Features of a response: outcome, order, impacts, forcing, and its rank among runs of a model."""

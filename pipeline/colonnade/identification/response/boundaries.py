@@ -40,7 +40,7 @@ class MapPoint:
 @dataclass(frozen=True)
 class Bracket:
     """
-    Where a boundary lies, going up in A.
+    Where a boundary is, going up in A.
 
     Attributes
     ----------
@@ -116,7 +116,7 @@ def bracket_boundaries(points: Iterable[MapPoint]) -> list[Boundaries]:
 
 @dataclass(frozen=True)
 class Misfit:
-    """How far a computed limit lies above the measured boundary: mean and RMS in A, over how many frequencies."""
+    """How far a computed limit is above the measured boundary: mean and RMS in A, over how many frequencies."""
 
     mean: float
     rms: float

@@ -1,4 +1,4 @@
-"""What a measured angle shows as a whole: what of it is noise, the outcome, the impacts and the peak."""
+"""Features of a measured angle: its noise, the outcome, the impacts and the peak."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the table did in a sine test: frequency and amplitude over its steady part, from the recorded motion."""
+"""The table's motion in a sine test: frequency and amplitude over its steady part, from the recorded motion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What became of the specimen: no rocking, rocking or overturned, from a measured angle."""
+"""The outcome of a test from its measured angle: no rocking, rocking or overturned."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from colonnade.dynamics.history import Outcome, amplitude
 from colonnade.signals.stretches import stretches
 
 HELD = 0.5
-"""Shortest time, s, for which a specimen caught by its frame lies still."""
+"""Shortest time, s, for which a specimen caught by its frame rests in it."""
 
 PLATEAU = 0.05
 """Half-width of a plateau as a fraction of its angle: a frame is soft, and a transducer near its range not linear."""

@@ -1,4 +1,4 @@
-"""A free vibration as the estimators of e see it: its samples, its arcs about their zero, and the settings."""
+"""A free vibration as the estimators of e use it: its samples, its arcs about their zero, and the settings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""HBM catman binary files (.bin): a header a channel, then the values channel by channel."""
+"""HBM catman binary files (.bin): one header for each channel, then the values channel by channel."""
 
 from __future__ import annotations
 

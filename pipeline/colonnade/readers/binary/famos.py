@@ -1,4 +1,4 @@
-"""imc FAMOS files (.raw, .dat): blocks between `|XX,` and `;` that describe the channels, and one of their bytes."""
+"""imc FAMOS files (.raw, .dat): blocks between `|XX,` and `;` that describe the channels, and one with their bytes."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def read(path: Path, options: Options) -> Recording:
     if file.awaits_channel:
         file.warnings.append("the last data set has no channel: the file was cut off")
     channels, starts = _channels(content, file)
-    notes = ["clock: each channel's own start and step" if starts else "no clock: x is no time"]
+    notes = ["clock: each channel's own start and step" if starts else "no clock: x is not a time"]
     if not all(component.is_plain for component in file.components):
         notes.append("a data set of pairs (x, y): both are channels, neither is used as a clock")
     return Recording(path, "famos", tuple(channels), starts[0] if starts else None, tuple(notes), tuple(file.warnings))

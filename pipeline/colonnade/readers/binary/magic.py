@@ -1,4 +1,4 @@
-"""What a file is by its first bytes, for the reason why a binary format does not take it."""
+"""What a file is by its first bytes, to explain why a binary format refuses it."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def by_mark(path: Path, marks: tuple[bytes, ...], expected: str) -> Recognition:
     path : Path
         The file; OSError where it cannot be opened.
     marks : tuple of bytes
-        Any of which it may start with.
+        Marks of the format; a file starts with one of them.
     expected : str
         What that is called: `TDSm, as LabVIEW writes it`.
     """

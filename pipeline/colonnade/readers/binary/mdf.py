@@ -95,7 +95,7 @@ def _content(path: Path, stream: Any) -> tuple[Recording, list[str]]:
 
 
 def _asammdf() -> Any:
-    """asammdf without what it could do beside reading: evaluate a formula, write a file of its own."""
+    """asammdf for reading alone: it cannot evaluate a formula or write a file."""
     import asammdf
     from asammdf.blocks import mdf_v3, mdf_v4, v2_v3_blocks, v4_blocks
 

@@ -1,4 +1,4 @@
-"""Numbers of one channel within a binary file, as a header describes them."""
+"""The numbers of one channel within a binary file, as its header describes them."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def read_stored(header: Path, stored: StoredNumbers, *, longest: int) -> tuple[A
     Raises
     ------
     ReadError
-        If the file with the bytes is not there.
+        If the file with the bytes is missing.
     """
     if not stored.file:
         return even_times(min(stored.count, longest), stored.factor, stored.offset), []
@@ -148,7 +148,7 @@ def beside(header: Path, name: str) -> Path:
     Raises
     ------
     ReadError
-        If it is not there; a path out of the folder is not followed.
+        If it is missing; a path out of the folder is not followed.
     """
     bare = name_beside(header, name)
     with suppress(OSError, ValueError):

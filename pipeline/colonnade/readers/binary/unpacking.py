@@ -1,4 +1,4 @@
-"""How much a compressed file may unpack to before it is taken for one made to exhaust the memory."""
+"""Limits for unpacking a compressed file, so that none can exhaust the memory."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which vectors of a file without columns side by side are the clocks of which others."""
+"""The clocks of vectors, in files whose channels are not columns of one table."""
 
 from __future__ import annotations
 

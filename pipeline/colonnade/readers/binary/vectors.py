@@ -1,4 +1,4 @@
-"""Columns of numbers in files without columns side by side: vectors of structs and groups."""
+"""Channels in files that hold vectors in structs and groups, not columns of one table."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ class Column:
     path : str
         As it is reached in the file: `run.top`, `x[2]` (the second column of x).
     scope : tuple of str
-        Structs or groups that it lies in, outermost first.
+        Structs or groups that contain it, outermost first.
     values : ndarray of numbers, shape (n,)
     name, unit : str or None
-        Where the file tells them beside the numbers.
+        If the file gives them with the numbers.
     """
 
     path: str
@@ -71,7 +71,7 @@ def as_values(numbers: NDArray[Any]) -> tuple[Array, str]:
     values : ndarray of float64, shape (n,)
         The array itself where it is one already and needs no change; NaN in place of infinities.
     warning : str
-        How many infinities there were, such as "2 values are infinite, …"; empty where there are none.
+        How many infinities there were, such as "2 values are infinite, …"; empty if there are none.
     """
     values = np.ascontiguousarray(numbers, dtype=np.float64)
     with np.errstate(all="ignore"):

@@ -1,1 +1,1 @@
-"""A stranger's binary file is read in a process of its own, which may take so much and touch so much, and no more."""
+"""The separate process that reads binary files, with bounded memory, time and access to files."""

@@ -1,4 +1,4 @@
-"""How much the reading of a file may take."""
+"""The memory and time that reading a file may use."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Bounds:
 
 
 def bounds_of(*paths: Path) -> Bounds:
-    """Bounds for a raw file that is in one or several files, by their size; one that is not there has none."""
+    """Bounds for a raw file that is in one or several files, by their size; a missing one counts as empty."""
     size = sum(_size(path) for path in paths)
     memory = min(MEMORY + MEMORY_RATIO * size, max(MEMORY, int(MEMORY_SHARE * _machine())))
     processor = SECONDS + size // BYTES_PER_SECOND

@@ -1,4 +1,4 @@
-"""What a process gives up before it opens a stranger's file: memory, time, other files, programs, the network."""
+"""What the reading process gives up before it opens a file: memory, time, other files, programs, the network."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ FORBIDDEN = (
     *("subprocess.Popen", "pty.spawn", "webbrowser.open", "pickle.find_class", "shutil.", "urllib.Request", "ftplib."),
     *("socket.connect", "socket.bind", "socket.sendto", "socket.sendmsg", "socket.getaddrinfo", "socket.gethostbyname"),
 )
-"""Events of Python's audit, or their beginnings, none of which belongs to reading."""
+"""Audit events of Python, or their beginnings, that reading never needs."""
 
 WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
 
@@ -44,7 +44,7 @@ def enclose(bounds: Bounds, within: Path) -> None:
     ----------
     bounds : Bounds
     within : Path
-        Folder whose files may be read, beside those of Python itself.
+        Folder whose files may be read, in addition to those of Python itself.
     """
     limit(bounds)
     readable = [within, *own_folders()]

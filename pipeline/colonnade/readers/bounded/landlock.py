@@ -45,7 +45,7 @@ def restrict(readable: Iterable[Path]) -> bool:
     Parameters
     ----------
     readable : iterable of Path
-        Those that are not there are passed over.
+        Missing ones are skipped.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 """
-What is said between this process and the one that reads.
+Messages between this process and the one that reads.
 
 A request is a line of JSON. An answer is a line of JSON and the bytes of the arrays that it counts: numbers, names and
 sentences, nothing that has to be trusted. A hijacked reader can lie about its file, and no more.
@@ -37,7 +37,7 @@ Text = Annotated[str, AfterValidator(_whole)]
 
 
 class BrokenAnswerError(Exception):
-    """An answer that is none: the reader lies."""
+    """The answer is not valid: the reading process cannot be trusted."""
 
 
 class EndedError(Exception):
@@ -54,7 +54,7 @@ class Request:
     wanted : str
         What it holds, or the names of the other files that it is in.
     path, within : str
-        The file, and the folder of which files may be read.
+        The file, and the folder whose files may be read.
     format : str
     options : dict
     window : Window or None
@@ -177,7 +177,7 @@ def receive(stream: IO[bytes], largest: int) -> tuple[Answer, list[Array]]:
     Raises
     ------
     BrokenAnswerError
-        If what is said is no answer.
+        If the message is not a valid answer.
     EndedError
         If the stream ends before it does.
     """
@@ -187,7 +187,7 @@ def receive(stream: IO[bytes], largest: int) -> tuple[Answer, list[Array]]:
     try:
         answer = Answer.model_validate_json(line)
     except ValueError as error:
-        raise BrokenAnswerError("the answer is no answer") from error
+        raise BrokenAnswerError("the answer is not valid") from error
     if 8 * sum(answer.sizes) > largest:
         raise BrokenAnswerError("the answer is larger than its reader's memory")
     arrays = []
@@ -209,7 +209,7 @@ def recording_of(path: Path, answer: Answer, arrays: list[Array]) -> Recording:
     Raises
     ------
     BrokenAnswerError
-        If a channel names an array that is not there or of another length.
+        If a channel names an array that is missing or has another length.
     """
     try:
         channels = tuple(

@@ -1,4 +1,4 @@
-"""The bounded process as seen from here: started with the first file, asked for each, started again where it ends."""
+"""The bounded process, seen from outside: started with the first file, and started again if it ends."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def read(request: Request, *, has_companions: bool) -> Recording:
 
 def companions(request: Request) -> tuple[Path, ...]:
     """
-    Find the other files that a raw file is in; all are in its folder, whatever it says.
+    Find the companion files of a raw file; all are in its folder, whatever the file says.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The process that reads: takes a request a line from its input, and answers on what was its output."""
+"""The reading process: takes one request a line from stdin, and answers on what was its stdout."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Headers of DIAdem data sets as text (.DAT): numbered lines, a block a channel."""
+"""Headers of DIAdem data sets as text (.DAT): numbered lines, one block for each channel."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""NI DIAdem data sets: a header, .TDM or .DAT, and files of bytes beside it."""
+"""NI DIAdem data sets: a header, .TDM or .DAT, with files of bytes next to it."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def read(path: Path, options: Options) -> Recording:
 
 
 def companions(path: Path, options: Options) -> tuple[str, ...]:
-    """Names of the files with the values, all beside the header."""
+    """Names of the files with the values, all next to the header."""
     _, described, _ = _described(path)
     return tuple(dict.fromkeys(name_beside(path, stored.file) for stored in described if stored.file))
 

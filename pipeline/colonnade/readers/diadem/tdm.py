@@ -145,7 +145,7 @@ def _referred(reference: str | None, objects: Objects, what: str) -> ElementTree
 
 
 def _attribute(channel: ElementTree.Element, name: str) -> float:
-    """A number among a channel's own attributes; 0 where it is not there."""
+    """A number among a channel's own attributes; 0 if it is missing."""
     for attribute in channel.iter("double_attribute"):
         if attribute.get("name") == name:
             return float((attribute.text or "").strip() or 0)

@@ -1,4 +1,4 @@
-"""Cells of a sheet: where its rows of numbers are, and what a column of them holds."""
+"""Cells of a sheet: its rows of numbers, and the values of a column."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Is a zipped workbook whole, and of a size that its samples explain? Looked at before any of it is unpacked."""
+"""Whether a zipped workbook is whole and of a plausible size, checked before it is unpacked."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ class Variable:
 
     @property
     def groups(self) -> tuple[str, ...]:
-        """The groups that it lies in, outermost first."""
+        """The groups that contain it, outermost first."""
         return tuple(self.path.split("/")[:-1])
 
 
@@ -60,7 +60,7 @@ class Content:
     attributes : dict
         Of the file.
     left_out : dict of str to str
-        Path -> why it is no variable of numbers.
+        Path -> why it is not a variable of numbers.
     warnings : list of str
     """
 
@@ -139,7 +139,7 @@ def _datasets(
     own = opening.address(group)
     if own in around or len(around) > opening.DEEPEST:
         content.left_out[above] = (
-            "it holds itself" if own in around else f"it lies more than {opening.DEEPEST} groups deep"
+            "it holds itself" if own in around else f"it is more than {opening.DEEPEST} groups deep"
         )
         return
     try:

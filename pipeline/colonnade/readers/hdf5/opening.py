@@ -1,4 +1,4 @@
-"""Opening HDF5, in which MATLAB 7.3 and NetCDF-4 are written: what is said where it is cut off."""
+"""Opening HDF5, also for MATLAB 7.3 and NetCDF-4, with plain messages for incomplete files."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 DEEPEST = 20
 """Levels of groups in one another."""
 MOST_PARTS = 10_000
-"""Groups, variables, fields and cells that are looked at; more are no recording."""
+"""Groups, variables, fields and cells that are examined; a recording has fewer."""
 DAMAGE = (OSError, KeyError, ValueError, TypeError, RuntimeError, UnicodeError, MemoryError)
 """What h5py raises for a damaged part of a file."""
 HEAP = b"GCOL\x01\0\0\0"

@@ -29,7 +29,7 @@ def numbered_channels(variables: dict[str, Node]) -> tuple[dict[str, Node], list
     columns : list of Column
         With names and units by the headers; the first one is called `time` where it rises, as that is the clock.
     scalars : dict of str to float
-        `File_Header.SampleFrequency`, Hz, where the first channel is no clock.
+        `File_Header.SampleFrequency`, Hz, if the first channel is not a clock.
     notes : list of str
         Empty where the file has another layout.
     """

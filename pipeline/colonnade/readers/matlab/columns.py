@@ -30,7 +30,7 @@ class Found:
     scalars : dict of str to float
         Single numbers, by path.
     left_out : dict of str to str
-        Path -> why it is no column.
+        Path -> why it is not a column.
     """
 
     columns: list[Column] = field(default_factory=list)
@@ -82,7 +82,7 @@ def _walk(
 def _numbers(
     numbers: Numbers, path: str, scope: tuple[str, ...], lengths: set[int], found: Found, beside: dict[str, Node]
 ) -> None:
-    """Take an array apart into columns; what stands beside it in its struct may tell names and units."""
+    """Split an array into columns; other fields of its struct may give names and units."""
     if numbers.size == 0:
         return
     if numbers.size == 1:
@@ -119,7 +119,7 @@ def _text(told: dict[str, Node], keys: frozenset[str]) -> str | None:
 
 
 def _list_of_names(told: dict[str, Node], count: int) -> list[str]:
-    """Names of a matrix's columns, where a cell array or lines of text beside it give as many."""
+    """Names of a matrix's columns, if a cell array or lines of text next to it give as many."""
     for key, node in told.items():
         names = node.splitlines() if isinstance(node, str) else node
         if key in LIST_FIELDS and isinstance(names, list) and len(names) == count:

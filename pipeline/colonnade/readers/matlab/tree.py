@@ -1,4 +1,4 @@
-"""What a MATLAB file holds, whichever of its two file formats it is written in."""
+"""The content of a MATLAB file, in either of the two file formats."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Tree:
     ----------
     variables : dict of str to Node
     left_out : dict of str to str
-        Path of what was not read -> why: classes that are no data, or ones that would have to be executed.
+        Path of what was not read -> why: classes that are not data, or that would have to be executed.
     warnings : list of str
         Where the file is cut off or damaged.
     """

@@ -1,4 +1,4 @@
-"""MATLAB's format of versions 5 to 7: SciPy reads each variable by itself, so that a damaged one costs no other."""
+"""MATLAB's format of versions 5 to 7: SciPy reads each variable separately, so a damaged one does no harm."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MATRIX, COMPRESSED = 14, 15
 OPAQUE = 17
 """Class of an object whose form MathWorks does not publish."""
 MOST_PARTS = 100_000
-"""Cells, or structs times fields, of one array; more are no recording."""
+"""Cells, or structs times fields, of one array; a recording has fewer."""
 
 
 def read_v5(path: Path) -> Tree:
@@ -129,7 +129,7 @@ def _node(value: Any, path: str, left_out: dict[str, str]) -> Node:
     Raises
     ------
     UnreadableError
-        If it is no data. A part that is none is left out with its reason, by the path from the variable to it.
+        If it is not data. A part that is not is left out with its reason, by the path from the variable to it.
     """
     if reason := _refusal(value):
         raise UnreadableError(reason)
@@ -153,7 +153,7 @@ def _node(value: Any, path: str, left_out: dict[str, str]) -> Node:
 
 
 def _part(value: Any, path: str, left_out: dict[str, str]) -> Any:
-    """A cell or a field; None where it is no data."""
+    """A cell or a field; None if it is not data."""
     try:
         return np.empty((0, 0)) if value is None else _node(value, path, left_out)
     except UnreadableError as reason:
@@ -162,7 +162,7 @@ def _part(value: Any, path: str, left_out: dict[str, str]) -> Any:
 
 
 def _refusal(value: Any) -> str:
-    """Say why a variable is no data, or nothing where it is."""
+    """Say why a variable is not data; empty if it is."""
     from scipy.io.matlab import MatlabFunction, MatlabObject, MatlabOpaque
     from scipy.sparse import issparse
 

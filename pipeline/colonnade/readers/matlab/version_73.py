@@ -88,7 +88,7 @@ class _Reader:
                 return self._dataset(item, matlab_class, path, depth)
         finally:
             self._above.remove(own)
-        raise UnreadableError("it is no data")
+        raise UnreadableError("it is not data")
 
     def _group(self, group: h5py.Group, path: str, depth: int) -> Node:
         """Read a struct, or an array of structs: then each field is a list of references, one an element."""

@@ -1,4 +1,4 @@
-"""Strong-motion records in the COSMOS text format (.V1, .V1C, .V2, .V2C): headers tell their length, numbers follow."""
+"""Strong-motion records in the COSMOS text format (.V1, .V1C, .V2, .V2C): headers give their length, numbers follow."""
 
 from __future__ import annotations
 

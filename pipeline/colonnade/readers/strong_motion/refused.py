@@ -1,4 +1,4 @@
-"""Strong-motion formats that are not read here: recognised by their headers, so that nobody takes them for tables."""
+"""Strong-motion formats that are not read here: recognised by their headers, so that they are not read as tables."""
 
 from __future__ import annotations
 
@@ -104,4 +104,4 @@ NETWORKS: dict[str, Callable[[list[str]], bool]] = {
     "UNAM (Mexico, Archivo Estándar de Aceleración)": _holds(r"ARCHIVO EST.{1,2}NDAR DE ACELERACI", 12),
     "RENADIC (Universidad de Chile)": _holds(r"UNIVERSIDAD DE CHILE\s*-\s*RENADIC", 12),
 }
-"""Name, as people know it, and what tells from the lines of the head; in this order, as USC writes more than CSMIP."""
+"""Common name, and the test on the lines of the head; in this order, as USC writes more than CSMIP."""

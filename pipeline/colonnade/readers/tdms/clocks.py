@@ -1,4 +1,4 @@
-"""What the samples of TDMS channels go by: their own properties, or a channel of times beside them."""
+"""The clocks of TDMS channels: their own properties, or a channel of times in their group."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from colonnade.readers.recording import RecordedChannel, Recording
 EARLIEST_START = np.datetime64("1970-01-01", "us")
 """LabVIEW writes 1904-01-01 where no start is known."""
 NO_TIMING = 1.0
-"""Step, s, that LabVIEW writes where nobody told it one."""
+"""Step, s, that LabVIEW writes by default."""
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ def on_clocks(path: Path, columns: list[Column], time: str | int | None, time_un
     Raises
     ------
     ReadError
-        If there is no such channel, or it holds no number.
+        If the channel is missing, or it holds no number.
     """
     waveforms = [column.waveform for column in columns]
     tracks: dict[tuple[float, float, int, int], Array] = {}

@@ -106,7 +106,7 @@ def _parts(channels: list[TdmsChannel], window: Window | None) -> list[slice] | 
 
 
 class _BoundedStream(BufferedReader):
-    """A file of which no more is asked than it has, however many bytes its damaged content speaks of."""
+    """A file that returns at most the bytes that it has, even if damaged content claims more."""
 
     def __init__(self, path: Path) -> None:
         super().__init__(FileIO(path))
@@ -123,12 +123,12 @@ def _open(path: Path, stream: _BoundedStream) -> TdmsFile:
     """
     Open the file, once its description is found to fit into it.
 
-    It is given as a stream, so that a .tdms_index beside it, which may be another file's, is not looked at.
+    It is given as a stream, so that a .tdms_index next to it, which may be another file's, is not used.
     """
     from nptdms import TdmsFile
     from nptdms.log import log_manager
 
-    log_manager.set_level(logging.CRITICAL)  # what it would print is told as warnings of the recording
+    log_manager.set_level(logging.CRITICAL)  # what it would print becomes warnings of the recording
     size = path.stat().st_size
     try:
         described = TdmsFile.open(stream)
@@ -174,7 +174,7 @@ def _columns(
 
 
 def _refusal(channel: TdmsChannel) -> str:
-    """Say why a channel is no column of numbers, or nothing where it is one."""
+    """Say why a channel is not a column of numbers; empty if it is."""
     if len(channel) == 0:
         return "it holds no samples"
     kind = channel.dtype.kind

@@ -1,4 +1,4 @@
-"""The chain of segments that a TDMS file consists of, walked without its content: where it is cut off or broken."""
+"""The chain of segments that a TDMS file consists of, read without its content: where it is cut off or broken."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a delimited text is written and what its columns are called, found in its head before samples are read."""
+"""The layout of a delimited text and the names of its columns, found in its head before samples are read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the lines above a block of numbers say of it: how many there are, their interval, their unit, their format."""
+"""What the lines above a block of numbers say about it: count, interval, unit and format."""
 
 from __future__ import annotations
 

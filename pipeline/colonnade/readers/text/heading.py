@@ -1,4 +1,4 @@
-"""Names and units of columns: which lines hold them, and `LVDT 1 [mm]` taken apart."""
+"""Names and units of columns: the lines that hold them, and `LVDT 1 [mm]` split in two."""
 
 from __future__ import annotations
 

@@ -170,6 +170,6 @@ def _rows(lines: NumberedLines) -> Iterator[tuple[int, str]]:
 
 
 def _padded(rows: Iterator[tuple[int, str]], dialect: Dialect, width: int) -> Iterator[tuple[int, str]]:
-    """Fill up rows in which channels with fewer samples have no cell any more."""
+    """Fill up rows in which channels with fewer samples have no more cells."""
     for number, row in rows:
         yield number, row + dialect.delimiter * (width - 1 - row.count(dialect.delimiter))

@@ -1,4 +1,4 @@
-"""Finding out how the numbers of a text file are written: delimiter, decimal sign, quotation marks."""
+"""Detection of how the numbers of a text file are written: delimiter, decimal sign, quotation marks."""
 
 from __future__ import annotations
 

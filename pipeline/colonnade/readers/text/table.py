@@ -1,4 +1,4 @@
-"""A table of columns, from a text or a sheet -> a recording; what can be said about such a table."""
+"""A table of columns, from a text or a sheet -> a recording; the options of such a table."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Seismic kinds that are in several files: which these are, and that they are beside their header."""
+"""Seismic formats in several files: the names of these files, which must be next to the header."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def companions_of(path: Path, kind: str) -> tuple[str, ...]:
     Returns
     -------
     names : tuple of str
-        Of files beside the header; empty where the kind is in one file.
+        Names of the files next to the header; empty if the format is a single file.
 
     Raises
     ------

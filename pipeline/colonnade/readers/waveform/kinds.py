@@ -1,4 +1,4 @@
-"""Which seismic format a file is in, by its first bytes, without ObsPy."""
+"""The seismic format of a file by its first bytes, without ObsPy."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def kind_of_waveform(path: Path) -> str | None:
     -------
     kind : str or None
         As ObsPy calls it; None where the first bytes are none of those known here. Other kinds that ObsPy reads have
-        no sign that tells them from text or noise.
+        no sign that separates them from text or noise.
     """
     with path.open("rb") as stream:
         head = stream.read(HEAD)

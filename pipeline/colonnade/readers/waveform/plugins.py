@@ -1,4 +1,4 @@
-"""ObsPy's readers by kind, found once: ObsPy itself looks for one among all installed packages each time it reads."""
+"""ObsPy's readers by format, found once: ObsPy itself searches all installed packages at each read."""
 
 from __future__ import annotations
 

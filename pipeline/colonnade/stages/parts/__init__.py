@@ -1,1 +1,1 @@
-"""What stages share."""
+"""Parts that several stages share."""

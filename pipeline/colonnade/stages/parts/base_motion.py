@@ -1,4 +1,4 @@
-"""The base motion that drives a prediction, as it was recorded, and what of it the plane models leave out."""
+"""The base motion that drives a prediction, as it was recorded, and the parts of it that the plane models ignore."""
 
 from __future__ import annotations
 

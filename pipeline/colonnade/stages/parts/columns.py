@@ -1,4 +1,4 @@
-"""The column of a raw file that a channel is: its samples, its times, and what its unit says."""
+"""The column of a channel in a raw file: its samples, its times, and its unit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Conditioned channels as identification takes them: the base's motion along each axis, and readings by kind."""
+"""Conditioned channels in the form that identification uses: the base motion along each axis, and readings by kind."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The base of what a stage reads of the campaign."""
+"""The base class of what a stage reads of the campaign."""
 
 from __future__ import annotations
 

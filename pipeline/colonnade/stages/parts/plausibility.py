@@ -162,7 +162,7 @@ def _along_x(conditioned: xr.Dataset, channels: Mapping[str, float]) -> list[tab
 def _rotation(
     conditioned: xr.Dataset, inputs: PlausibilityInputs, displacements: list[table_motion.TableChannel]
 ) -> Rotation | None:
-    """Readings of the transducers that see the rotation, relative to the table; None if there is no such transducer."""
+    """Readings of the transducers that see the rotation, relative to the table; None if no transducer does."""
     names = [name for name in inputs.positions if name in conditioned]
     if not names:
         return None

@@ -1,4 +1,4 @@
-"""Quality of each channel: by itself, compared with the table's channels, and by the people who reviewed it."""
+"""Quality of each channel: alone, compared with the table's channels, and as reviewed by people."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def channel_verdicts(
     stamps: Array, values: Array, physical: Array, channel: ChannelInputs, settings: QualitySettings
 ) -> list[quality.Verdict]:
     """
-    Check one channel by itself.
+    Check one channel alone.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The measured angle among the runs of a model: how far it is from them, and up to which time that means anything."""
+"""The rank of the measured angle among the runs of a model, and the time up to which it is meaningful."""
 
 from __future__ import annotations
 

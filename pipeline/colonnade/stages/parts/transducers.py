@@ -1,4 +1,4 @@
-"""A set-up's channels as the transducers that identification knows: on the specimen, and on the table."""
+"""The channels of a set-up as transducers for the identification: on the specimen, and on the table."""
 
 from __future__ import annotations
 

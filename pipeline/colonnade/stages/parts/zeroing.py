@@ -1,4 +1,4 @@
-"""Zero: the stretch in which specimen and table are still, and each channel's value there is subtracted."""
+"""Zero: the stretch in which specimen and table are still; each channel's value there is subtracted."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The record of a test and of a specimen, taken from the stored results once: all that shows them is a view of it."""
+"""The records of tests and specimens, taken from the results once; summary, report and `show` are views of them."""

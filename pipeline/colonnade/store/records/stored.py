@@ -1,4 +1,4 @@
-"""What is stored of one test or specimen, read once and given by name: values, text, failures, findings, channels."""
+"""The stored results of one test or specimen, read once: values, text, failures, findings and channels by name."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ WITHOUT_SAMPLES = ("ingest", "condition")
 FOREIGN = (
     "the stored result was made from other raw files, another campaign file or another version of colonnade; run again"
 )
-"""Reason of a test whose stored results are not of this campaign any more."""
+"""Reason of a test whose stored results are out of date."""
 
 
 class Failure(NamedTuple):
@@ -80,7 +80,7 @@ class Stored:
     keys : dict of str to str
         Of each result, by its name, what identifies it: its key and the hash of its content.
     is_foreign : bool
-        Whether results are there that are not of this campaign any more; they are not read.
+        Whether the stored results are out of date; they are then not read.
     """
 
     datasets: dict[Made, xr.Dataset] = field(default_factory=dict)
@@ -109,38 +109,38 @@ class Stored:
         return [model for known, model in self.datasets if known == stage and model is not None]
 
     def value(self, stage: str, name: str, model: str | None = None) -> float:
-        """Return a number, NaN if it is not there or no scalar."""
+        """Return a number, NaN if it is missing or not a scalar."""
         dataset = self.datasets.get((stage, model))
         return float(dataset[name]) if dataset is not None and name in dataset and not dataset[name].ndim else nan
 
     def array(self, stage: str, name: str, model: str | None = None) -> Array:
-        """Return the values of a variable, of length 0 if it is not there."""
+        """Return the values of a variable, of length 0 if it is missing."""
         dataset = self.datasets.get((stage, model))
         return dataset[name].to_numpy() if dataset is not None and name in dataset else np.empty(0)
 
     def median(self, stage: str, name: str) -> float:
-        """Return a number, of a series its median; NaN if it is not there or has no value."""
+        """Return a number, of a series its median; NaN if it is missing or has no value."""
         values = self.array(stage, name)
         return float(np.nanmedian(values)) if np.isfinite(values).any() else nan
 
     def by(self, along: str, stage: str, name: str) -> dict[str, Any]:
-        """Return the values along a named dimension (model, transducer, estimator), empty if they are not there."""
+        """Return the values along a named dimension (model, transducer, estimator), empty if they are missing."""
         dataset = self.datasets.get((stage, None))
         if dataset is None or name not in dataset or dataset[name].dims != (along,) or along not in dataset.coords:
             return {}
         return dict(zip(map(str, dataset[along].to_numpy()), dataset[name].to_numpy().tolist(), strict=True))
 
     def compared(self, name: str, model: str) -> float:
-        """Return a number by which a model is compared with the measured angle, NaN if it is not there."""
+        """Return a number by which a model is compared with the measured angle, NaN if it is missing."""
         return float(self.by("model", "compare", name).get(model, nan))
 
     def text(self, stage: str, name: str, model: str | None = None) -> str:
-        """Return a text attribute, empty if it is not there."""
+        """Return a text attribute, empty if it is missing."""
         dataset = self.datasets.get((stage, model))
         return "" if dataset is None else str(dataset.attrs.get(name, ""))
 
     def texts(self, stage: str, name: str) -> list[str]:
-        """Return an attribute that is a list of text, empty if it is not there."""
+        """Return an attribute that is a list of text, empty if it is missing."""
         dataset = self.datasets.get((stage, None))
         return [] if dataset is None else _listed(dataset.attrs.get(name))
 
@@ -189,7 +189,7 @@ def read_test(
     layout : Layout
     test : Test
     is_outdated : bool, optional
-        Whether the stored results are not of this campaign any more: they are not read.
+        Whether the stored results are out of date: they are then not read.
     failure : str, optional
         Why it failed, if no result says so.
     """

@@ -1,4 +1,4 @@
-"""The summary of the last run, read back, and what is taken from the records of its tests together."""
+"""The summary of the last run, read back, and values gathered from the records of its tests."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""summary.csv: the record of each test as a row of numbers and text that a spreadsheet shows as they are."""
+"""summary.csv: the record of each test as a row of numbers and plain text for a spreadsheet."""
 
 from __future__ import annotations
 

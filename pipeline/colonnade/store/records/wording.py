@@ -1,4 +1,4 @@
-"""Numbers and outcomes of a record in words; what is not known is a dash."""
+"""Numbers and outcomes of a record in words; a dash if unknown."""
 
 from __future__ import annotations
 

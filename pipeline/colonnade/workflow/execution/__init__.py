@@ -1,1 +1,1 @@
-"""Where work is computed: processes, a Dask cluster, resumable blocks, one run at a time."""
+"""Execution: processes, a Dask cluster, resumable blocks, and a lock for one run at a time."""

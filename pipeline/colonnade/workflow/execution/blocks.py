@@ -1,4 +1,4 @@
-"""Long work in independent blocks: each that is finished is kept, so that work that was killed goes on from there."""
+"""Long work in independent blocks: finished ones are kept, so that interrupted work continues from there."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MOST_BLOCKS = 128
 
 
 class Spread(Protocol):
-    """`in_blocks` as far as work does not depend on it: where it runs and who is told is settled."""
+    """`in_blocks` with its settings of execution and progress already given."""
 
     def __call__(
         self, work: Callable[[range], Mapping[str, NDArray[Any]]], blocks: Sequence[range], folder: Path, key: str
@@ -38,7 +38,7 @@ class Spread(Protocol):
 
 
 def blocks_of(number: int) -> list[range]:
-    """Part a number of columns into at most `MOST_BLOCKS` blocks of equal size, the last one smaller."""
+    """Divide a number of columns into at most `MOST_BLOCKS` blocks of equal size, the last one smaller."""
     size = ceil(number / MOST_BLOCKS)
     return [range(start, min(start + size, number)) for start in range(0, number, size)]
 
@@ -54,7 +54,7 @@ def in_blocks(
     progress: Counted | None = None,
 ) -> list[Arrays]:
     """
-    Work on each block, or take what an earlier call that was stopped had finished.
+    Work on each block, or take the blocks that an interrupted earlier call finished.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def in_blocks(
     folder : Path
         Where finished blocks are kept; for this work only. The caller removes it (`forget`) when their sum is stored.
     key : str
-        Hash of all that the result follows from; what is kept under another key is removed.
+        Hash of all that the result depends on; blocks under another key are removed.
     workers, scheduler : optional
         As of `spread`.
     progress : callable, optional
@@ -119,7 +119,7 @@ def _keep(path: Path, arrays: Arrays) -> None:
 
 
 def _kept(path: Path) -> Arrays | None:
-    """Arrays of a finished block; None where there is none that can be read."""
+    """Arrays of a finished block; None if it is missing or unreadable."""
     try:
         with np.load(path, allow_pickle=False) as stored:
             return {name: stored[name] for name in stored.files}

@@ -1,4 +1,4 @@
-"""What a stability map of a specimen is asked for, and the plan that follows from it and from what is known."""
+"""What a stability map of a specimen has to show, and the plan that follows from it and from earlier results."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Wanted:
 
 
 def measured_points(layout: Layout, specimen: str) -> list[MapPoint]:
-    """Sine tests of a specimen whose Ω, A and outcome the last run knows; none where there was no run."""
+    """Sine tests of a specimen whose Ω, A and outcome the last run knows; none without a run."""
     try:
         summary = read_summary(layout)
     except StoreError:
@@ -172,7 +172,7 @@ def _space(campaign: Campaign, layout: Layout, specimen: str) -> InSpace:
 
 
 def _around(values: Sequence[float], usual: tuple[float, float]) -> tuple[float, float]:
-    """Return a range, in steps of a tenth, that holds the values with room beside; else the usual one."""
+    """Return a range, in steps of a tenth, that includes the values with some margin; without values, the usual one."""
     if not values:
         return usual
     return float(np.floor(9 * min(values)) / 10), float(np.ceil(11 * max(values)) / 10)

@@ -1,4 +1,4 @@
-"""Steady responses of a specimen to sines over Ω and A: planned as its stability map, made in blocks, stored, drawn."""
+"""Steady responses of a specimen to sines over Ω and A: planned like a stability map, made in blocks, stored, drawn."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def make_responses(
     spread: Spread,
 ) -> str:
     """
-    Make the steady responses of a specimen, where they are not there yet, and draw them.
+    Make the steady responses of a specimen if they are out of date, and draw them.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def make_responses(
     layout : Layout
     specimen : str
     plan : MapPlan
-        Its block, axes, model, restitution and sine are taken; instead of its cycles there are `SETTLING` ones.
+        Its block, axes, model, restitution and sine are used, with `SETTLING` cycles.
     points : sequence of MapPoint
         Measured sine tests that are drawn on them.
     restitution_source : str
@@ -83,7 +83,7 @@ def as_response(stored: xr.Dataset) -> SteadyResponse:
 
 
 def _settings(plan: MapPlan) -> dict[str, Any]:
-    """All that the responses depend on beside block and axes, by the names of a map's options."""
+    """All that the responses depend on apart from block and axes, by the names of a map's options."""
     kept = ("model", "phase", "ramp", "ramp_shape", "rest_angle", "critical_angle", "p")
     options = plan.options
     return {name: options[name] for name in options if name in kept or name.startswith("restitution_")} | {

@@ -1,4 +1,4 @@
-"""Stability maps of a campaign's specimens: planned from what is known of them, made in blocks, stored, drawn."""
+"""Stability maps of a campaign's specimens: planned from earlier results, made in blocks, stored, drawn."""
 
 from __future__ import annotations
 
@@ -44,17 +44,17 @@ class MapMade:
         given, identified or rigid-body.
     path, figure : Path
     together : Path or None
-        Picture of the limits of all models that were asked for, where there are several.
+        Picture with the limits of all models, if there are several.
     responses, responses_figure : Path or None
-        Steady responses, where they were asked for.
+        Steady responses, if requested.
     measured : int
         Sine tests drawn on it.
     lower, upper : Misfit or None
-        How far its limits lie from the measured boundary of overturning; None where that was not bracketed.
+        Distance of its limits from the measured boundary of overturning; None if that was not bracketed.
     action : str
-        done, or up-to-date if it and its responses were there already.
+        done, or up-to-date if nothing was recomputed.
     because : str
-        Why they were made, as of a `StageRun`; empty if they were not.
+        Why they were made, see `StageRun`; empty if they were not.
     seconds : float
     """
 
@@ -99,7 +99,7 @@ def make_maps(
     results : Path or str, optional
         Folder that holds `processed` and `report`; default that of the campaign file.
     progress : callable, optional
-        Told how many blocks of a map are done, and of how many.
+        Called with the number of blocks done, and their total.
 
     Returns
     -------
@@ -108,9 +108,9 @@ def make_maps(
     Raises
     ------
     CampaignError
-        If the campaign file, a specimen or what is asked for is not usable.
+        If the campaign file, a specimen or a wanted value is not usable.
     StoreError
-        If a run is under way, or results cannot be written.
+        If a run is in progress, or results cannot be written.
     """
     loaded = load(Path(campaign))
     for name in specimens:
@@ -127,7 +127,7 @@ def make_maps(
 
 
 def _of_specimen(campaign: Campaign, layout: Layout, specimen: str, wanted: Wanted, spread: Spread) -> list[MapMade]:
-    """Make the maps of one specimen, one a model, and of several models a picture together."""
+    """Make the maps of one specimen, one for each model, and a common picture of several models."""
     models = list(dict.fromkeys(wanted.models))
     together = layout.together(specimen, models) if len(models) > 1 else None
     points = measured_points(layout, specimen)
@@ -180,7 +180,7 @@ def _make(
 
 
 def as_dataset(chart: StabilityMap) -> xr.Dataset:
-    """Lay a map out as it is stored: outcomes over Ω and A, limits over Ω, the options as attributes."""
+    """Return a map in its stored form: outcomes over Ω and A, limits over Ω, the options as attributes."""
     import xarray as xr
 
     cells = ("frequency_ratio", "amplitude_ratio")

@@ -38,7 +38,7 @@ def mesh_of(sizes: Mapping[str, float], mesh: str) -> Mesh:
     Raises
     ------
     ValueError
-        If there is no such mesh, or the dimensions are none of these.
+        If the mesh is unknown, or the dimensions are those of no known shape.
     """
     if mesh not in PAPERS_DEGREES_OF_FREEDOM:
         raise ValueError(f'Unknown mesh "{mesh}".{nearest(mesh, PAPERS_DEGREES_OF_FREEDOM)}')

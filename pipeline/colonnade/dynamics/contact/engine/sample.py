@@ -1,4 +1,4 @@
-"""A row of the result: the state at a sample of the motion, with its energies."""
+"""One row of the result: the state at a sample of the motion, with its energies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the contact engine works on: the body and its law as arrays, its state, and room for one step."""
+"""The data of the contact engine: the body and its law as arrays, its state, and work space for one step."""
 
 from __future__ import annotations
 

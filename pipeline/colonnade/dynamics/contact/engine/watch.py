@@ -1,4 +1,4 @@
-"""Where an arc of rocking about one pole ends, and the next begins: the impacts."""
+"""The impacts: where an arc of rocking about one pole ends and the next begins."""
 
 from __future__ import annotations
 

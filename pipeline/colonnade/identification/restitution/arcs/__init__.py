@@ -1,1 +1,1 @@
-"""Arcs of a rocking history: what lies between two impacts."""
+"""Arcs of a rocking history, each between two impacts."""

@@ -1,4 +1,4 @@
-"""A departure from the plane model: what it is called, how large it is, and what follows from it."""
+"""A departure from the plane model: its name, its size, and its consequences."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Departures of a free vibration from plane rocking with one e: named, quantified, and what is left out for them."""
+"""Departures of a free vibration from plane rocking with one e: named, quantified, and left out of the fit."""
 
 from __future__ import annotations
 

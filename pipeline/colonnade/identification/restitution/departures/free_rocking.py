@@ -1,4 +1,4 @@
-"""Whether the arcs of a record are those of a block that rocks freely: their durations, and their shape."""
+"""Whether the arcs of a record are those of free rocking, by their durations and their shape."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What e of single impacts shows: that it depends on their speed, or that the table moves under the block."""
+"""Departures in e of single impacts: it depends on their speed, or the table moves."""
 
 from __future__ import annotations
 

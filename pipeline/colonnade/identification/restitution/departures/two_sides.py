@@ -1,4 +1,4 @@
-"""Whether the two sides of a block rock alike: e and critical angle of each, from energies and durations together."""
+"""Whether the two sides of a block are equal: e and critical angle of each, from energies and durations together."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an estimator of e is: what it is called, what it assumes, and a fit to a free vibration."""
+"""The base of an estimator of e: its name, its assumptions, and a fit to a free vibration."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Fit:
     """
-    What an estimator gives; each estimator adds what came with it.
+    The result of an estimator; each estimator may add to it.
 
     Attributes
     ----------
     estimate : Estimate
     fitted : FittedHistory or None
-        The history laid through the record, if the estimator lays one.
+        The history fitted to the record, if the estimator fits one.
     """
 
     estimate: Estimate
@@ -36,7 +36,7 @@ class Fit:
 
     @property
     def zero_offset(self) -> float:
-        """Angle at which the block is upright by this fit, rad; 0 where it does not find one."""
+        """Angle at which the block is upright by this fit, rad; 0 if it does not identify one."""
         return 0.0
 
 
@@ -50,11 +50,11 @@ class Estimator(ABC, Generic[FitT_co]):
     Attributes
     ----------
     name : str
-        With which it is stored.
+        Its name in stored results.
     label : str
         Its name in figures and tables.
     assumptions : str
-        What has to be true for the value to be that of the specimen.
+        What has to be true for the value to be right.
     description : str
         How it works, for the report's page of methods.
     references : tuple of str
@@ -62,11 +62,11 @@ class Estimator(ABC, Generic[FitT_co]):
     method : str
         How the value was found, for an estimator that may be recommended.
     priority : int
-        Place among those that may be recommended, from 1 on (`choice.choose`); 0 for one that is only given.
+        Place among those that may be recommended, from 1 on (`choice.choose`); 0 for one that is only reported.
     follows_table : bool
-        Whether it holds on a table that moves.
+        Whether it is valid on a moving table.
     result : type of Fit
-        What `fit` returns; made of an `Estimate` alone where it is refused.
+        What `fit` returns; a refusal makes it from an `Estimate` alone.
     """
 
     name: ClassVar[str]

@@ -1,4 +1,4 @@
-"""Coefficient of restitution from the whole history of a free vibration: exact free rocking laid through the angle."""
+"""Coefficient of restitution from the whole history of a free vibration: exact free rocking fitted to the angle."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ FEWEST_ARCS = 4
 
 MOST_CUTOFFS = 5
 SAME_CUTOFF = 0.03
-"""Change of the cut-off, as a share of it, below which it is taken as found."""
+"""Change of the cut-off, as a share of it, below which the iteration stops."""
 
 FINEST_CUTOFF = 0.45
 """Of the sampling rate of the samples fitted: a filter above it rounds nothing that they see."""
@@ -53,7 +53,7 @@ ALLOWED_EXCESS = 1.1
 @dataclass(frozen=True)
 class HistoryFit(Fit):
     """
-    Free rocking laid through a record.
+    Free rocking fitted to a record.
 
     Attributes
     ----------

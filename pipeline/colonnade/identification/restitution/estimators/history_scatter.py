@@ -1,4 +1,4 @@
-"""Coefficient of restitution from the whole history, where each impact has an e of its own about one mean."""
+"""Coefficient of restitution from the whole history; each impact has its own e about one mean."""
 
 from __future__ import annotations
 
@@ -41,10 +41,10 @@ from colonnade.identification.restitution.free_vibration import FreeVibration
 
 MOST_ROUNDS = 4
 SAME_SCATTER = 0.1
-"""Change of the scatter, as a share of it, below which it is taken as found."""
+"""Change of the scatter, as a share of it, below which the iteration stops."""
 
 LEAST_SCATTER = 3e-6
-"""Of ln e, with which a path is laid where no scatter is found."""
+"""Scatter of ln e for the path if no scatter is found."""
 
 FIRST_SCATTER = 1e-3
 
@@ -61,7 +61,7 @@ SURE_TREND = 0.003
 @dataclass(frozen=True)
 class ScatteredFit(HistoryFit):
     """
-    A history laid through the record with an e of its own for each impact; `estimate` is of the mean e.
+    A history fitted to the record with its own e for each impact; `estimate` is of the mean e.
 
     Attributes
     ----------
@@ -96,7 +96,7 @@ class ScatteredHistory(Estimator[ScatteredFit]):
     Notes
     -----
     Unknown are the mean of ln e, how it departs from it at each impact (normal, with a standard deviation that is
-    unknown too), the first peak and its time, the zero offset and its drift. The path is laid by penalised least
+    unknown too), the first peak and its time, the zero offset and its drift. The path is fitted by penalised least
     squares; about it the model is linear, with noise of the spectrum σ² (1 + knee / frequency) before the low-pass.
     The interval is a mixture over all scatters and knees by their restricted likelihood (`mixture.mean_over_scatters`).
     Without scatter it is that of one e for all impacts; with much scatter it is Student's about the mean of single e.

@@ -25,4 +25,4 @@ ESTIMATORS: dict[str, Estimator[Any]] = {
 """By name."""
 
 CANDIDATES = sorted((each for each in ESTIMATORS.values() if each.priority), key=lambda each: each.priority)
-"""Those that may be recommended, the preferred one first."""
+"""Estimators that may be recommended, the preferred one first."""

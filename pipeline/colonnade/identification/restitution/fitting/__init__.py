@@ -1,1 +1,1 @@
-"""Free rocking fitted to the samples of a record, and what its residual says."""
+"""Free rocking fitted to the samples of a record, and the statistics of its residual."""

@@ -1,4 +1,4 @@
-"""How well the straight line through the energies of the peaks is known: its band of confidence."""
+"""The confidence band of the straight line through the energies of the peaks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Free rocking followed forward through a record: from the arcs that are seen to all that can be foreseen."""
+"""Free rocking extrapolated through a record, from the arcs that are seen to those that follow."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def first_guess(arcs: Arcs, block: Block, *, linearised: bool) -> Decay:
         raise UnfollowedError(f"{int(seen.sum())} arcs are too few, at least {FEWEST_SEEN} in a row are needed")
     critical = block.critical_angle_at(peaks)
     if (np.abs(peaks) >= critical).any():
-        raise UnfollowedError("a peak lies above the critical angle")
+        raise UnfollowedError("a peak is above the critical angle")
     size = np.abs(peaks)
     values = first_values(released_energy(size, critical), size, peak=float(size[0]), time=float(times[0]))
     return Decay(values, int(peaks[0] > 0), min(peaks.size, FIRST_ARCS), block, linearised)

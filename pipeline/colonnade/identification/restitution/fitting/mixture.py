@@ -1,4 +1,4 @@
-"""Interval of a mean whose scatter is not known: a mixture over all that the scatter may be."""
+"""Interval of a mean whose scatter is unknown: a mixture over all possible values of the scatter."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Noise of a record, from the spectrum of what a fit leaves: its level, and the low-pass that it went through."""
+"""Noise of a record, from the spectrum of the residual of a fit: its level, and the low-pass of the record."""
 
 from __future__ import annotations
 

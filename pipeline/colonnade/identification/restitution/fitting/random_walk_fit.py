@@ -1,4 +1,4 @@
-"""Weighted least squares where e itself scatters from impact to impact: a random walk added to the errors."""
+"""Weighted least squares with an e that scatters from impact to impact: a random walk added to the errors."""
 
 from __future__ import annotations
 

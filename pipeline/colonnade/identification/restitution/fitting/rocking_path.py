@@ -1,4 +1,4 @@
-"""A path of free rocking with an e of its own at each impact, laid through the samples of a record."""
+"""A path of free rocking with its own e at each impact, fitted to the samples of a record."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ CONVERGED = 1e-3
 """Least lessening of the penalised sum of squares, in the noise's variance, for which another step is made."""
 
 SAME_NOISE = 0.05
-"""Change of the noise's variance, as a share of it, below which it is taken as found."""
+"""Change of the noise's variance, as a share of it, below which the iteration stops."""
 
 LIKELY_SCATTER = 4e-3
 """Of ln e, with which the first arcs are followed; ..."""

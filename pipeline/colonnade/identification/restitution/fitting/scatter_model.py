@@ -1,4 +1,4 @@
-"""Linear model of a record with stationary noise and an e of its own at each impact: what each scatter of e says."""
+"""Linear model of a record with stationary noise and its own e at each impact: the likelihood of each scatter of e."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Cells of a line of text: how a line is cut into them, and what one of them holds."""
+"""Cells of a line of text: splitting a line into cells, and the value of a cell."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What becomes of the rows of a text file that are not as they should be, and what is reported of them."""
+"""Damaged rows of a text file: how they are read, and what is reported."""
 
 from __future__ import annotations
 

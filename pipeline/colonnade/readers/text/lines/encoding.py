@@ -1,4 +1,4 @@
-"""Opening text whose encoding nobody wrote down."""
+"""Opening text of unknown encoding."""
 
 from __future__ import annotations
 

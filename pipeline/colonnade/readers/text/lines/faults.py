@@ -1,4 +1,4 @@
-"""How rows of a text should be, and what is wrong with one that is not."""
+"""The expected form of the rows of a text, and what is wrong with other rows."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The lines of a text file with their numbers, one of which can be looked at before it is taken."""
+"""The lines of a text file with their numbers; the next line can be looked at before it is taken."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rows of a text -> columns of numbers, as fast as pandas reads them; rows unlike the others come with their lines."""
+"""Rows of a text -> columns of numbers, read by pandas; rows unlike the others come with their lines."""
 
 from __future__ import annotations
 
