@@ -68,7 +68,7 @@ results_option = click.option(
 )
 
 strict_option = click.option(
-    "--strict", is_flag=True, help="Exit with 1 also after a serious finding or a warning; notes do not count."
+    "--strict", is_flag=True, help="Exit with 1 also for a serious finding or a warning, but not for a note."
 )
 
 

@@ -71,7 +71,7 @@ ingest = _up_to(
 identify = _up_to(
     "restitution",
     "identify",
-    "Identify the restitution: run as far as each specimen's pooled e.",
+    "Identify the restitution, up to each specimen's pooled e.",
     "Writes results up to processed/tests/<ID>/restitution.nc of each free vibration, and processed/specimens/<ID>.nc.",
     "colonnade identify demo",
 )
@@ -79,7 +79,7 @@ identify = _up_to(
 predict = _up_to(
     "predict",
     "predict",
-    "Run the models on the recorded base motion, and first what they need.",
+    "Run the models on the recorded base motion, after the stages that they need.",
     "Writes results up to processed/tests/<ID>/predicted-<MODEL>.nc.",
     "colonnade predict demo --only span-2.5",
 )
@@ -87,7 +87,7 @@ predict = _up_to(
 report = _up_to(
     "report",
     "report",
-    "Make the report, and first what it needs.",
+    "Make the report, after the stages that it needs.",
     "Writes report/index.html next to campaign.toml, with a page for each test and specimen, even if tests failed.",
     "colonnade report demo",
 )

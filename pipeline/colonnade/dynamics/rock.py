@@ -95,7 +95,7 @@ def rock(
         instance("motion", motion, Motion)
         if duration is not None:
             raise ValueError(f"duration is {described(duration)}, and a motion is given; one of the two was expected")
-    between = "an angle between −π/2 and π/2, where the block lies,"
+    between = "an angle between −π/2 and π/2"
     theta0 = number("theta0", theta0, between, above=-HALF, below=HALF, unit="rad")
     fastest = LARGEST_VELOCITY * max(block.side_p(side) for side in block.sides)
     omega0 = number("omega0", omega0, f"less than {fastest:.4g} rad/s", above=-fastest, below=fastest, unit="rad/s")

@@ -67,7 +67,8 @@ class RecordedChannel:
             object.__setattr__(self, "heading", self.name)
         if self.time is not None and self.time.shape != self.values.shape:
             raise ValueError(
-                f"{self.name} has {self.values.size} values at {self.time.size} times; as many were expected"
+                f"{self.name} has {self.values.size} values at {self.time.size} times; "
+                "one time for each value was expected"
             )
 
     def in_seconds(self, unit: str | None = None) -> tuple[Array, str]:

@@ -49,7 +49,7 @@ def test_numbers_that_are_cut_off_are_told(written: Callable[..., Path], is_bina
     content = path.read_bytes()
     path.write_bytes(content[: -(8 + 80) if is_binary else -(8 + 21 * 10)])
     recording = read(path)
-    assert any("announces 40 numbers" in told and "cut off" in told for told in recording.warnings)
+    assert any("should have 40 numbers" in told and "cut off" in told for told in recording.warnings)
 
 
 def test_a_file_without_functions_of_time_is_refused(tmp_path: Path) -> None:

@@ -62,7 +62,7 @@ def test_the_whole_file_has_one_byte_order(tmp_path: Path, common: str, form: st
 
 @pytest.mark.parametrize(
     ("change", "told"),
-    [({220: "-3"}, "-3 values"), ({214: "ASCII"}, 'kind "ASCII"'), ({221: "-4"}, "would be at byte -40")],
+    [({220: "-3"}, "-3 values"), ({214: "ASCII"}, 'type "ASCII"'), ({221: "-4"}, "would be at byte -40")],
     ids=["count", "kind", "pointer"],
 )
 def test_what_cannot_be_is_said(tmp_path: Path, change: dict[int, str], told: str) -> None:

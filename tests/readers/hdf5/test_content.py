@@ -49,7 +49,7 @@ def test_what_is_not_read_is_left_out_with_its_reason(tmp_path: Path) -> None:
         file.create_dataset("huge", (1 << 37,), "f8", chunks=(1 << 20,), compression="gzip")
     left_out = read_hdf5(path).left_out
     assert left_out.keys() == {"text", "soft", "run/circle", "huge"}
-    assert left_out["run/circle"] == "it holds itself"
+    assert left_out["run/circle"] == "it contains itself"
     assert "it is not unpacked" in left_out["huge"]
 
 

@@ -126,7 +126,7 @@ def test_only_the_file_itself_is_read(tmp_path: Path) -> None:
     assert "other is left out: it is a link" in told
     assert "raw is left out: its numbers are in another file" in told
     assert "not unpacked" in told
-    assert "loop/loop is left out: it holds itself" in told
+    assert "loop/loop is left out: it contains itself" in told
 
 
 def test_a_heap_of_texts_without_an_end_is_refused(tmp_path: Path) -> None:

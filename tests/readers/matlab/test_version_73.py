@@ -84,7 +84,7 @@ def test_cells_that_hold_themselves_come_to_an_end(tmp_path: Path) -> None:
 
     recording = read(v73(tmp_path / "a.mat", cycle))
     assert recording.channel("good").values.size == 5
-    assert "x{1} is left out: it holds itself" in recording.notes
+    assert "x{1} is left out: it contains itself" in recording.notes
 
 
 def test_an_array_of_structs_is_numbered_as_in_version_5(tmp_path: Path) -> None:

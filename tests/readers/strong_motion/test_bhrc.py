@@ -47,7 +47,7 @@ def test_a_component_that_was_cut_off_says_how_many_points_are_there(written: Ca
     path.write_text("\n".join(lines[:-2]) + "\n", encoding="ascii")
     recording = read(path)
     assert recording.channels[0].values.size == 30
-    assert recording.warnings == ('"L1": the header announces 40 points, but the file has 30: it ends too early',)
+    assert recording.warnings == ('"L1": the header gives 40 points, but the file has 30: it ends too early',)
 
 
 def test_a_unit_that_is_not_known_is_refused(written: Callable[..., Path]) -> None:

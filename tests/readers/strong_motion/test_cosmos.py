@@ -36,7 +36,7 @@ def test_a_record_that_was_cut_off_says_how_many_points_are_there(written: Calla
     path.write_text("\n".join(lines[:-2]) + "\n", encoding="ascii")  # without the last row of 8 and the end mark
     recording = read(path)
     assert recording.channels[0].values.tolist() == [float(row) for row in range(32)]
-    assert "announces 40 points, but the file has 32: it ends too early" in recording.warnings[0]
+    assert "gives 40 points, but the file has 32: it ends too early" in recording.warnings[0]
 
 
 def test_a_step_that_does_not_fit_the_duration_is_told(written: Callable[..., Path]) -> None:

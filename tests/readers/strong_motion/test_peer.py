@@ -65,8 +65,8 @@ def test_fields_that_touch_are_told_apart_by_their_signs(tmp_path: Path) -> None
 
 def test_a_record_that_was_cut_off_says_how_many_points_are_there(tmp_path: Path) -> None:
     path = record(tmp_path, "NPTS=  2999, DT= .01000 SEC")
-    assert read(path).warnings == ("the header announces 2999 points, but the file has 6: it ends too early",)
-    with pytest.warns(UserWarning, match="announces 2999 points, but the file has 6"):
+    assert read(path).warnings == ("the header gives 2999 points, but the file has 6: it ends too early",)
+    with pytest.warns(UserWarning, match="gives 2999 points, but the file has 6"):
         assert read_motion(path).acceleration.size == 6
 
 

@@ -128,7 +128,7 @@ def test_columns_that_end_earlier_keep_their_values(tmp_path: Path) -> None:
 def test_comments_and_repeated_headings_among_samples_are_left_out(tmp_path: Path) -> None:
     recording = recorded(tmp_path, "t;a\n0;1\n1;2\n# event 1\n2;3\nt;a\n3;4\n4;5\n")
     assert values(recording, "a") == [1, 2, 3, 4, 5]
-    assert recording.warnings == ('line 6: left out: text and no number ("t;a")',)
+    assert recording.warnings == ('line 6: left out: text without a number ("t;a")',)
     assert any("line 4: left out as a comment" in note for note in recording.notes)
 
 

@@ -122,7 +122,7 @@ def test_a_pickle_is_never_opened(tmp_path: Path, kind: str) -> None:
 
 def test_an_unknown_kind_is_told_with_the_nearest(tmp_path: Path) -> None:
     path = stored(tmp_path / "r.mseed", "MSEED", trace("ACC", np.ones(10), 100))
-    with pytest.raises(ReadError, match=r'no kind "MSED" .* Did you mean "MSEED"'):
+    with pytest.raises(ReadError, match=r'no format "MSED" .* Did you mean "MSEED"'):
         read(path, "waveform", {"kind": "msed"})
 
 

@@ -218,7 +218,7 @@ def test_a_cluster_whose_workers_all_end_is_told_and_not_waited_for(soon):
         results = spread(whose, range(30), scheduler=address)
         next(results)
         worker.kill()
-        with pytest.raises(ColonnadeError, match="all of its workers have ended"):
+        with pytest.raises(ColonnadeError, match="all its workers ended"):
             list(results)
 
 

@@ -20,7 +20,7 @@ _OF_DIMENSION = {
 _NUMBERED = re.compile(r"^(?:column \d+$|block \d+: )")
 
 PLACE_OF = {"displacement": "specimen", "acceleration": "table", "velocity": "table"}
-"""Where a transducer most often is, if nothing says so."""
+"""Where a transducer most often is, if no evidence."""
 
 
 @dataclass(frozen=True)

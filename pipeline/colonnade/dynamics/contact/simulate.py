@@ -136,7 +136,7 @@ def _division(body: ContactBody, law: ContactLaw, motion: Motion, step: float | 
 def _check(motion: Motion, theta0: float, omega0: float, out_of_plane: float) -> None:
     for name, value in (("theta0", theta0), ("out_of_plane", out_of_plane)):
         if not abs(value) < 0.5 * np.pi:
-            raise ValueError(f"{name} is {value} rad; an angle between −π/2 and π/2, where the body lies, was expected")
+            raise ValueError(f"{name} is {value} rad; an angle between −π/2 and π/2 was expected")
     if not np.isfinite(omega0):
         raise ValueError(f"omega0 is {omega0} rad/s; a finite number was expected")
 

@@ -96,7 +96,7 @@ def _check(block: Block, motion: Motion) -> None:
     if not motion.peak <= LARGEST_ACCELERATION * block.gravity:
         raise ValueError(
             f"The acceleration is {motion.peak:.4g} m/s² at sample {int(np.abs(motion.acceleration).argmax())}; "
-            f"at most {LARGEST_ACCELERATION:g} g was expected. Is its unit right?"
+            f"at most {LARGEST_ACCELERATION:g} g was expected. Check its unit."
         )
     if fastest * motion.dt > LONGEST_SAMPLE:
         raise ValueError(

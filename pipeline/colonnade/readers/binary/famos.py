@@ -236,7 +236,7 @@ def _refusal(component: _Component, file: _File) -> str:
     if component.digital and (component.number or "f")[0] == "f":
         return "digital channels have to be whole numbers, and these are not; left out"
     if component.bytes_filled is None:
-        return "the block with the place of its values is missing: the file was cut off"
+        return "the block that says where its values are is missing: the file was cut off"
     # Of a word of digital channels some bits may be unused.
     is_whole = bool(component.digital) or not component.is_partly_used
     if component.bytes_filled and (component.number is None or component.is_packed or not is_whole):

@@ -199,7 +199,7 @@ def _computed(raw: NDArray[Any], conversion: Any, kind: int) -> Array:
         [np.nan if isinstance(each, (bytes, str)) else each for each in given] if given.dtype.kind == "O" else given
     )
     if given.dtype.kind in "SU" or (given.dtype.kind == "O" and np.isnan(numbers).all()):
-        raise NoNumbersError("its values are names")
+        raise NoNumbersError("its values are text labels")
     return np.asarray(numbers, dtype=np.float64)
 
 

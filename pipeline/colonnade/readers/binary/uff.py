@@ -143,7 +143,7 @@ def _function(
         warnings += [f'"{head.name}", the data set at byte {place}: {text}' for text in told]
     wanted = head.points if head.is_even else 2 * head.points
     if numbers.size < wanted:
-        warnings.append(f'"{head.name}": the data set announces {wanted} numbers and {numbers.size} are there: cut off')
+        warnings.append(f'"{head.name}": the data set should have {wanted} numbers but has {numbers.size}: cut off')
     numbers = numbers[:wanted]
     values = numbers if head.is_even else numbers[1::2]
     time: Array | None

@@ -64,7 +64,7 @@ def _stored(
     if channel.get(KIND) == "IMPLICIT":
         return StoredNumbers(name, unit, "", "<f8", 0, count, 8, offset, factor)
     if channel.get(FORM) not in FORMS:
-        raise ValueError(f'values of kind "{channel.get(FORM, "")}", which is not read')
+        raise ValueError(f'values of type "{channel.get(FORM, "")}", which is not read')
     form = (">" if common.get(BYTE_ORDER, "").startswith("Low") else "<") + FORMS[channel[FORM]]
     size = int(form[-1])
     file = channel[FILE]

@@ -65,7 +65,7 @@ def recognise(path: Path) -> Recognition:
     if "xl/workbook.xml" in names:
         return Recognition(True, "an archive with xl/workbook.xml, as Excel writes it")
     if b"application/vnd.oasis.opendocument.spreadsheet" in first:
-        return Recognition(True, "an archive of the kind OpenDocument spreadsheet")
+        return Recognition(True, "an archive marked as an OpenDocument spreadsheet")
     if "xl/workbook.bin" in names:
         return Recognition(False, "it is a workbook in Excel's binary form (.xlsb): save it as .xlsx")
     return Recognition(False, "it is a zip archive without a workbook in it")

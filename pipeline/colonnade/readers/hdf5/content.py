@@ -139,7 +139,7 @@ def _datasets(
     own = opening.address(group)
     if own in around or len(around) > opening.DEEPEST:
         content.left_out[above] = (
-            "it holds itself" if own in around else f"it is more than {opening.DEEPEST} groups deep"
+            "it contains itself" if own in around else f"it is more than {opening.DEEPEST} groups deep"
         )
         return
     try:

@@ -79,7 +79,7 @@ class _Reader:
             raise UnreadableError("it is a function; nothing in a recording is executed")
         own = opening.address(item)
         if own in self._above:
-            raise UnreadableError("it holds itself")
+            raise UnreadableError("it contains itself")
         self._above.add(own)
         try:
             if isinstance(item, h5py.Group):

@@ -98,7 +98,7 @@ def _component(
     if abs(lasts - duration) > max(2 * step, 0.01 * duration):  # they may differ by a step or two
         warnings.append(
             f'"{name}": {points} points at the header\'s {rate:g} Hz last {lasts:g} s, and the header says '
-            f"{duration:g} s: one of them is wrong; the rate is taken"
+            f"{duration:g} s: one of them is wrong; the rate is used"
         )
     return RecordedChannel(name, unit, values, even_times(values.size, step))
 

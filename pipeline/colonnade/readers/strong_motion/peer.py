@@ -64,7 +64,7 @@ def read(path: Path, options: Options) -> Recording:
         raise ReadError(f"{path.name}: no numbers follow line {line}: the file was cut off.")
     warnings += shortage("the header", points, values.size)
     if values.size > points:
-        warnings.append(f"the header announces {points} points and {values.size} are there: all of them are read")
+        warnings.append(f"the header gives {points} points, but the file has {values.size}: all of them are read")
     quantity = next((name for word, name in QUANTITIES if word in " ".join(above).upper()), "values")
     unit = next((spelled(found[1]) for each in above if (found := UNITS.search(each))), None)
     title = " ".join(above[min(1, line - 1)].split())[:80]

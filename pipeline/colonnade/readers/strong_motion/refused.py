@@ -39,7 +39,7 @@ def foreign_format(path: Path) -> str:
         return ""
     if SPECTRA.search(lines[0]):
         return (
-            f"this is a strong-motion file in the format of {network} with response spectra and no motion. Download "
+            f"this is a strong-motion file in the format of {network} with response spectra but no motion. Download "
             "volume 1 or 2 of the same record."
         )
     claims = header_claims("\n".join(lines))

@@ -206,7 +206,7 @@ def _put_on_clocks(columns: list[Column], members: list[int], found: Clocks, tim
         if not is_clock and own is not None and not np.array_equal(np.diff(time), np.diff(own)):
             warnings.append(
                 f'"{column.channel.heading}" uses the channel of times: the step of exactly 1 s in its '
-                "properties is what LabVIEW writes if it knows none"
+                "properties is LabVIEW's default"
             )
     return warnings
 

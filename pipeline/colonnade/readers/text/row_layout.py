@@ -68,7 +68,7 @@ class Verdict:
     def undecided(self, path: Path, width: int) -> str:
         """Say why a file does not show whether columns are channels, and what to do."""
         for_series = "; ".join(self.reasons) or "no names above the columns"
-        for_channels = "; ".join(self.against) or "nothing says so"
+        for_channels = "; ".join(self.against) or "no evidence"
         return (
             f"{path.name}: the file does not show whether the {width} numbers of each row are samples of {width} "
             f"channels, or one series that runs on from row to row. For channels: {for_channels}. For one series: "
@@ -154,9 +154,9 @@ def _by_shape(
         (evidence.running if is_whole and is_free else evidence.weak_running).append(told)
     for count in claims.counts:
         if is_whole and abs(count - rows) <= 1:
-            evidence.columns.append(f"the header announces {count} points, and there are {rows} rows")
+            evidence.columns.append(f"the header gives {count} points, and there are {rows} rows")
         elif is_whole and abs(count - total) < max(width, 2):
-            evidence.running.append(f"the header announces {count} points, and there are {total} numbers")
+            evidence.running.append(f"the header gives {count} points, and there are {total} numbers")
 
 
 def _by_words(evidence: _Evidence, claims: HeaderClaims, width: int, named: Named) -> None:

@@ -41,7 +41,7 @@ def recognise(path: Path) -> Recognition:
     kind = kind_of_waveform(path)
     if kind is not None:
         return Recognition(True, f"its first bytes are those of {kind}")
-    return Recognition(False, "its first bytes are those of no seismic format (others of ObsPy's need `kind`)")
+    return Recognition(False, "its first bytes match no seismic format (ObsPy's other formats need `kind`)")
 
 
 def read(path: Path, options: WaveformOptions) -> Recording:
@@ -96,11 +96,11 @@ def _kind(path: Path, options: WaveformOptions) -> str:
     kind = (options.kind or kind_of_waveform(path) or "").upper()
     if not kind:
         raise ReadError(
-            f'{path.name}: its first bytes do not show its kind. Give it, for example kind = "SEGY". '
+            f'{path.name}: its first bytes do not show its format. Give it, for example kind = "SEGY". '
             f"ObsPy knows {', '.join(KINDS)}."
         )
     if kind not in KINDS:
-        raise ReadError(f'{path.name}: ObsPy has no kind "{kind}" that is safe to read.{nearest(kind, KINDS)}')
+        raise ReadError(f'{path.name}: ObsPy has no format "{kind}" that is safe to read.{nearest(kind, KINDS)}')
     return kind
 
 

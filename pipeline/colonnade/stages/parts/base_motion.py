@@ -106,5 +106,5 @@ def left_out(rocking: xr.Dataset, base: Array) -> list[Finding]:
     if peak <= LARGEST_TRANSVERSE * along:
         return []
     share = f"{peak / along:.0%} of that along x" if along > 0.0 else "and none along x"
-    text = f"The base also moved across, by up to {peak:.3g} m/s², {share}: the plane models ignore it."
+    text = f"The base also moved along y, by up to {peak:.3g} m/s², {share}: the plane models ignore it."
     return [warning("motion across", text, follows=MEASUREMENT)]

@@ -109,7 +109,7 @@ class _Watch:
         self._seen = now if there else self._seen
         if now - self._seen > _PATIENCE:
             raise ColonnadeError(
-                f"{self.scheduler}: all of its workers have ended before the work was done. Finished results are kept. "
+                f"{self.scheduler}: all its workers ended before the work was done. Finished results are kept. "
                 "Start workers and run again."
             )
 

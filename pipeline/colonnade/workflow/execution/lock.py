@@ -46,8 +46,8 @@ def only_run(layout: Layout) -> Iterator[str]:
         raise StoreError(_held(layout)) from None
     except OSError as error:
         raise StoreError(
-            f"{layout.processed}: results cannot be written here ({error.strerror or error}). A folder with room that "
-            "you may write to was expected; free some space, or give another folder with --results."
+            f"{layout.processed}: results cannot be written here ({error.strerror or error}). A writable folder with "
+            "free space was expected; free some space, or give another folder with --results."
         ) from error
     run_id = uuid4().hex
     after_a_kill = layout.lock_holder.exists()

@@ -23,7 +23,7 @@ def mended(*texts: str, form: RowForm = FORM, is_cut: bool = False) -> Mended:
 def test_lines_that_are_not_samples_are_left_out_and_listed() -> None:
     result = mended("1;2;3", "a;b;c", "4;5;6", "# event", "7;8;9")
     assert [column.tolist() for column in result.columns] == [[1, 4, 7], [2, 5, 8], [3, 6, 9]]
-    assert result.warnings == ('line 2: left out: text and no number ("a;b;c")',)
+    assert result.warnings == ('line 2: left out: text without a number ("a;b;c")',)
     assert result.notes == ('line 4: left out as a comment ("# event")',)
 
 

@@ -112,7 +112,7 @@ def _reported(faults: dict[Fault, list[Row]], ending: list[Row], width: int) -> 
     if found := faults.get("comment"):
         notes.append(_listed(found, "left out as a comment"))
     what: dict[Fault, str] = {
-        "text": "left out: text and no number",
+        "text": "left out: text without a number",
         "cut": f"left out: the file ends here, before all {width} cells",
         "struck out": "counted as missing: a comment sign in front",
         "long": f"counted as missing: more than {width} cells",

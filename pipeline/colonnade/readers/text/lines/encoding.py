@@ -70,7 +70,7 @@ def detect_encoding(path: Path) -> Encoding:
         return Encoding(
             "cp1252", f"byte 0x{head[error.start]:02x} on line {place} is not UTF-8; Windows-1252 is assumed"
         )
-    return Encoding("utf-8", "valid so far as looked at")
+    return Encoding("utf-8", "valid in the part examined")
 
 
 def known_encoding(name: str) -> str:

@@ -55,7 +55,7 @@ def shortage(source: str, announced: int, found: int) -> list[str]:
     """Warn if there are fewer numbers than what is above them says."""
     if found >= announced:
         return []
-    return [f"{source} announces {announced} points, but the file has {found}: it ends too early"]
+    return [f"{source} gives {announced} points, but the file has {found}: it ends too early"]
 
 
 def _fields(line: str, width: int | None) -> list[float]:
