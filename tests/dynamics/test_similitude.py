@@ -38,7 +38,7 @@ def test_gravity_is_the_same_for_both():
 
 
 def test_an_unknown_quantity_or_scale_is_an_error():
-    with pytest.raises(ValueError, match="no quantity that scales"):
+    with pytest.raises(ValueError, match="is not a quantity that scales"):
         at_prototype("colour", 1.0, SCALE)
     with pytest.raises(ValueError, match="positive"):
         at_prototype("length", 1.0, 0.0)

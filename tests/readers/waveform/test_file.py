@@ -116,7 +116,7 @@ def test_a_pickle_is_never_opened(tmp_path: Path, kind: str) -> None:
     path.write_bytes(pickle.dumps({"opened": True}))
     with pytest.raises(ReadError, match="safe"):
         read(path, "waveform", {"kind": kind})
-    with pytest.raises(ReadError, match="do not show its kind"):
+    with pytest.raises(ReadError, match="do not show its format"):
         read(path, "waveform")
 
 
