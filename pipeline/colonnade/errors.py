@@ -62,7 +62,7 @@ def nearest(name: str, valid: Iterable[str]) -> str:
     Returns
     -------
     hint : str
-        ``' Did you mean "top"?'``, or a list of what exists, or an empty string where nothing does.
+        ``' Did you mean "top"?'``, or a list of what exists, or an empty string if nothing exists.
 
     Examples
     --------

@@ -28,7 +28,7 @@ class Review(BaseModel):
     excluded : str
         Why the whole test is left out, with who and when; empty if it is not.
     window : (float, float) or None
-        The part of the file that is taken, s.
+        The part of the file that is used, s.
     flags : tuple of Flagged
     factors : dict of str to float
         What a channel's gain is multiplied by.
@@ -46,7 +46,7 @@ class Review(BaseModel):
 
     def within(self, window: tuple[float, float] | None) -> tuple[float, float] | None:
         """
-        Give what of a test's window is taken.
+        Return the part of a test's window that is used.
 
         Examples
         --------

@@ -18,7 +18,7 @@ def _known(value: Any) -> Any:
 
 
 Known = Annotated[float | None, BeforeValidator(_known)]
-"""A number, or null where it is not known; NaN becomes null, which JSON has a word for."""
+"""A number, or null if it is not known; NaN becomes null, as JSON has no NaN."""
 
 
 class _Record(BaseModel):
@@ -83,7 +83,7 @@ class SpecimenSummary(_Record):
 
 
 class PredictionSummary(_Record):
-    """What a model gives on the recorded base motion; empty where it has not run."""
+    """What a model gives on the recorded base motion; empty if it has not run."""
 
     outcome: Outcome | None = None
     """Predicted outcome."""

@@ -91,7 +91,7 @@ class Block:
     negative, positive : Side
         Rocking at θ < 0 (about the pole at −x) and at θ > 0 (about the pole at +x). Equal for a symmetric block.
     solid : Solid or None
-        For motion in space; None where only plane quantities are known. Not compared: plane rocking is the same.
+        For motion in space; None if only plane quantities are known. Not compared: plane rocking is the same.
 
     Notes
     -----

@@ -18,7 +18,7 @@ HOLLOW = 0.9
 """Of m R²; no body has a smaller moment of inertia about its pole, whatever its shape and the errors of measurement."""
 
 _SMALLER = {"mm": 1e3, "cm": 1e2}
-"""Units that are taken for metres, and how many of them a metre has."""
+"""Units often mistaken for metres, and the number of them in a metre."""
 
 
 class UnlikelyBlockWarning(UserWarning):
@@ -47,7 +47,7 @@ def mistaken_lengths(density: float) -> tuple[str, int]:
     Returns
     -------
     unit : str
-        "mm" or "cm", taken for m; empty where neither explains it.
+        "mm" or "cm" mistaken for m; empty where neither explains it.
     count : int
         How many of the three lengths: all of them if that explains it, else fewer.
 

@@ -75,7 +75,7 @@ class History:
 
     @property
     def peak_ratio(self) -> float | None:
-        """Largest |θ|/α; None where the block overturned."""
+        """Largest |θ|/α; None if the block overturned."""
         return None if np.isfinite(self.overturning_time) else float(self.amplitude.max())
 
     @property

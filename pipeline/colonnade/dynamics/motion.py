@@ -15,7 +15,7 @@ MOST_SAMPLES = 10_000_000
 """Of a motion that is made for a duration: an hour of a small block; more asks for a wrong unit, or does not end."""
 
 FEWEST_TIMES = 10
-"""Samples with which accelerations that are equal to their times are taken for times."""
+"""Number of samples from which accelerations equal to their times are refused as times."""
 
 
 class Motion:

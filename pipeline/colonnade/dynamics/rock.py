@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 DEFAULT_REST_ANGLE = 1e-6
-"""Fraction of α below which an arc after an impact is taken as rest."""
+"""Fraction of α below which an arc after an impact counts as rest."""
 
 LEAST_REST_ANGLE = 1e-12
 """The same of any rest rule: arcs below it are so short that a run would not come to its end."""

@@ -31,7 +31,7 @@ class PeakPoint(NamedTuple):
     predicted : float or None
         None if the model overturns.
     low, high : float or None
-        Ends of the band that holds 95 % of the model's runs; None where it is not known. Of a band that ends with
+        Ends of the band that holds 95 % of the model's runs; None if it is not known. Of a band that ends with
         runs that overturn, only `low` is known.
     test : str
         Id of the test that its mark leads to.

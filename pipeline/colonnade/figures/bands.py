@@ -24,7 +24,7 @@ def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Fi
     Parameters
     ----------
     measured : Curve or None
-        θ/α over time (s); None where it was not measured.
+        θ/α over time (s); None if it was not measured.
     spreads : mapping of str to Spread
         By model.
 

@@ -37,7 +37,7 @@ class Spread(NamedTuple):
     levels : ndarray, shape (q,)
         Between 0 and 1, increasing, the same distance from 0 and from 1.
     bands : ndarray, shape (q, n)
-        θ/α at these quantiles; NaN where there is none.
+        θ/α at these quantiles; NaN if missing.
     overturning_probability : float
     horizon : float
         s, up to which the angle is predicted.
@@ -71,7 +71,7 @@ def draw_angle(
     ----------
     axes : Axes
     measured : Curve or None
-        θ/α over time (s); None where the angle was not measured.
+        θ/α over time (s); None if the angle was not measured.
     predicted : mapping of str to Curve
         θ/α by model.
     limit : float
@@ -141,7 +141,7 @@ def limit_of(curves: Sequence[Curve]) -> float:
 
 
 def time_limits(curves: Sequence[Curve]) -> tuple[float, float]:
-    """Return the first and last time (s) of all curves; 0 and 1 where there are none."""
+    """Return the first and last time (s) of all curves; 0 and 1 without curves."""
     spans = [(float(curve.time[0]), float(curve.time[-1])) for curve in curves if curve.time.size > 1]
     if not spans:
         return 0.0, 1.0

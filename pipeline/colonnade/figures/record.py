@@ -62,7 +62,7 @@ def whole_record(
     Parameters
     ----------
     measured : Curve or None
-        θ/α over time (s); None where the angle was not measured.
+        θ/α over time (s); None if the angle was not measured.
     predicted : mapping of str to Curve
         θ/α by model.
     misfits : mapping of str to Curve, optional

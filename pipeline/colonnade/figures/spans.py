@@ -21,7 +21,7 @@ THINNESS = 0.6
 
 
 class SpanPanel(NamedTuple):
-    """One test: its title, θ/α over time (s) as measured (None where it was not) and by each model; base in m/s²."""
+    """One test: its title, θ/α over time (s) as measured (None if it was not) and by each model; base in m/s²."""
 
     title: str
     measured: Curve | None

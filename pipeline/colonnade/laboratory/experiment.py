@@ -47,7 +47,7 @@ class Recorder:
     late : float
         How long after the main recorder it starts, about, s; its clock begins at its own start.
     align : pair of str, or None
-        A channel of the main recorder and one of its own that link the two; None where they start together.
+        A channel of the main recorder and one of its own that link the two; None if they start together.
     """
 
     transducers: tuple[Transducer, ...]
@@ -88,9 +88,9 @@ class Trial:
     entry : mapping
         Further keys of the test in the campaign file, such as `{"span": 2.0}`.
     specimen : str or None
-        Id of what is tested; None where the plan has one specimen only.
+        Id of what is tested; None if the plan has one specimen only.
     steady : pair of float, or None
-        When the table shakes at full amplitude, s; None where it never does steadily.
+        When the table shakes at full amplitude, s; None if it never does steadily.
     """
 
     name: str

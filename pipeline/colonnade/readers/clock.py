@@ -20,7 +20,7 @@ EQUAL = 1e-3
 
 FEWEST_STEPS = 4
 LONGEST_STEP = 0.5
-"""Of a column without a name that is taken for times in seconds."""
+"""Longest step, s, of a column without a name that counts as times in seconds."""
 
 RISING_SHARE = 0.9
 """Share of steps that are positive in what is still a clock; the rest is for quality control to flag."""
@@ -140,7 +140,7 @@ def even_times(count: int, step: float, begin: float = 0.0) -> Array:
 
 
 def moment_after(origin: datetime | None, seconds: float) -> datetime | None:
-    """Give the date and time so many seconds after another; None where either is not known or cannot be."""
+    """Give the date and time so many seconds after another; None if either is not known or cannot be."""
     try:
         return None if origin is None else origin + timedelta(seconds=seconds)
     except (ValueError, OverflowError):

@@ -50,7 +50,7 @@ class RecordedChannel:
     time : ndarray, shape (n,), or None
         Seconds from the file's own zero; NaN without a time in the file; None if it has no clock.
     heading : str
-        The head of the column as written, `LVDT 1 [mm]`; the name where nothing else is known.
+        The head of the column as written, `LVDT 1 [mm]`; the name if nothing else is known.
     is_clock : bool
         Whether the column holds times; `time` is then its own values in seconds.
     """

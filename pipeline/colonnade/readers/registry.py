@@ -62,7 +62,7 @@ def read(
     path : Path or str
         The file.
     format : str, optional
-        Name of its format; without it the first format that recognises the file is taken.
+        Name of its format; without it, the first format that recognises the file is used.
     options : mapping, optional
         Options of that format.
     window : Window, optional

@@ -71,7 +71,7 @@ class TestRow:
 
     @property
     def severities(self) -> list[tuple[str, int]]:
-        """How many findings it has of each severity, the worst first; those that it has none of are left out."""
+        """How many findings it has of each severity, the worst first; severities without findings are left out."""
         found = [finding.severity for finding in self.record.warnings]
         return [(severity, found.count(severity)) for severity in Severity if severity in found]
 

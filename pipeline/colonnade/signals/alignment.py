@@ -72,7 +72,7 @@ class Offset:
 
     @property
     def doubt(self) -> str:
-        """What speaks against the delay; empty where nothing does."""
+        """What speaks against the delay; empty if nothing does."""
         said = []
         if self.beyond is not None:
             said.append(

@@ -80,7 +80,7 @@ def find_rate(time: Array, reference: Array, values: Array, *, delay: float, ban
     Returns
     -------
     rate : ClockRate or None
-        None where too few stretches have a delay of their own.
+        None if too few stretches have a delay of their own.
 
     Notes
     -----
@@ -132,7 +132,7 @@ def _stretches(time: Array, reference: Array, bandwidth_hz: float) -> list[tuple
 def _local_delay(
     time: Array, reference: Array, values: scipy.interpolate.CubicSpline, delay: float, bandwidth_hz: float
 ) -> tuple[float, float, float] | None:
-    """Middle, delay and standard error of a stretch; None where it does not agree or leaves the record."""
+    """Middle, delay and standard error of a stretch; None if it does not agree or leaves the record."""
     centred = reference - reference.mean()
     low, high = float(values.x[0]), float(values.x[-1])
     shift = delay

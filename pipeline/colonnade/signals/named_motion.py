@@ -97,14 +97,14 @@ def check_motion(
     named : Series
         The motion at its own time scale.
     time_scale : float or None
-        Factor on its time in this test; None where it is not told.
+        Factor on its time in this test; None if it is not given.
     others : mapping of str to Series
         Further motions that it may be.
 
     Returns
     -------
     suspicions : list of Finding
-        Empty where the record is that motion, whatever its amplitude.
+        Empty if the record is that motion, whatever its amplitude.
     """
     scale = time_scale if time_scale is not None else best_scale(record, named)
     found = match(record, named.stretched(scale))

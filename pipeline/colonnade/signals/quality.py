@@ -203,7 +203,7 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
 
 
 def _filled(values: Array) -> Array | None:
-    """Values with lines over the missing ones; None where there are too few of them."""
+    """Values with lines over the missing ones; None if there are too few of them."""
     if values.size >= 15 and is_finite(values):
         return values
     return filled_in(values) if np.isfinite(values).sum() >= 15 else None
@@ -319,6 +319,6 @@ def counted(where: Mask) -> str:
 
 
 def first_at(time: Array, where: Mask) -> str:
-    """Say when the first of these samples was; empty where its time is not known."""
+    """Say when the first of these samples was; empty if its time is not known."""
     known = time[where & np.isfinite(time)]
     return f", the first at {known[0]:.4g} s" if known.size else ""

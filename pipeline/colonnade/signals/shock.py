@@ -42,7 +42,7 @@ def single_shock(values: Array, interval: float) -> Shock | None:
     Returns
     -------
     shock : Shock or None
-        None where the largest value is one of several alike, or lasts.
+        None if the largest value is one of several alike, or lasts.
 
     Examples
     --------

@@ -107,7 +107,7 @@ def compare(
 
 
 def _row(rocking: xr.Dataset, predicted: xr.Dataset, block: Block) -> tuple[float, float]:
-    """Return the nrmse and the time up to which it is taken."""
+    """Return the nrmse and the end of the time that it covers."""
     if "rocking_angle" not in rocking:
         return np.nan, np.nan
     time = rocking["elapsed"].to_numpy()

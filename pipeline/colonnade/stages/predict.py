@@ -74,7 +74,7 @@ def predict(
     Parameters
     ----------
     rocking : xr.Dataset
-        Result of `rocking`: `base_acceleration`, and that along z where it is there; of a free vibration, the measured
+        Result of `rocking`: `base_acceleration`, and that along z if it was recorded; of a free vibration, the measured
         angle that it starts from.
     specimen : xr.Dataset
         Result of `specimen`: `restitution`.

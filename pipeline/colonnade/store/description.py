@@ -62,7 +62,7 @@ def variable_name(channel_id: str) -> str:
 
 def udunits(unit: str | None) -> str | None:
     """
-    UDUNITS spelling of a recorded unit, None where it has none.
+    UDUNITS spelling of a recorded unit, None if it has none.
 
     Examples
     --------

@@ -180,7 +180,7 @@ def normalise_unit(text: str) -> str:
 
 def same_unit(first: str, second: str) -> bool:
     """
-    Whether two spellings mean the same unit; false where one is not known and they differ.
+    Whether two spellings mean the same unit; false if one is unknown and they differ.
 
     Examples
     --------

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from colonnade.campaign.draft.lines import Line, comment, value
 
 MOST_SETUPS = 5
-"""Ways of recording in one campaign; where there are more, most files are something else."""
+"""Largest usual number of ways of recording in one campaign; with more, most files are something else."""
 
 KEPT = ("column", "recorder", "id", "kind", "frequency", "motion", "span", "specimen", "setup", "file")
 """Keys of a group that can stay before it is known whether it is needed."""

@@ -72,7 +72,7 @@ def arrange(files: Sequence[RawFile]) -> tuple[list[DraftSetup], list[tuple[str,
     -------
     setups : list of DraftSetup
     copies : list of (str, str)
-        Files left out as a second copy of the same recording, with the one that is taken.
+        Files left out as a second copy of the same recording, with the one that is used.
     """
     copies: list[tuple[str, str]] = []
     kept: list[RawFile] = []

@@ -26,7 +26,7 @@ PLACE_OF = {"displacement": "specimen", "acceleration": "table", "velocity": "ta
 @dataclass(frozen=True)
 class Meaning:
     """
-    What a column is taken for.
+    The meaning given to a column.
 
     Attributes
     ----------

@@ -58,7 +58,7 @@ def write(
         Id of the campaign.
     setups : sequence of DraftSetup
     copies, refused : sequence of (str, str)
-        Files that are left out, with the file that is taken instead or the reason.
+        Files that are left out, with the file that is used instead, or the reason.
     """
     named = list(_named(setups))
     tests = [test for setup in setups for test in setup.tests]

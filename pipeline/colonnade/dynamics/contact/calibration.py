@@ -42,7 +42,7 @@ RELEASE = 0.5
 """|θ|/α from which a free vibration is calibrated, as large as laboratories release."""
 
 IMPACTS = 16
-"""Impacts over which the restitution is taken."""
+"""Number of impacts that give the restitution."""
 
 SMALLEST_RELEASE = 0.01
 """|θ|/α: smaller ones are lost in the contact's own depth."""
@@ -99,7 +99,7 @@ class Calibration:
 
     @property
     def reason(self) -> str:
-        """Why it does not agree; empty where it does."""
+        """Why it does not agree; empty if it does."""
         if self.agrees:
             return ""
         return (
@@ -152,17 +152,17 @@ def calibrate(
     body : ContactBody
         With all its modes; with a step given, each run keeps those that the step follows with its own law.
     law : ContactLaw
-        Its damping fraction is sought; its stiffness is changed only where no fraction gives e.
+        Its damping fraction is varied; its stiffness is changed only if no fraction gives e.
     restitution : float
         e between 0 and 1, as identified from measured free rocking.
     gravity : float, optional
         m/s².
     step : float, optional
-        s; default as of `simulate`.
+        s; default as for `simulate`.
     release : float, optional
         |θ|/α at the start.
     impacts : int, optional
-        How many impacts the restitution is taken over.
+        Number of impacts that give the restitution.
     fractions : sequence of float, optional
         Damping fractions that are tried first, rising; default `FRACTIONS`. With a single one its e is computed.
     vary_stiffness : bool, optional

@@ -27,7 +27,7 @@ class ContactLaw:
     damping_fraction : float
         ξ, the critical damping fraction: 2 ξ sqrt(m k) v acts while the node is in contact, m the node's mass.
     friction : float
-        Coulomb's coefficient µ; `math.inf` where nothing slides.
+        Coulomb's coefficient µ; `math.inf` for no sliding.
     tangential_ratio : float
         Stiffness against elastic slip, over k.
     tangential_damping : float

@@ -28,7 +28,7 @@ def keep_modes(body: ContactBody, highest_frequency: float) -> ContactBody:
     Returns
     -------
     body : ContactBody
-        The rigid body where no mode is as low.
+        The rigid body if no mode is as low.
     """
     kept = int(np.searchsorted(body.frequencies, highest_frequency, side="right"))
     if kept == body.frequencies.size:

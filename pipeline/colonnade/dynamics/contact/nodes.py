@@ -25,7 +25,7 @@ def rigid_body(block: Block, *, grid: tuple[int, int] = GRID, rings: tuple[int, 
     ----------
     block : Block
         Half width, height of the centre of mass and inertia about y follow from its α, R and I₀ (of both sides, in the
-        mean); depth and the other inertias from its `solid`. A block without one is taken to be as deep as wide, its
+        mean); depth and the other inertias from its `solid`. A block without one is assumed to be as deep as wide, its
         inertia about x as that about y, and about z as of a prism of that base.
     grid : tuple of int, optional
         Nodes of a rectangular base along x and y, at least 2 along x. Equal spacing with nodes on the edges; corners

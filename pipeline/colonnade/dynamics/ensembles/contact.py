@@ -44,7 +44,7 @@ class ContactPlan:
     gravity : float
         m/s².
     step : float, optional
-        s; as of `simulate`.
+        s; see `simulate`.
     count : int
         Members.
     seed : int
@@ -75,7 +75,7 @@ class ContactPlan:
 
     @property
     def table(self) -> Motion:
-        """Motion of the table, at rest where none was given."""
+        """Motion of the table; at rest if none was given."""
         if self.motion is not None:
             return self.motion
         return at_rest(plane_block(self.body, self.gravity), self.duration)
@@ -178,7 +178,7 @@ def gather(plan: ContactPlan, members: Sequence[Member]) -> ContactEnsemble:
     Raises
     ------
     ValueError
-        If it is not as many as the plan has.
+        If their number is not that of the plan.
     """
     if len(members) != plan.count:
         raise ValueError(f"there are {len(members)} members; {plan.count} were expected")

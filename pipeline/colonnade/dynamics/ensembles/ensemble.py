@@ -152,7 +152,7 @@ class Ensemble:
     bands : ndarray, shape (q, n)
         rad, quantiles of θ at each time.
     inputs, peak_ratio, overturning_time : ndarray
-        Of each member, as of `Part`.
+        Of each member, see `Part`.
     histories : ndarray of float32, shape (k, n)
         rad, θ of the first members, at most `KEPT`, up to ±α: one that overturned stays there.
     names : tuple of str
@@ -199,7 +199,7 @@ class Ensemble:
         """
         Rank correlation (Spearman 1904) of the peak with each input that varies.
 
-        Members that overturn share the highest rank. Inputs that do not vary are left out; NaN where no peak differs.
+        Members that overturn share the highest rank. Inputs that do not vary are left out; NaN if all peaks are equal.
         """
         return self.correlations(np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio))
 

@@ -39,7 +39,7 @@ class StabilityMap:
         Share of the cell around each A that overturns.
     no_rocking, lower, upper : ndarray, shape (n,)
         A up to which the block does not uplift; from which it first overturns over at least `width`; up to which it
-        last survives over at least `width`. NaN where there is no such limit up to the largest A.
+        last survives over at least `width`. NaN if there is no such limit up to the largest A.
     interval_frequency_ratio, interval_start, interval_end : ndarray, shape (k,)
         Every interval of A that overturns, islands included, by its Ω.
     options : dict
@@ -93,7 +93,7 @@ def stability_map(
     frequency_ratio, amplitude_ratio : array_like, shape (n,) and (m,)
         Ω = ω / p and A = a / (g tan α), positive and increasing.
     restitution : float, pair of float, RestitutionLaw or function, optional
-        e, as of `rock`; default the rigid-body value.
+        e, see `rock`; default the rigid-body value.
     cycles : float, optional
         Cycles at full amplitude, at least 1.
     phase : float, optional

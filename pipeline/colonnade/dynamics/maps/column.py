@@ -63,7 +63,7 @@ def map_column(plan: MapPlan, index: int) -> MapColumn:
     Notes
     -----
     `lower` is the start of the first overturning interval at least `width` wide; `upper` the end of the last surviving
-    interval likewise, NaN where that reaches the largest A.
+    interval by the same rule, NaN if that reaches the largest A.
     """
     runs = _runs(plan, float(plan.frequency_ratio[index]))
     scan = plan.scan

@@ -40,7 +40,7 @@ class SteadyResponse:
         k ≥ 1: the response repeats every k cycles of the base (sub-harmonic 1/k for k > 1); 0 at rest, −1 irregular,
         −2 overturned.
     period : ndarray, shape (n, m)
-        s; NaN where nothing repeats.
+        s; NaN if nothing repeats.
     amplitude : ndarray, shape (n, m)
         Largest |θ|/α over the last `LARGEST_ORDER` · `REPEATS` cycles; NaN where the block overturned.
     """
@@ -73,7 +73,7 @@ def steady_response(
     frequency_ratio, amplitude_ratio : array_like, shape (n,) and (m,)
         Ω = ω / p and A = a / (g tan α).
     restitution : float, pair of float, RestitutionLaw or function, optional
-        e, as of `rock`; default the rigid-body value.
+        e, see `rock`; default the rigid-body value.
     settling : int, optional
         Cycles at full amplitude before the response is looked at. A deviation dies out as e² a cycle where there are
         two impacts in it: at e = 0.976 to 4e-9 within 400 cycles.

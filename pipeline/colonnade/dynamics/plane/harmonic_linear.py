@@ -57,7 +57,7 @@ def _odd_even(z: float) -> tuple[float, float]:
 
 @kernel
 def _swing(smooth: bool | None, side: float, p: float, piece: Piece, since: float, ratio: float) -> Swing | None:
-    """Set up what half a cosine adds to a step; None where no ramp of the motion is one."""
+    """Set up what half a cosine adds to a step; None if no ramp of the motion is one."""
     if smooth is None:
         return None
     turning, amplitude, angle = piece[3] / p, 0.5 * side * piece[2], piece[3] * since

@@ -206,7 +206,7 @@ def _arc(
     is_top_wanted: bool,
     work: Series | None,
 ) -> tuple[bool, float, float, State]:
-    """Follow an arc by the model's own kernel; results as of `closed_arc`."""
+    """Follow an arc by the model's own kernel; results as for `closed_arc`."""
     here, since = 1 if side > 0.0 else 0, now - part.begin
     critical, p, omega = sides.critical[here], sides.p[here], forcing[0]
     if work is None:

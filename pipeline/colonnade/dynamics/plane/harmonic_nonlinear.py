@@ -207,7 +207,7 @@ def series_arc(
     """
     Follow an arc by one series: to its end, over all that remains, or up to the impact.
 
-    Parameters and results as of `closed_arc`, but for φ, `angle`, in place of its sine and cosine.
+    Parameters and results as for `closed_arc`, but for φ, `angle`, in place of its sine and cosine.
     """
     series = work.height
     series[0], series[1] = height, rate

@@ -169,7 +169,7 @@ class BySeries(NamedTuple):
 
 
 def by_series(vertical: Array, is_linearised: bool) -> BySeries:
-    """Prepare the solution by series; arguments as of `BySeries`."""
+    """Prepare the solution by series; arguments as for `BySeries`."""
     return BySeries(vertical, is_linearised, np.empty((3, ORDER + 1)))
 
 

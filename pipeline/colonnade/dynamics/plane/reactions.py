@@ -48,14 +48,14 @@ class Reactions:
 
     @property
     def slides(self) -> Mask:
-        """Samples at which more friction is required than there is, shape (n,); none where no friction was given."""
+        """Samples at which more friction is required than there is, shape (n,); none if no friction was given."""
         if self.friction is None:
             return np.zeros(self.time.size, dtype=np.bool_)
         return np.asarray(self.required_friction > self.friction)
 
     @property
     def impacts_slide(self) -> Mask:
-        """Impacts whose impulse requires more friction than there is, shape (m,); none where no friction was given."""
+        """Impacts whose impulse requires more friction than there is, shape (m,); none if no friction was given."""
         if self.friction is None:
             return np.zeros(self.impact_times.size, dtype=np.bool_)
         return np.asarray(self.impact_friction > self.friction)

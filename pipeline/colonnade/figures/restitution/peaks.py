@@ -58,7 +58,7 @@ def peak_decay(series: Sequence[PeakSeries], block: Block, *, axes: Sequence[Axe
     block : Block
         Its critical angles scale the energy.
     axes : sequence of Axes, optional
-        To draw into, one a test; a new figure with its legend otherwise.
+        Axes to draw into, one for each test; by default a new figure with its legend.
 
     Returns
     -------

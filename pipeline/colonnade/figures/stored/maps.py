@@ -27,7 +27,7 @@ def tested(identity: str, points: Sequence[MapPoint]) -> Picture:
 
 
 def computed(specimen: str, charts: Sequence[StabilityMap], points: Sequence[MapPoint]) -> Picture:
-    """Draw the stability maps of a specimen, one a model, with its measured sine tests."""
+    """Draw the stability maps of a specimen, one for each model, with its measured sine tests."""
     models = [str(chart.options["model"]) for chart in charts]
     return Picture(
         stability_map(charts, points),

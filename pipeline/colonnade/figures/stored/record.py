@@ -35,7 +35,7 @@ BASE = (
     ("vertical_base_acceleration", "vertical base acceleration", "base, up", "m/s²"),
     ("transverse_base_acceleration", "transverse base acceleration", "base, y", "m/s²"),
 )
-"""Motions of the base, likewise."""
+"""Motions of the base, in the same form."""
 
 MOST_SPANS = 12
 """Earthquake tests that are drawn side by side."""

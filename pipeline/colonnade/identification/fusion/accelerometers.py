@@ -50,7 +50,7 @@ def angle_from_accelerations(
     Returns
     -------
     angle, standard_error : ndarray, shape (n,), or None
-        rad; None where the accelerometers do not separate rotation from translation.
+        rad; None if the accelerometers do not separate rotation from translation.
 
     Notes
     -----
@@ -87,7 +87,7 @@ def angle_from_accelerations(
 
 
 def _solving(columns: Array, sigma: Array, block: Block) -> Array | None:
-    """Matrix (3, m) from readings to A along x and z and θ̈; None where θ̈ and A along x are not separated."""
+    """Matrix (3, m) from readings to A along x and z and θ̈; None if θ̈ and A along x are not separated."""
     present = [index for index in range(3) if np.abs(columns[:, index]).max() > 1e-9]
     if 0 not in present or 2 not in present:
         return None

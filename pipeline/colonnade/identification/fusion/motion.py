@@ -157,7 +157,7 @@ def _with_rates(
     block: Block,
     circumstances: Circumstances,
 ) -> tuple[tuple[Array, Array] | None, str]:
-    """Angle and its error, and what was done; None where the rates contradict what tracks the angle."""
+    """Angle and its error, and what was done; None if the rates contradict what tracks the angle."""
     chosen = [each for each, turns in zip(gyroscopes[0], turning, strict=True) if turns]
     given = gyroscopes[1]
     readings = Readings(given.values[turning], given.noise[turning], given.cutoff_hz[turning])

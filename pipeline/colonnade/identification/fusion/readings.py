@@ -33,7 +33,7 @@ class Readings:
 
 @dataclass(frozen=True)
 class TableReadings:
-    """Displacement (m) and acceleration (m/s²) of the table, shape (3, n); acceleration None where it is not known."""
+    """Displacement (m) and acceleration (m/s²) of the table, shape (3, n); acceleration None if it is not known."""
 
     displacement: Array
     acceleration: Array | None

@@ -42,7 +42,7 @@ class TableChannel:
 
 def ratio(interval: float, acceleration: TableChannel, displacement: TableChannel) -> float | None:
     """
-    Acceleration over the second derivative of the displacement, with its sign; None where they do not agree.
+    Acceleration over the second derivative of the displacement, with its sign; None if they do not agree.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def ratio(interval: float, acceleration: TableChannel, displacement: TableChanne
 
 def guilty(found: float, by_specimen: float | None) -> Literal["", "acceleration", "displacement", "either"]:
     """
-    Say which of the two is wrong; nothing where both are right.
+    Say which of the two is wrong; empty if both are right.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def disagreement(acceleration: str, displacement: str, found: float, wrong: str)
 
 
 def dead(interval: float, acceleration: TableChannel, displacement: TableChannel) -> Finding | None:
-    """Say which of the two stands still, or that they are not of one motion; None where nothing is to be said."""
+    """Say which of the two stands still, or that they are not of one motion; None if there is no problem."""
     recorded, derived = _band(interval, acceleration, displacement)
     if abs(_correlation(recorded, derived)) > OTHER_MOTION:
         return None

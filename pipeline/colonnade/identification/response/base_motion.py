@@ -47,7 +47,7 @@ def base_velocity(acceleration: ArrayLike, interval: float, block: Block) -> flo
 
 def table_moves(acceleration: ArrayLike, interval: float, block: Block) -> bool:
     """
-    Decide whether the table moves under a free vibration; arguments as of `base_velocity`.
+    Decide whether the table moves under a free vibration; arguments as for `base_velocity`.
 
     Notes
     -----

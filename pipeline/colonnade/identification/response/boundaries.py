@@ -64,7 +64,7 @@ class Bracket:
 
     @property
     def middle(self) -> float | None:
-        """Middle of the bracket, None where a side is missing."""
+        """Middle of the bracket, None if a side is missing."""
         return None if self.below is None or self.above is None else (self.below + self.above) / 2
 
 
@@ -136,7 +136,7 @@ def limit_misfit(boundaries: Iterable[Boundaries], frequency_ratio: ArrayLike, l
     Returns
     -------
     misfit : Misfit or None
-        Limit, linear between its Ω, minus the middle of each bracket; None where no frequency has both.
+        Limit, linear between its Ω, minus the middle of each bracket; None if no frequency has both.
     """
     omega, computed = np.asarray(frequency_ratio, dtype=np.float64), np.asarray(limit, dtype=np.float64)
     measured = [(each.frequency_ratio, each.overturning.middle) for each in boundaries]

@@ -61,7 +61,7 @@ def fit_forcing(time: ArrayLike, motion: ArrayLike) -> Forcing | None:
     Returns
     -------
     forcing : Forcing or None
-        None where no stretch of `FEWEST_CYCLES` periods has an even amplitude.
+        None if no stretch of `FEWEST_CYCLES` periods has an even amplitude.
 
     Notes
     -----

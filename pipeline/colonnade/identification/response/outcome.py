@@ -77,7 +77,7 @@ def _held(time: Array, angle: Array, block: Block, catch: float | None) -> int |
 
 
 def _settled(time: Array, magnitude: Array) -> int | None:
-    """First index from which the angle stays within the plateau's width for `HELD`, None where it never does."""
+    """First index from which the angle stays within the plateau's width for `HELD`, None if it never does."""
     last = np.searchsorted(time, time + HELD)
     for index in range(0, time.size, max(time.size // 400, 1)):
         if last[index] >= time.size:

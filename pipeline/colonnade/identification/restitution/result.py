@@ -27,7 +27,7 @@ class Estimate:
     ----------
     name : {"peaks", "half-periods", "impact-by-impact", "history-linear", "history-nonlinear"}
     value, low, high, standard_error : float or None
-        e, its interval of confidence at `level` and its standard error; None where refused.
+        e, its interval of confidence at `level` and its standard error; None if refused.
     level : float
     assumptions : str
         What has to be true for the value to be that of the specimen.
@@ -146,7 +146,7 @@ class Restitution:
     Attributes
     ----------
     value, low, high : float or None
-        The recommended e and its interval of confidence at `level`; None where refused.
+        The recommended e and its interval of confidence at `level`; None if refused.
     standard_error : float or None
     level : float
     method : str
@@ -163,7 +163,7 @@ class Restitution:
     departures : tuple of Departure
         From the plane model with one e.
     recommended : str
-        Name of the estimate whose value this is; empty where refused.
+        Name of the estimate whose value this is; empty if refused.
     constancy : Constancy
         Of e from impact to impact.
     """

@@ -33,7 +33,7 @@ TWO_BYTE_STEPS = 32767
 
 @dataclass(frozen=True)
 class ChannelHeader:
-    """What the file says of a channel; `step` in s, 0 where it is not given."""
+    """The header of a channel; `step` in s, 0 if it is not given."""
 
     name: str
     unit: str

@@ -232,7 +232,7 @@ def _describe(component: _Component, key: str, told: _Parameters) -> None:
 
 
 def _refusal(component: _Component, file: _File) -> str:
-    """Say why a channel's values cannot be read, or nothing where they can."""
+    """Say why a channel's values cannot be read; empty if they can."""
     if component.digital and (component.number or "f")[0] == "f":
         return "digital channels have to be whole numbers, and these are not; left out"
     if component.bytes_filled is None:

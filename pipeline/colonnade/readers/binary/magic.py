@@ -51,7 +51,7 @@ def look(first: bytes) -> str:
     Returns
     -------
     what : str
-        A clause such as "it is a web page …"; empty where nothing is known.
+        A clause such as "it is a web page …"; empty if nothing is known.
 
     Examples
     --------

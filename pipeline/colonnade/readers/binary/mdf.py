@@ -111,7 +111,7 @@ def _never(*rest: Any, **settings: Any) -> Any:
 
 
 class _RawFile:
-    """A file whose conversions are taken away, so that asammdf gives raw values, of the clocks too; kept here."""
+    """A file without its conversions, so that asammdf gives raw values, also of the clocks; they are kept here."""
 
     def __init__(self, file: Any) -> None:
         self._file = file

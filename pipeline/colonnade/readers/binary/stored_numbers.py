@@ -27,7 +27,7 @@ class StoredNumbers:
     Attributes
     ----------
     name, unit : str
-        Of the channel; the unit is empty where it is not told.
+        Of the channel; the unit is empty if the file does not give it.
     file : str
         Name of the file with the bytes, in the header's folder; empty for a channel that rises evenly and is not
         stored, and where the header's own file has them.
@@ -43,7 +43,7 @@ class StoredNumbers:
     step : float
         Time step, s; 0 where the channel has none of its own.
     begin : float
-        Time of the first value, s, where there is a step.
+        Time of the first value, s, if there is a step.
     missing : float or None
         What stands for a missing value.
     end : int or None

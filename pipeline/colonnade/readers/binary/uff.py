@@ -131,7 +131,7 @@ def _data_sets(stream: BinaryIO) -> Iterator[tuple[int, str]]:
 def _function(
     stream: BinaryIO, fields: list[str], warnings: list[str], notes: list[str], place: int
 ) -> RecordedChannel | None:
-    """Read a data set 58; ValueError or IndexError where it is not whole."""
+    """Read a data set 58; raises ValueError or IndexError if it is incomplete."""
     head = _head([_decoded(stream.readline(LONGEST_LINE)).rstrip("\r\n") for _ in range(HEADER_LINES)])
     if head.kind not in REAL_KINDS or not (head.is_time or head.function == TIME_RESPONSE):
         notes.append(f'"{head.name}": not a real function of time (kind {head.function}); left out')
@@ -180,7 +180,7 @@ def _head(lines: list[str]) -> Head:
 
 
 def _decoded(line: bytes) -> str:
-    """Text of a header's line: UTF-8 where it is that, else as Windows writes it."""
+    """Text of a header's line: UTF-8 if it is valid, else Windows-1252."""
     try:
         return line.decode("utf-8")
     except UnicodeDecodeError:

@@ -15,7 +15,7 @@ LARGEST_RATIO = 100
 
 def swollen(unpacked: int, packed: int) -> str:
     """
-    Say why compressed data is not unpacked, or nothing where it may be.
+    Say why compressed data is not unpacked; empty if it may be.
 
     Parameters
     ----------

@@ -95,7 +95,7 @@ def _by_name(columns: list[Column], warnings: list[str]) -> list[int]:
 
 
 def _seconds(column: Column, unit: str | None) -> tuple[Array, str, datetime | None]:
-    """Times in s, how they were understood, and when they start where they are days of the calendar."""
+    """Times in s, how they were understood, and their start if they are days of the calendar."""
     values = np.asarray(column.values, dtype=np.float64)
     known = values[np.isfinite(values)]
     if unit is None and DATENUM[0] < known[0] and known[-1] < DATENUM[1] and known[-1] - known[0] < 30:

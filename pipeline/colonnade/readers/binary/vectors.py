@@ -38,7 +38,7 @@ class Column:
 
 
 def named(columns: list[Column]) -> list[Column]:
-    """Give columns without a name the last part of their path, where no other column has it, else all of it."""
+    """Name columns without a name by the last part of their path, or by all of it if another column has that part."""
     last = [column.name or column.path.rpartition(".")[2] for column in columns]
     counts = Counter(last)
     return [

@@ -17,7 +17,7 @@ MEMORY_SHARE = 0.75
 SECONDS = 8
 """Processor time that the reading of the smallest file may take."""
 BYTES_PER_SECOND = MEGABYTE // 4
-"""For each so many bytes of the file a second more; the slowest reader, of .ods, is five times as fast."""
+"""Bytes of the file that each add a second; the slowest reader, of .ods, is five times as fast."""
 PATIENCE = 3.0
 """Longest time that may pass, as a multiple of the processor time, on a machine that does other things too."""
 

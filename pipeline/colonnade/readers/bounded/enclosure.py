@@ -54,7 +54,7 @@ def enclose(bounds: Bounds, within: Path) -> None:
 
 
 def limit(bounds: Bounds) -> None:
-    """Bound memory and processor time from here on; nothing where the system has no such limits."""
+    """Bound memory and processor time from here on; nothing if the system has no such limits."""
     try:
         import resource
     except ImportError:  # Windows

@@ -50,7 +50,7 @@ def restrict(readable: Iterable[Path]) -> bool:
     Returns
     -------
     done : bool
-        False where the kernel has no Landlock.
+        False if the kernel has no Landlock.
 
     Raises
     ------

@@ -101,7 +101,7 @@ class Answer(BaseModel):
     Attributes
     ----------
     refusal : str
-        Why the file cannot be read; empty where it was.
+        Why the file cannot be read; empty if it was.
     error_number : int or None
         The system's own number of what went wrong, where it did.
     out_of_memory : bool

@@ -125,7 +125,7 @@ class _Reader:
             fcntl.fcntl(self.answers, fcntl.F_SETPIPE_SZ, PIPE)
 
     def ask(self, request: Request) -> tuple[Answer, list[Array]]:
-        """Ask for a file; ReadError where no answer comes, and the process is then ended."""
+        """Request a file; raises ReadError and ends the process if no answer comes."""
         late: list[float] = []
         begun = False
         try:

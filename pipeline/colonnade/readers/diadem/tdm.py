@@ -51,7 +51,7 @@ def channels_in_tdm(path: Path) -> tuple[list[DescribedChannel], list[str]]:
 
 
 def _content(path: Path) -> bytes:
-    """Bytes of the XML, out of the archive where it is packed."""
+    """Bytes of the XML, unpacked if it is in an archive."""
     if not zipfile.is_zipfile(path):
         if path.stat().st_size > LARGEST_HEADER:
             raise ReadError(f"{path.name}: a header of more than {LARGEST_HEADER >> 20} MB is not read.")

@@ -93,7 +93,7 @@ def column_kinds(block: Block) -> tuple[str, ...]:
 
 
 def take_column(block: Block, number: int, kind: str) -> CellColumn:
-    """Give a column's values, NaN if a cell holds none; text that is a number is taken as one, with a warning."""
+    """Give a column's values, NaN if a cell holds none; text that is a number is read as one, with a warning."""
     cells = [row[number] if number < len(row) else "" for row in block.rows]
     if kind == "time":
         return _moments(cells)

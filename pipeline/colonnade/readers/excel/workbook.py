@@ -122,7 +122,7 @@ def _unread(headings: Sequence[str], columns: Sequence[CellColumn]) -> list[str]
 
 def rows_of_first_sheet(path: Path) -> list[list[Any]]:
     """
-    Read all cells of a workbook's first sheet, as of a table that people wrote.
+    Read all cells of a workbook's first sheet as text, as for a table that people wrote.
 
     Raises
     ------

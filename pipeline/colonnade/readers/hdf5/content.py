@@ -34,7 +34,7 @@ class Variable:
     values : ndarray
         As stored.
     dimensions : tuple of (str or None)
-        Name of each, where there is one.
+        Name of each, if it has one.
     attributes : dict
     """
 

@@ -150,7 +150,7 @@ def _coordinates(columns: list[Column], variables: list[Variable]) -> list[int]:
 
 
 def _as_times(column: Column, unit: str | None) -> tuple[Array, datetime | None, str] | None:
-    """Understand a coordinate as times: `seconds since …`, or a unit of time; None where it is neither."""
+    """Understand a coordinate as times: `seconds since …`, or a unit of time; None if it is neither."""
     values = np.asarray(column.values, dtype=np.float64)
     told = unit or column.unit or ""
     since = SINCE.fullmatch(told)

@@ -54,7 +54,7 @@ def open_hdf5(path: Path) -> h5py.File:
 
 def _broken_heap(path: Path) -> int | None:
     """
-    Find a heap of texts and references whose objects do not lie in one another's order; None where all do.
+    Find a heap of texts and references whose objects do not lie in one another's order; None if all do.
 
     HDF5 itself does not come to an end with one whose free space has no size.
     """

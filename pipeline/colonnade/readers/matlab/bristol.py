@@ -31,7 +31,7 @@ def numbered_channels(variables: dict[str, Node]) -> tuple[dict[str, Node], list
     scalars : dict of str to float
         `File_Header.SampleFrequency`, Hz, if the first channel is not a clock.
     notes : list of str
-        Empty where the file has another layout.
+        Empty if the file has another layout.
     """
     numbers = sorted(int(match[1]) for name in variables if (match := DATA.fullmatch(name)))
     arrays = {number: variables[f"Channel_{number}_Data"] for number in numbers}

@@ -43,7 +43,7 @@ def find_columns(variables: dict[str, Node]) -> Found:
     Find the columns of numbers among a file's variables.
 
     A matrix gives a channel a column where a vector is as long as it has rows, a channel a row where one is as long as
-    it has columns; else its longer side is taken for that of the samples.
+    it has columns; else its longer side counts as that of the samples.
     """
     found = Found()
     lengths = set(_vector_lengths(variables))

@@ -26,7 +26,7 @@ USER_BLOCK = 512
 
 
 class MatlabOptions(ClockOptions):
-    """What can be said about a MATLAB file; all of it is found where it is not said."""
+    """Options of a MATLAB file; what is not given is detected."""
 
     variables: tuple[str, ...] = Field(default=(), description="Variables to read; by default all of them.")
 

@@ -38,7 +38,7 @@ def read_v73(path: Path) -> Tree:
 
 
 class _Reader:
-    """Goes through one file; what is left out and what is damaged is gathered in the tree."""
+    """Reads one file; the tree also lists what is left out and what is damaged."""
 
     def __init__(self, file: h5py.File, tree: Tree, size: int) -> None:
         self._file = file
@@ -112,7 +112,7 @@ class _Reader:
 
     @staticmethod
     def _field_names(group: h5py.Group) -> list[str]:
-        """Names of fields in MATLAB's order, where it is kept."""
+        """Names of fields, in MATLAB's order if the file keeps it."""
         ordered = group.attrs.get("MATLAB_fields")
         if ordered is None:
             return list(group)

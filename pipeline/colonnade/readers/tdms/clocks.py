@@ -16,7 +16,7 @@ from colonnade.readers.clock import Clocks, find_clocks, given_clock
 from colonnade.readers.recording import RecordedChannel, Recording
 
 EARLIEST_START = np.datetime64("1970-01-01", "us")
-"""LabVIEW writes 1904-01-01 where no start is known."""
+"""LabVIEW writes 1904-01-01 if no start is known."""
 NO_TIMING = 1.0
 """Step, s, that LabVIEW writes by default."""
 
@@ -52,7 +52,7 @@ class Column:
     group : str
     channel : RecordedChannel
     waveform : Waveform or None
-        None where its properties give no step.
+        None if its properties give no step.
     first : datetime64 or None
         The first of its values, where these are timestamps.
     """
@@ -75,7 +75,7 @@ def waveform(properties: Mapping[str, Any]) -> Waveform | None:
     Returns
     -------
     waveform : Waveform or None
-        None where they give no step.
+        None if they give no step.
     """
     try:
         step = float(properties.get("wf_increment") or 0.0)

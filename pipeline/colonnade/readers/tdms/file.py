@@ -189,7 +189,7 @@ def _properties(channel: TdmsChannel) -> dict[str, Any]:
 
 
 def _column(channel: TdmsChannel, file: TdmsFile, part: slice, *, unique: bool) -> tuple[Column, str]:
-    """Take a channel with its unit and what is to be warned of; its name is the short one where no other has it."""
+    """Return a channel with its unit and warnings; it has the short name if no other channel has it."""
     written = f"{channel.group_name}/{channel.name}"
     name, unit_in_name = take_apart(channel.name)
     name = name if unique else written

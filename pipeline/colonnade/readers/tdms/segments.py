@@ -28,11 +28,11 @@ class Ending:
     size : int
         Bytes of the file.
     declared : int or None
-        Bytes that its segments add up to; None where the last one does not tell, as the recorder was stopped.
+        Bytes that its segments add up to; None if the last one does not say, because the recorder was stopped.
     undescribed : int
         Bytes at the end that begin a segment whose description is not complete.
     present, expected : int
-        Bytes of samples of the last segment that are there, and that it says there are; 0 where it is whole.
+        Bytes of samples of the last segment: found, and declared; 0 if it is whole.
     """
 
     size: int

@@ -59,7 +59,7 @@ class Heading:
 
 @dataclass(frozen=True)
 class HeadingLines:
-    """Lines, from 0, of names and units, where they are."""
+    """Lines of names and units, counted from 0, if there are any."""
 
     names: int | None
     units: int | None

@@ -31,7 +31,7 @@ def series_of(recording: Recording, values: Array, width: int, claims: HeaderCla
     width : int
         Numbers in a row.
     claims : HeaderClaims
-        What the lines above say: interval and unit are taken from there.
+        What the lines above say, with interval and unit.
     verdict : Verdict
         That they run on, and why.
     """

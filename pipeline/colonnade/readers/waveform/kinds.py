@@ -31,7 +31,7 @@ def kind_of_waveform(path: Path) -> str | None:
     Returns
     -------
     kind : str or None
-        As ObsPy calls it; None where the first bytes are none of those known here. Other kinds that ObsPy reads have
+        As ObsPy calls it; None if the first bytes are none of those known here. Other kinds that ObsPy reads have
         no sign that separates them from text or noise.
     """
     with path.open("rb") as stream:

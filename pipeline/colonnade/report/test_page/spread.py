@@ -17,7 +17,7 @@ from colonnade.store.records.wording import quantity
 
 @dataclass(frozen=True)
 class ModelSpread:
-    """`verdicts` are sentences, one a model; `bands` is None without an ensemble."""
+    """`verdicts` has a sentence for each model; `bands` is None without an ensemble."""
 
     verdicts: list[str]
     bands: Picture | None

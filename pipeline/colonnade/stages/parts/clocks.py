@@ -99,7 +99,7 @@ def recorder_offsets(
     warnings: list[Finding],
 ) -> dict[str, Offset]:
     """
-    Find the delays of the recorders against the main one, where they are known.
+    Find the delays of the recorders relative to the main one, if they can be found.
 
     Parameters
     ----------

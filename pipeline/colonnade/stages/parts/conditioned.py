@@ -25,7 +25,7 @@ LARGEST_DIFFERENCE = 0.1
 """Of the base motion (RMS), by which several table channels may differ from their mean without a warning."""
 
 LEAST_NOISE = 1e-9
-"""m, rad, …: what a reading without noise is taken to have, so that it has a weight."""
+"""m, rad, …: smallest noise assumed for a reading, so that it has a finite weight."""
 
 
 def base_motion(conditioned: xr.Dataset, channels: Transducers, warnings: list[Finding]) -> dict[str, Array]:

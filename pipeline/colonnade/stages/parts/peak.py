@@ -71,7 +71,7 @@ def find_peak(
 
 def _release(time: Array, ratio: Array, p: float, *, least: float) -> float:
     """
-    |θ|/α at which a specimen was let go, given the samples before its first impact.
+    |θ|/α at which a specimen was released, given the samples before its first impact.
 
     That is at rest, so that the impact comes a quarter period later, acosh(1/(1 − |θ|/α))/p (Housner 1963, eq. 3);
     what is held longer has been at that angle before, what moves already arrives earlier.

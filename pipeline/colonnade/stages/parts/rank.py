@@ -146,7 +146,7 @@ def rank_measured(
     starts : ndarray, shape (members,)
         By how much each run began above the measured start, rad.
     errors : Measurement
-        Of the measured angle, as of `measurement_errors`.
+        Of the measured angle, see `measurement_errors`.
     inputs : MeasurementInputs
 
     Returns

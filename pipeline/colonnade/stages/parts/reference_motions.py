@@ -33,7 +33,7 @@ class ReferenceMotionFile(BaseModel):
         s.
     column : str, int or None
     layout : str or None
-        Whether columns are channels or numbers run on, where it is given.
+        Whether columns are channels or numbers run on, if given.
     """
 
     model_config = ConfigDict(frozen=True)
@@ -83,7 +83,7 @@ def load(known: Mapping[str, ReferenceMotionFile], warnings: list[Finding]) -> d
 
 
 def _digest(path: Path) -> str:
-    """SHA-256 of a file; where it is in several, of theirs."""
+    """SHA-256 of a file, or of all its companion files together."""
     digests = [_digest_now(each) for each in (path, *_companions(path, _digest_now(path)))]
     return digests[0] if len(digests) == 1 else hashlib.sha256(" ".join(digests).encode()).hexdigest()
 

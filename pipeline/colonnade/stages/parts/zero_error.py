@@ -83,7 +83,7 @@ def find_zero_error(
     effects : mapping of str to Effect
         Of the channels whose zero enters a result.
     window : RestWindow
-        From which the zero is taken.
+        Used for the zero.
     free_vibration : bool
         A stretch before the release is not rest, however still it is: the specimen is held tilted.
 

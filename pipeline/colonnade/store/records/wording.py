@@ -145,7 +145,7 @@ def count(amount: int, one: str, several: str = "") -> str:
 
 def agree(measured: str, predicted: str) -> bool | None:
     """
-    Tell whether a predicted outcome is the measured (or observed) one; None where either is not known.
+    Return whether a predicted outcome is the measured (or observed) one; None where either is not known.
 
     Examples
     --------

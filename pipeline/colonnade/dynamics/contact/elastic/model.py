@@ -63,7 +63,7 @@ def meshed_body(
     modulus: float = STEELS_MODULUS,
     poisson_ratio: float = STEELS_POISSON_RATIO,
 ) -> ElasticBody:
-    """Assemble a body of given mass (kg) from its dimensions; arguments and errors as of `mesh_of` and `assemble`."""
+    """Assemble a body of given mass (kg) from its dimensions; arguments and errors as for `mesh_of` and `assemble`."""
     return assemble(mesh_of(sizes, mesh), mass, modulus=modulus, poisson_ratio=poisson_ratio)
 
 

@@ -20,7 +20,7 @@ class Departure:
     unit : str
         SI; "1" where it has none.
     sentence : str
-        The finding for people: size with its error, and what was left out for it.
+        The finding for people: size with its error, and what was left out because of it.
     left_out : int
         Number of the first arcs that the departure spoils: they are not to enter an estimate of e.
     refuses : bool

@@ -22,7 +22,7 @@ FEWEST_ARCS = 3
 
 MOST_CORRECTIONS = 4
 SMALLEST_CORRECTION = 0.3
-"""Standard errors of the zero offset; it is corrected up to so many times until less is left."""
+"""Standard errors of the zero offset: it is corrected until less is left, at most `MOST_CORRECTIONS` times."""
 
 
 def find_departures(

@@ -42,7 +42,7 @@ def objection(arcs: Arcs, usable: Mask, block: Block) -> str:
     Returns
     -------
     reason : str
-        Empty where they are.
+        Empty if they are.
 
     Notes
     -----
@@ -86,7 +86,7 @@ def objection(arcs: Arcs, usable: Mask, block: Block) -> str:
 
 
 def _power(expected: Array, duration: Array, blur: float) -> tuple[float, float]:
-    """Slope of one logarithm against the other, and its standard error; infinite where it is all errors."""
+    """Slope of one logarithm against the other, and its standard error; infinite if all is error."""
     centred = expected - expected.mean()
     power = float(centred @ centred)
     if expected.size < 3 or power < max(BEYOND_ERRORS * blur * expected.size, 1e-6):

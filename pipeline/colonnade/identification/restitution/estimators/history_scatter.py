@@ -52,7 +52,7 @@ LEAST_NOISE = 1e-6
 """Of α, standard deviation: less is the rounding of computed records."""
 
 RELEASE_UNLIKELY = 1e-3
-"""Probability below which the part after the release is not that of a block let go."""
+"""Probability below which the part after the release is not free rocking from rest."""
 
 SURE_TREND = 0.003
 """Probability of a change of e with the speed of impact by chance, below which the mean is that at the mean speed."""

@@ -103,7 +103,7 @@ class ImpactByImpact(Estimator[ImpactFit]):
 
 def single_impacts(arcs: Arcs, offset: float, usable: Mask, block: Block) -> Impacts:
     """
-    Find e of each impact between two arcs; arguments as of `ImpactByImpact.fit_arcs`.
+    Find e of each impact between two arcs; arguments as for `ImpactByImpact.fit_arcs`.
 
     Returns
     -------

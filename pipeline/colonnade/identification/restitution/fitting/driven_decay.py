@@ -39,7 +39,7 @@ class BaseMotion:
 
 def moving_base(time: Array, acceleration: ArrayLike | None, block: Block) -> BaseMotion | None:
     """
-    Return the base motion of a table that moves; None where it is at rest or was not recorded.
+    Return the base motion of a table that moves; None if it is at rest or was not recorded.
 
     Parameters
     ----------
@@ -231,7 +231,7 @@ def driven_arcs(
     critical: Array, p: Array, base: Array, base_start: float, base_interval: float, count: int,
 ) -> tuple[Array, Array, Array, Array, NDArray[np.int64]]:  # fmt: skip
     """
-    Follow rocking on a moving table; arguments as of `free_arcs`, `angle_and_sensitivity` and `BaseMotion`.
+    Follow rocking on a moving table; arguments as for `free_arcs`, `angle_and_sensitivity` and `BaseMotion`.
 
     Returns
     -------

@@ -114,7 +114,7 @@ def extended(decay: Decay, further: Decay, error: Array, samples: AngleSamples, 
 
 
 def earlier(decay: Decay, samples: AngleSamples) -> Decay | None:
-    """Return the decay with the release before its first arc; None where no such release leads to it."""
+    """Return the decay with the release before its first arc; None if no such release leads to it."""
     peaks, times, ends = decay.arcs()
     critical, p, side = decay.critical, decay.p, 1 - decay.side
     ratio = p[decay.side] / p[side] / exp(decay.values["restitution"])

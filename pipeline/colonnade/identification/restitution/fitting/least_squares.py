@@ -37,7 +37,7 @@ class Stretch:
     time, angle : ndarray, shape (n,)
         s, rad; NaN where not counted.
     cutoff_hz : float or None
-        Low-pass that the record went through: the model is filtered likewise.
+        Low-pass of the record: the model is filtered in the same way.
     interval : float or None
         s.
     group : int

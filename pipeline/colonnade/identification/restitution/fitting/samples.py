@@ -18,7 +18,7 @@ UNEVEN = 1e-3
 
 @dataclass(frozen=True)
 class AngleSamples:
-    """Times (s) and angles (rad, NaN where missing), shape (n,); their step (s), None where uneven; samples in each."""
+    """Times (s) and angles (rad, NaN where missing), shape (n,); their step (s), None if uneven; samples in each."""
 
     time: Array
     angle: Array

@@ -36,7 +36,7 @@ class LinearModel:
     least : float
         rad², variance of the noise below which it is rounding.
     interval : float or None
-        s; None where the steps are not even and the noise is white.
+        s; None if the steps are not even and the noise is white.
     cutoff_hz : float or None
         Low-pass that values, but not columns, went through.
     """
@@ -68,7 +68,7 @@ class Products:
     least : float
         Least level of the noise, rad².
     weights : ndarray or None
-        Of the frequencies; None where the noise is white.
+        Of the frequencies; None if the noise is white.
     """
 
     matrix: Array

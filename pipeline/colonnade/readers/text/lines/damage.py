@@ -16,7 +16,7 @@ SHOWN = 50
 """Characters of a line that a message quotes."""
 
 SHORTEST_ENDING = 3
-"""Rows at the end that lack the same last cells, from which on these columns are taken to be shorter."""
+"""Rows at the end that lack the same last cells, from which on these columns count as shorter."""
 
 
 @dataclass(frozen=True)
