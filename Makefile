@@ -6,7 +6,7 @@
 # make reports  rebuilds the reference reports in reports/ and the picture of the README
 # make restitution-study  5000 records with known truth: reports/restitution-study.md, ten minutes and more
 # make verdict-study  1000 tests with known truth judged by their spread: reports/verdict-study.md, a quarter of an hour
-# make contact-study  measures the contact model anew: reports/contact-study.md, half an hour
+# make contact-study  measures the contact model again: reports/contact-study.md, half an hour
 # make clean    removes what the other targets made
 #
 # Written for GNU make 3.81 (macOS) and later. README.md says what to type without make.

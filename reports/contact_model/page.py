@@ -20,10 +20,10 @@ COLLAPSED = 1e-3
 def page(found: dict[str, Any], drawn: dict[str, str]) -> str:
     """Write what was measured, with the figures' file names by part."""
     lines = [
-        "# The contact model: damping, convergence, what it costs, and what it tells",
+        "# The contact model: damping, convergence, what it costs, and what it shows",
         "",
         "Made by `make contact-study`. Prism of the paper (86 × 86 × 456 mm, 26.10 kg, g = 9.81 m/s²), free rocking",
-        f"from {RELEASE:g} α unless told otherwise, friction 0.6, stiffness such that the standing prism sinks by",
+        f"from {RELEASE:g} α unless another is given, friction 0.6, stiffness such that the standing prism sinks by",
         "1e-6 of the height of its centre of mass (0.15 N/µm per mm² of base), called 1 below. A calibrated contact",
         "has the stiffness, fraction and modes that `colonnade calibrate` finds, and the e identified from θ; the e of",
         "all other runs is of the velocities at their first impacts. A step is the longest up to the one named that",

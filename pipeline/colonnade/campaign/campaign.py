@@ -70,9 +70,9 @@ class Campaign:
     path, folder : Path
         The campaign file and its folder, absolute and resolved.
     warnings : tuple of Finding
-        What is accepted but not yet used, and what looks odd.
+        Findings on entries that are not used yet or look odd.
     reviews : dict of str to Review
-        What people decided in review.toml, of the tests that it names.
+        Decisions in review.toml, for the tests that it names.
     """
 
     schema: int
@@ -106,7 +106,7 @@ class Campaign:
         return replace(self, path=within(self.path), folder=Path(), tests=tests, motions=motions)
 
     def review(self, test: str) -> Review:
-        """Decisions of the manual review about a test; those of a test that has none change nothing."""
+        """Decisions of the manual review about a test; empty ones if it has none."""
         return self.reviews.get(test, Review())
 
     def block(self, specimen: str) -> Block:
@@ -114,7 +114,7 @@ class Campaign:
         return self.specimens[specimen].block(self.gravity)
 
     def channels(self, test: Test) -> dict[str, Channel]:
-        """Channels that a test has a raw file of, by id."""
+        """Channels for which a test has a raw file, by id."""
         channels = self.setups[test.setup].channels
         return {name: channel for name, channel in channels.items() if channel.recorder in test.files}
 

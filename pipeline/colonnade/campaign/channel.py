@@ -34,7 +34,7 @@ def _cosine(one: tuple[float, ...], other: tuple[float, ...]) -> float:
 
 
 def _readable(value: object, what: str, read: Callable[[str], object]) -> str:
-    """Take text that `read` takes; what was expected is said with an example."""
+    """Accept text that `read` accepts; the error gives an example."""
     if not isinstance(value, str):
         raise ValueError(f"{shown(value)} was found. {what} was expected.")
     try:
@@ -81,7 +81,7 @@ class Channel(Table):
     """
     One transducer as recorded: physical value = recorded × gain + offset.
 
-    Beside its keys it has, in SI: `factor`, `offset`, `range_recorded`, `full_scale` and `si_unit`.
+    In addition to its keys it has, in SI: `factor`, `offset`, `range_recorded`, `full_scale` and `si_unit`.
     """
 
     column: Column
@@ -169,7 +169,7 @@ class Channel(Table):
         return wrong or self._sees_nothing()
 
     def _sees_nothing(self) -> dict[str, str]:
-        """Say of a line of sight or a wire in a direction in which it hardly measures."""
+        """Report a line of sight or a wire that measures hardly anything in its direction."""
         if self.direction is None:
             return {}
         if self.normal is not None and abs(_cosine(self.normal, self.direction)) < LEAST_COSINE:

@@ -1,4 +1,4 @@
-"""What a review decides about one test, as the stages read it."""
+"""The decisions of a review about one test, as the stages read them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict
 
 
 class Flagged(BaseModel):
-    """A stretch of a channel that people flagged; the whole channel where the window is None."""
+    """A stretch of a channel that people flagged; the whole channel if the window is None."""
 
     model_config = ConfigDict(frozen=True)
 
@@ -31,9 +31,9 @@ class Review(BaseModel):
         The part of the file that is used, s.
     flags : tuple of Flagged
     factors : dict of str to float
-        What a channel's gain is multiplied by.
+        Factor on the gain of each channel.
     sentences : tuple of str
-        One sentence an entry: when, who, what, why.
+        One sentence for each entry: when, who, what, why.
     """
 
     model_config = ConfigDict(frozen=True)
@@ -66,7 +66,7 @@ def decided(entries: Sequence[tuple[str, Mapping[str, Any]]]) -> Review:
     ----------
     entries : sequence of (str, mapping)
         What is done, "exclude", "trim", "flag" or "correct", and the fields of the entry. Several trims of a test
-        leave what they have in common; several corrections of a channel multiply.
+        leave their common part; several corrections of a channel multiply.
     """
     excluded, window = "", None
     flags: list[Flagged] = []

@@ -99,7 +99,7 @@ def _odd(campaign: CampaignFile) -> Iterator[Finding]:
 
 
 def _off_side(setup_name: str, setup: Setup, specimen_name: str, specimen: AnySpecimen) -> Iterator[Finding]:
-    """Tell of lines of sight at the side of a round specimen whose point is not on it."""
+    """Report lines of sight whose point is not on the side of a round specimen."""
     for name, channel in setup.channels.items():
         if channel.sensing != "surface" or channel.normal is not None or channel.at is None:
             continue
@@ -115,7 +115,7 @@ def _off_side(setup_name: str, setup: Setup, specimen_name: str, specimen: AnySp
 
 
 def _implausible(campaign: CampaignFile) -> Iterator[Finding]:
-    """Say of specimens, and of channels on the specimens that a set-up is used with, what cannot be right."""
+    """Report implausible specimens, and implausible channels on the specimens of a set-up."""
     for name, specimen in campaign.specimens.items():
         yield from (replace(found, about=f"specimens.{name}") for found in _density(name, specimen))
     pairs = dict.fromkeys((test.setup, test.specimen) for test in campaign.tests)
@@ -155,7 +155,7 @@ def _size(specimen: AnySpecimen) -> tuple[float, float]:
 
 
 def _place(place: str, channel: Channel, name: str, specimen: AnySpecimen) -> Iterator[Finding]:
-    """Tell of a transducer whose point is further off the specimen than a bracket reaches."""
+    """Report a transducer whose point is further from the specimen than a bracket reaches."""
     half_width, height = _size(specimen)
     x, y, z = channel.at or (0.0, 0.0, 0.0)
     off = max(abs(x) - half_width, abs(y) - half_width, z - height, -z)
@@ -171,7 +171,7 @@ def _place(place: str, channel: Channel, name: str, specimen: AnySpecimen) -> It
 
 
 def _range(place: str, channel: Channel, name: str, specimen: AnySpecimen) -> Iterator[Finding]:
-    """Tell of a displacement transducer whose range in metres is not of the size of the specimen's travel."""
+    """Report a displacement transducer whose range does not fit the specimen's travel."""
     if channel.quantity != "displacement" or channel.at is None or channel.full_scale is None:
         return
     half_width, height = _size(specimen)

@@ -51,7 +51,7 @@ Factor = Annotated[float, BeforeValidator(_factor), WithJsonSchema({"type": "num
 
 
 class Entry(Table):
-    """What every entry says."""
+    """Fields of every entry."""
 
     tests: Tests = Field(alias="test")
     """The test it is about, or a list of them."""
@@ -114,7 +114,7 @@ class ReviewFile(Table):
 
 @dataclass(frozen=True)
 class _Known:
-    """What entries may name: tests, and the channels of each."""
+    """The tests, and the channels of each, that entries may name."""
 
     tests: Mapping[str, Test]
     setups: Mapping[str, Setup]

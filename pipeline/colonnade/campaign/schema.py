@@ -16,7 +16,7 @@ NAMES = ("campaign", "summary", "review")
 
 def json_schema(name: str) -> dict[str, Any]:
     """
-    Give the JSON Schema of a contract.
+    Return the JSON Schema of a contract.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def json_schema(name: str) -> dict[str, Any]:
     Raises
     ------
     CampaignError
-        If there is no such schema.
+        If the name is unknown.
     """
     if name == "campaign":
         return _campaign()
@@ -73,7 +73,7 @@ def _campaign() -> dict[str, Any]:
 
 
 def _tidied(node: Any) -> Any:
-    """Leave out what TOML has not (null) and titles that only repeat the key; close tables whose keys are ids."""
+    """Leave out what TOML does not have (null) and titles that only repeat the key; close tables whose keys are ids."""
     if isinstance(node, list):
         return [_tidied(item) for item in node]
     if not isinstance(node, dict):

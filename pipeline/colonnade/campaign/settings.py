@@ -1,7 +1,7 @@
 """
 Settings of the processing: each with its default and what it does.
 
-One model holds what one stage reads. A stage keeps that model in its inputs; of a `Processing` that is given for it,
+Each model holds the settings of one stage, which keeps it in its inputs; of a `Processing` given in its place,
 only the fields of the model are stored with the result and enter its key.
 """
 

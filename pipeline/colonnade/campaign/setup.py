@@ -36,7 +36,7 @@ class FileOptions(BaseModel):
 
 class Align(BaseModel):
     """
-    Two linked channels that give a recorder's delay against the main one.
+    Two linked channels that give a recorder's delay relative to the main one.
 
     Attributes
     ----------

@@ -42,7 +42,7 @@ _MEASURED = {"critical_angle": ("rad", 1.0), "pole_distance": ("mm", 1e3), "iner
 
 
 class Specimen(Table):
-    """What every specimen has; a measured value overrides the one that follows from the dimensions."""
+    """The base of every specimen; a measured value overrides the one from the dimensions."""
 
     shape: str
     """Its shape: "prism", "cylinder", "cone" or "measured"."""
@@ -120,10 +120,10 @@ class Specimen(Table):
 
     def deviations(self, gravity: float) -> list[str]:
         """
-        Say which measured values are more than 1 % off the ones that follow from the dimensions.
+        Report measured values that differ by more than 1 % from those of the dimensions.
 
         A critical angle that is the tangent, and a pole distance that is the height of the centre of mass, are slips
-        often met in tables; they are named where the value agrees with them.
+        often met in tables; they are named if the value agrees with them.
         """
         block = self.dimensions(gravity)
         if block is None:

@@ -28,7 +28,7 @@ class _Record(BaseModel):
 
 
 class RestitutionSummary(_Record):
-    """The coefficient of restitution that predictions take."""
+    """The coefficient of restitution that predictions use."""
 
     value: float | tuple[float, float] | None
     """Ratio of angular velocity after an impact to before; a pair for θ < 0 and θ > 0; null where refused."""
@@ -151,7 +151,7 @@ class TestPrototype(_Record):
 
 
 class Warned(_Record):
-    """What a stage found."""
+    """A finding of a stage."""
 
     severity: Severity
     """serious: results are wrong until it is put right; warning: a result may be affected; note: the results hold."""
@@ -166,7 +166,7 @@ class Warned(_Record):
 
     @classmethod
     def of(cls, finding: Finding, *, explained: bool) -> Warned:
-        """Take over a finding."""
+        """Return the record of a finding."""
         return cls(
             severity=finding.severity,
             kind=finding.kind,
@@ -234,7 +234,7 @@ class TestSummary(_Record):
 
 
 class Summary(_Record):
-    """One record a specimen and a test; rebuilt from the results files, which are the truth."""
+    """One record for each specimen and test, rebuilt from the result files."""
 
     version: Literal[1] = Field(default=1, alias="schema")
     """Version of this form: 1."""

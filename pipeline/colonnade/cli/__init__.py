@@ -49,7 +49,7 @@ def invoke(arguments: Sequence[str] | None = None) -> int:
     Parameters
     ----------
     arguments : sequence of str, optional
-        What follows `colonnade` on the command line. Default: that of this process.
+        Arguments after `colonnade`; by default those of this process.
     """
     import click
 

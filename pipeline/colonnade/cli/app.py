@@ -18,7 +18,7 @@ COMMANDS = (demo, init, check, run, ingest, identify, predict, report, map_comma
 
 
 class InOrder(click.RichGroup):
-    """Lists its commands in the order in which they are met, not by the alphabet."""
+    """Lists its commands in the order in which a user needs them, not alphabetically."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Names in the order in which they were added."""

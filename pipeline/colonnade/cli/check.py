@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 @strict_option
 @json_option
 def check(campaign: Path, strict: bool, as_json: bool) -> int:
-    """Check a campaign, show what was found, and return the exit code."""
+    """Check a campaign, show the findings, and return the exit code."""
     from colonnade.campaign import load
     from colonnade.workflow.check import check as check_campaign
 

@@ -21,7 +21,7 @@ class _Output(Console):
 
 
 def output() -> Console:
-    """Return the console on stdout; text is shown as it is, including brackets and colons."""
+    """Return the console on stdout; text is shown as it is, also brackets and colons."""
     return _Output(markup=False, emoji=False, highlight=False, soft_wrap=True)
 
 

@@ -45,14 +45,14 @@ def line_of(record: Mapping[str, Any]) -> str:
 
 
 def probable_cause(findings: Sequence[tuple[Finding, bool]], *, where: str) -> str:
-    """Name the serious findings about a test that fails, and where on the screen they are."""
+    """Name the serious findings about a failed test, and where on the screen they are."""
     kinds = dict.fromkeys(each.kind for each, explained in findings if each.severity == "serious" and not explained)
     return f"probably because of the serious findings {where} ({', '.join(kinds)}): " if kinds else ""
 
 
 def show_by_kind(findings: Findings) -> None:
     """
-    Write findings by kind, the worst first: a few in full, of the others only their subjects.
+    Write findings by kind, the worst first: a few in full, the others by their subjects alone.
 
     What another finding explains is only counted after it; of notes, one is written in full.
     """

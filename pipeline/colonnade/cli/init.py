@@ -24,7 +24,7 @@ MOST_SHOWN = 12
 @json_option
 def init(folder: Path, as_json: bool) -> int:
     """
-    Write a campaign.toml to start from, guessed from the raw files.
+    Draft a campaign.toml from the raw files.
 
     DIR is the folder with the raw files, or one that holds folders of them; by default the current folder. Columns,
     units, recorders and kinds of test are guessed, each guess with its reason after it. What no file shows is left

@@ -101,7 +101,7 @@ def map_command(
     as_json: bool,
     **wanted: Any,
 ) -> int:
-    """Make maps, show what they tell, and return the exit code."""
+    """Make maps, show their limits and misfits, and return the exit code."""
     from math import radians
 
     from colonnade.workflow.maps.plans import Wanted

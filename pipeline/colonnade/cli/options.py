@@ -73,7 +73,7 @@ strict_option = click.option(
 
 
 def work_options(command: Command) -> Command:
-    """Add what every command that runs stages understands."""
+    """Add the options of all commands that run stages."""
     for option in (
         json_option,
         strict_option,

@@ -102,7 +102,7 @@ def run_with_progress(campaign: Path, **choices: Any) -> RunResult:
 
 
 def show_result(result: RunResult) -> None:
-    """List what was redone and why, what was found, what failed, and where the results are."""
+    """List what was redone and why, the findings, the failures, and the paths of the results."""
     redone = [stage for stage in result.stages if stage.action == "done"]
     show_table(("redone", "stages", "why", "seconds"), list(_grouped(redone)))
     show_by_kind(result.findings)

@@ -32,7 +32,7 @@ def show() -> None:
 @json_option
 def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> int:
     """
-    Show the tests, measured and predicted, as of the last run; with an ID, all that is known of one.
+    Show the tests, measured and predicted, from the last run; with an ID, all that is known of one test.
 
     A single argument is taken as CAMPAIGN if such a file or folder exists, else as ID.
     """
@@ -52,7 +52,7 @@ def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> in
 @json_option
 def specimens(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> int:
     """
-    Show the specimens: geometry, and restitution with its interval as of the last run; with an ID one of them.
+    Show the specimens: geometry, and restitution with its interval, from the last run; with an ID, one specimen.
 
     A single argument is taken as CAMPAIGN if such a file or folder exists, else as ID.
     """
@@ -174,7 +174,7 @@ def _test_cells(record: Record) -> tuple[str, ...]:
 
 
 def _until(predicted: Record) -> str:
-    """Say up to when a model predicts, empty if it is not known."""
+    """Write the time up to which a model predicts; empty if it is not known."""
     horizon = predicted.get("horizon")
     return "" if horizon is None else f"up to {horizon:.4g} s"
 

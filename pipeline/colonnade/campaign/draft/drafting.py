@@ -33,7 +33,7 @@ class Question:
 
     @property
     def is_open(self) -> bool:
-        """Whether it has to be filled in."""
+        """Whether the value has to be filled in."""
         return "?" in self.value
 
 
@@ -45,7 +45,7 @@ class CampaignDraft:
     Attributes
     ----------
     path : Path
-        Where it is to be written.
+        Path to write it to.
     text : str
     tests, setups : int
         How many.
@@ -76,12 +76,12 @@ def draft(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     folder : Path
         With the raw files, or with folders of them.
     progress : callable, optional
-        Called with how many files have been looked at, and of how many.
+        Called with the number of files examined, and their total.
 
     Raises
     ------
     CampaignError
-        If there is no such folder, it has a campaign file, or no file in it can be read.
+        If the folder does not exist, has a campaign file, or has no readable file.
     """
     try:
         folder = folder.resolve()

@@ -17,7 +17,7 @@ PUBLISHED = ("bhrc", "cosmos", "peer")
 
 
 def explained(groups: int, files: int) -> list[Line | str]:
-    """Explain above the groups what is asked and how to answer."""
+    """Write the comment above the groups: what is asked, and how to answer."""
     return [
         "",
         comment(f"{files} files of {groups} kinds were found. The first question is: which are recordings of tests?"),
@@ -32,12 +32,12 @@ def explained(groups: int, files: int) -> list[Line | str]:
 
 def group(number: str, files: str, format: str, lines: Sequence[Line | str]) -> list[Line | str]:
     """
-    Turn what is drafted of a set-up and its tests into a group that asks one question.
+    Turn the draft of a set-up and its tests into a group that asks one question.
 
     Parameters
     ----------
     number, files, format : str
-        Which of how many groups it is, which files are in it, and their format.
+        Number of the group and of all groups, the files in it, and their format.
     lines : sequence of Line or str
         Of the set-up, its channels and its tests.
 

@@ -115,7 +115,7 @@ def _on_the_table(channels: Sequence[DraftChannel]) -> list[DraftChannel]:
 
 
 def _table_frequency(test: DraftTest, channels: Sequence[DraftChannel]) -> float | None:
-    """Frequency of the table's steady sine; its displacement is asked first, which holds less of the impacts."""
+    """Frequency of the table's steady sine; its displacement is used first, as impacts disturb it less."""
     table = sorted(_on_the_table(channels), key=lambda channel: channel.meaning.quantity != "displacement")
     found = [sine for channel in table if (sine := _of(test, channel).shape.sine) is not None]
     return found[0] if found else None

@@ -32,7 +32,7 @@ class DraftTest:
 
 @dataclass
 class DraftSetup:
-    """Tests that were recorded alike."""
+    """Tests that were recorded in the same way."""
 
     tests: list[DraftTest] = field(default_factory=list)
 
@@ -57,16 +57,16 @@ class DraftSetup:
 
 def arrange(files: Sequence[RawFile]) -> tuple[list[DraftSetup], list[tuple[str, str]]]:
     """
-    Arrange raw files to setups and tests.
+    Arrange raw files into setups and tests.
 
     Files of the same format and columns are of one recorder. `span-2.csv` and `span-2-daq2.csv`, `x_box1.csv` and
     `x_box2.csv`, or `daq1/x.csv` and `daq2/x.csv` are of two recorders of one test; so are `x.csv` and `x-top.csv`
-    where they have no column in common.
+    if they have no column in common.
 
     Parameters
     ----------
     files : sequence of RawFile
-        In the order in which their tests are wanted.
+        In the order of the tests.
 
     Returns
     -------
@@ -104,7 +104,7 @@ def arrange(files: Sequence[RawFile]) -> tuple[list[DraftSetup], list[tuple[str,
 
 
 class _Known:
-    """Files by what their names have in common, so that many are arranged as fast as few."""
+    """Files by the common part of their names, for speed."""
 
     def __init__(self) -> None:
         self.of_stem: defaultdict[str, list[RawFile]] = defaultdict(list)
@@ -113,7 +113,7 @@ class _Known:
         self._order: dict[str, int] = {}
 
     def add(self, file: RawFile) -> None:
-        """Take a file in; earlier ones are main recorders rather than later ones."""
+        """Add a file; earlier files are preferred as main recorders."""
         path = PurePosixPath(file.stem)
         self._order[file.relative] = len(self._order)
         self.of_stem[file.stem].append(file)
@@ -121,7 +121,7 @@ class _Known:
         self._of_name[str(path.parent.parent), path.name].append(file)
 
     def mains_of(self, file: RawFile) -> Iterator[tuple[RawFile, str]]:
-        """Files whose test this one may be a further recording of, each with the name of this one's recorder."""
+        """Main files whose tests this file may belong to, each with the name of this file's recorder."""
         path = PurePosixPath(file.stem)
         for end in range(len(file.stem) - 1, len(file.stem) - len(path.name), -1):
             tag = _TAG.fullmatch(file.stem[end:])
@@ -148,7 +148,7 @@ def _columns(file: RawFile) -> list[str]:
 
 
 def names_of(tests: Iterable[DraftTest]) -> list[str]:
-    """Names of tests: of their files, with the folder where several are called alike."""
+    """Names of tests, from their files; with the folder if several files have the same name."""
     stems = [PurePosixPath(test.main.stem) for test in tests]
     names = [_base(stem.name)[0] for stem in stems]
     often = Counter(names)

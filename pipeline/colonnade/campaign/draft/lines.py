@@ -17,9 +17,9 @@ class Line:
     Attributes
     ----------
     key, value : str
-        As TOML; a "?" in the value is what a person has to fill in; it is not accepted as an answer.
+        As TOML; a person has to replace a "?" in the value.
     reason : str
-        Why it is guessed so; empty if it is plain.
+        Reason for the guess; empty if it is obvious.
     question : str
         What a person should check; empty if there is no doubt.
     """
@@ -30,7 +30,7 @@ class Line:
     question: str = ""
 
     def text(self) -> str:
-        """Write it, its reason or question behind it."""
+        """Write the line, followed by its reason or question."""
         said = f"? {self.question}" if self.question else self.reason
         if self.question and self.reason:
             said = f"? {self.question} ({self.reason})"

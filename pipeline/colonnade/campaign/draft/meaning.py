@@ -38,13 +38,13 @@ class Meaning:
     place : str or None
         "specimen", "table" or "ground"; None if nothing shows it.
     axis : str or None
-        "x", "y" or "z", where the name says so.
+        "x", "y" or "z", if the name says so.
     because : str
         What shows the quantity.
     place_word : str
         What shows the place.
     unit_known, is_physical : bool
-        Whether the file's unit is one that colonnade knows, and of the quantity rather than of a voltage.
+        Whether the file's unit is known and is a unit of the quantity, not of a voltage.
     conflict : str
         How name and unit contradict each other.
     """

@@ -72,7 +72,7 @@ def shape_of(values: Array, time: Array | None) -> Shape:
 
 def steady_sine(signal: Array, interval: float) -> float | None:
     """
-    Frequency of a signal that is a steady sine where it moves at all; None if it is not.
+    Frequency of a signal that is a steady sine while it moves; None if it is not.
 
     Parameters
     ----------

@@ -73,7 +73,7 @@ class RawFile:
     format : str
     columns : tuple of Column
     rate, duration : float or None
-        Hz and s, where it has a clock.
+        Hz and s, if it has a clock.
     warnings : tuple of str
         Of the reader.
     writing : str
@@ -135,7 +135,7 @@ def survey(folder: Path, progress: Callable[[int, int], None] | None = None) -> 
     ----------
     folder : Path
     progress : callable, optional
-        Called with how many files have been looked at, and of how many.
+        Called with the number of files examined, and their total.
     """
     folder = folder.resolve()
     found, refused = [], []
@@ -197,7 +197,7 @@ def _is_log(path: Path) -> bool:
 
 
 def _first_reason(refusal: str, name: str) -> str:
-    """Keep of a refusal what shows that a file is not a recording, or which extra reads it."""
+    """Keep the part of a refusal that shows that a file is not a recording, or names the extra that reads it."""
     lines = [line.strip() for line in refusal.removeprefix(f"{name}: ").splitlines() if line.strip()]
     extra = next((line for line in lines if "pip install" in line), None)
     general = next((line for line in lines[1:] if line.startswith(f"{MOST_GENERAL}: ")), None)

@@ -97,7 +97,7 @@ def write(
 
 
 def _named(setups: Sequence[DraftSetup]) -> Iterator[_NamedSetup]:
-    """Setups with names and channels; a channel that an earlier one has too is asked about with a hint at it."""
+    """Setups with names and channels; a channel of an earlier setup too is asked about with a hint at that one."""
     first: dict[str, str] = {}
     for number, setup in enumerate(setups, start=1):
         name = "setup" if len(setups) == 1 else f"setup-{number}"

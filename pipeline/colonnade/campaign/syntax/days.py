@@ -27,7 +27,7 @@ def day(value: object) -> date:
     ----------
     value : object
         A date, or a date with a time of day; or text: ``2013-04-26``, ``26.04.2013`` (day first), or with slashes where
-        only one order is possible: ``26/04/2013``. A time of day behind it is left out.
+        only one order is possible: ``26/04/2013``. A time of day after it is ignored.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def _written(text: str) -> date | None:
 
 
 def _whole(pattern: re.Pattern[str], text: str) -> re.Match[str] | None:
-    """Match a date with nothing but a time of day behind it."""
+    """Match a date, followed by nothing but a time of day."""
     found = pattern.match(text)
     return found if found and _TIME.match(text, found.end()) else None
 

@@ -50,7 +50,7 @@ def parse(text: str, name: str) -> dict[str, Any]:
     Raises
     ------
     CampaignError
-        If it is none; the message gives line and column.
+        If it is not TOML; the message gives line and column.
     """
     try:
         return tomllib.loads(text.replace("\r\n", "\n"))
