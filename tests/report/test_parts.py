@@ -47,11 +47,14 @@ def elsewhere(started, tmp_path):
     return campaign, Layout(tmp_path)
 
 
-def keep(layout, part, *, text=None, key=None) -> None:
-    """Put the page of a test where the report has it."""
-    path = layout.report.parent / addresses.of_test(SHAKEN)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text or stamps.stamped(part.text, key or part.made_from), encoding="utf-8")
+def keep(layout, part, *, text=None, key=None, data=None) -> None:
+    """Put the page of a test, and its data, where the report has them."""
+    page = text or stamps.stamped(part.text, key or part.made_from)
+    data = data or stamps.stamped(part.data, key or part.made_from, script=True)
+    for address, content in ((addresses.of_test(SHAKEN), page), (addresses.of_data(SHAKEN), data)):
+        path = layout.report.parent / address
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(content, encoding="utf-8")
 
 
 def test_parts_come_in_the_order_in_which_they_are_asked_for(started):
@@ -117,10 +120,18 @@ def test_a_page_that_is_there_is_not_drawn_again_and_all_else_is_still_given(els
     assert first.text
     keep(elsewhere[1], first)
     second = part_of(*elsewhere, code=CODE)
-    assert second.text is None
+    assert (second.text, second.data) == (None, None)
     assert second.made_from == first.made_from
     assert (second.row, second.channels, second.used) == (first.row, first.channels, first.used)
     assert second.span is not None
+
+
+def test_a_page_whose_data_were_altered_is_made_again(elsewhere):
+    first = part_of(*elsewhere, code=CODE)
+    keep(
+        elsewhere[1], first, data=stamps.stamped(first.data, first.made_from, script=True).replace("Response", "Answer")
+    )
+    assert part_of(*elsewhere, code=CODE).data == first.data
 
 
 @pytest.mark.parametrize("state", ["altered", "not stamped", "of other results"])

@@ -6,10 +6,10 @@ from hypothesis import strategies as st
 from colonnade.store.stamps import key_of, stamped
 
 
-@given(st.text(st.characters(codec="utf-8")), st.text("0123456789abcdef", min_size=1, max_size=64))
-def test_a_stamped_page_says_what_it_was_made_from(tmp_path_factory, text, key):
+@given(st.text(st.characters(codec="utf-8")), st.text("0123456789abcdef", min_size=1, max_size=64), st.booleans())
+def test_a_stamped_page_says_what_it_was_made_from(tmp_path_factory, text, key, script):
     path = tmp_path_factory.mktemp("page") / "page.html"
-    path.write_bytes(stamped(text, key).encode())
+    path.write_bytes(stamped(text, key, script=script).encode())
     assert key_of(path) == key
     path.write_bytes(b"x" + path.read_bytes())
     assert key_of(path) == ""

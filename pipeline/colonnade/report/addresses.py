@@ -13,9 +13,18 @@ WHOLE = {
 """Pages about the whole campaign: template and address, the overview last, so that what it links to is there."""
 
 
+SCRIPTS = ("scripts/bokeh.min.js", "scripts/bokeh-api.min.js", "scripts/colonnade.js")
+"""Scripts that the pages share."""
+
+
 def of_test(test: str) -> str:
     """Address of a test's page within the report; ids are safe as file names."""
     return f"tests/{test}.html"
+
+
+def of_data(test: str) -> str:
+    """Address of the script with the samples of a test's page."""
+    return f"data/{test}.js"
 
 
 def of_specimen(specimen: str) -> str:
@@ -24,6 +33,6 @@ def of_specimen(specimen: str) -> str:
 
 
 def addresses(campaign: Campaign) -> tuple[list[str], list[str]]:
-    """Addresses of the pages of a campaign's tests, and of the others, which show several tests."""
+    """Addresses of the pages of a campaign's tests, with their data, and of the others, which show several tests."""
     specimens = map(of_specimen, campaign.specimens)
-    return [*map(of_test, campaign.tests)], [*specimens, *WHOLE.values()]
+    return [*map(of_test, campaign.tests), *map(of_data, campaign.tests)], [*SCRIPTS, *specimens, *WHOLE.values()]

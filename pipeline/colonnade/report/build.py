@@ -17,6 +17,7 @@ from colonnade.identification.restitution.estimators.registry import ESTIMATORS
 from colonnade.interruption import expect_none
 from colonnade.report import addresses, methods, pages, problems, specimens_page
 from colonnade.report.agreement import agreement
+from colonnade.report.interactive.scripts import scripts
 from colonnade.report.methods import Used
 from colonnade.report.overview_page import groups, maps, peaks, spans
 from colonnade.report.overview_page.attention import attention
@@ -32,6 +33,9 @@ from colonnade.store.records.summary import read_summary, records_of_tests
 
 IN_A_BLOCK = 5
 """Tests whose pages are drawn one after the other, so that templates are not read again for each."""
+
+OWN = ("tests/*.html", "specimens/*.html", "data/*.js", "scripts/*.js")
+"""Files of the report's folders; one that nothing of the campaign leads to any more is removed."""
 
 Spread = Callable[[Callable[[list[Asked]], list[Part]], list[list[Asked]]], Iterable[list[Part]]]
 
@@ -78,9 +82,9 @@ def build(
     for address, text, made_from in render(campaign, layout, outdated, code=code, spread=spread):
         expect_none()
         if text is not None:
-            files.write_text(folder / address, stamps.stamped(text, made_from or key))
+            files.write_text(folder / address, stamps.stamped(text, made_from or key, script=address.endswith(".js")))
         there.add(folder / address)
-    for stale in {*folder.glob("tests/*.html"), *folder.glob("specimens/*.html")} - there:
+    for stale in {path for pattern in OWN for path in folder.glob(pattern)} - there:
         files.remove(stale)
     return layout.report
 
@@ -105,7 +109,8 @@ def render(
     for parts in spread(partial(parts_of, campaign, layout, code), _blocks(campaign, layout, outdated)):
         for part in parts:
             yield addresses.of_test(part.row.id), part.text, part.made_from
-            found[part.row.id] = replace(part, text=None)
+            yield addresses.of_data(part.row.id), part.data, part.made_from
+            found[part.row.id] = replace(part, text=None, data=None)
     tests = [found[name] for name in campaign.tests]
     rows = [part.row for part in tests]
     used = Used()
@@ -129,6 +134,8 @@ def render(
             ),
             "",
         )
+    for name, text in scripts().items():
+        yield f"scripts/{name}", text, ""
     shown = _shown(campaign, tests, specimens, used) | {"groups": grouped, "maps": mapped}
     for template, address in addresses.WHOLE.items():
         yield address, renderer.page(template, address, **shown), ""

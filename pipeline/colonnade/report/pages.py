@@ -12,7 +12,7 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.settings import Setting
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.figures.output import link_to
-from colonnade.report.addresses import of_specimen, of_test
+from colonnade.report.addresses import SCRIPTS, of_data, of_specimen, of_test
 from colonnade.store.records import wording
 
 KINDS = {
@@ -57,6 +57,8 @@ class Renderer:
             "count": wording.count,
             "listed": wording.listed,
             "test_page": of_test,
+            "data_of": of_data,
+            "scripts": SCRIPTS,
             "specimen_page": of_specimen,
             "sections": _sections,
         }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.summary import TestSummary
@@ -11,15 +12,20 @@ from colonnade.figures.stored import record
 from colonnade.figures.stored.curves import measured_ratio
 from colonnade.report import addresses, channels, pages, specimens_page, tests_page
 from colonnade.report.channels import ChannelRow
+from colonnade.report.interactive import test_data
 from colonnade.report.methods import Used
 from colonnade.report.overview_page import thumbnails
 from colonnade.report.overview_page.spans import SpanTest
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import FreeVibration
-from colonnade.store import stamps
+from colonnade.store import files, stamps
 from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
-from colonnade.store.records.stored import Stored, read_test
+from colonnade.store.records.stored import WITHOUT_SAMPLES, Stored, read_test
+from colonnade.store.results import ResultId
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -49,8 +55,8 @@ class Part:
     free_vibration : FreeVibration or None
     used : Used
         What its results were made with.
-    text : str or None
-        Its page; None if the page is up to date.
+    text, data : str or None
+        Its page, and the script with the page's samples; None if both are up to date.
     made_from : str
         Hash of what the page shows; empty if it is not needed.
     """
@@ -62,6 +68,7 @@ class Part:
     free_vibration: FreeVibration | None
     used: Used
     text: str | None
+    data: str | None
     made_from: str
 
 
@@ -92,15 +99,22 @@ def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: st
         span = SpanTest(row, record.span_panel(test, stored, block), record.seen(row.record, stored))
     if stored.has("restitution"):
         free_vibration = specimens_page.free_vibration(row, stored, block)
-    address, text = addresses.of_test(test.id), None
+    address, text, data = addresses.of_test(test.id), None, None
     made_from = (
         _recipe(campaign.with_relative_paths(), row, stored, code, (asked.before, asked.after)).key if code else ""
     )
-    if not made_from or made_from != stamps.key_of(layout.report.parent / address):
+    written = [layout.report.parent / made for made in (address, addresses.of_data(test.id))]
+    if not made_from or any(made_from != stamps.key_of(path) for path in written):
         page = tests_page.of_test(campaign, row, stored)
         text = renderer.page("test", address, test=page, before=asked.before, after=asked.after)
+        data = test_data.of_test(campaign, test, stored, *_channels(layout, stored, test.id))
     thumbnail = thumbnails.polyline(measured_ratio(stored, block))
-    return Part(row, channels.of_test(stored), thumbnail, span, free_vibration, used, text, made_from)
+    return Part(row, channels.of_test(stored), thumbnail, span, free_vibration, used, text, data, made_from)
+
+
+def _channels(layout: Layout, stored: Stored, test: str) -> list[xr.Dataset | None]:
+    """Read the channels as recorded and as conditioned again: `stored` keeps none of their samples."""
+    return [files.read(layout.path(ResultId(test, stage))) if stored.has(stage) else None for stage in WITHOUT_SAMPLES]
 
 
 def _recipe(

@@ -1,4 +1,4 @@
-"""The stamp of a page: its last line holds the key of what it was made from, and a hash of its text."""
+"""The stamp of a page or script: its last line holds the key of what it was made from, and a hash of its text."""
 
 from __future__ import annotations
 
@@ -6,16 +6,17 @@ import hashlib
 import re
 from pathlib import Path
 
-_STAMP = re.compile(rb"<!-- made from ([0-9a-f]+), content ([0-9a-f]+) -->\n\Z")
+_STAMP = re.compile(rb"(?:<!--|//) made from ([0-9a-f]+), content ([0-9a-f]+)(?: -->)?\n\Z")
 
 
-def stamped(text: str, key: str) -> str:
-    """Add to a page of HTML, which ends in a line break, what it was made from."""
-    return f"{text}<!-- made from {key}, content {_hash(text.encode())} -->\n"
+def stamped(text: str, key: str, *, script: bool = False) -> str:
+    """Add to a page of HTML or to a script, which ends in a line break, what it was made from."""
+    said = f"made from {key}, content {_hash(text.encode())}"
+    return f"{text}// {said}\n" if script else f"{text}<!-- {said} -->\n"
 
 
 def key_of(path: Path) -> str:
-    """Return the key of what a page was made from; empty if it is missing, not stamped, or was altered."""
+    """Return the key of what a page or script was made from; empty if it is missing, not stamped, or was altered."""
     try:
         data = path.read_bytes()
     except OSError:

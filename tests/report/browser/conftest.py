@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -67,6 +68,20 @@ def visit(browser: Browser, report_folder: Path) -> Iterator[Visit]:
     When the test ends, no page may have written an error or a warning to its console, or asked for anything but files
     of its report.
     """
+    with visiting(browser, report_folder) as open_page:
+        yield open_page
+
+
+@pytest.fixture(scope="module")
+def visit_once(browser: Browser, report_folder: Path) -> Iterator[Visit]:
+    """The same for a page that all tests of a module share."""
+    with visiting(browser, report_folder) as open_page:
+        yield open_page
+
+
+@contextmanager
+def visiting(browser: Browser, report_folder: Path) -> Iterator[Visit]:
+    """Give `visit`; close its pages and complain in the end."""
     contexts, complaints = [], []
 
     def open_page(

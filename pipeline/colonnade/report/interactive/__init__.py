@@ -1,0 +1,1 @@
+"""What the pages need where scripts run: the scripts, and the samples of each test."""

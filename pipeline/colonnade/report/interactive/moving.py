@@ -1,0 +1,91 @@
+"""The block itself as it moves: its outline, the poles, the base below it, and the angles that turn it."""
+
+from __future__ import annotations
+
+from math import cos
+from typing import Any
+
+import numpy as np
+from scipy.integrate import cumulative_trapezoid
+from scipy.signal import butter, sosfiltfilt
+
+from colonnade.arrays import Array
+from colonnade.campaign.specimen import Cone, Cylinder, Prism, Specimen
+from colonnade.dynamics.block import Block
+from colonnade.figures.stored.curves import measured_ratio, motion, predicted_ratios
+from colonnade.figures.style import model_style
+from colonnade.report.interactive.panels import Samples
+from colonnade.store.records.stored import Stored
+
+SLOWEST = 0.2
+"""Hz: what is slower in a displacement that is integrated from an acceleration is its drift, not the table."""
+
+
+def outline(specimen: Specimen, block: Block) -> list[tuple[float, float]]:
+    """
+    Return the corners of a specimen seen along y, m, from the left end of its base around over its top.
+
+    A measured specimen is drawn as the rectangle whose centre is its centre of mass: R and α give no more.
+    """
+    if isinstance(specimen, Prism):
+        base, top, height = specimen.width, specimen.width, specimen.height
+    elif isinstance(specimen, Cylinder):
+        base, top, height = specimen.diameter, specimen.diameter, specimen.height
+    elif isinstance(specimen, Cone):
+        base, top, height = specimen.base_diameter, specimen.top_diameter, specimen.height
+    else:
+        left, right = block.negative.half_width, block.positive.half_width
+        height = 2 * block.positive.pole_distance * cos(block.positive.critical_angle)
+        return [(-left, 0.0), (-left, height), (right, height), (right, 0.0)]
+    return [(-base / 2, 0.0), (-top / 2, height), (top / 2, height), (base / 2, 0.0)]
+
+
+def of_test(specimen: Specimen, block: Block, stored: Stored, samples: Samples) -> dict[str, Any]:
+    """Describe the moving block for the script: measured and by each model, on the recorded motion of the base."""
+    corners = outline(specimen, block)
+    measured, slide = measured_ratio(stored, block), motion(stored, "slide", "mm")
+    bodies = []
+    if measured is not None:
+        body = samples.curve("measured", *measured, colour="ink")
+        if slide is not None and np.isfinite(slide.values).any():
+            body["slide"] = samples.add(slide.values)
+        bodies.append(body)
+    for model, curve in predicted_ratios(stored, block).items():
+        bodies.append(samples.curve(f"{model} model", *curve, colour=model_style(model)["color"]))
+    base, how = motion(stored, "base_displacement", "mm"), "base: recorded displacement"
+    if base is None or not np.isfinite(base.values).any():
+        base, how = motion(stored, "base_acceleration", "m/s²"), "base: recorded acceleration integrated twice"
+        base = None if base is None else base._replace(values=1e3 * displacement(*base))
+    return {
+        "outline": corners,
+        "poles": [corners[0][0], corners[-1][0]],
+        "bodies": bodies,
+        "base": None if base is None else samples.curve("base", *base),
+        "how": how if base is not None else "base: not recorded, drawn at rest",
+    }
+
+
+def displacement(time: Array, acceleration: Array) -> Array:
+    """
+    Integrate an acceleration twice, without what is slower than `SLOWEST`: an offset would carry the base away.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n,)
+        s, even.
+    acceleration : ndarray, shape (n,)
+        m/s²; NaN counts as 0.
+
+    Returns
+    -------
+    displacement : ndarray, shape (n,)
+        m.
+    """
+    values = np.nan_to_num(acceleration)
+    rate = (time.size - 1) / float(time[-1] - time[0]) if time.size > 1 else 0.0
+    if rate <= 4 * SLOWEST or time.size < 20:
+        return np.zeros_like(values)
+    highpass = butter(2, SLOWEST, "highpass", fs=rate, output="sos")
+    for _ in range(2):
+        values = cumulative_trapezoid(sosfiltfilt(highpass, values), time, initial=0.0)
+    return np.asarray(sosfiltfilt(highpass, values))

@@ -1,0 +1,80 @@
+"""What the interactive panels of a test show: curves, bands and marks in panels, and the samples that they draw."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.report.interactive.packing import PLANES, packed
+
+EVEN = 1e-3
+"""Times that stay this close to even ones, in intervals, are even."""
+
+
+@dataclass
+class Samples:
+    """
+    Series of samples of a page, each kept once, with the clocks that they are on.
+
+    `add` and `clock` return the number by which a curve names a series or clock.
+    """
+
+    series: list[Array] = field(default_factory=list)
+    clocks: list[dict[str, Any]] = field(default_factory=list)
+    _known: dict[bytes, int] = field(default_factory=dict)
+
+    def add(self, values: Array) -> int:
+        """Keep a series."""
+        self.series.append(np.asarray(values, dtype=np.float64))
+        return len(self.series) - 1
+
+    def clock(self, time: Array) -> int:
+        """Keep times (s): the first, the interval and, where they are not even, how far each is from even ones."""
+        known = self._known.get(time.tobytes())
+        if known is not None:
+            return known
+        interval = float((time[-1] - time[0]) / (time.size - 1)) if time.size > 1 else 1.0
+        uneven = time - (time[0] + interval * np.arange(time.size))
+        described = {"start": float(time[0]), "interval": interval, "count": int(time.size)}
+        if np.abs(uneven).max() > EVEN * interval:
+            described["uneven"] = self.add(uneven)
+        self.clocks.append(described)
+        self._known[time.tobytes()] = len(self.clocks) - 1
+        return len(self.clocks) - 1
+
+    def curve(self, name: str, time: Array, values: Array, **look: Any) -> dict[str, Any]:
+        """Keep a curve and describe it: its name, and its look (`colour`, `dash`, `width`)."""
+        return {"name": name, "clock": self.clock(time), "values": self.add(values), **look}
+
+
+def script(test: str, groups: Sequence[dict[str, Any]], samples: Samples, **more: Any) -> str:
+    """
+    Return the data of a page: a classic script that calls one function.
+
+    Parameters
+    ----------
+    test : str
+    groups : sequence of dict
+        Groups of panels: `title`, `is_open` (whether it is shown at first), `panels`.
+    samples : Samples
+        What the panels draw.
+    **more
+        What else the script reads, as JSON can hold it.
+    """
+    series, text = packed(samples.series)
+    given = {
+        "test": test,
+        "groups": list(groups),
+        "clocks": samples.clocks,
+        "series": series,
+        "planes": PLANES,
+        **more,
+        "samples": text,
+    }
+    # Within a script of its own no text can end the script early; U+2028 and U+2029 are escaped by json.
+    return f"colonnade.show({json.dumps(given, separators=(',', ':'), allow_nan=False)});\n"

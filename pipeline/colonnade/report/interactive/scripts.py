@@ -1,0 +1,42 @@
+"""The scripts of the report: our own as one file, and the plotting library's, copied from its installed wheel."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+
+from colonnade.errors import StoreError
+
+OWN = ("samples", "panel", "moving", "downloads", "page")
+"""Our scripts in the order in which they are joined: what a later one uses is in an earlier one."""
+
+OWN_FOLDER = Path(__file__).parents[1] / "scripts"
+
+LIBRARY = ("bokeh.min.js", "bokeh-api.min.js")
+"""Of Bokeh: its models and views, and the functions that make figures of them."""
+
+
+def scripts() -> dict[str, str]:
+    """
+    Return the text of each script by its name.
+
+    Raises
+    ------
+    StoreError
+        If the plotting library is not installed as it should be.
+    """
+    found = find_spec("bokeh")
+    folder = Path(*(found.submodule_search_locations or [""])[:1] if found else "") / "server" / "static" / "js"
+    try:
+        library = {name: (folder / name).read_text(encoding="utf-8") for name in LIBRARY}
+    except OSError as error:
+        raise StoreError(
+            f"{error.filename}: the report's plots need this script of the package bokeh. Install it again: "
+            "`pip install --force-reinstall bokeh`."
+        ) from error
+    own = "".join((OWN_FOLDER / f"{name}.js").read_text(encoding="utf-8") for name in OWN)
+    return {**{name: _ended(text) for name, text in library.items()}, "colonnade.js": own}
+
+
+def _ended(text: str) -> str:
+    return text if text.endswith("\n") else text + "\n"

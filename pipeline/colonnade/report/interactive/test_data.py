@@ -1,0 +1,237 @@
+"""The data of a test's page: histories as in its figures, channels conditioned and recorded, the moving block."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from colonnade.arrays import Array
+from colonnade.campaign import Campaign, Test
+from colonnade.dynamics.block import Block
+from colonnade.figures.curve import Curve
+from colonnade.figures.histories import Spread
+from colonnade.figures.stored.curves import measured_ratio, misfits, motion, predicted_ratios, spreads
+from colonnade.figures.stored.record import BASE, MOTIONS, SHADED
+from colonnade.figures.style import model_style
+from colonnade.report.channels import UNITS
+from colonnade.report.interactive import moving, panels
+from colonnade.report.interactive.panels import Samples
+from colonnade.store.records.stored import GOOD, Stored
+from colonnade.units import from_si
+
+PROPORTIONAL = 1e-6
+"""A channel in SI is a straight line of what was recorded if no sample is further from it, over the largest."""
+
+Panel = dict[str, Any]
+
+
+def of_test(
+    campaign: Campaign, test: Test, stored: Stored, recorded: xr.Dataset | None, conditioned: xr.Dataset | None
+) -> str:
+    """
+    Return the script with the data of a test's page.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    test : Test
+    stored : Stored
+        What is known of the test.
+    recorded, conditioned : Dataset or None
+        Results of `ingest` and `condition` with their samples.
+    """
+    block, samples = campaign.block(test.specimen), Samples()
+    angles = _angles(stored, block, samples)
+    groups = [
+        ("Response", True, [*angles, *_misfit(stored, block, samples), *_motions(stored, samples)]),
+        ("Table motion", True, _base(stored, block, samples)),
+        ("Channels, conditioned", False, _conditioned(conditioned, samples)),
+        ("Channels, as recorded", False, _recorded(recorded, conditioned, samples)),
+    ]
+    shown: list[dict[str, Any]] = [
+        {"title": title, "is_open": is_open, "panels": found} for title, is_open, found in groups if found
+    ]
+    if shown:
+        shown[0]["is_open"] = True
+    moves = moving.of_test(campaign.specimens[test.specimen], block, stored, samples) if angles else None
+    critical = [block.negative.critical_angle, block.positive.critical_angle]
+    return panels.script(test.id, shown, samples, critical=critical, moving=moves)
+
+
+def _angles(stored: Stored, block: Block, samples: Samples) -> list[Panel]:
+    measured, predicted = measured_ratio(stored, block), predicted_ratios(stored, block)
+    curves = [] if measured is None else [samples.curve("measured", *measured, colour="ink", width=1.3)]
+    curves += [samples.curve(f"{model} model", *curve, **_look(model)) for model, curve in predicted.items()]
+    if not curves:
+        return []
+    bands, marks = [], []
+    found = spreads(stored, block)
+    for model, spread in found.items():
+        bands += _bands(model, spread, samples, is_open=model == SHADED or len(found) == 1)
+        if np.isfinite(spread.horizon) and spread.horizon < spread.time[-1]:
+            text = f"horizon, {model} model"
+            marks.append({"name": text, "time": spread.horizon, "colour": model_style(model)["color"]})
+    return [
+        {
+            "title": "Rocking angle over critical angle, θ/α",
+            "short": "θ/α",
+            "unit": "",
+            "is_angle": True,
+            "curves": curves,
+            "bands": bands,
+            "marks": marks,
+            "levels": [1.0, -1.0],
+        }
+    ]
+
+
+def _bands(model: str, spread: Spread, samples: Samples, *, is_open: bool) -> list[dict[str, Any]]:
+    clock = samples.clock(spread.time)
+    return [
+        {
+            "name": f"{model} model, {spread.share(index):.0%} of runs",
+            "clock": clock,
+            "low": samples.add(spread.bands[index]),
+            "high": samples.add(spread.bands[-1 - index]),
+            "colour": model_style(model)["color"],
+            "is_hidden": not (is_open and index == 0),
+        }
+        for index in range(spread.levels.size // 2)
+    ]
+
+
+def _misfit(stored: Stored, block: Block, samples: Samples) -> list[Panel]:
+    measured, predicted = measured_ratio(stored, block), predicted_ratios(stored, block)
+    found = misfits(stored, measured, predicted)
+    curves = [samples.curve(f"{model} model", *curve, **_look(model)) for model, curve in found.items() if _has(curve)]
+    title = "Predicted minus measured, over critical angle"
+    return [{"title": title, "short": "misfit", "unit": "", "curves": curves}] if curves else []
+
+
+def _motions(stored: Stored, samples: Samples) -> list[Panel]:
+    """One panel for lengths, one for angles."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    for index, (name, words, _, unit) in enumerate(MOTIONS):
+        curve = motion(stored, name, unit)
+        if curve is not None and _has(curve):
+            found.setdefault(unit, []).append(samples.curve(words, *curve, **_numbered(index)))
+    return [
+        {
+            "title": ", ".join(curve["name"] for curve in curves).capitalize(),
+            "short": " ".join(curve["name"] for curve in curves),
+            "unit": unit,
+            "curves": curves,
+        }
+        for unit, curves in found.items()
+    ]
+
+
+def _base(stored: Stored, block: Block, samples: Samples) -> list[Panel]:
+    found = []
+    for name, words, _, unit in BASE:
+        curve = motion(stored, name, unit)
+        if curve is not None and _has(curve):
+            level = block.uplift_acceleration
+            levels = [level, -level] if name == "base_acceleration" else []
+            curves = [samples.curve(words, *curve, colour="soft", width=1)]
+            title = words.capitalize() + ("; dotted: ± g tan α" if levels else "")
+            found.append({"title": title, "short": words, "unit": unit, "curves": curves, "levels": levels})
+    return found
+
+
+def _conditioned(conditioned: xr.Dataset | None, samples: Samples) -> list[Panel]:
+    """One panel a quantity, with all channels that measure it."""
+    if conditioned is None:
+        return []
+    time = conditioned["elapsed"].to_numpy()
+    found: dict[str, list[dict[str, Any]]] = {}
+    for variable in conditioned.data_vars.values():
+        channel, quantity = variable.attrs.get("channel"), str(variable.attrs.get("quantity"))
+        if channel is not None and quantity in UNITS:
+            curves = found.setdefault(quantity, [])
+            values = from_si(1.0, UNITS[quantity]) * variable.to_numpy()
+            curves.append(samples.curve(str(channel), time, values, **_numbered(len(curves))))
+    return [
+        {
+            "title": f"{quantity.replace('_', ' ').capitalize()}, conditioned",
+            "short": f"conditioned {quantity.replace('_', ' ')}",
+            "unit": UNITS[quantity],
+            "curves": curves,
+        }
+        for quantity, curves in found.items()
+    ]
+
+
+def _recorded(recorded: xr.Dataset | None, conditioned: xr.Dataset | None, samples: Samples) -> list[Panel]:
+    """One panel a channel, in the unit of the file with SI at the right, on the common clock where that is known."""
+    if recorded is None:
+        return []
+    found = []
+    for name, variable in recorded.data_vars.items():
+        channel = variable.attrs.get("channel")
+        if channel is None or f"{name}_recorded" not in recorded:
+            continue
+        as_recorded = recorded[f"{name}_recorded"]
+        offset = conditioned[name].attrs if conditioned is not None and name in conditioned else {}
+        time = _on_common_clock(recorded[str(variable.dims[0])].to_numpy(), offset)
+        quantity, unit = str(variable.attrs.get("quantity")), str(variable.attrs.get("recorded_unit", ""))
+        panel: Panel = {
+            "title": f"{channel}, as recorded",
+            "short": f"{channel} recorded",
+            "unit": unit,
+            "curves": [samples.curve(str(channel), time, as_recorded.to_numpy(), colour="ink", width=1)],
+            "flags": _flags(recorded.get(f"{name}_quality")),
+        }
+        if quantity in UNITS and UNITS[quantity] != unit:
+            line = _line(as_recorded.to_numpy(), from_si(1.0, UNITS[quantity]) * variable.to_numpy())
+            if line is not None:
+                panel["second"] = {"unit": UNITS[quantity], "factor": line[0], "offset": line[1]}
+        found.append(panel)
+    return found
+
+
+def _on_common_clock(time: Array, given: dict[str, Any]) -> Array:
+    """Take off what `condition` took off a channel's times; its own time where it took off nothing."""
+    drift = 1e-6 * float(given.get("clock_rate_ppm", 0.0)) * (time - float(given.get("clock_offset_at", 0.0)))
+    return np.asarray(time - float(given.get("clock_offset", 0.0)) - drift)
+
+
+def _line(recorded: Array, physical: Array) -> tuple[float, float] | None:
+    """Give factor and offset from one to the other; None if they are not on a line, as after a correction in part."""
+    both = np.isfinite(recorded) & np.isfinite(physical)
+    if both.sum() < 2 or np.ptp(recorded[both]) == 0:
+        return None
+    low, high = np.argmin(recorded[both]), np.argmax(recorded[both])
+    (x, from_), (y, to) = ((values[both][low], values[both][high]) for values in (recorded, physical))
+    factor = (to - y) / (from_ - x)
+    offset = y - factor * x
+    wrong = np.abs(physical[both] - offset - factor * recorded[both]).max()
+    return (float(factor), float(offset)) if wrong <= PROPORTIONAL * np.abs(physical[both]).max() else None
+
+
+def _flags(quality: xr.DataArray | None) -> list[list[int]]:
+    """First sample, the one after the last, and the flag of each stretch that is not good."""
+    if quality is None or not quality.size:
+        return []
+    flags = quality.to_numpy()
+    starts = np.concatenate(([0], np.flatnonzero(np.diff(flags)) + 1, [flags.size]))
+    stretches: Sequence[tuple[int, int]] = list(zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True))
+    return [[first, last, int(flags[first])] for first, last in stretches if flags[first] != GOOD]
+
+
+def _has(curve: Curve) -> bool:
+    return bool(np.isfinite(curve.values).any())
+
+
+def _look(model: str) -> dict[str, Any]:
+    style = model_style(model)
+    dash = style["linestyle"][1] if isinstance(style["linestyle"], tuple) else ()
+    return {"colour": style["color"], "dash": list(dash), "width": 1.2 * style["linewidth"]}
+
+
+def _numbered(index: int) -> dict[str, Any]:
+    """Colours of curves that have none of their own, which tell apart for all eyes in light and dark."""
+    return {"colour": ("ink", "#c8660d", "#2a7fb8", "#b0428c", "#3a8f5c", "#8a6d1c")[index % 6], "width": 1.2}

@@ -1,0 +1,95 @@
+// Pictures and tables that are made in the page, so that it stays whole when it is moved alone.
+"use strict";
+
+colonnade.save = function (name, parts, type) {
+  const link = colonnade.element("a", { href: URL.createObjectURL(new Blob(parts, { type })), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+};
+
+// A picture of the page as a file of its own.
+colonnade.svgText = function (svg) {
+  const own = svg.cloneNode(true);
+  const [, , width, height] = svg.getAttribute("viewBox").split(/\s+/).map(Number);
+  own.setAttribute("xmlns", "http://www.w3.org/2000/svg");
+  own.setAttribute("width", `${width}pt`);
+  own.setAttribute("height", `${height}pt`);
+  return `<?xml version="1.0" encoding="UTF-8"?>\n${new XMLSerializer().serializeToString(own)}\n`;
+};
+
+// The same as pixels, 300 an inch, on white.
+colonnade.savePng = function (name, svg) {
+  const image = new Image();
+  image.onload = () => {
+    const canvas = colonnade.element("canvas");
+    const [, , width, height] = svg.getAttribute("viewBox").split(/\s+/).map(Number);
+    [canvas.width, canvas.height] = [Math.round((width * 300) / 72), Math.round((height * 300) / 72)];
+    const context = canvas.getContext("2d");
+    context.fillStyle = "#fff";
+    context.fillRect(0, 0, canvas.width, canvas.height);
+    context.drawImage(image, 0, 0, canvas.width, canvas.height);
+    canvas.toBlob((blob) => colonnade.save(name, [blob], "image/png"), "image/png");
+  };
+  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(colonnade.svgText(svg))}`;
+};
+
+// A cell of CSV: quoted where it has to be; a text is never taken for a formula.
+colonnade.cell = function (value) {
+  if (typeof value === "number") return Number.isFinite(value) ? String(Number(value.toPrecision(7))) : "";
+  const harmless = /^[=+\-@\t\r]/.test(value) ? `'${value}` : value;
+  return /[",\r\n]/.test(harmless) ? `"${harmless.replaceAll('"', '""')}"` : harmless;
+};
+
+// Curves as a table: those on one clock share the column of time.
+colonnade.tableOf = function (panels, page) {
+  const clocks = new Map();
+  for (const panel of panels) {
+    const named = (name, series) => ({ head: `${panel.short}, ${name}${panel.unit ? ` (${panel.unit})` : ""}`, of: page.series[series] });
+    const add = (clock, ...columns) => clocks.set(clock, [...(clocks.get(clock) || []), ...columns]);
+    for (const curve of panel.curves) {
+      add(curve.clock, named(curve.name, curve.values));
+      if (panel.second) {
+        const { unit, factor, offset } = panel.second;
+        const of = page.series[curve.values].map((value) => factor * value + offset);
+        add(curve.clock, { head: `${panel.short}, ${curve.name} (${unit})`, of });
+      }
+    }
+    for (const band of panel.bands || []) add(band.clock, named(`${band.name}, low`, band.low), named(`${band.name}, high`, band.high));
+  }
+  const columns = [];
+  for (const [clock, found] of clocks) columns.push({ head: "time (s)", of: { length: page.clocks[clock].count }, clock: page.clocks[clock] }, ...found);
+  const rows = Math.max(...columns.map((column) => column.of.length));
+  const lines = [columns.map((column) => colonnade.cell(column.head)).join(",")];
+  for (let row = 0; row < rows; row += 1) {
+    lines.push(columns.map(({ of, clock }) => (row >= of.length ? "" : colonnade.cell(clock ? clock.at(row) : of[row]))).join(","));
+  }
+  return `${lines.join("\n")}\n`;
+};
+
+colonnade.button = function (text, label, action) {
+  const made = colonnade.element("button", { type: "button", "aria-label": label, title: label }, text);
+  made.addEventListener("click", action);
+  return made;
+};
+
+// Below each figure of the page: its picture as SVG and PNG, and what it shows as CSV if the page's data has it.
+colonnade.addDownloads = function () {
+  const { given, page } = colonnade;
+  const tables = {};
+  for (const [name, text] of Object.entries((given && given.tables) || {})) tables[name] = () => text;
+  for (const [name, titles] of Object.entries((page && given.histories) || {})) {
+    tables[name] = () => colonnade.tableOf(given.groups.filter(({ title }) => titles.includes(title)).flatMap(({ panels }) => panels), page);
+  }
+  for (const figure of document.querySelectorAll("figure")) {
+    const svg = figure.querySelector("svg[role=img]");
+    if (!svg) continue;
+    const name = svg.id;
+    const title = svg.querySelector("title").textContent;
+    const row = colonnade.element("p", { class: "downloads" }, "Download:",
+      colonnade.button("SVG", `${title}, as SVG`, () => colonnade.save(`${name}.svg`, [colonnade.svgText(svg)], "image/svg+xml")),
+      colonnade.button("PNG", `${title}, as PNG`, () => colonnade.savePng(`${name}.png`, svg)));
+    if (tables[name]) row.append(colonnade.button("CSV", `${title}, as CSV`, () => colonnade.save(`${name}.csv`, ["\ufeff", tables[name]()], "text/csv")));
+    if (figure.closest(".replaced")) row.append(colonnade.button("Show picture", "Show the picture as it is printed", () => figure.closest(".replaced").classList.toggle("shown")));
+    figure.append(row);
+  }
+};

@@ -1,0 +1,246 @@
+"""The histories of a test in a browser: zoom, cursor, curves, keyboard, the moving block, downloads."""
+
+from __future__ import annotations
+
+import csv
+import io
+
+import numpy as np
+import pytest
+
+from colonnade.store import files
+from colonnade.store.results import ResultId
+
+TEST = "span-2.5"
+READY = "document.documentElement.classList.contains('scripted')"
+VIEW = "[colonnade.page.view.from, colonnade.page.view.to]"
+DRAWN = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+
+
+@pytest.fixture(scope="module")
+def opened_page(visit_once):
+    opened = visit_once(f"tests/{TEST}.html")
+    opened.wait_for_function(READY)
+    return opened
+
+
+@pytest.fixture
+def page(opened_page):
+    """The page of a test as it is at first, with its first plot in view."""
+    opened_page.evaluate("colonnade.page.reset(); colonnade.page.move(colonnade.page.peak())")
+    opened_page.locator(".plotted").first.evaluate("plot => plot.scrollIntoView({block: 'center'})")
+    opened_page.evaluate(DRAWN)
+    return opened_page
+
+
+def view(page) -> list[float]:
+    page.evaluate(DRAWN)
+    return page.evaluate(VIEW)
+
+
+def cursor(page) -> float:
+    return page.evaluate("colonnade.page.cursor")
+
+
+def panel(page, title: str):
+    return page.locator(".panel", has=page.get_by_role("heading", name=title))
+
+
+def opened(page, title: str) -> None:
+    page.locator("summary", has_text=title).evaluate("summary => { summary.parentElement.open = true; }")
+    page.wait_for_function(
+        "title => [...document.querySelectorAll('.group-of-panels')].some(group => "
+        "group.querySelector('summary').textContent === title && group.querySelector('.downloads'))",
+        arg=title,
+    )
+
+
+def saved(page, button) -> str:
+    with page.expect_download() as download:
+        button.click()
+    return download.value.path().read_text(encoding="utf-8-sig")
+
+
+def test_every_history_has_its_panel(page):
+    for title in ("Channels, conditioned", "Channels, as recorded"):
+        opened(page, title)
+    titles = page.locator(".panel h4").all_inner_texts()
+    assert titles[0] == "Rocking angle over critical angle, θ/α"
+    assert "Predicted minus measured, over critical angle" in titles
+    assert "Base acceleration; dotted: ± g tan α (m/s²)" in titles
+    assert "top, as recorded (V; right: mm)" in titles
+    assert page.locator(".replaced svg").is_hidden()
+
+
+def test_the_wheel_zooms_with_ctrl_about_the_pointer_and_reset_shows_all(page):
+    whole = view(page)
+    box = page.locator(".plotted").first.bounding_box()
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 80)
+    time = cursor(page)
+    page.keyboard.down("Control")
+    page.mouse.wheel(0, -300)
+    page.keyboard.up("Control")
+    page.wait_for_function(
+        "whole => colonnade.page.view.to - colonnade.page.view.from < 0.7 * whole", arg=whole[1] - whole[0]
+    )
+    near = view(page)
+    assert near[0] < time < near[1]
+    page.get_by_role("button", name="Show the whole record").click()
+    assert view(page) == whole
+    page.mouse.wheel(0, -300)
+    assert view(page) == whole  # without Ctrl the page scrolls
+
+
+def test_drag_moves_and_drag_with_shift_zooms_into_the_stretch(page):
+    page.locator(".panels").press("+")
+    before = view(page)
+    box = page.locator(".plotted").nth(1).bounding_box()
+    left, y = box["x"] + 200, box["y"] + 50
+    page.mouse.move(left + 200, y)
+    page.mouse.down()
+    page.mouse.move(left + 100, y, steps=3)
+    page.mouse.up()
+    moved = view(page)
+    assert moved[0] > before[0]
+    assert moved[1] - moved[0] == pytest.approx(before[1] - before[0])
+    page.mouse.move(left, y)
+    from_ = cursor(page)
+    page.mouse.move(left + 100, y)
+    to = cursor(page)
+    page.mouse.move(left, y)
+    page.keyboard.down("Shift")
+    page.mouse.down()
+    page.mouse.move(left + 100, y, steps=3)
+    page.mouse.up()
+    page.keyboard.up("Shift")
+    assert view(page) == pytest.approx([from_, to], abs=0.02)
+
+
+def test_the_cursor_gives_the_stored_values_with_their_units(page, filled_campaign):
+    _, layout = filled_campaign
+    rocking = files.read(layout.path(ResultId(TEST, "rocking")))
+    index = 700
+    time = float(rocking["elapsed"][index])
+    page.evaluate("time => colonnade.page.move(time)", time)
+    shown = panel(page, "Base acceleration").locator(".value").inner_text()
+    assert shown.endswith(" m/s²")
+    assert float(shown.split()[0].replace("−", "-")) == pytest.approx(
+        float(rocking["base_acceleration"][index]), rel=1e-3
+    )
+    angle = panel(page, "Rocking angle over").locator(".value").first.inner_text()
+    assert "mrad" in angle
+    assert page.locator(".time").inner_text() == f"time {time:.3f} s"
+
+
+def test_every_sample_is_reached_by_zooming(page, filled_campaign):
+    rocking = files.read(filled_campaign[1].path(ResultId(TEST, "rocking")))
+    time = rocking["elapsed"].to_numpy()
+    page.evaluate("ends => colonnade.page.look(...ends)", [float(time[500]), float(time[512])])
+    page.evaluate(DRAWN)
+    drawn = page.evaluate("Array.from(colonnade.page.panels[0].curves[0].source.data.x)")
+    np.testing.assert_allclose(drawn[1:-1], time[500:513][: len(drawn) - 2], atol=1e-6)
+    page.get_by_role("button", name="Show the whole record").click()
+    page.evaluate(DRAWN)
+    assert page.evaluate("colonnade.page.panels[0].curves[0].source.data.x.length") <= time.size
+
+
+def test_a_curve_is_turned_off_and_on(page):
+    button = panel(page, "Rocking angle over").get_by_role("button", name="nonlinear model").first
+    source = "colonnade.page.panels[0].curves[2].source.data.x.length"
+    assert page.evaluate(source) > 0
+    button.click()
+    assert button.get_attribute("aria-pressed") == "false"
+    assert page.evaluate(source) == 0
+    button.click()
+    assert page.evaluate(source) > 0
+
+
+def test_the_keyboard_does_what_the_pointer_does(page):
+    root, whole, start = page.locator(".panels"), view(page), cursor(page)
+    root.press("ArrowRight")
+    assert cursor(page) > start
+    assert f"{cursor(page):.3f} s: measured" in page.get_by_role("status").inner_text()
+    root.press("+")
+    near = view(page)
+    assert near[1] - near[0] == pytest.approx((whole[1] - whole[0]) / 2)
+    root.press("Shift+ArrowRight")
+    assert view(page)[0] > near[0]
+    root.press("-")
+    root.press("Home")
+    assert view(page) == whole
+
+
+def test_the_block_moves_with_the_cursor_and_plays(page):
+    page.evaluate("colonnade.page.move(colonnade.page.whole.from)")
+    upright = page.locator(".moving canvas").screenshot()
+    page.evaluate("colonnade.page.move(colonnade.page.peak())")
+    assert page.locator(".moving canvas").screenshot() != upright
+    assert "measured θ = " in page.locator(".moving p").inner_text()
+    before = cursor(page)
+    page.get_by_role("button", name="Play the motion").click()
+    page.wait_for_function("before => colonnade.page.cursor > before + 0.02", arg=before)
+    page.get_by_role("button", name="Play the motion").click()
+    stopped = cursor(page)
+    page.evaluate(DRAWN)
+    assert cursor(page) == stopped
+
+
+@pytest.mark.parametrize(
+    ("angle", "corner", "there"),
+    [(0.2, 3, (0.05, 0.0)), (-0.2, 0, (-0.05, 0.0)), (np.pi / 2, 2, (0.45, 0.0)), (-np.pi / 2, 1, (-0.45, 0.0))],
+    ids=["pole at the right", "pole at the left", "fallen to the right", "fallen to the left"],
+)
+def test_corners_turn_about_the_pole(page, angle, corner, there):
+    outline = [[-0.05, 0], [-0.05, 0.4], [0.05, 0.4], [0.05, 0]]
+    corners = page.evaluate(
+        "([outline, angle]) => colonnade.MovingBlock.corners(outline, [-0.05, 0.05], angle, 0)", [outline, angle]
+    )
+    assert corners[corner] == pytest.approx(there, abs=1e-9)
+
+
+def test_flagged_samples_of_a_recorded_channel_are_marked(page, filled_campaign):
+    opened(page, "Channels, as recorded")
+    recorded = files.read(filled_campaign[1].path(ResultId(TEST, "ingest")))
+    suspect = int((recorded["top_quality"] == 3).sum())
+    assert f"{suspect} suspect" in panel(page, "top, as recorded").locator(".flags").inner_text()
+    find = "colonnade.page.panels.find(panel => panel.given.title === 'top, as recorded')"
+    page.evaluate("colonnade.page.look(5.9, 6.2)")
+    page.evaluate(DRAWN)
+    assert page.evaluate(f"{find}.marked.data.x.length") == suspect
+
+
+def test_all_samples_are_saved_as_csv_with_units(page, filled_campaign):
+    group = page.locator(".group-of-panels", has_text="Table motion")
+    rows = list(csv.reader(io.StringIO(saved(page, group.get_by_role("button", name="all samples as CSV")))))
+    assert rows[0] == ["time (s)", "base acceleration, base acceleration (m/s²)"]
+    rocking = files.read(filled_campaign[1].path(ResultId(TEST, "rocking")))
+    np.testing.assert_allclose([float(row[0]) for row in rows[1:]], rocking["elapsed"], atol=1e-6)
+    np.testing.assert_allclose([float(row[1]) for row in rows[1:]], rocking["base_acceleration"], atol=1e-5)
+
+
+def test_a_picture_is_saved_as_svg_and_png(page):
+    row = page.locator(".replaced .downloads")
+    assert saved(page, row.get_by_role("button", name="as SVG")).startswith('<?xml version="1.0"')
+    with page.expect_download() as download:
+        row.get_by_role("button", name="as PNG").click()
+    assert download.value.path().read_bytes().startswith(b"\x89PNG")
+    assert download.value.suggested_filename == f"record-{TEST}.png"
+
+
+def test_without_scripts_the_picture_stands(visit):
+    page = visit(f"tests/{TEST}.html", scripts=False)
+    assert page.locator(".replaced svg").is_visible()
+    assert page.locator("#histories").is_hidden()
+
+
+def test_on_paper_the_picture_stands(page):
+    page.emulate_media(media="print")
+    assert page.locator(".replaced svg").is_visible()
+    assert page.locator("#histories").is_hidden()
+    page.emulate_media(media="screen")
+
+
+def test_a_test_without_results_has_no_histories(visit):
+    page = visit("tests/sine-dead.html")
+    page.wait_for_load_state()
+    assert page.locator("#histories").is_hidden()

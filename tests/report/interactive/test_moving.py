@@ -1,0 +1,51 @@
+"""The outline of a specimen and the motion of the base below it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from pydantic import TypeAdapter
+
+from colonnade.campaign.specimen import AnySpecimen
+from colonnade.report.interactive.moving import displacement, outline
+
+
+def corners(**given):
+    specimen = TypeAdapter(AnySpecimen).validate_python({"mass": "26 kg", **given})
+    return np.array(outline(specimen, specimen.block(9.81)))
+
+
+def test_a_prism_is_a_rectangle_of_its_width_and_height():
+    found = corners(shape="prism", width="86 mm", depth="50 mm", height="456 mm")
+    np.testing.assert_allclose(found, [(-0.043, 0), (-0.043, 0.456), (0.043, 0.456), (0.043, 0)])
+
+
+def test_a_cylinder_is_as_wide_as_its_diameter():
+    found = corners(shape="cylinder", diameter="97 mm", height="455 mm")
+    np.testing.assert_allclose(np.ptp(found, axis=0), [0.097, 0.455])
+
+
+def test_a_cone_is_narrower_at_its_top():
+    found = corners(shape="cone", base_diameter="97 mm", top_diameter="75.5 mm", height="480 mm")
+    np.testing.assert_allclose(found[:, 0], [-0.0485, -0.03775, 0.03775, 0.0485])
+
+
+def test_a_measured_specimen_has_its_centre_of_mass_in_the_middle_of_its_height_and_a_pole_on_each_side():
+    found = corners(
+        shape="measured", pole_distance="610 mm", critical_angle=["0.21 rad", "0.23 rad"], inertia="41.2 kg m^2"
+    )
+    np.testing.assert_allclose(found[0], [-0.61 * np.sin(0.21), 0], atol=1e-12)
+    np.testing.assert_allclose(found[-1], [0.61 * np.sin(0.23), 0], atol=1e-12)
+    np.testing.assert_allclose(found[1, 1] / 2, 0.61 * np.cos(0.23))
+
+
+def test_a_motion_that_begins_and_ends_at_rest_comes_out_of_its_acceleration_and_an_offset():
+    time = np.arange(0, 20, 0.002)
+    moved = 0.01 * np.sin(2 * np.pi * 2.0 * time) * np.exp(-(((time - 10) / 3) ** 2))
+    acceleration = np.gradient(np.gradient(moved, time), time)
+    np.testing.assert_allclose(displacement(time, 0.05 + acceleration), moved, atol=2e-4)
+
+
+@pytest.mark.parametrize("count", [1, 5])
+def test_too_short_a_record_stands_still(count):
+    assert not displacement(np.arange(count) / 100, np.ones(count)).any()
