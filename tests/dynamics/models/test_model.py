@@ -17,9 +17,9 @@ class Still(Model):
 
 
 def still(**given):
-    line = Line("#000000", "solid", 1.0)
+    line = Line("#000000", (), 1.0)
     named = {"name": "still", "line": line, "definition": "θ = 0", "in_space": False, "is_default": False}
-    return Still(**(named | {"members": 1, "map_points": (2, 2)} | given))
+    return Still(**(named | {"map_points": (2, 2)} | given))
 
 
 @pytest.mark.parametrize(("is_linearised", "threshold"), [(True, 0.2), (False, tan(0.2))])
@@ -29,4 +29,4 @@ def test_a_block_uplifts_where_its_equation_says(is_linearised, threshold):
 
 def test_a_model_without_a_run_is_none():
     with pytest.raises(TypeError, match="abstract"):
-        Model(name="x", line=None, definition="", in_space=False, is_default=False, members=0, map_points=(1, 1))
+        Model(name="x", line=None, definition="", in_space=False, is_default=False, map_points=(1, 1))
