@@ -1,0 +1,100 @@
+"""What is stored of a test, read once and given by name; what is not there is empty, never an error."""
+
+from __future__ import annotations
+
+from math import isnan
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from colonnade.findings import Severity, warning
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.store.records.stored import Failure, Stored, read_test
+from colonnade.store.results import ResultId
+
+
+def dataset():
+    return xr.Dataset(
+        {
+            "peak_ratio": ((), 0.4),
+            "rocking_angle": ("elapsed", [0.0, np.nan, 0.2]),
+            "nrmse": ("model", [0.1, 0.3]),
+        },
+        coords={"elapsed": [0.0, 0.1, 0.2], "model": np.array(["linear", "nonlinear"], dtype=object)},
+        attrs={"outcome": "rocking", "notes": ["one", "two"]},
+    )
+
+
+@pytest.fixture
+def stored():
+    return Stored({("rocking", None): dataset(), ("compare", None): dataset(), ("predict", "linear"): dataset()})
+
+
+def test_what_is_there_is_given_by_name(stored):
+    assert stored.value("rocking", "peak_ratio") == 0.4
+    assert stored.median("rocking", "rocking_angle") == pytest.approx(0.1)
+    assert stored.compared("nrmse", "nonlinear") == 0.3
+    assert stored.by("model", "rocking", "nrmse") == {"linear": 0.1, "nonlinear": 0.3}
+    assert (stored.text("rocking", "outcome"), stored.texts("rocking", "notes")) == ("rocking", ["one", "two"])
+    assert stored.models("predict") == ["linear"]
+    assert stored.has("rocking", "nrmse")
+    assert not stored.has("rocking", "slide")
+
+
+def test_what_is_not_there_is_empty(stored):
+    assert isnan(stored.value("rocking", "slide"))
+    assert isnan(stored.value("rocking", "rocking_angle"))  # no scalar
+    assert isnan(stored.compared("nrmse", "contact"))
+    assert stored.array("ingest", "top").size == 0
+    assert stored.by("estimator", "rocking", "nrmse") == {}
+    assert (stored.text("ingest", "outcome"), stored.texts("rocking", "missing")) == ("", [])
+
+
+def test_a_test_is_done_with_its_comparison_unless_something_failed(stored):
+    assert stored.status == "done"
+    assert Stored({("rocking", None): dataset()}).status == "pending"
+    stored.failures.append(Failure("rocking", "because"))
+    assert stored.status == "failed"
+
+
+@pytest.fixture
+def written_results(written, tmp_path):
+    """Store a result of each of these stages of the pulse."""
+    campaign, layout = written(), Layout(tmp_path)
+
+    def write(*stages, **attributes):
+        for stage in stages:
+            given = {"key": f"key of {stage}", "warnings": [], "settings": '{"a": 1}'} | attributes
+            files.write(dataset(), layout.path(ResultId("pulse-01", stage)), attributes=given)
+        return lambda **options: read_test(campaign, layout, campaign.tests["pulse-01"], **options)
+
+    return write
+
+
+def test_results_are_read_with_their_keys_settings_and_findings(written_results):
+    found = written_results("rocking", "compare", warnings=[warning("gap", "a gap.")])()
+    assert set(found.datasets) == {("rocking", None), ("compare", None)}
+    assert list(found.keys) == ["rocking", "compare"]
+    assert all(found.keys[stage].startswith(f"key of {stage} ") for stage in found.keys)
+    assert found.settings["rocking", None] == {"a": 1}
+    assert [(each.text, each.severity) for each in found.findings] == [("a gap.", Severity.WARNING)] * 2
+
+
+def test_a_damaged_result_is_a_failure_of_its_stage(written_results, tmp_path):
+    read = written_results("rocking", "compare")
+    Layout(tmp_path).path(ResultId("pulse-01", "rocking")).write_bytes(b"damaged")
+    found = read()
+    assert [failure.stage for failure in found.failures] == ["rocking"]
+    assert found.has("compare")
+
+
+def test_results_of_another_campaign_are_not_read(written_results):
+    read = written_results("rocking")
+    assert (read(is_outdated=True).datasets, read(is_outdated=True).is_foreign) == ({}, True)
+    assert not read().is_foreign
+
+
+def test_a_failure_that_no_result_holds_is_told(written_results):
+    assert written_results()(failure="the worker was stopped").failures == [Failure("", "the worker was stopped")]
