@@ -1,0 +1,36 @@
+"""What a campaign says of its tests and specimens, wherever its folder is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from colonnade.findings import note
+
+
+def test_with_relative_paths_a_copy_elsewhere_is_the_same(contract, load_text, tmp_path):
+    campaign = load_text(contract)
+    relative = campaign.with_relative_paths()
+    assert (relative.path, relative.folder) == (Path("campaign.toml"), Path())
+    assert relative.tests["span-2.0"].files == {"main": Path("raw/span20.csv")}
+    assert str(tmp_path) not in repr(relative)
+    assert campaign.tests["span-2.0"].files["main"].is_absolute()
+
+
+def test_a_test_without_decisions_is_changed_by_none(contract, load_text):
+    review = load_text(contract).review("span-2.0")
+    assert (review.excluded, review.factors) == ("", {})
+
+
+def test_a_test_has_the_channels_of_its_recorders(contract, load_text):
+    campaign = load_text(contract)
+    both, main = (campaign.channels(campaign.tests[name]) for name in ("free-01", "span-2.0"))
+    assert both.keys() - main.keys() == {"table_acceleration_2"}
+
+
+def test_findings_about_its_specimen_and_set_up_concern_a_test(contract, load_text):
+    tables = ("specimens.prism", "setups.frame", "specimens.cone", "")
+    findings = tuple(replace(note("x", f"{table}."), about=table) for table in tables)
+    campaign = replace(load_text(contract), warnings=findings)
+    assert campaign.tests["span-2.0"].specimen == "prism"
+    assert [found.about for found in campaign.concerning("span-2.0")] == ["specimens.prism", "setups.frame"]
