@@ -191,8 +191,8 @@ def test_sine_tests_stand_by_frequency_and_amplitude(texts, overview):
         )
 
 
-def test_the_measured_map_is_drawn_with_its_boundaries(texts, overview):
-    assert 'id="map-prism"' in overview
+def test_one_frequency_gives_boundaries_and_no_map(texts, overview):
+    assert 'id="map-prism"' not in overview
     assert "3.347 below 3.783 below 3.783 no test without rocking" in words_of(texts["specimens/prism.html"])
 
 
@@ -288,7 +288,7 @@ def test_a_specimen_gives_each_restitution_and_why_one_was_refused(texts):
     assert re.search(r"free-refused –( –)+ 0\.93\d* ± 0\.01\d e of single impacts scatters by", words)
     assert words.count("e of single impacts scatters by") == 1
     assert "scatter between tests 0 (standard deviation of e); standard error within a test" in words
-    assert text.count("<svg") == 4  # estimators, peaks, impacts, the map
+    assert text.count("<svg") == 3  # estimators, peaks, impacts
 
 
 def test_a_free_vibration_tells_what_was_assumed_and_how_it_departs_from_the_model(texts):

@@ -68,7 +68,7 @@ HEADS = (
     type=click.IntRange(min=2),
     nargs=2,
     metavar="N M",
-    help="Numbers of Ω and of A; by default 100 and 150, for the contact model 14 and 31.",
+    help="Numbers of Ω and of A; by default 24 and 150, for the contact model 14 and 31.",
 )
 @click.option("--cycles", type=float, default=20.0, show_default=True, help="Cycles at full amplitude.")
 @click.option("--phase", type=float, default=0.0, show_default=True, help="Phase of the sine at its start, in degrees.")

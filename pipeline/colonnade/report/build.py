@@ -116,7 +116,7 @@ def render(
     used = Used()
     for part in tests:
         used.add(part.used)
-    grouped, mapped = groups.by_specimen(campaign, rows), maps.measured_maps(campaign, rows)
+    grouped, mapped = groups.by_specimen(campaign, rows), maps.measured_maps(campaign, layout, rows)
     specimens = []
     for name in campaign.specimens:
         pooled = read_specimen(campaign, layout, name)

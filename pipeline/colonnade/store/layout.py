@@ -123,6 +123,6 @@ class Layout:
         return path.with_name(f".{path.stem}")
 
     def results_there(self) -> list[Path]:
-        """Results of a run that are there, in the order of their paths; maps are not made by a run."""
-        made = {stage.file.format(subject="*", model="*") for stage in STAGES.values() if stage.goes_with != "report"}
+        """Results that are there, in the order of their paths."""
+        made = {stage.file.format(subject="*", model="*") for stage in STAGES.values()}
         return sorted({path for pattern in made for path in self.processed.glob(f"{pattern}.nc")})

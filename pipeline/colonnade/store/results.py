@@ -28,8 +28,8 @@ class Stage:
     of : str
         Whether its subject is a test or a specimen.
     goes_with : str
-        Stage of `RUN_STAGES` that a run names for this one; empty if it is its own. A run makes no maps: they count
-        with the report, after everything else.
+        Stage of `RUN_STAGES` that a run names for this one; empty if it is its own. Maps count with the
+        report, after everything else; a run makes those by the models in the plane, and no steady responses.
     """
 
     file: str

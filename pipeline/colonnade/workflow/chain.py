@@ -173,7 +173,7 @@ def _recipe(chain: Chain, step: Step, look: Look) -> Recipe:
         upstream = {name: file.sha256 for name, file in chain.raw.items()}
     else:
         upstream = {name: look(path).get("content") for name, path in step.upstream.items()}
-    return Recipe(step.result.stage, step.code, step.inputs.model_dump_json(), upstream)
+    return Recipe(step.result.stage, step.code, step.inputs.model_dump_json(), {**upstream, **step.given})
 
 
 def _is_outdated(chain: Chain, step: Step, look: Look) -> bool:

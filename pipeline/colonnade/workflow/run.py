@@ -101,9 +101,10 @@ def run(
         walk = Walk(graph, run_id, raw, start_from, last, workers, scheduler, progress, notices.append)
         walk.through(tests)
         outdated = (walk.stale() - walk.failed_tests.keys()) | (loaded.tests.keys() - set(walk.included))
-        write_summary(loaded, layout, catalogue, outdated=outdated, failed=walk.failed_tests, workers=workers)
+        summary = write_summary(loaded, layout, catalogue, outdated=outdated, failed=walk.failed_tests, workers=workers)
         report = None
         if last == "report":
+            walk.map(summary.tests)
             report = update_report(loaded, layout, catalogue, outdated, workers)
         catalogue.save()
     concerning = {name: loaded.concerning(name) for name in loaded.tests}

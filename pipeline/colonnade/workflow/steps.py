@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from types import ModuleType
@@ -47,6 +47,8 @@ class Step:
         Takes the upstream results (for ingest, the raw paths) by name and the inputs; returns the result.
     code : str
         Hash of the code that makes it.
+    given : mapping of str to str, optional
+        Hashes of what it is made from besides results: for a map, its block, axes and motion.
     """
 
     result: ResultId
@@ -55,6 +57,7 @@ class Step:
     inputs: BaseModel
     work: Callable[[Mapping[str, Any], Any], xr.Dataset]
     code: str
+    given: Mapping[str, str | None] = field(default_factory=dict)
 
     @property
     def is_from_raw(self) -> bool:

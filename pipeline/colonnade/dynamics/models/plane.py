@@ -21,7 +21,7 @@ class PlaneModel(Model):
     """
 
     in_space: bool = False
-    map_points: tuple[int, int] = (100, 150)
+    map_points: tuple[int, int] = (24, 150)
 
     def run(self, case: Case) -> History:
         """Run it; see `plane.run`."""

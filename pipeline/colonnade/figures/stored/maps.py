@@ -26,11 +26,13 @@ def tested(identity: str, points: Sequence[MapPoint]) -> Picture:
     )
 
 
-def computed(specimen: str, charts: Sequence[StabilityMap], points: Sequence[MapPoint]) -> Picture:
-    """Draw the stability maps of a specimen, one for each model, with its measured sine tests."""
+def computed(
+    specimen: str, charts: Sequence[StabilityMap], points: Sequence[MapPoint], *, linked: bool = False
+) -> Picture:
+    """Draw the stability maps of a specimen, one for each model, with its sine tests, as links if `linked`."""
     models = [str(chart.options["model"]) for chart in charts]
     return Picture(
-        stability_map(charts, points),
+        stability_map(charts, points, linked=linked),
         f"map-{specimen}-{'-'.join(models)}",
         f"Stability map of {specimen}, {' and '.join(models)} model",
         f"Outcomes over frequency ratio Ω and amplitude ratio A, with {len(points)} measured points.",

@@ -91,6 +91,11 @@ class Boundaries:
     notes: tuple[str, ...]
 
 
+def makes_map(points: Iterable[MapPoint]) -> bool:
+    """Return whether tests make a map: they are at two frequencies at least."""
+    return len(bracket_boundaries(points)) > 1
+
+
 def bracket_boundaries(points: Iterable[MapPoint]) -> list[Boundaries]:
     """
     Bracket both boundaries at each frequency.

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import isfinite, nan
 from typing import TYPE_CHECKING
 
@@ -64,6 +65,17 @@ class Wanted:
     ramp_shape: str = "linear"
     motion: str | None = None
     responses: bool = False
+
+    def text(self) -> str:
+        """Write what a map of one model is asked for with, as it is stored with the map."""
+        return json.dumps({name: value for name, value in asdict(self).items() if name not in ("models", "responses")})
+
+    @classmethod
+    def of(cls, text: str, model: str) -> Wanted:
+        """Read what a stored map of a model was asked for with; raises ValueError or TypeError if that is altered."""
+        asked = json.loads(text)
+        pairs = {name: tuple(asked[name]) for name in ("frequency_ratio", "amplitude_ratio", "points") if asked[name]}
+        return cls(**asked | pairs, models=(model,))
 
 
 def measured_points(layout: Layout, specimen: str) -> list[MapPoint]:

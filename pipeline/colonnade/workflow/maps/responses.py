@@ -63,8 +63,8 @@ def make_responses(
         If they cannot be written.
     """
     result = ResultId(specimen, "responses", plan.model)
-    make = partial(_responses, plan, spread)
-    stored, because = bring_up_to_date(campaign, layout, result, plan, _settings(plan), restitution_source, make)
+    make, attributes = partial(_responses, plan, spread), {"restitution_source": restitution_source}
+    stored, because = bring_up_to_date(campaign, layout, result, plan, _settings(plan), attributes, make)
     _draw(as_response(stored), plan, points, layout, specimen)
     return because
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from pydantic import RootModel
 
 from colonnade.campaign import Campaign
 from colonnade.store import files
@@ -24,6 +25,13 @@ if TYPE_CHECKING:
 MADE_BY = ("colonnade.dynamics.maps", "colonnade.workflow.maps")
 """Packages whose code makes maps and steady responses; what they import counts too."""
 
+ASKED = "asked_for"
+"""Attribute of a map that was asked for with options of its own: these."""
+
+
+class Options(RootModel[dict[str, Any]]):
+    """What a map or steady responses depend on besides what is `given`, by name."""
+
 
 def bring_up_to_date(
     campaign: Campaign,
@@ -31,7 +39,7 @@ def bring_up_to_date(
     result: ResultId,
     plan: MapPlan,
     settings: Mapping[str, Any],
-    restitution_source: str,
+    attributes: Mapping[str, str],
     make: Callable[[Path, str], xr.Dataset],
 ) -> tuple[xr.Dataset, str]:
     """
@@ -46,7 +54,7 @@ def bring_up_to_date(
         If its block, axes or motion change, the result is out of date.
     settings : mapping
         All else that the result depends on.
-    restitution_source : str
+    attributes : mapping
         Stored with it.
     make : callable
         Takes the folder of its blocks and its key; returns the result.
@@ -64,18 +72,19 @@ def bring_up_to_date(
     """
     path = layout.path(result)
     code = Catalogue(layout).code(MADE_BY, result.model)
-    recipe = Recipe(result.stage, code, json.dumps(settings), _upstream(plan))
+    recipe = Recipe(result.stage, code, Options(dict(settings)).model_dump_json(), given(plan))
     because = recipe.why(stored_attributes(path))
     if because:
         blocks = layout.blocks(result)
         made = make(blocks, recipe.key)
-        attributes = global_attributes(Origin.of(campaign), result) | recipe.attributes
-        files.write(made, path, attributes=attributes | {"restitution_source": restitution_source})
+        described = global_attributes(Origin.of(campaign), result) | recipe.attributes
+        files.write(made, path, attributes=described | dict(attributes))
         forget(blocks)
     return files.read(path), because
 
 
-def _upstream(plan: MapPlan) -> dict[str, str | None]:
+def given(plan: MapPlan) -> dict[str, str | None]:
+    """Hash what a map is made from besides its options: block, axes and motion."""
     motion = None if plan.motion is None else [plan.motion.dt, plan.motion.acceleration.tolist()]
     axes = [plan.frequency_ratio.tolist(), plan.amplitude_ratio.tolist()]
     return {"block": hash_of(repr(plan.block)), "axes": hash_of(axes), "motion": hash_of(motion)}

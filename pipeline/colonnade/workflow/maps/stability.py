@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -18,17 +17,17 @@ from colonnade.errors import CampaignError, nearest
 from colonnade.identification.response.boundaries import MapPoint, Misfit, bracket_boundaries, limit_misfit
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.store.records.stability_map import as_dataset, as_map
 from colonnade.store.results import ResultId
 from colonnade.workflow.execution.blocks import Counted, Spread, blocks_of, in_blocks
 from colonnade.workflow.execution.lock import only_run
 from colonnade.workflow.maps.plans import Wanted, measured_points, plan_of, restitution_of
 from colonnade.workflow.maps.responses import make_responses
-from colonnade.workflow.maps.results import bring_up_to_date
+from colonnade.workflow.maps.results import ASKED, bring_up_to_date
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from colonnade.dynamics.maps.chart import StabilityMap
     from colonnade.dynamics.maps.plan import MapPlan
 
 
@@ -151,8 +150,9 @@ def _make(
     restitution, source = restitution_of(campaign, layout, specimen)
     plan = plan_of(campaign, layout, specimen, wanted, model, restitution, points)
     result = ResultId(specimen, "map", model)
-    make = partial(_chart, plan, spread)
-    stored, because = bring_up_to_date(campaign, layout, result, plan, plan.options, source, make)
+    make = partial(_chart, plan, source, spread)
+    asked = {} if wanted.text() == Wanted().text() else {ASKED: wanted.text()}
+    stored, because = bring_up_to_date(campaign, layout, result, plan, plan.options, asked, make)
     _draw([stored], points, layout.figure(result), specimen)
     responses = responses_figure = None
     if wanted.responses:
@@ -179,52 +179,22 @@ def _make(
     )
 
 
-def as_dataset(chart: StabilityMap) -> xr.Dataset:
-    """Return a map in its stored form: outcomes over Ω and A, limits over Ω, the options as attributes."""
-    import xarray as xr
-
-    cells = ("frequency_ratio", "amplitude_ratio")
-    return xr.Dataset(
-        {
-            "outcome": (cells, chart.outcome),
-            "overturning_fraction": (cells, chart.overturning_fraction),
-            "no_rocking_limit": ("frequency_ratio", chart.no_rocking),
-            "lower_limit": ("frequency_ratio", chart.lower),
-            "upper_limit": ("frequency_ratio", chart.upper),
-            "interval_frequency_ratio": ("interval", chart.interval_frequency_ratio),
-            "interval_start": ("interval", chart.interval_start),
-            "interval_end": ("interval", chart.interval_end),
-        },
-        coords={"frequency_ratio": chart.frequency_ratio, "amplitude_ratio": chart.amplitude_ratio},
-        attrs=chart.options,
-    )
+def whole_map(plan: MapPlan, restitution_source: str) -> xr.Dataset:
+    """Make a map in this process alone."""
+    return _assembled(plan, restitution_source, [_columns(plan, range(plan.frequency_ratio.size))])
 
 
-def as_map(stored: xr.Dataset) -> StabilityMap:
-    """Return a stored map as the library gives it."""
-    from colonnade.dynamics.maps.chart import StabilityMap
-
-    return StabilityMap(
-        stored["frequency_ratio"].to_numpy(),
-        stored["amplitude_ratio"].to_numpy(),
-        stored["outcome"].to_numpy(),
-        stored["overturning_fraction"].to_numpy(),
-        stored["no_rocking_limit"].to_numpy(),
-        stored["lower_limit"].to_numpy(),
-        stored["upper_limit"].to_numpy(),
-        stored["interval_frequency_ratio"].to_numpy(),
-        stored["interval_start"].to_numpy(),
-        stored["interval_end"].to_numpy(),
-        json.loads(stored.attrs["settings"]),
-    )
+def _chart(plan: MapPlan, restitution_source: str, spread: Spread, folder: Path, key: str) -> xr.Dataset:
+    blocks = spread(partial(_columns, plan), blocks_of(plan.frequency_ratio.size), folder, key)
+    return _assembled(plan, restitution_source, blocks)
 
 
-def _chart(plan: MapPlan, spread: Spread, folder: Path, key: str) -> xr.Dataset:
+def _assembled(plan: MapPlan, restitution_source: str, blocks: Iterable[Mapping[str, NDArray[Any]]]) -> xr.Dataset:
     from colonnade.dynamics.maps.chart import assemble
     from colonnade.dynamics.maps.column import MapColumn
 
     columns = []
-    for arrays in spread(partial(_columns, plan), blocks_of(plan.frequency_ratio.size), folder, key):
+    for arrays in blocks:
         ends = np.cumsum(arrays["intervals_of_column"])
         intervals = np.split(arrays["intervals"], ends[:-1])
         columns += [
@@ -233,7 +203,7 @@ def _chart(plan: MapPlan, spread: Spread, folder: Path, key: str) -> xr.Dataset:
                 arrays["outcome"], arrays["fraction"], arrays["lower"], arrays["upper"], intervals, strict=True
             )
         ]
-    return as_dataset(assemble(plan, columns))
+    return as_dataset(assemble(plan, columns)).assign_attrs(restitution_source=restitution_source)
 
 
 def _columns(plan: MapPlan, indices: range) -> dict[str, NDArray[Any]]:
