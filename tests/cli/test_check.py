@@ -151,3 +151,22 @@ def test_a_problem_names_the_serious_finding_that_it_follows_from(colonnade, cam
     kind = re.match(said, problem)
     assert kind, lines
     assert any(line.startswith(f"serious ({kind[1]}): ") for line in lines[lines.index(problem) :])
+
+
+@pytest.mark.parametrize("ending", [".svg", ".pdf", ".png"])
+def test_the_drawing_is_the_one_file_that_is_written(colonnade, campaign, ending):
+    before = snapshot(campaign)
+    told = colonnade("check", "--drawing", f"plan{ending}")
+    assert (told.returncode, told.stderr) == (0, "")
+    assert told.stdout.endswith(f"drawing: plan{ending}\nAll good. Only the drawing was written.\n")
+    assert set(snapshot(campaign)) - set(before) == {campaign / f"plan{ending}"}
+
+
+@pytest.mark.parametrize("name", ["campaign.toml", "raw", "own.svg"])
+def test_a_drawing_replaces_nothing_of_yours(colonnade, campaign, name):
+    (campaign / "own.svg").write_text("<svg/>", encoding="utf-8")
+    before = snapshot(campaign)
+    told = colonnade("check", "--drawing", name)
+    assert told.returncode == 2
+    assert name in told.stderr
+    assert snapshot(campaign) == before

@@ -113,6 +113,14 @@ class Campaign:
         """Block of a specimen, with the campaign's gravity."""
         return self.specimens[specimen].block(self.gravity)
 
+    @property
+    def combinations(self) -> dict[tuple[str, str], list[str]]:
+        """Ids of the tests by specimen and setup, in the order in which these first come together."""
+        found: dict[tuple[str, str], list[str]] = {}
+        for test in self.tests.values():
+            found.setdefault((test.specimen, test.setup), []).append(test.id)
+        return found
+
     def channels(self, test: Test) -> dict[str, Channel]:
         """Channels for which a test has a raw file, by id."""
         channels = self.setups[test.setup].channels

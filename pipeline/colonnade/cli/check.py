@@ -14,6 +14,7 @@ from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, stri
 from colonnade.cli.progress import work_progress
 
 if TYPE_CHECKING:
+    from colonnade.campaign import Campaign
     from colonnade.workflow.check import CampaignCheck
 
 
@@ -25,24 +26,43 @@ if TYPE_CHECKING:
     {CAMPAIGN} Every raw file is read as `run` would read it, and each test is taken to the point where its prediction
     would begin. Missing files and columns, units, gains, signs, swapped columns, clocks and dead channels are reported
     for all tests at once. The exit code is 1 if a test would fail.
+
+    With --drawing, specimens and transducers are drawn to scale as the campaign file places them: that is the one file
+    that is written.
     """,
 )
 @campaign_argument
+@click.option(
+    "--drawing",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Draw specimens and transducers to this file: .svg, .pdf or .png.",
+)
 @strict_option
 @json_option
-def check(campaign: Path, strict: bool, as_json: bool) -> int:
+def check(campaign: Path, drawing: Path | None, strict: bool, as_json: bool) -> int:
     """Check a campaign, show the findings, and return the exit code."""
     from colonnade.campaign import load
     from colonnade.workflow.check import check as check_campaign
 
     loaded = load(campaign)
+    if drawing is not None:
+        _draw(loaded, drawing)
     with work_progress("Reading raw files") as progress:
         checked = check_campaign(loaded, progress)
     if as_json:
-        show_json(_record(checked))
+        show_json(_record(checked) | ({} if drawing is None else {"drawing": drawing}))
     else:
-        _show(checked)
+        _show(checked, drawing)
     return int(checked.fails or (strict and checked.has_warnings))
+
+
+def _draw(campaign: Campaign, path: Path) -> None:
+    from colonnade.figures.drawing.described import of_campaign
+    from colonnade.figures.saving import PICTURES, expect_place, save
+
+    expect_place(path, PICTURES)
+    save(of_campaign(campaign), path)
 
 
 def _record(checked: CampaignCheck) -> dict[str, object]:
@@ -54,7 +74,7 @@ def _record(checked: CampaignCheck) -> dict[str, object]:
     return {"campaign": campaign.path, "warnings": records_of(campaign.warnings), "tests": tests}
 
 
-def _show(checked: CampaignCheck) -> None:
+def _show(checked: CampaignCheck, drawing: Path | None) -> None:
     campaign, findings = checked.campaign, checked.findings
     say(f"{campaign.path}: {count(len(campaign.tests), 'test')}, {count(len(campaign.specimens), 'specimen')}")
     for name, each in checked.tests.items():
@@ -62,14 +82,17 @@ def _show(checked: CampaignCheck) -> None:
         for problem in each.problems:
             say(f"  problem: {probable_cause(findings[name], where='below')}{_indented(problem)}")
     show_by_kind(findings)
+    if drawing is not None:
+        say(f"drawing: {drawing}")
+    written = "Nothing was written." if drawing is None else "Only the drawing was written."
     statuses = Counter(each.status for each in checked.tests.values())
     if statuses["would fail"] or statuses["doubtful"]:
         words = {"would fail": "would fail", "doubtful": "would give wrong results"}
         say(" ".join(f"{count(statuses[each], 'test')} {what}." for each, what in words.items() if statuses[each]))
     elif checked.has_warnings:
-        say("No test would fail, but see the findings above. Nothing was written.")
+        say(f"No test would fail, but see the findings above. {written}")
     else:
-        say("All good. Nothing was written.")
+        say(f"All good. {written}")
 
 
 def _indented(text: str) -> str:

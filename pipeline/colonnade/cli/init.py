@@ -15,6 +15,9 @@ from colonnade.cli.progress import work_progress
 if TYPE_CHECKING:
     from colonnade.campaign.draft import CampaignDraft
 
+DRAWING = "drawing.svg"
+"""Name of the drawing next to the draft."""
+
 MOST_SHOWN = 12
 """Questions that are listed; the file has all of them."""
 
@@ -28,18 +31,25 @@ def init(folder: Path, as_json: bool) -> int:
 
     DIR is the folder with the raw files, or one that holds folders of them; by default the current folder. Columns,
     units, recorders and kinds of test are guessed, each guess with its reason after it. What no file shows is left
-    as "?" for you to fill in. An existing campaign.toml is never overwritten.
+    as "?" for you to fill in. An existing campaign.toml is never overwritten. A drawing next to it shows the
+    transducers with the directions that were guessed.
     """
     from colonnade.campaign.draft import draft
+    from colonnade.figures.drawing.described import of_draft
+    from colonnade.figures.saving import expect_place, save
     from colonnade.store.files import write_text
 
     with work_progress("Reading raw files") as advance:
         drafted = draft(folder, progress=advance)
+    drawing = drafted.path.with_name(DRAWING)
+    expect_place(drawing)
     write_text(drafted.path, drafted.text)
+    save(of_draft(drafted.text), drawing)
     if as_json:
         show_json(
             {
                 "campaign": drafted.path,
+                "drawing": drawing,
                 "tests": drafted.tests,
                 "setups": drafted.setups,
                 "open": drafted.open,
@@ -48,12 +58,13 @@ def init(folder: Path, as_json: bool) -> int:
             }
         )
     else:
-        _tell(drafted)
+        _tell(drafted, drawing)
     return 0
 
 
-def _tell(drafted: CampaignDraft) -> None:
+def _tell(drafted: CampaignDraft, drawing: Path) -> None:
     say(f"campaign: {drafted.path}")
+    say(f"drawing: {drawing}")
     say(f"{count(drafted.tests, 'test')}, {count(drafted.setups, 'set-up')}")
     for name, reason in drafted.refused:
         say(f"  not used: {name}: {reason}")

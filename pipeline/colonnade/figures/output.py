@@ -13,6 +13,7 @@ from functools import cached_property
 from io import BytesIO, StringIO
 from itertools import zip_longest
 from math import isfinite
+from typing import Any
 from xml.etree import ElementTree
 
 from matplotlib.figure import Figure
@@ -28,6 +29,13 @@ FONTS = "'DejaVu Sans', Verdana, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sa
 _TEST = "test:"
 """Begins the address of a test in a figure."""
 
+MARK = "made by colonnade"
+"""In every file of a figure of its own: only such a file is overwritten."""
+
+MOST_PIXELS = 60_000
+"""Of a PNG in either direction; its writer can do 65,535."""
+
+_SAME = {"Software": MARK}
 _IDENTITY = re.compile(r"[A-Za-z][A-Za-z0-9._-]*")
 _REFERENCE = re.compile(r"url\(#([^)]+)\)")
 _BEYOND_HUNDREDTHS = re.compile(r"(?<=\.\d\d)\d+")
@@ -60,10 +68,19 @@ def link_to(test: str) -> str:
 
 
 def to_png(figure: Figure, *, dpi: int = 150) -> bytes:
-    """Return a figure as a PNG file, without date and program."""
+    """Return a figure as a PNG file, without date and program; one that would be too high for the format is coarser."""
+    return _written(figure, "png", dpi=min(dpi, MOST_PIXELS / float(max(figure.get_size_inches()))), metadata=_SAME)
+
+
+def to_pdf(figure: Figure) -> bytes:
+    """Return a figure as a PDF file of one page, with the text as text, without a date."""
+    return _written(figure, "pdf", metadata={"Creator": MARK, "Producer": MARK, "CreationDate": None})
+
+
+def _written(figure: Figure, form: str, **options: Any) -> bytes:
     written = BytesIO()
     with styled():
-        figure.savefig(written, format="png", dpi=dpi, metadata={"Software": None})
+        figure.savefig(written, format=form, **options)
     return written.getvalue()
 
 
@@ -111,10 +128,8 @@ def to_svg(figure: Figure, *, identity: str, title: str, description: str) -> st
     """
     if not _IDENTITY.fullmatch(identity):
         raise ValueError(f"{identity!r} cannot be an id; a letter, then letters, digits, '.', '_' or '-' were expected")
-    written = BytesIO()
-    with styled():
-        figure.savefig(written, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
-    root = ElementTree.fromstring(written.getvalue())
+    nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
+    root = ElementTree.fromstring(_written(figure, "svg", metadata=nothing))
     _drop(root, {f"{{{NAMESPACE}}}metadata", f"{{{NAMESPACE}}}style"})
     _rename(root, identity)
     _shorten(root)

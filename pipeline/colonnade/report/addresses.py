@@ -32,7 +32,13 @@ def of_specimen(specimen: str) -> str:
     return f"specimens/{specimen}.html"
 
 
+def of_setup(specimen: str, setup: str) -> str:
+    """Address of the drawing of a specimen with the transducers of a setup; "+" is in no id."""
+    return f"setups/{specimen}+{setup}.svg"
+
+
 def addresses(campaign: Campaign) -> tuple[list[str], list[str]]:
-    """Addresses of the pages of a campaign's tests, with their data, and of the others, which show several tests."""
+    """Addresses of what shows one test or setup of a campaign each, and of the pages that show several tests."""
     specimens = map(of_specimen, campaign.specimens)
-    return [*map(of_test, campaign.tests), *map(of_data, campaign.tests)], [*SCRIPTS, *specimens, *WHOLE.values()]
+    setups = [of_setup(*pair) for pair in campaign.combinations]
+    return [*map(of_test, campaign.tests), *map(of_data, campaign.tests), *setups], [*SCRIPTS, *specimens, *WHOLE.values()]

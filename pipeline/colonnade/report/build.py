@@ -15,7 +15,7 @@ from colonnade.identification.response.rank import WITHIN
 from colonnade.identification.restitution.choice import RULE
 from colonnade.identification.restitution.estimators.registry import ESTIMATORS
 from colonnade.interruption import expect_none
-from colonnade.report import addresses, methods, pages, problems, specimens_page
+from colonnade.report import addresses, drawings, methods, pages, problems, specimens_page
 from colonnade.report.agreement import agreement
 from colonnade.report.interactive.scripts import scripts
 from colonnade.report.methods import Used
@@ -34,7 +34,7 @@ from colonnade.store.records.summary import read_summary, records_of_tests
 IN_A_BLOCK = 5
 """Tests whose pages are drawn one after the other, so that templates are not read again for each."""
 
-OWN = ("tests/*.html", "specimens/*.html", "data/*.js", "scripts/*.js")
+OWN = ("tests/*.html", "specimens/*.html", "data/*.js", "scripts/*.js", "setups/*.svg")
 """Files of the report's folders; one that nothing of the campaign leads to any more is removed."""
 
 Spread = Callable[[Callable[[list[Asked]], list[Part]], list[list[Asked]]], Iterable[list[Part]]]
@@ -100,11 +100,12 @@ def render(
     address : str
         Within the report's folder.
     text : str or None
-        None if the page of a test is up to date.
+        None if the page of a test or a drawing is up to date.
     made_from : str
-        Of the page of a test: hash of what it shows.
+        Of the page of a test and of a drawing: hash of what it shows.
     """
     renderer = pages.renderer_of(campaign)
+    yield from drawings.files(campaign, layout.report.parent, code)
     found: dict[str, Part] = {}
     for parts in spread(partial(parts_of, campaign, layout, code), _blocks(campaign, layout, outdated)):
         for part in parts:

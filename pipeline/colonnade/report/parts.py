@@ -123,5 +123,5 @@ def _recipe(
     """Give all that the page of a test is made from; paths of the campaign are those from its folder."""
     test = campaign.tests[row.id]
     around = (campaign.title, campaign.gravity, tuple(campaign.specimens), campaign.processing.predict.models)
-    own = (test, campaign.specimens[test.specimen], campaign.review(test.id))
+    own = (test, campaign.specimens[test.specimen], campaign.setups[test.setup], campaign.review(test.id))
     return Recipe("page", code, repr((around, own, row.record, row.failures, neighbours)), stored.keys)

@@ -19,7 +19,8 @@ from colonnade.figures.restitution.impacts import ImpactSeries
 from colonnade.figures.restitution.peaks import PeakSeries
 from colonnade.figures.stored import restitution as pictures
 from colonnade.findings import in_order
-from colonnade.report import restitution
+from colonnade.report import drawings, restitution
+from colonnade.report.drawings import Drawing
 from colonnade.report.restitution import EstimateText
 from colonnade.report.rows import TestRow
 from colonnade.store.records.stored import Failure, Stored
@@ -83,6 +84,7 @@ class SpecimenPage:
     shape: str
     scale: str
     properties: list[Property]
+    drawings: list[Drawing]
     deviations: list[str]
     e: str
     source: str
@@ -124,6 +126,7 @@ def of_specimen(
         shape=specimen.shape,
         scale="" if specimen.scale is None else f"1:{specimen.scale:g}",
         properties=_properties(specimen, block, campaign.gravity),
+        drawings=drawings.of_specimen(campaign, name),
         deviations=list(specimen.deviations(campaign.gravity)),
         e=interval(value, low, high, level),
         source=SOURCES.get(pooled.text("specimen", "restitution_source"), unknown),

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from colonnade.campaign import Campaign
-from colonnade.report import channels
+from colonnade.report import channels, drawings
 from colonnade.report.channels import ChannelRow
+from colonnade.report.drawings import Drawing
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page import decay, done, found, spread
 from colonnade.report.test_page.decay import Decay
@@ -26,6 +27,7 @@ class TestPage:
     stored: Stored
     review: list[str]
     done: Done
+    drawing: Drawing
     found: Found
     spread: ModelSpread
     decay: Decay
@@ -40,6 +42,7 @@ def of_test(campaign: Campaign, row: TestRow, stored: Stored) -> TestPage:
         stored=stored,
         review=stored.texts("ingest", "review") or list(campaign.review(test.id).sentences),
         done=done.of_test(row, stored),
+        drawing=drawings.of_setup(campaign, test.specimen, test.setup),
         found=found.of_test(row, stored, block, campaign.specimens[test.specimen].scale),
         spread=spread.of_test(row, stored, block),
         decay=decay.of_test(row, stored, block),

@@ -1,0 +1,188 @@
+"""What a campaign file, or the draft of one, says of specimens and transducers, as it is drawn."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from typing import Any
+
+from colonnade import units
+from colonnade.campaign import Campaign
+from colonnade.campaign.channel import Channel
+from colonnade.campaign.specimen import Specimen
+from colonnade.dynamics.block import Block
+from colonnade.errors import CampaignError, UnitError
+from colonnade.figures.drawing.body import words_of_angle
+from colonnade.figures.drawing.parts import Body, Point, Rocking, Transducer
+from colonnade.figures.drawing.setup import Drawn, setup_drawings
+from colonnade.figures.output import Picture
+from colonnade.store.records.wording import count, listed, quantity
+
+SIGNS = (
+    "● displacement  ■ acceleration",
+    "△ velocity  ◆ rotation: its axis",
+    "blue: relative to the table",
+    "orange: relative to the ground",
+    "⊙ towards the viewer, ⊗ away",
+)
+"""What the marks of a drawing mean."""
+
+MOST_DRAFTED = 12
+"""Setups of a draft that are drawn; of more, it asks first which are recordings of tests."""
+
+STAND_IN = Body("rectangle", (0.1, 0.1), (0.1, 0.1), 0.5, is_known=False, rocking=None)
+"""Body of a draft, in which no dimension is known yet."""
+
+
+def drawn_of(campaign: Campaign, specimen: str, setup: str) -> Drawn:
+    """Describe a specimen with the transducers of a setup."""
+    body = body_of(campaign.specimens[specimen], campaign.block(specimen))
+    transducers = [transducer_of(name, each) for name, each in campaign.setups[setup].channels.items()]
+    shown = [each for each in transducers if each.on]
+    others = [each.name for each in transducers if not each.on]
+    words = [*body.words, "", *SIGNS]
+    if any(each.at is None for each in shown if each.on == "specimen"):
+        words += ["hollow: place not given"]
+    if others:
+        words += [f"not drawn: {listed(others)}"]
+    return Drawn(f"{specimen} in {setup}", body._replace(words=words), shown)
+
+
+def picture(campaign: Campaign, specimen: str, setup: str) -> Picture:
+    """Draw a specimen with the transducers of a setup."""
+    figure = setup_drawings([drawn_of(campaign, specimen, setup)])
+    title = f"Specimen {specimen} and the transducers of {setup}, to scale"
+    return Picture(figure, f"setup-{specimen}-{setup}", title, said_of(campaign, specimen, setup))
+
+
+def said_of(campaign: Campaign, specimen: str, setup: str) -> str:
+    """Say what the drawing of a specimen with the transducers of a setup shows."""
+    drawn = drawn_of(campaign, specimen, setup)
+    body = [word for word in drawn.body.words if word and word not in SIGNS]
+    return " ".join(f"{part}." for part in (*body, *(f"{each.name}: {_said(each)}" for each in drawn.transducers)))
+
+
+def of_campaign(campaign: Campaign) -> Picture:
+    """
+    Draw every specimen with the transducers of every setup that a test combines it with.
+
+    Raises
+    ------
+    CampaignError
+        If there is no test.
+    """
+    if not campaign.combinations:
+        raise CampaignError(f"{campaign.path}: the campaign has no test, so no specimen is in a setup to be drawn.")
+    drawn = [drawn_of(campaign, *pair) for pair in campaign.combinations]
+    said = " ".join(f"{each.title}: {count(len(each.transducers), 'transducer')}." for each in drawn)
+    return Picture(setup_drawings(drawn), "drawing", f"Specimens and transducers of {campaign.title}, to scale", said)
+
+
+def body_of(specimen: Specimen, block: Block) -> Body:
+    """Describe a specimen; one without dimensions is drawn from pole to pole, twice as high as its centre of mass."""
+    rocking, sizes = Rocking.of(block), specimen.sizes()
+    height = sizes.get("height", 2 * rocking.centre[1])
+    base = sizes.get("width", sizes.get("diameter", sizes.get("base_diameter", rocking.poles[1] - rocking.poles[0])))
+    top, depth = sizes.get("top_diameter", base), sizes.get("depth")
+    words = [
+        f"{specimen.shape}, {quantity(specimen.mass, 'kg', 4)}",
+        *(
+            f"α = {words_of_angle(angle)}{side}"
+            for angle, side in _sides(block.negative.critical_angle, block.positive.critical_angle)
+        ),
+        *(
+            f"R = {quantity(distance, 'mm', 4)}{side}"
+            for distance, side in _sides(block.negative.pole_distance, block.positive.pole_distance)
+        ),
+        f"⊕ centre of mass, {quantity(rocking.centre[1], 'mm', 4)} up",
+        "▲ poles: −x θ < 0, +x θ > 0",
+    ]
+    if not sizes:
+        words += ["outline not known: drawn from pole to pole, twice as high as ⊕, as deep as wide"]
+    return Body(
+        "circle" if specimen.radius(0.0) is not None else "rectangle",
+        (base, top),
+        (depth or base, depth or top),
+        height,
+        is_known=bool(sizes),
+        rocking=rocking,
+        words=words,
+    )
+
+
+def _sides(negative: float, positive: float) -> list[tuple[float, str]]:
+    return [(negative, "")] if negative == positive else [(negative, ", θ < 0"), (positive, ", θ > 0")]
+
+
+def transducer_of(name: str, channel: Channel) -> Transducer:
+    """Describe a channel; one that is fixed to nothing is `on` nothing."""
+    return Transducer(
+        name,
+        channel.quantity,
+        channel.on or "",
+        channel.direction,
+        channel.at,
+        channel.relative_to or "",
+        channel.normal,
+        channel.anchor,
+        is_laser=channel.sensing == "surface",
+    )
+
+
+def _said(one: Transducer) -> str:
+    """Say where a transducer is and what it reads, for those who do not see it."""
+    place = "" if one.at is None else f" at ({', '.join(f'{1e3 * part:.4g}' for part in one.at)}) mm"
+    direction = (
+        "" if one.direction is None else f", positive along ({', '.join(f'{part:.3g}' for part in one.direction)})"
+    )
+    relative = f", relative to the {one.relative_to}" if one.relative_to else ""
+    return f"{one.quantity.replace('_', ' ')} of the {one.on}{place}{direction}{relative}"
+
+
+def of_draft(text: str) -> Picture:
+    """
+    Draw what a drafted campaign file guesses of transducers, on a body that stands in for the specimen.
+
+    Parameters
+    ----------
+    text : str
+        Of the file, in which "?" stands for what is not known.
+    """
+    setups = tomllib.loads(text)["setups"]
+    words = ["dimensions and places are asked for in campaign.toml; hollow: not yet placed", "", *SIGNS]
+    drawn = [
+        Drawn(
+            f"{name}, as drafted",
+            STAND_IN._replace(words=words),
+            [_drafted(channel, keys) for channel, keys in setup["channels"].items() if keys.get("on", "?") != "?"],
+        )
+        for name, setup in list(setups.items())[:MOST_DRAFTED]
+    ]
+    said = (
+        "Directions of positive readings as guessed; the specimen stands in for one whose dimensions are not known yet."
+    )
+    return Picture(setup_drawings(drawn), "drawing", "Transducers of the drafted campaign file", said)
+
+
+def _drafted(name: str, keys: Mapping[str, Any]) -> Transducer:
+    relative, direction = str(keys.get("relative_to", "")), keys.get("direction")
+    return Transducer(
+        name,
+        str(keys["quantity"]).replace("?", "other"),
+        str(keys["on"]),
+        None if direction is None else (float(direction[0]), float(direction[1]), float(direction[2])),
+        _place(keys.get("at")),
+        "" if relative == "?" else relative,
+        anchor=_place(keys.get("anchor")),
+        is_laser=keys.get("sensing") == "surface",
+    )
+
+
+def _place(written: object) -> Point | None:
+    if not isinstance(written, list):
+        return None
+    try:
+        x, y, z = (units.to_si(str(part), "length") for part in written)
+    except (UnitError, ValueError):
+        return None
+    return x, y, z

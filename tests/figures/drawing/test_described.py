@@ -1,0 +1,97 @@
+"""What is drawn follows from the campaign file, and from the draft of one."""
+
+from __future__ import annotations
+
+import pytest
+
+from colonnade.errors import CampaignError
+from colonnade.figures.drawing import described
+
+
+@pytest.mark.parametrize(
+    ("specimen", "base", "width", "depth", "height"),
+    [
+        ("prism", "rectangle", (0.086, 0.086), (0.06, 0.06), 0.456),
+        ("cylinder", "circle", (0.097, 0.097), (0.097, 0.097), 0.455),
+        ("cone", "circle", (0.097, 0.0755), (0.097, 0.0755), 0.48),
+    ],
+)
+def test_a_body_has_the_dimensions_of_its_shape(drawn_campaign, specimen, base, width, depth, height):
+    body = described.drawn_of(drawn_campaign(), specimen, "frame").body
+    assert (body.base, body.is_known) == (base, True)
+    assert body.width == pytest.approx(width)
+    assert body.depth == pytest.approx(depth)
+    assert body.height == pytest.approx(height)
+
+
+def test_a_measured_body_is_drawn_from_its_poles_and_says_so(drawn_campaign):
+    body = described.drawn_of(drawn_campaign(), "statue", "frame").body
+    assert not body.is_known
+    assert body.height == pytest.approx(2 * body.rocking.centre[1])
+    assert body.width[0] == pytest.approx(body.rocking.poles[1] - body.rocking.poles[0])
+    assert any("outline not known" in word for word in body.words)
+    assert sum(word.startswith("α = ") for word in body.words) == 2
+
+
+def test_channels_become_transducers_and_those_fixed_to_nothing_are_named(drawn_campaign):
+    drawn = described.drawn_of(drawn_campaign(), "prism", "frame")
+    by_name = {each.name: each for each in drawn.transducers}
+    assert "oil" not in by_name
+    assert "not drawn: oil" in drawn.body.words
+    assert by_name["string"].anchor == pytest.approx((-0.3, 0.0, 0.42))
+    assert by_name["laser"].is_laser
+    assert by_name["laser"].relative_to == "ground"
+    assert "hollow: place not given" in drawn.body.words  # the gyro has no place
+
+
+def test_a_drawing_is_told_to_those_who_do_not_see_it(drawn_campaign):
+    said = described.said_of(drawn_campaign(), "prism", "frame")
+    told = "top: displacement of the specimen at (43, 0, 440) mm, positive along (1, 0, 0), relative to the table."
+    assert told in said
+
+
+def test_all_that_tests_combine_is_drawn(drawn_campaign):
+    picture = described.of_campaign(drawn_campaign())
+    assert len(picture.figure.axes) == 3 * 4
+    assert "statue in frame: 8 transducers." in picture.description
+
+
+def test_a_campaign_without_tests_has_nothing_to_draw(drawn_campaign):
+    campaign = drawn_campaign()
+    campaign.tests.clear()
+    with pytest.raises(CampaignError, match="no test"):
+        described.of_campaign(campaign)
+
+
+DRAFT = """
+[setups.setup-1.channels.top]
+quantity = "displacement"
+on = "specimen"
+at = ["? mm", "0 mm", "? mm"]
+relative_to = "?"
+direction = [-1, 0, 0]
+[setups.setup-1.channels.placed]
+quantity = "displacement"
+on = "specimen"
+at = ["43 mm", "0 mm", "440 mm"]
+relative_to = "table"
+direction = [1, 0, 0]
+[setups.setup-1.channels.unknown]
+quantity = "?"
+on = "?"
+"""
+
+
+def test_a_draft_is_drawn_on_a_body_that_stands_in():
+    elevation = described.of_draft(DRAFT).figure.axes[0]
+    written = [text.get_text() for text in elevation.texts]
+    assert written.count("?") == 2
+    assert {"1 top", "2 placed"} <= set(written)
+    assert not any("unknown" in text for text in written)
+    places = {
+        (float(line.get_xdata()[0]), float(line.get_ydata()[0])): line.get_markerfacecolor()
+        for line in elevation.lines
+        if line.get_marker() == "o" and len(line.get_xdata()) == 1
+    }
+    assert places[0.043, 0.44] != "white"
+    assert "white" in places.values()

@@ -1,0 +1,113 @@
+"""The drawing shows each arrow where the campaign file says it is and in the direction of a positive reading."""
+
+from __future__ import annotations
+
+import pytest
+
+from colonnade.dynamics.block import Block
+from colonnade.figures.drawing.parts import Body, Rocking, Transducer
+from colonnade.figures.drawing.setup import Drawn, setup_drawings
+
+BLOCK = Block.prism(width=0.086, depth=0.06, height=0.456, mass=26.1)
+PRISM = Body("rectangle", (0.086, 0.086), (0.06, 0.06), 0.456, True, Rocking.of(BLOCK), ("prism",))
+TOP = Transducer("top", "displacement", "specimen", (1.0, 0.0, 0.0), (0.043, 0.0, 0.44), "table")
+
+
+def views(*transducers, body=PRISM):
+    return setup_drawings([Drawn("prism in frame", body, transducers)]).axes
+
+
+def arrows(axes) -> list[tuple[tuple[float, float], tuple[float, float]]]:
+    """Start and end of each arrow of a reading; those of axes, dimensions and senses are grey or have no colour."""
+    return [
+        (text.xyann, text.xy)
+        for text in axes.texts
+        if getattr(text, "arrow_patch", None) is not None and text.arrow_patch.get_mutation_scale() == 9.0
+    ]
+
+
+def marks(axes) -> list[tuple[str, float, float]]:
+    return [
+        (line.get_marker(), float(line.get_xdata()[0]), float(line.get_ydata()[0]))
+        for line in axes.lines
+        if len(line.get_xdata()) == 1
+    ]
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_an_arrow_starts_at_the_point_and_has_the_sign_of_the_reading(sign):
+    elevation, side, plan = views(TOP._replace(direction=(sign, 0.0, 0.0)))
+    (start, end), *_ = [each for each in arrows(elevation) if each[0] == pytest.approx((0.043, 0.44))]
+    assert sign * (end[0] - start[0]) > 0.03
+    assert end[1] == start[1]
+    assert [each for each in arrows(plan) if each[0] == pytest.approx((0.043, 0.0))]
+    dot, cross = (marker in [mark for mark, *place in marks(side) if place == [0.0, 0.44]] for marker in (".", "x"))
+    assert (dot, cross) == (sign > 0, sign < 0)
+
+
+def test_a_wrong_place_is_seen_off_the_body():
+    elevation, *_ = views(TOP._replace(at=(0.43, 0.0, 0.44)))
+    low, high = elevation.get_xlim()
+    assert ("o", 0.43, 0.44) in marks(elevation)
+    assert low < -0.43 < 0.43 < high
+
+
+def test_poles_centre_of_mass_and_dimensions_are_to_scale():
+    elevation, *_ = views()
+    found = marks(elevation)
+    assert [(mark, x) for mark, x, _ in found if mark == "^"] == [("^", -0.043), ("^", 0.043)]
+    assert any(mark == "+" and (x, z) == (0.0, pytest.approx(0.228)) for mark, x, z in found)
+    outline = next(patch.get_xy() for patch in elevation.patches if patch.get_xy()[:, 1].max() == 0.456)
+    assert outline[:, 0].max() == 0.043
+    assert {"86 mm", "456 mm", "α", "θ > 0", "a > 0"} <= {text.get_text() for text in elevation.texts}
+    bounds = elevation.get_position()
+    width, height = elevation.get_figure(root=True).get_size_inches()
+    across, up = (abs(high - low) for low, high in (elevation.get_xlim(), elevation.get_ylim()))
+    assert across / (bounds.width * width) == pytest.approx(up / (bounds.height * height))
+
+
+def test_every_transducer_has_its_name_and_what_it_is_relative_to():
+    elevation, side, _ = views(TOP, TOP._replace(name="low", at=(0.043, 0.0, 0.05), relative_to="ground"))
+    written = [text.get_text() for text in elevation.texts]
+    for text in ("1 top", "2 low", "displacement, to table", "displacement, to ground"):
+        assert text in written
+    assert {"1", "2"} <= {text.get_text() for text in side.texts}
+
+
+def test_accelerometers_are_on_the_table_and_what_has_no_place_is_hollow():
+    elevation, *_ = views(
+        Transducer("acc", "acceleration", "table", (1.0, 0.0, 0.0)),
+        Transducer("gyro", "angular_velocity", "specimen", (1.0, 0.0, 0.0)),
+        Transducer("floor", "acceleration", "ground", (1.0, 0.0, 0.0)),
+    )
+    squares = sorted((z, x) for mark, x, z in marks(elevation) if mark == "s")
+    assert squares[0][0] < 0 < squares[1][0] < 0.02
+    assert squares[1][1] < -0.043
+    (gyro,) = [line for line in elevation.lines if line.get_marker() == "d"]
+    assert gyro.get_markerfacecolor() == "white"
+    assert (float(gyro.get_xdata()[0]), float(gyro.get_ydata()[0])) == pytest.approx((0.043, 0.228))
+
+
+def test_a_wire_leads_to_its_anchor_and_a_laser_has_its_face():
+    wire = TOP._replace(anchor=(0.3, 0.0, 0.42))
+    elevation, *_ = views(wire)
+    assert [0.043, 0.3] in [list(line.get_xdata()) for line in elevation.lines]
+    laser = TOP._replace(is_laser=True, normal=(1.0, 0.0, 0.0))
+    elevation, *_ = views(laser)
+    faces = [line for line in elevation.lines if line.get_linewidth() == 2.0]
+    assert [list(line.get_xdata()) for line in faces] == [[pytest.approx(0.043)] * 2]
+
+
+def test_sides_with_different_angles_have_one_each():
+    block = Block.measured(mass=80, pole_distance=(0.61, 0.60), critical_angle=(0.21, 0.24), inertia=41.2)
+    body = Body("rectangle", (0.27, 0.27), (0.27, 0.27), 1.18, False, Rocking.of(block))
+    elevation, *_ = views(body=body)
+    assert {"α, θ < 0", "α, θ > 0"} <= {text.get_text() for text in elevation.texts}
+    assert elevation.patches[-1].get_linestyle() != "-"
+
+
+def test_several_setups_are_below_each_other_and_none_is_refused():
+    figure = setup_drawings([Drawn(str(number), PRISM, [TOP]) for number in range(3)])
+    assert len(figure.axes) == 9
+    with pytest.raises(ValueError, match="no specimen"):
+        setup_drawings([])

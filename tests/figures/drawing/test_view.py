@@ -1,0 +1,60 @@
+"""A view projects points, marks what points out of the paper, and keeps labels apart."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from matplotlib.figure import Figure
+
+from colonnade.figures.drawing.setup import ELEVATION, PLAN, SIDE
+from colonnade.figures.drawing.view import View, _spaced
+
+
+def view(orientation) -> View:
+    return View.within(Figure(figsize=(4, 4)), (0.0, 0.0, 4.0, 4.0), (4.0, 4.0), orientation, 0.1, (2.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    ("orientation", "spot"), [(ELEVATION, (1.0, 3.0)), (SIDE, (2.0, 3.0)), (PLAN, (1.0, 2.0))],
+    ids=["elevation", "side", "plan"],
+)  # fmt: skip
+def test_each_view_shows_two_axes_and_the_third_by_the_right_hand(orientation, spot):
+    one = view(orientation)
+    assert one.spot((1.0, 2.0, 3.0)) == spot
+    right, up = np.eye(3)[orientation[0]], np.eye(3)[orientation[1]]
+    assert one.depth(tuple(np.cross(right, up))) == 1.0
+
+
+def test_both_directions_have_the_scale_that_was_asked_for():
+    one = view(ELEVATION)
+    assert one.axes.get_xlim() == pytest.approx((-0.2, 0.2))
+    assert one.axes.get_ylim() == pytest.approx((-0.1, 0.3))
+
+
+@given(st.lists(st.floats(-1.0, 11.0), max_size=9))
+def test_labels_stay_apart_and_within_the_view(wanted):
+    placed = _spaced(sorted(wanted), 1.0, 0.0, 10.0)
+    assert len(placed) == len(wanted)
+    assert all(after - before >= 1.0 - 1e-9 for before, after in pairwise(placed))
+    assert all(-1e-9 <= each <= 10.0 + 1e-9 for each in placed)
+
+
+def test_labels_at_one_spot_without_details_are_written_as_one():
+    one = view(PLAN)
+    for name in ("1", "2"):
+        one.label((0.05, 0.0), name, "", "black")
+    one.write_labels(0.2)
+    assert [text.get_text() for text in one.axes.texts] == ["1, 2"]
+
+
+def test_a_long_name_is_cut_to_its_margin():
+    one = view(ELEVATION)
+    one.label((0.05, 0.0), "1 " + "x" * 60, "displacement", "black")
+    one.write_labels(1.0)
+    (name,) = (text.get_text() for text in one.axes.texts if "x" in text.get_text())
+    assert name.endswith("…")
+    assert len(name) < 25
