@@ -106,11 +106,20 @@ def test_there_is_a_page_a_test_a_specimen_and_of_each_kind(texts, filled_campai
     }
 
 
+def test_each_setup_is_drawn_once_in_a_file_of_its_own(filled_campaign, tmp_path):
+    campaign, layout = filled_campaign[0], Layout(tmp_path)
+    (stale := tmp_path / "report" / "setups" / "gone+frame.svg").parent.mkdir(parents=True)
+    stale.write_text("<svg/>", encoding="utf-8")
+    built(campaign, layout, set(campaign.tests))
+    drawn = {path.relative_to(layout.report.parent).as_posix() for path in stale.parent.iterdir()}
+    assert drawn == {addresses.of_setup(*pair) for pair in campaign.combinations}
+
+
 def test_every_page_stands_alone(texts):
     for address, text in texts.items():
         page = Page(text)
         assert page.tags["script"] == len(page.scripts) + (address == "index.html"), address
-        assert not page.tags["img"], address
+        assert page.tags["img"] == text.count('class="drawing" src="../setups/'), address
         assert not re.search(r"@import|url\((?!#)|https?://(?!www\.w3\.org)", text), address
         assert len(text.encode()) < 400_000, address
 
@@ -121,7 +130,8 @@ def test_scripts_are_files_of_the_report(texts, filled_campaign):
         assert scripts == [*addresses.SCRIPTS, f"data/{test}.js"]
 
 
-def test_ids_are_unique_and_every_link_leads_somewhere(texts):
+def test_ids_are_unique_and_every_link_leads_somewhere(texts, filled_campaign):
+    drawn = {addresses.of_setup(*pair) for pair in filled_campaign[0].combinations}
     ids = {address: Page(text).ids for address, text in texts.items()}
     for address, text in texts.items():
         assert [name for name, times in Counter(ids[address]).items() if times > 1] == []
@@ -133,7 +143,7 @@ def test_ids_are_unique_and_every_link_leads_somewhere(texts):
             assert not re.match(r"/|[a-z]+:", link), (address, link)  # a report may be copied elsewhere
             target, _, anchor = link.partition("#")
             target = normpath(join(dirname(address), target)) if target else address
-            assert target in texts, (address, link)
+            assert target in (texts.keys() | drawn), (address, link)
             assert not anchor or anchor in ids[target], (address, link)
 
 
