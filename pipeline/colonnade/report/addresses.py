@@ -41,4 +41,8 @@ def addresses(campaign: Campaign) -> tuple[list[str], list[str]]:
     """Addresses of what shows one test or setup of a campaign each, and of the pages that show several tests."""
     specimens = map(of_specimen, campaign.specimens)
     setups = [of_setup(*pair) for pair in campaign.combinations]
-    return [*map(of_test, campaign.tests), *map(of_data, campaign.tests), *setups], [*SCRIPTS, *specimens, *WHOLE.values()]
+    return [*map(of_test, campaign.tests), *map(of_data, campaign.tests), *setups], [
+        *SCRIPTS,
+        *specimens,
+        *WHOLE.values(),
+    ]
