@@ -124,10 +124,10 @@ def test_every_page_stands_alone(texts):
         assert len(text.encode()) < 400_000, address
 
 
-def test_scripts_are_files_of_the_report(texts, filled_campaign):
-    for test in filled_campaign[0].tests:
-        scripts = [normpath(join("tests", script)) for script in Page(texts[f"tests/{test}.html"]).scripts]
-        assert scripts == [*addresses.SCRIPTS, f"data/{test}.js"]
+def test_scripts_are_files_of_the_report(texts):
+    for address, text in texts.items():
+        found = [normpath(join(dirname(address), script)) for script in Page(text).scripts]
+        assert found == addresses.scripts_of(address)
 
 
 def test_ids_are_unique_and_every_link_leads_somewhere(texts, filled_campaign):

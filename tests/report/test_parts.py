@@ -51,7 +51,7 @@ def keep(layout, part, *, text=None, key=None, data=None) -> None:
     """Put the page of a test, and its data, where the report has them."""
     page = text or stamps.stamped(part.text, key or part.made_from)
     data = data or stamps.stamped(part.data, key or part.made_from, script=True)
-    for address, content in ((addresses.of_test(SHAKEN), page), (addresses.of_data(SHAKEN), data)):
+    for address, content in ((addresses.of_test(SHAKEN), page), (addresses.of_data(addresses.of_test(SHAKEN)), data)):
         path = layout.report.parent / address
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(content, encoding="utf-8")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import posixpath
+
 from colonnade.campaign import Campaign
 
 WHOLE = {
@@ -13,8 +15,11 @@ WHOLE = {
 """Pages about the whole campaign: template and address, the overview last, so that what it links to is there."""
 
 
-SCRIPTS = ("scripts/bokeh.min.js", "scripts/bokeh-api.min.js", "scripts/colonnade.js")
-"""Scripts that the pages share."""
+LIBRARY = ("scripts/bokeh.min.js", "scripts/bokeh-api.min.js")
+"""Scripts of the plotting library, which only pages of tests load."""
+
+OWN = "scripts/colonnade.js"
+"""Our own script, on every page."""
 
 
 def of_test(test: str) -> str:
@@ -22,9 +27,15 @@ def of_test(test: str) -> str:
     return f"tests/{test}.html"
 
 
-def of_data(test: str) -> str:
-    """Address of the script with the samples of a test's page."""
-    return f"data/{test}.js"
+def of_data(page: str) -> str:
+    """Address of the script with the data of a page: of a test's in a folder, of the others below it."""
+    folder, name = posixpath.split(page.removesuffix(".html"))
+    return f"data/{name}.js" if folder == "tests" else posixpath.join("data", "pages", folder, f"{name}.js")
+
+
+def scripts_of(page: str) -> list[str]:
+    """Addresses of the scripts of a page, in the order in which it loads them."""
+    return [*(LIBRARY if page.startswith("tests/") else ()), OWN, of_data(page)]
 
 
 def of_specimen(specimen: str) -> str:
@@ -38,11 +49,8 @@ def of_setup(specimen: str, setup: str) -> str:
 
 
 def addresses(campaign: Campaign) -> tuple[list[str], list[str]]:
-    """Addresses of what shows one test or setup of a campaign each, and of the pages that show several tests."""
-    specimens = map(of_specimen, campaign.specimens)
+    """Addresses of what shows one test or setup each, and of what shows several tests, with the data of each."""
+    tests = [of_test(test) for test in campaign.tests]
+    others = [*map(of_specimen, campaign.specimens), *WHOLE.values()]
     setups = [of_setup(*pair) for pair in campaign.combinations]
-    return [*map(of_test, campaign.tests), *map(of_data, campaign.tests), *setups], [
-        *SCRIPTS,
-        *specimens,
-        *WHOLE.values(),
-    ]
+    return [*tests, *map(of_data, tests), *setups], [*LIBRARY, OWN, *map(of_data, others), *others]

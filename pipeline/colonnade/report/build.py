@@ -17,6 +17,7 @@ from colonnade.identification.restitution.estimators.registry import ESTIMATORS
 from colonnade.interruption import expect_none
 from colonnade.report import addresses, drawings, methods, pages, problems, specimens_page
 from colonnade.report.agreement import agreement
+from colonnade.report.interactive import tables
 from colonnade.report.interactive.scripts import scripts
 from colonnade.report.methods import Used
 from colonnade.report.overview_page import groups, maps, peaks, spans
@@ -34,7 +35,7 @@ from colonnade.store.records.summary import read_summary, records_of_tests
 IN_A_BLOCK = 5
 """Tests whose pages are drawn one after the other, so that templates are not read again for each."""
 
-OWN = ("tests/*.html", "specimens/*.html", "data/*.js", "scripts/*.js", "setups/*.svg")
+OWN = ("tests/*.html", "specimens/*.html", "data/**/*.js", "scripts/*.js", "setups/*.svg")
 """Files of the report's folders; one that nothing of the campaign leads to any more is removed."""
 
 Spread = Callable[[Callable[[list[Asked]], list[Part]], list[list[Asked]]], Iterable[list[Part]]]
@@ -110,7 +111,7 @@ def render(
     for parts in spread(partial(parts_of, campaign, layout, code), _blocks(campaign, layout, outdated)):
         for part in parts:
             yield addresses.of_test(part.row.id), part.text, part.made_from
-            yield addresses.of_data(part.row.id), part.data, part.made_from
+            yield addresses.of_data(addresses.of_test(part.row.id)), part.data, part.made_from
             found[part.row.id] = replace(part, text=None, data=None)
     tests = [found[name] for name in campaign.tests]
     rows = [part.row for part in tests]
@@ -124,22 +125,26 @@ def render(
         used.versions |= pooled.versions
         free = [part.free_vibration for part in tests if part.row.test.specimen == name and part.free_vibration]
         specimens.append(specimens_page.of_specimen(campaign, name, pooled, free))
-        yield (
-            addresses.of_specimen(name),
-            renderer.page(
-                "specimen",
-                addresses.of_specimen(name),
-                specimen=specimens[-1],
-                groups=[group for group in grouped if group.specimen == name],
-                maps=[drawn for drawn in mapped if drawn.specimen == name],
-            ),
-            "",
-        )
-    for name, text in scripts().items():
-        yield f"scripts/{name}", text, ""
+        shown = {
+            "specimen": specimens[-1],
+            "groups": [group for group in grouped if group.specimen == name],
+            "maps": [drawn for drawn in mapped if drawn.specimen == name],
+        }
+        yield from _page(renderer, "specimen", addresses.of_specimen(name), shown)
+    for address, text in scripts().items():
+        yield address, text, ""
     shown = _shown(campaign, tests, specimens, used) | {"groups": grouped, "maps": mapped}
     for template, address in addresses.WHOLE.items():
-        yield address, renderer.page(template, address, **shown), ""
+        yield from _page(renderer, template, address, shown)
+
+
+def _page(
+    renderer: pages.Renderer, template: str, address: str, shown: dict[str, Any]
+) -> Iterator[tuple[str, str | None, str]]:
+    """Render a page that shows several tests, and its data."""
+    text = renderer.page(template, address, **shown)
+    yield addresses.of_data(address), tables.of_page(address, renderer.pictures), ""
+    yield address, text, ""
 
 
 def _shown(campaign: Campaign, tests: list[Part], specimens: list[SpecimenPage], used: Used) -> dict[str, Any]:

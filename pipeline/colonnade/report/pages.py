@@ -6,13 +6,14 @@ import re
 from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
 
 from colonnade import __version__
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import Setting
 from colonnade.dynamics.models.registry import MODELS
-from colonnade.figures.output import link_to
-from colonnade.report.addresses import SCRIPTS, of_data, of_specimen, of_test
+from colonnade.figures.output import Picture, link_to
+from colonnade.report.addresses import of_specimen, of_test, scripts_of
 from colonnade.store.records import wording
 
 KINDS = {
@@ -40,9 +41,15 @@ class Renderer:
     ----------
     **common
         What every page is given.
+
+    Attributes
+    ----------
+    pictures : list of Picture
+        Those of the page that was rendered last.
     """
 
     def __init__(self, **common: Any) -> None:
+        self.pictures: list[Picture] = []
         self._environment = Environment(
             loader=PackageLoader("colonnade.report"),
             autoescape=True,
@@ -57,8 +64,7 @@ class Renderer:
             "count": wording.count,
             "listed": wording.listed,
             "test_page": of_test,
-            "data_of": of_data,
-            "scripts": SCRIPTS,
+            "scripts_of": scripts_of,
             "specimen_page": of_specimen,
             "sections": _sections,
         }
@@ -69,13 +75,20 @@ class Renderer:
             "acceleration": wording.acceleration,
             "order": wording.order,
             "signed": wording.signed,
+            "drawn": self._drawn,
         }
 
     def page(self, template: str, address: str, **given: Any) -> str:
         """Return the page that stands at an address within the report's folder."""
+        self.pictures = []
         root = "../" * address.count("/")
         text = self._environment.get_template(f"{template}.html.jinja").render(here=address, root=root, **given)
         return _MARK.sub(lambda found: f'href="{root}{of_test(found[1])}"', text)
+
+    def _drawn(self, picture: Picture) -> Markup:
+        """Give the `<svg>` of a picture, and note that the page shows it."""
+        self.pictures.append(picture)
+        return Markup(picture.svg)
 
 
 def _sections(body: str) -> list[tuple[str, str]]:

@@ -103,11 +103,11 @@ def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: st
     made_from = (
         _recipe(campaign.with_relative_paths(), row, stored, code, (asked.before, asked.after)).key if code else ""
     )
-    written = [layout.report.parent / made for made in (address, addresses.of_data(test.id))]
+    written = [layout.report.parent / made for made in (address, addresses.of_data(address))]
     if not made_from or any(made_from != stamps.key_of(path) for path in written):
         page = tests_page.of_test(campaign, row, stored)
         text = renderer.page("test", address, test=page, before=asked.before, after=asked.after)
-        data = test_data.of_test(campaign, test, stored, *_channels(layout, stored, test.id))
+        data = test_data.of_test(campaign, test, stored, renderer.pictures, *_channels(layout, stored, test.id))
     thumbnail = thumbnails.polyline(measured_ratio(stored, block))
     return Part(row, channels.of_test(stored), thumbnail, span, free_vibration, used, text, data, made_from)
 

@@ -227,6 +227,25 @@ def test_a_picture_is_saved_as_svg_and_png(page):
     assert download.value.suggested_filename == f"record-{TEST}.png"
 
 
+def test_what_a_picture_shows_is_saved_as_csv(page, filled_campaign):
+    rows = list(
+        csv.reader(io.StringIO(saved(page, page.locator(".replaced .downloads").get_by_role("button", name="as CSV"))))
+    )
+    assert rows[0][:2] == ["time (s)", "θ / α, measured"]
+    rocking = files.read(filled_campaign[1].path(ResultId(TEST, "rocking")))
+    np.testing.assert_allclose([float(row[0]) for row in rows[1:] if row[0]], rocking["elapsed"], atol=1e-6)
+
+
+@pytest.mark.parametrize("address", ["specimens/prism.html", "index.html"])
+def test_every_picture_of_every_page_can_be_taken_along(visit, address):
+    page = visit(address)
+    page.wait_for_function("document.querySelector('.downloads')")
+    pictures = page.locator("figure:has(svg[role=img])")
+    for picture in pictures.all():
+        assert picture.locator(".downloads button").all_inner_texts() == ["SVG", "PNG", "CSV"]
+    assert "," in saved(page, pictures.last.get_by_role("button", name="as CSV")).splitlines()[0]
+
+
 def test_without_scripts_the_picture_stands(visit):
     page = visit(f"tests/{TEST}.html", scripts=False)
     assert page.locator(".replaced svg").is_visible()

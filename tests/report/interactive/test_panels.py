@@ -30,6 +30,12 @@ def test_uneven_times_are_kept_as_they_are():
     np.testing.assert_allclose(again, time)
 
 
+def test_equal_series_are_kept_once():
+    samples, values = Samples(), np.array([1.0, np.nan, 3.0])
+    assert [samples.add(values), samples.add(values + 1), samples.add(values.copy())] == [0, 1, 0]
+    assert len(samples.series) == 2
+
+
 @pytest.mark.parametrize("time", [np.array([2.0]), np.array([2.0, 3.0])], ids=["one sample", "two samples"])
 def test_short_clocks(time):
     samples = Samples()
@@ -40,11 +46,11 @@ def test_short_clocks(time):
 def test_the_data_is_one_call_with_what_was_given_and_no_text_ends_it():
     samples = Samples()
     curve = samples.curve("a</script>\u2028b", np.arange(3.0), np.ones(3), colour="ink")
-    text = script("t", [{"title": "Ω", "is_open": True, "panels": [{"curves": [curve]}]}], samples, more=1)
+    text = script("t", samples, groups=[{"title": "Ω", "panels": [{"curves": [curve]}]}], more=1)
     assert text.startswith("colonnade.show({")
     assert text.isascii()
     given = json.loads(text.removeprefix("colonnade.show(").removesuffix(");\n"))
     assert given["groups"][0]["panels"][0]["curves"] == [
         {"name": "a</script>\u2028b", "clock": 0, "values": 0, "colour": "ink"}
     ]
-    assert (given["test"], given["more"], given["clocks"][0]["count"]) == ("t", 1, 3)
+    assert (given["page"], given["more"], given["clocks"][0]["count"]) == ("t", 1, 3)

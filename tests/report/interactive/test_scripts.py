@@ -7,21 +7,20 @@ import pytest
 from colonnade.errors import StoreError
 from colonnade.report import addresses
 from colonnade.report.interactive import scripts as module
-from colonnade.report.interactive.scripts import OWN, OWN_FOLDER, scripts
+from colonnade.report.interactive.scripts import FOLDER, PARTS, scripts
 
 
-def test_the_pages_name_every_script_and_ours_comes_last():
-    assert tuple(f"scripts/{name}" for name in scripts()) == addresses.SCRIPTS
-    assert addresses.SCRIPTS[-1] == "scripts/colonnade.js"
+def test_a_page_of_a_test_loads_every_script_and_then_its_data():
+    assert addresses.scripts_of("tests/a.html") == [*scripts(), "data/a.js"]
 
 
 def test_ours_is_all_of_the_folder():
-    assert {path.stem for path in OWN_FOLDER.glob("*.js")} == set(OWN)
-    assert all((OWN_FOLDER / f"{name}.js").read_text(encoding="utf-8") in scripts()["colonnade.js"] for name in OWN)
+    assert {path.stem for path in FOLDER.glob("*.js")} == set(PARTS)
+    assert all((FOLDER / f"{name}.js").read_text(encoding="utf-8") in scripts()[addresses.OWN] for name in PARTS)
 
 
 def test_nothing_is_loaded_that_a_file_cannot_load():
-    ours = scripts()["colonnade.js"]
+    ours = scripts()[addresses.OWN]
     for refused in ("fetch(", "import(", "import ", "new Worker", "XMLHttpRequest", "http://", "https://", "innerHTML"):
         assert refused not in ours.replace("http://www.w3.org/2000/svg", ""), refused
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -27,15 +26,19 @@ class Samples:
     series: list[Array] = field(default_factory=list)
     clocks: list[dict[str, Any]] = field(default_factory=list)
     _known: dict[bytes, int] = field(default_factory=dict)
+    _known_clocks: dict[bytes, int] = field(default_factory=dict)
 
     def add(self, values: Array) -> int:
         """Keep a series."""
-        self.series.append(np.asarray(values, dtype=np.float64))
-        return len(self.series) - 1
+        values = np.asarray(values, dtype=np.float64)
+        number = self._known.setdefault(values.tobytes(), len(self.series))
+        if number == len(self.series):
+            self.series.append(values)
+        return number
 
     def clock(self, time: Array) -> int:
         """Keep times (s): the first, the interval and, where they are not even, how far each is from even ones."""
-        known = self._known.get(time.tobytes())
+        known = self._known_clocks.get(time.tobytes())
         if known is not None:
             return known
         interval = float((time[-1] - time[0]) / (time.size - 1)) if time.size > 1 else 1.0
@@ -44,7 +47,7 @@ class Samples:
         if np.abs(uneven).max() > EVEN * interval:
             described["uneven"] = self.add(uneven)
         self.clocks.append(described)
-        self._known[time.tobytes()] = len(self.clocks) - 1
+        self._known_clocks[time.tobytes()] = len(self.clocks) - 1
         return len(self.clocks) - 1
 
     def curve(self, name: str, time: Array, values: Array, **look: Any) -> dict[str, Any]:
@@ -52,29 +55,20 @@ class Samples:
         return {"name": name, "clock": self.clock(time), "values": self.add(values), **look}
 
 
-def script(test: str, groups: Sequence[dict[str, Any]], samples: Samples, **more: Any) -> str:
+def script(page: str, samples: Samples, **more: Any) -> str:
     """
     Return the data of a page: a classic script that calls one function.
 
     Parameters
     ----------
-    test : str
-    groups : sequence of dict
-        Groups of panels: `title`, `is_open` (whether it is shown at first), `panels`.
+    page : str
+        Name of the page.
     samples : Samples
-        What the panels draw.
+        What its panels draw and its tables hold.
     **more
         What else the script reads, as JSON can hold it.
     """
     series, text = packed(samples.series)
-    given = {
-        "test": test,
-        "groups": list(groups),
-        "clocks": samples.clocks,
-        "series": series,
-        "planes": PLANES,
-        **more,
-        "samples": text,
-    }
+    given = {"page": page, "clocks": samples.clocks, "planes": PLANES, "series": series, **more, "samples": text}
     # Within a script of its own no text can end the script early; U+2028 and U+2029 are escaped by json.
     return f"colonnade.show({json.dumps(given, separators=(',', ':'), allow_nan=False)});\n"

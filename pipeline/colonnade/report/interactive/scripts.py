@@ -6,19 +6,17 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from colonnade.errors import StoreError
+from colonnade.report.addresses import LIBRARY, OWN
 
-OWN = ("samples", "panel", "moving", "downloads", "page")
+PARTS = ("samples", "panel", "moving", "downloads", "page")
 """Our scripts in the order in which they are joined: what a later one uses is in an earlier one."""
 
-OWN_FOLDER = Path(__file__).parents[1] / "scripts"
-
-LIBRARY = ("bokeh.min.js", "bokeh-api.min.js")
-"""Of Bokeh: its models and views, and the functions that make figures of them."""
+FOLDER = Path(__file__).parents[1] / "scripts"
 
 
 def scripts() -> dict[str, str]:
     """
-    Return the text of each script by its name.
+    Return the text of each script by its address in the report.
 
     Raises
     ------
@@ -28,14 +26,14 @@ def scripts() -> dict[str, str]:
     found = find_spec("bokeh")
     folder = Path(*(found.submodule_search_locations or [""])[:1] if found else "") / "server" / "static" / "js"
     try:
-        library = {name: (folder / name).read_text(encoding="utf-8") for name in LIBRARY}
+        library = {address: (folder / Path(address).name).read_text(encoding="utf-8") for address in LIBRARY}
     except OSError as error:
         raise StoreError(
             f"{error.filename}: the report's plots need this script of the package bokeh. Install it again: "
             "`pip install --force-reinstall bokeh`."
         ) from error
-    own = "".join((OWN_FOLDER / f"{name}.js").read_text(encoding="utf-8") for name in OWN)
-    return {**{name: _ended(text) for name, text in library.items()}, "colonnade.js": own}
+    own = "".join((FOLDER / f"{name}.js").read_text(encoding="utf-8") for name in PARTS)
+    return {**{address: _ended(text) for address, text in library.items()}, OWN: own}
 
 
 def _ended(text: str) -> str:

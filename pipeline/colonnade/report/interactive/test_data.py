@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,12 +13,14 @@ from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.figures.curve import Curve
 from colonnade.figures.histories import Spread
+from colonnade.figures.output import Picture
 from colonnade.figures.stored.curves import measured_ratio, misfits, motion, predicted_ratios, spreads
 from colonnade.figures.stored.record import BASE, MOTIONS, SHADED
 from colonnade.figures.style import model_style
 from colonnade.report.channels import UNITS
-from colonnade.report.interactive import moving, panels
-from colonnade.report.interactive.panels import Samples
+from colonnade.report.interactive import moving
+from colonnade.report.interactive.panels import Samples, script
+from colonnade.report.interactive.tables import tables_of
 from colonnade.store.records.stored import GOOD, Stored
 from colonnade.units import from_si
 
@@ -29,7 +31,12 @@ Panel = dict[str, Any]
 
 
 def of_test(
-    campaign: Campaign, test: Test, stored: Stored, recorded: xr.Dataset | None, conditioned: xr.Dataset | None
+    campaign: Campaign,
+    test: Test,
+    stored: Stored,
+    pictures: Iterable[Picture],
+    recorded: xr.Dataset | None,
+    conditioned: xr.Dataset | None,
 ) -> str:
     """
     Return the script with the data of a test's page.
@@ -40,6 +47,8 @@ def of_test(
     test : Test
     stored : Stored
         What is known of the test.
+    pictures : iterable of Picture
+        Those of the page.
     recorded, conditioned : Dataset or None
         Results of `ingest` and `condition` with their samples.
     """
@@ -58,7 +67,8 @@ def of_test(
         shown[0]["is_open"] = True
     moves = moving.of_test(campaign.specimens[test.specimen], block, stored, samples) if angles else None
     critical = [block.negative.critical_angle, block.positive.critical_angle]
-    return panels.script(test.id, shown, samples, critical=critical, moving=moves)
+    tables = tables_of(pictures, samples)
+    return script(test.id, samples, groups=shown, critical=critical, moving=moves, tables=tables)
 
 
 def _angles(stored: Stored, block: Block, samples: Samples) -> list[Panel]:

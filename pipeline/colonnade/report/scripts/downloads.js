@@ -56,14 +56,12 @@ colonnade.tableOf = function (panels, page) {
     }
     for (const band of panel.bands || []) add(band.clock, named(`${band.name}, low`, band.low), named(`${band.name}, high`, band.high));
   }
-  const columns = [];
-  for (const [clock, found] of clocks) columns.push({ head: "time (s)", of: { length: page.clocks[clock].count }, clock: page.clocks[clock] }, ...found);
-  const rows = Math.max(...columns.map((column) => column.of.length));
-  const lines = [columns.map((column) => colonnade.cell(column.head)).join(",")];
-  for (let row = 0; row < rows; row += 1) {
-    lines.push(columns.map(({ of, clock }) => (row >= of.length ? "" : colonnade.cell(clock ? clock.at(row) : of[row]))).join(","));
+  const table = { heads: [], columns: [] };
+  for (const [clock, found] of clocks) {
+    table.heads.push("time (s)", ...found.map(({ head }) => head));
+    table.columns.push(page.clocks[clock], ...found.map(({ of }) => ({ count: of.length, at: (row) => of[row] })));
   }
-  return `${lines.join("\n")}\n`;
+  return colonnade.csvText(table);
 };
 
 colonnade.button = function (text, label, action) {
@@ -72,24 +70,36 @@ colonnade.button = function (text, label, action) {
   return made;
 };
 
-// Below each figure of the page: its picture as SVG and PNG, and what it shows as CSV if the page's data has it.
-colonnade.addDownloads = function () {
-  const { given, page } = colonnade;
-  const tables = {};
-  for (const [name, text] of Object.entries((given && given.tables) || {})) tables[name] = () => text;
-  for (const [name, titles] of Object.entries((page && given.histories) || {})) {
-    tables[name] = () => colonnade.tableOf(given.groups.filter(({ title }) => titles.includes(title)).flatMap(({ panels }) => panels), page);
-  }
+// The table of a picture as CSV text: it is that already, or headings with columns of samples.
+colonnade.csvText = async function (table) {
+  if (typeof table === "string") return table;
+  const { series, clocks } = await colonnade.samples();
+  const columns = table.columns.map((column) => {
+    if (Array.isArray(column)) return { count: column.length, at: (row) => column[row] };
+    if (column.at) return column;
+    if (column.clock !== undefined) return clocks[column.clock];
+    return { count: series[column.series].length, at: (row) => series[column.series][row] };
+  });
+  const lines = [table.heads.map(colonnade.cell).join(",")];
+  const rows = Math.max(...columns.map((column) => column.count));
+  for (let row = 0; row < rows; row += 1) lines.push(columns.map((column) => (row < column.count ? colonnade.cell(column.at(row)) : "")).join(","));
+  return `${lines.join("\n")}\n`;
+};
+
+// Below each figure of the page: its picture as SVG and PNG, and what it shows as CSV.
+colonnade.addDownloads = function (tables) {
   for (const figure of document.querySelectorAll("figure")) {
     const svg = figure.querySelector("svg[role=img]");
     if (!svg) continue;
     const name = svg.id;
     const title = svg.querySelector("title").textContent;
+    const csv = async () => colonnade.save(`${name}.csv`, ["\ufeff", await colonnade.csvText(tables[name])], "text/csv");
     const row = colonnade.element("p", { class: "downloads" }, "Download:",
       colonnade.button("SVG", `${title}, as SVG`, () => colonnade.save(`${name}.svg`, [colonnade.svgText(svg)], "image/svg+xml")),
-      colonnade.button("PNG", `${title}, as PNG`, () => colonnade.savePng(`${name}.png`, svg)));
-    if (tables[name]) row.append(colonnade.button("CSV", `${title}, as CSV`, () => colonnade.save(`${name}.csv`, ["\ufeff", tables[name]()], "text/csv")));
-    if (figure.closest(".replaced")) row.append(colonnade.button("Show picture", "Show the picture as it is printed", () => figure.closest(".replaced").classList.toggle("shown")));
+      colonnade.button("PNG", `${title}, as PNG`, () => colonnade.savePng(`${name}.png`, svg)),
+      ...(tables[name] ? [colonnade.button("CSV", `${title}, as CSV`, csv)] : []));
+    const replaced = figure.closest(".replaced");
+    if (replaced) row.append(colonnade.button("Show picture", "Show the picture as it is printed", () => replaced.classList.toggle("shown")));
     figure.append(row);
   }
 };

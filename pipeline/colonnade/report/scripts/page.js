@@ -9,12 +9,11 @@ const POINTERS = "Drag to move in time, drag with Shift to zoom into a stretch, 
 colonnade.show = (given) => Object.assign(colonnade, { given });
 
 document.addEventListener("DOMContentLoaded", async () => {
-  const { given } = colonnade;
   const place = document.querySelector("[data-interactive]");
   try {
-    if (given && place && given.groups.length) await new colonnade.Page(given, place).make();
+    if (place && colonnade.given.groups.length) await new colonnade.Page(colonnade.given, place).make();
   } finally {
-    colonnade.addDownloads();
+    colonnade.addDownloads(colonnade.given.tables);
   }
 });
 
@@ -25,8 +24,7 @@ colonnade.Page = class {
 
   async make() {
     Bokeh.set_log_level("error");
-    this.series = await colonnade.unpack(this.given);
-    this.clocks = this.given.clocks.map((clock) => new colonnade.Clock(clock, this.series));
+    Object.assign(this, await colonnade.samples());
     this.whole = { from: Math.min(...this.clocks.map((clock) => clock.start)), to: Math.max(...this.clocks.map((clock) => clock.end)) };
     this.shortest = CLOSEST * Math.min(...this.clocks.map((clock) => clock.interval));
     this.view = { ...this.whole };
@@ -70,7 +68,7 @@ colonnade.Page = class {
       ...(this.given.moving ? [this.playing, this.speed] : []),
       this.time);
     const hint = colonnade.element("p", { class: "soft hint", id: "interactive-hint" }, `${POINTERS} ${KEYS}`);
-    this.root = colonnade.element("div", { class: "panels", tabindex: "0", role: "group", "aria-label": `Histories of ${this.given.test}`, "aria-describedby": "interactive-hint" }, bar, hint, this.status);
+    this.root = colonnade.element("div", { class: "panels", tabindex: "0", role: "group", "aria-label": `Histories of ${this.given.page}`, "aria-describedby": "interactive-hint" }, bar, hint, this.status);
     this.root.addEventListener("keydown", (event) => this.press(event));
   }
 
@@ -101,8 +99,8 @@ colonnade.Page = class {
       panel.point(this.cursor);
     }
     const { title, panels } = box.group;
-    const name = `${this.given.test}-${title.toLowerCase().replace(/[^a-z]+/g, "-")}.csv`;
-    const table = () => colonnade.save(name, ["\ufeff", colonnade.tableOf(panels, this)], "text/csv");
+    const name = `${this.given.page}-${title.toLowerCase().replace(/[^a-z]+/g, "-")}.csv`;
+    const table = async () => colonnade.save(name, ["\ufeff", await colonnade.tableOf(panels, this)], "text/csv");
     box.inside.append(colonnade.element("p", { class: "downloads" }, "All samples:", colonnade.button("CSV", `${title}, all samples as CSV`, table)));
   }
 

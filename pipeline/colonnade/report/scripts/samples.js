@@ -57,6 +57,13 @@ colonnade.Clock = class {
   }
 };
 
+// Series and clocks of the page, unpacked when they are first asked for.
+colonnade.samples = function () {
+  const { given } = colonnade;
+  colonnade.unpacked ||= colonnade.unpack(given).then((series) => ({ series, clocks: given.clocks.map((clock) => new colonnade.Clock(clock, series)) }));
+  return colonnade.unpacked;
+};
+
 // Parts of a view, one a pixel, as numbers of samples; a view of few samples has one part a sample.
 function* parts(clock, from, to, pixels) {
   const first = Math.max(clock.from(from) - 1, 0);

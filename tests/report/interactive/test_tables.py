@@ -1,0 +1,38 @@
+"""Tables of the pictures of a page."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from colonnade.figures.output import Picture
+from colonnade.report.interactive.panels import Samples
+from colonnade.report.interactive.tables import LONG, tables_of
+
+
+def picture(count: int) -> Picture:
+    figure = Figure()
+    axes = figure.subplots()
+    time = 0.01 * np.arange(count)
+    axes.plot(time, np.sin(time), label="measured")
+    axes.set_xlabel("time (s)")
+    axes.set_ylabel("slide (mm)")
+    return Picture(figure, f"p-{count}", "", "")
+
+
+def test_a_short_table_is_text():
+    assert tables_of([picture(2)], Samples()) == {"p-2": 'time (s),"slide (mm), measured"\n0,0\n0.01,0.00999983333\n'}
+
+
+def test_a_long_table_names_series_that_the_page_has_already():
+    samples = Samples()
+    time = 0.01 * np.arange(LONG)
+    curve = samples.curve("measured", time, np.sin(time))
+    table = tables_of([picture(LONG)], samples)[f"p-{LONG}"]
+    assert table["heads"] == ["time (s)", "slide (mm), measured"]
+    assert table["columns"] == [{"clock": curve["clock"]}, {"series": curve["values"]}]
+    assert len(samples.series) == 1
+
+
+def test_a_page_without_pictures_has_no_table():
+    assert tables_of([], Samples()) == {}
