@@ -9,7 +9,8 @@ import pytest
 
 from colonnade.campaign import load
 from colonnade.report import addresses
-from colonnade.report.parts import Asked, Part, parts_of
+from colonnade.report.asked import Asked
+from colonnade.report.parts import Part, parts_of
 from colonnade.store import stamps
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import read_summary, records_of_tests

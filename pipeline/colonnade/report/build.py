@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, MutableMapping
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -17,20 +18,21 @@ from colonnade.identification.restitution.estimators.registry import ESTIMATORS
 from colonnade.interruption import expect_none
 from colonnade.report import addresses, drawings, methods, pages, problems, specimens_page
 from colonnade.report.agreement import agreement
+from colonnade.report.asked import Asked, asked_of
 from colonnade.report.interactive import tables
 from colonnade.report.interactive.scripts import scripts
+from colonnade.report.kept import ALTERED, from_text, to_text
 from colonnade.report.methods import Used
 from colonnade.report.overview_page import groups, maps, peaks, spans
 from colonnade.report.overview_page.attention import attention
 from colonnade.report.overview_page.confusion import confusions
-from colonnade.report.parts import Asked, Part, parts_of
+from colonnade.report.parts import Part, parts_of
 from colonnade.report.references import REFERENCES
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import SpecimenPage
 from colonnade.store import files, stamps
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_specimen
-from colonnade.store.records.summary import read_summary, records_of_tests
 
 IN_A_BLOCK = 5
 """Tests whose pages are drawn one after the other, so that templates are not read again for each."""
@@ -38,7 +40,10 @@ IN_A_BLOCK = 5
 OWN = ("tests/*.html", "specimens/*.html", "data/**/*.js", "scripts/*.js", "setups/*.svg")
 """Files of the report's folders; one that nothing of the campaign leads to any more is removed."""
 
-Spread = Callable[[Callable[[list[Asked]], list[Part]], list[list[Asked]]], Iterable[list[Part]]]
+Block = tuple[Campaign, list[Asked]]
+"""Some tests whose pages are asked for, and their campaign."""
+
+Spread = Callable[[Callable[[Block], list[Part]], list[Block]], Iterable[list[Part]]]
 
 
 def build(
@@ -48,6 +53,7 @@ def build(
     *,
     code: str = "",
     key: str = "",
+    kept: MutableMapping[str, str] | None = None,
     spread: Spread = map,
 ) -> Path:
     """
@@ -64,6 +70,9 @@ def build(
         Hash of the code. With it, pages of tests that would come out the same are not drawn again.
     key : str, optional
         Hash of all that the report is made from, for the stamp of the pages that show several tests.
+    kept : dict of str to str, optional
+        Parts of tests as text, by test (`report.kept`): of tests that are here neither the results are read nor the
+        page is drawn; the others are added.
     spread : callable, optional
         Calls a function once for each item, as `map` does, in other processes if it likes, in any order.
 
@@ -80,7 +89,7 @@ def build(
     """
     folder = layout.report.parent
     there = set()
-    for address, text, made_from in render(campaign, layout, outdated, code=code, spread=spread):
+    for address, text, made_from in render(campaign, layout, outdated, code=code, kept=kept, spread=spread):
         expect_none()
         if text is not None:
             files.write_text(folder / address, stamps.stamped(text, made_from or key, script=address.endswith(".js")))
@@ -91,7 +100,13 @@ def build(
 
 
 def render(
-    campaign: Campaign, layout: Layout, outdated: Collection[str] = (), *, code: str = "", spread: Spread = map
+    campaign: Campaign,
+    layout: Layout,
+    outdated: Collection[str] = (),
+    *,
+    code: str = "",
+    kept: MutableMapping[str, str] | None = None,
+    spread: Spread = map,
 ) -> Iterator[tuple[str, str | None, str]]:
     """
     Render the pages, the overview last.
@@ -107,12 +122,20 @@ def render(
     """
     renderer = pages.renderer_of(campaign)
     yield from drawings.files(campaign, layout.report.parent, code)
-    found: dict[str, Part] = {}
-    for parts in spread(partial(parts_of, campaign, layout, code), _blocks(campaign, layout, outdated)):
+    kept = {} if kept is None else kept
+    every = asked_of(campaign, layout, outdated)
+    found = _known(campaign, every, kept)
+    for part in found.values():
+        yield addresses.of_test(part.row.id), None, part.made_from
+        yield addresses.of_data(addresses.of_test(part.row.id)), None, part.made_from
+    missing = [asked for asked in every if asked.test not in found]
+    blocks = [missing[start : start + IN_A_BLOCK] for start in range(0, len(missing), IN_A_BLOCK)]
+    for parts in spread(partial(_drawn, layout, code), [(_with(campaign, block), block) for block in blocks]):
         for part in parts:
             yield addresses.of_test(part.row.id), part.text, part.made_from
             yield addresses.of_data(addresses.of_test(part.row.id)), part.data, part.made_from
             found[part.row.id] = replace(part, text=None, data=None)
+            kept[part.row.id] = to_text(part)
     tests = [found[name] for name in campaign.tests]
     rows = [part.row for part in tests]
     used = Used()
@@ -180,12 +203,21 @@ def _warnings(tests: list[TestRow], specimens: list[SpecimenPage]) -> list[probl
     return problems.warning_groups(given)
 
 
-def _blocks(campaign: Campaign, layout: Layout, outdated: Collection[str]) -> list[list[Asked]]:
-    """Part the tests into blocks, each with the records and neighbours of its tests."""
-    ids = [None, *campaign.tests, None]
-    records = records_of_tests(campaign, read_summary(layout))
-    asked = [
-        Asked(test, before, after, records[test], test in outdated)
-        for before, test, after in zip(ids, campaign.tests, ids[2:], strict=False)
-    ]
-    return [asked[start : start + IN_A_BLOCK] for start in range(0, len(asked), IN_A_BLOCK)]
+def _with(campaign: Campaign, block: Iterable[Asked]) -> Campaign:
+    """Give the campaign with the tests of a block alone, which is light to send to another process."""
+    return replace(campaign, tests={asked.test: campaign.tests[asked.test] for asked in block})
+
+
+def _drawn(layout: Layout, code: str, block: Block) -> list[Part]:
+    campaign, asked = block
+    return parts_of(campaign, layout, code, asked)
+
+
+def _known(campaign: Campaign, every: Iterable[Asked], kept: Mapping[str, str]) -> dict[str, Part]:
+    """Read the parts that are kept; one whose text was altered is left out."""
+    found = {}
+    for asked in every:
+        if asked.test in kept:
+            with suppress(*ALTERED):
+                found[asked.test] = from_text(campaign, asked.test, asked.record, kept[asked.test])
+    return found

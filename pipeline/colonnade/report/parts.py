@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from colonnade.campaign import Campaign
-from colonnade.campaign.summary import TestSummary
 from colonnade.figures.stored import record
 from colonnade.figures.stored.curves import measured_ratio
 from colonnade.report import addresses, channels, pages, specimens_page, tests_page
+from colonnade.report.asked import Asked, shows
 from colonnade.report.channels import ChannelRow
 from colonnade.report.interactive import test_data
 from colonnade.report.methods import Used
@@ -26,17 +26,6 @@ from colonnade.store.results import ResultId
 
 if TYPE_CHECKING:
     import xarray as xr
-
-
-@dataclass(frozen=True)
-class Asked:
-    """A test whose page is asked for: its neighbours, its record, and whether its results are out of date."""
-
-    test: str
-    before: str | None
-    after: str | None
-    record: TestSummary
-    is_outdated: bool
 
 
 @dataclass(frozen=True)
@@ -100,9 +89,9 @@ def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: st
     if stored.has("restitution"):
         free_vibration = specimens_page.free_vibration(row, stored, block)
     address, text, data = addresses.of_test(test.id), None, None
-    made_from = (
-        _recipe(campaign.with_relative_paths(), row, stored, code, (asked.before, asked.after)).key if code else ""
-    )
+    made_from = ""
+    if code:
+        made_from = Recipe("page", code, repr((shows(campaign, asked), row.failures)), stored.keys).key
     written = [layout.report.parent / made for made in (address, addresses.of_data(address))]
     if not made_from or any(made_from != stamps.key_of(path) for path in written):
         page = tests_page.of_test(campaign, row, stored)
@@ -115,13 +104,3 @@ def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: st
 def _channels(layout: Layout, stored: Stored, test: str) -> list[xr.Dataset | None]:
     """Read the channels as recorded and as conditioned again: `stored` keeps none of their samples."""
     return [files.read(layout.path(ResultId(test, stage))) if stored.has(stage) else None for stage in WITHOUT_SAMPLES]
-
-
-def _recipe(
-    campaign: Campaign, row: TestRow, stored: Stored, code: str, neighbours: tuple[str | None, str | None]
-) -> Recipe:
-    """Give all that the page of a test is made from; paths of the campaign are those from its folder."""
-    test = campaign.tests[row.id]
-    around = (campaign.title, campaign.gravity, tuple(campaign.specimens), campaign.processing.predict.models)
-    own = (test, campaign.specimens[test.specimen], campaign.setups[test.setup], campaign.review(test.id))
-    return Recipe("page", code, repr((around, own, row.record, row.failures, neighbours)), stored.keys)

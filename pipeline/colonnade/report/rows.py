@@ -45,9 +45,14 @@ class TestRow:
     def of(cls, campaign: Campaign, test: Test, record: TestSummary, stored: Stored) -> TestRow:
         """Lay the record of a test next to what is stored; a failure that no result holds is the record's."""
         failures = stored.failures or ([Failure("", record.reason or "")] if record.status == "failed" else [])
+        return cls.known(campaign, test, record, tuple(failures))
+
+    @classmethod
+    def known(cls, campaign: Campaign, test: Test, record: TestSummary, failures: tuple[Failure, ...]) -> TestRow:
+        """Make the row of a test whose failures are known."""
         review = campaign.review(test.id)
         models = campaign.processing.predict.models
-        return cls(test, record, models, tuple(failures), bool(review.sentences), review.excluded)
+        return cls(test, record, models, failures, bool(review.sentences), review.excluded)
 
     @property
     def id(self) -> str:

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from functools import partial
 from pathlib import Path
 
 from colonnade.campaign import Campaign
-from colonnade.report.addresses import addresses
+from colonnade.report.addresses import addresses, of_data, of_test
+from colonnade.report.asked import asked_of, shows
 from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
+from colonnade.store.results import results_of
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.execution.spreading import spread
+
+_PART = "part {}"
+"""Name of the report's part of a test among the records that the catalogue keeps."""
 
 MADE_BY = ("colonnade.report", "colonnade.store")
 """Packages whose code makes the pages; what they import counts too."""
@@ -52,10 +57,45 @@ def update_report(
     folder = layout.report.parent
     tests, others = addresses(campaign)
     is_whole = all(catalogue.stamp(folder / page) for page in tests)
+    recipes = _recipes(campaign, layout, catalogue, outdated, recipe.code)
+    kept = _kept(folder, catalogue, recipes)
     if not (is_whole and all(catalogue.stamp(folder / page) == recipe.key for page in others)):
         from colonnade.report.build import build
 
-        build(campaign, layout, outdated, code=recipe.code, key=recipe.key, spread=partial(spread, workers=workers))
+        spread_out = partial(spread, workers=workers)
+        build(campaign, layout, outdated, code=recipe.code, key=recipe.key, kept=kept, spread=spread_out)
+        for test, text in kept.items():
+            catalogue.remember(_PART.format(test), recipes[test], text)
         for page in (*tests, *others):
             catalogue.stamp(folder / page)
     return layout.report
+
+
+def _recipes(
+    campaign: Campaign, layout: Layout, catalogue: Catalogue, outdated: Collection[str], code: str
+) -> dict[str, Recipe]:
+    """Give what the report's part of each test is made from."""
+    return {
+        asked.test: Recipe(
+            "part",
+            code,
+            shows(campaign, asked),
+            {
+                str(result): catalogue.content(layout.path(result))
+                for result in results_of(campaign, campaign.tests[asked.test])
+            },
+        )
+        for asked in asked_of(campaign, layout, outdated)
+    }
+
+
+def _kept(folder: Path, catalogue: Catalogue, recipes: Mapping[str, Recipe]) -> dict[str, str]:
+    """Give the parts of tests that are as they were, if their pages are there."""
+    found = {}
+    for test, recipe in recipes.items():
+        text = catalogue.record(_PART.format(test), recipe)
+        pages = of_test(test), of_data(of_test(test))
+        # The first line of a part is the key of its pages.
+        if text is not None and all(catalogue.stamp(folder / page) == text.partition("\n")[0] for page in pages):
+            found[test] = text
+    return found

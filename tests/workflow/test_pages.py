@@ -1,0 +1,54 @@
+"""The report after a change: only what changed is read and drawn again, and all pages are as if all were new."""
+
+from __future__ import annotations
+
+import shutil
+
+import pytest
+
+from colonnade.report import parts
+
+
+@pytest.fixture
+def read_again(monkeypatch):
+    """Ids of the tests whose results the report reads."""
+    tests: list[str] = []
+    read = parts.read_test
+    monkeypatch.setattr(parts, "read_test", lambda *given, **more: tests.append(given[2].id) or read(*given, **more))
+    return tests
+
+
+def pages(small):
+    folder = small.layout.report.parent
+    return {path.relative_to(folder).as_posix(): path.read_text() for path in folder.rglob("*.html")}
+
+
+def test_of_one_changed_test_alone_the_results_are_read(small, read_again):
+    small.change_a_sample("pulse-01")
+    small.run(until="report")
+    assert read_again == ["pulse-01"]
+    by_parts = pages(small)
+    shutil.rmtree(small.layout.report.parent)
+    small.layout.catalogue.unlink()
+    small.run(until="report")
+    assert set(read_again[1:]) == {"free-01", "free-02", "pulse-01", "pulse-02"}
+    assert pages(small) == by_parts
+
+
+def test_a_page_that_is_gone_or_altered_is_drawn_again(small, read_again):
+    folder = small.layout.report.parent / "tests"
+    before = pages(small)
+    (folder / "pulse-01.html").unlink()
+    page = folder / "pulse-02.html"
+    page.write_text(page.read_text().replace("rocking", "rolling", 1))
+    small.run(until="report")
+    assert sorted(read_again) == ["pulse-01", "pulse-02"]
+    assert pages(small) == before
+
+
+def test_what_is_kept_outlasts_a_run_without_any_change(small, read_again):
+    small.run(until="report")
+    assert read_again == []
+    small.change_a_sample("pulse-02")
+    small.run(until="report")
+    assert read_again == ["pulse-02"]
