@@ -12,7 +12,7 @@ from typing import NamedTuple
 PACKAGE = Path(__file__).parent
 """Folder of the package."""
 
-_SUFFIXES = (".py", ".jinja", ".css", ".js", ".mplstyle")
+_SUFFIXES = (".py", ".jinja", ".css", ".js", ".mplstyle", ".typ")
 
 
 class _Module(NamedTuple):

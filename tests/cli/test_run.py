@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import zipfile
 
 import pytest
 
@@ -146,3 +147,16 @@ def test_a_log_gets_a_line_of_progress_now_and_then(capsys, monkeypatch):
         "Reading raw files: 2 of 5 after 11 s",
         "Reading raw files: 4 of 5 after 22 s",
     ]
+
+
+def test_the_report_is_typeset_and_bundled_if_asked(colonnade, campaign, tmp_path):
+    asked = ("report", "--workers", "1", "--pdf", "--bundle", "all.zip")
+    told = colonnade(*asked)
+    assert told.returncode == 0
+    assert told.stdout.endswith(f"pdf: {campaign / 'report' / 'report.pdf'}\nbundle: all.zip\n")
+    with zipfile.ZipFile("all.zip") as archive:
+        assert "report/report.pdf" in archive.namelist()
+    before = times(campaign)
+    said = json.loads(colonnade(*asked, "--json").stdout)
+    assert (said["pdf"], said["bundle"]) == (str(campaign / "report" / "report.pdf"), "all.zip")
+    assert {path for path, time in times(campaign).items() if time != before[path]} <= {campaign / "all.zip"}

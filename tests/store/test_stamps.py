@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.store.stamps import key_of, stamped
+from colonnade.store.stamps import key_of, stamped, stamped_pdf
 
 
 @given(st.text(st.characters(codec="utf-8")), st.text("0123456789abcdef", min_size=1, max_size=64), st.booleans())
@@ -28,3 +28,12 @@ def test_the_last_stamp_counts(tmp_path):
     path = tmp_path / "page.html"
     path.write_text(stamped(stamped("<html></html>\n", "ab"), "cd"))
     assert key_of(path) == "cd"
+
+
+@given(st.binary(), st.text("0123456789abcdef", min_size=1, max_size=64))
+def test_a_stamped_pdf_says_what_it_was_made_from(tmp_path_factory, data, key):
+    path = tmp_path_factory.mktemp("pdf") / "report.pdf"
+    path.write_bytes(stamped_pdf(data, key))
+    assert key_of(path) == key
+    path.write_bytes(b"x" + path.read_bytes())
+    assert key_of(path) == ""

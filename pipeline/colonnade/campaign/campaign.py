@@ -127,8 +127,8 @@ class Campaign:
         return {name: channel for name, channel in channels.items() if channel.recorder in test.files}
 
     def concerning(self, test: str) -> tuple[Finding, ...]:
-        """Warnings about a test's specimen or set-up."""
-        tables = (f"specimens.{self.tests[test].specimen}", f"setups.{self.tests[test].setup}")
+        """Warnings about a test's specimen or set-up, or the test itself."""
+        tables = (f"specimens.{self.tests[test].specimen}", f"setups.{self.tests[test].setup}", f"tests.{test}")
         return tuple(found for found in self.warnings if found.about in tables)
 
 

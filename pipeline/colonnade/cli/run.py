@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
 from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -38,11 +39,21 @@ if TYPE_CHECKING:
 @work_options
 def run(campaign: Path, *, as_json: bool, strict: bool, **choices: Any) -> int:
     """Run a campaign, with the choices of `colonnade.workflow.run`, and show what was done; return the exit code."""
+    return _run_and_show(campaign, {}, as_json=as_json, strict=strict, **choices)
+
+
+def _run_and_show(
+    campaign: Path, documents: Mapping[str, Callable[[], Path]], *, as_json: bool, strict: bool, **choices: Any
+) -> int:
+    """Run a campaign, write the documents that are asked for, and show what was done; return the exit code."""
     result = run_with_progress(campaign, **choices)
+    written = {name: write() for name, write in documents.items()}
     if as_json:
-        show_json(_record(result))
+        show_json(_record(result) | written)
     else:
         show_result(result)
+        for name, path in written.items():
+            say(f"{name}: {path}")
     return int(result.failed or (strict and result.has_warnings))
 
 
@@ -84,13 +95,36 @@ predict = _up_to(
     "colonnade predict demo --only span-2.5",
 )
 
-report = _up_to(
-    "report",
-    "report",
-    "Make the report, after the stages that it needs.",
-    "Writes report/index.html next to campaign.toml, with a page for each test and specimen, even if tests failed.",
-    "colonnade report demo",
+
+@click.command(
+    epilog="Example: colonnade report demo --pdf --bundle demo-report.zip",
+    help=f"""
+    Make the report, after the stages that it needs.
+
+    {CAMPAIGN}
+
+    Writes report/index.html next to campaign.toml, with a page for each test and specimen, even if tests failed.
+    """,
 )
+@campaign_argument
+@click.option("--pdf", "with_pdf", is_flag=True, help="Also typeset the report as report/report.pdf.")
+@click.option(
+    "--bundle",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE.zip",
+    help="Also put the whole report into one zip file, to be sent or kept.",
+)
+@work_options
+def report(campaign: Path, *, with_pdf: bool, bundle: Path | None, results: Path | None, **choices: Any) -> int:
+    """Run a campaign as far as the report, and write its PDF and its bundle if they are asked for."""
+    from colonnade.workflow.documents import write_bundle, write_pdf
+
+    documents: dict[str, Callable[[], Path]] = {}
+    if with_pdf:
+        documents["pdf"] = partial(write_pdf, campaign, results=results)
+    if bundle is not None:
+        documents["bundle"] = partial(write_bundle, campaign, bundle, results=results)
+    return _run_and_show(campaign, documents, until="report", results=results, **choices)
 
 
 def run_with_progress(campaign: Path, **choices: Any) -> RunResult:

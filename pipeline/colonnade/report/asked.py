@@ -7,28 +7,31 @@ from dataclasses import dataclass, replace
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.summary import TestSummary
+from colonnade.report.photos import Photos, photos_of
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import read_summary, records_of_tests
 
 
 @dataclass(frozen=True)
 class Asked:
-    """A test whose page is asked for: its neighbours, its record, and whether its results are out of date."""
+    """A test whose page is asked for: its neighbours, its record, its photos, and whether its results are out of date."""
 
     test: str
     before: str | None
     after: str | None
     record: TestSummary
     is_outdated: bool
+    photos: Photos = Photos()
 
 
 def asked_of(campaign: Campaign, layout: Layout, outdated: Collection[str] = ()) -> list[Asked]:
     """Ask for the page of each test: with its record and its neighbours."""
     ids = [None, *campaign.tests, None]
     records = records_of_tests(campaign, read_summary(layout))
+    folder = layout.report.parent
     return [
-        Asked(test, before, after, records[test], test in outdated)
-        for before, test, after in zip(ids, campaign.tests, ids[2:], strict=False)
+        Asked(test.id, before, after, records[test.id], test.id in outdated, photos_of(campaign, test, folder))
+        for before, test, after in zip(ids, campaign.tests.values(), ids[2:], strict=False)
     ]
 
 
@@ -36,6 +39,7 @@ def shows(campaign: Campaign, asked: Asked) -> str:
     """Write all of the campaign that the page of a test shows; paths are those from the campaign's folder."""
     campaign = replace(campaign, tests={asked.test: campaign.tests[asked.test]}).with_relative_paths()
     test = campaign.tests[asked.test]
-    around = (campaign.title, campaign.gravity, tuple(campaign.specimens), campaign.processing.predict.models)
+    place = (campaign.title, campaign.facility, campaign.gravity)
+    around = (place, tuple(campaign.specimens), campaign.processing.predict.models)
     own = (test, campaign.specimens[test.specimen], campaign.setups[test.setup], campaign.review(test.id))
     return repr((around, own, asked))

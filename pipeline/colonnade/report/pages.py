@@ -13,6 +13,7 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.settings import Setting
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.figures.output import Picture, link_to
+from colonnade.report import who_and_when
 from colonnade.report.addresses import of_specimen, of_test, scripts_of
 from colonnade.store.records import wording
 
@@ -110,6 +111,7 @@ def renderer_of(campaign: Campaign) -> Renderer:
     """Return the renderer of a campaign's pages."""
     return Renderer(
         campaign=campaign,
+        who_and_when=who_and_when.of_campaign(campaign),
         models=campaign.processing.predict.models,
         registry=MODELS,
         gravity=wording.quantity(campaign.gravity, "m/s²", 5),

@@ -94,7 +94,7 @@ def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: st
         made_from = Recipe("page", code, repr((shows(campaign, asked), row.failures)), stored.keys).key
     written = [layout.report.parent / made for made in (address, addresses.of_data(address))]
     if not made_from or any(made_from != stamps.key_of(path) for path in written):
-        page = tests_page.of_test(campaign, row, stored)
+        page = tests_page.of_test(campaign, row, stored, asked.photos)
         text = renderer.page("test", address, test=page, before=asked.before, after=asked.after)
         data = test_data.of_test(campaign, test, stored, renderer.pictures, *_channels(layout, stored, test.id))
     thumbnail = thumbnails.polyline(measured_ratio(stored, block))

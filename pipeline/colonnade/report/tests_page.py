@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from colonnade.campaign import Campaign
-from colonnade.report import channels, drawings
+from colonnade.report import channels, drawings, who_and_when
 from colonnade.report.channels import ChannelRow
 from colonnade.report.drawings import Drawing
+from colonnade.report.photos import Photos
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page import decay, done, found, spread
 from colonnade.report.test_page.decay import Decay
@@ -26,6 +27,7 @@ class TestPage:
     row: TestRow
     stored: Stored
     review: list[str]
+    photos: Photos
     done: Done
     drawing: Drawing
     found: Found
@@ -34,14 +36,15 @@ class TestPage:
     channels: tuple[ChannelRow, ...]
 
 
-def of_test(campaign: Campaign, row: TestRow, stored: Stored) -> TestPage:
+def of_test(campaign: Campaign, row: TestRow, stored: Stored, shown: Photos) -> TestPage:
     """Put all that is stored of a test into words and figures."""
     test, block = row.test, campaign.block(row.test.specimen)
     return TestPage(
         row=row,
         stored=stored,
         review=stored.texts("ingest", "review") or list(campaign.review(test.id).sentences),
-        done=done.of_test(row, stored),
+        photos=shown,
+        done=done.of_test(row, stored, who_and_when.of_test(campaign, test)),
         drawing=drawings.of_setup(campaign, test.specimen, test.setup),
         found=found.of_test(row, stored, block, campaign.specimens[test.specimen].scale),
         spread=spread.of_test(row, stored, block),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from datetime import date
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from colonnade.findings import Finding
 from colonnade.readers.recording import RecordedChannel, Recording, Window
 from colonnade.signals import quality, timing
 from colonnade.signals.parallel import side_by_side
+from colonnade.stages.parts import dates
 from colonnade.stages.parts.columns import dimension_of, find_column, rounding, too_short, unit_findings, within
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.quality import (
@@ -43,6 +45,8 @@ class IngestInputs(Inputs):
         How each recorder's file is read: format and options, which the reader has used.
     sampling_rates : dict
         Hz by recorder, where the file has no time column.
+    day : date or None
+        The day of the test.
     review : Review
         What people decided about the test; its corrections are in the channels' factors, its trim in the window.
     """
@@ -51,6 +55,7 @@ class IngestInputs(Inputs):
     sampling_rates: dict[str, float | None]
     channels: dict[str, ChannelInputs]
     window: tuple[float, float] | None
+    day: date | None = None
     review: Review = Review()
     settings: QualitySettings
 
@@ -77,6 +82,7 @@ class IngestInputs(Inputs):
                 for name, channel in campaign.channels(test).items()
             },
             window=review.within(test.window),
+            day=test.date,
             review=review,
             settings=campaign.processing,
         )
@@ -106,6 +112,7 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
         If a column is not in its file.
     """
     warnings = [Finding.of(each, RAW_FILE) for recording in recordings.values() for each in recording.warnings]
+    warnings += dates.contradictions(recordings, inputs.day)
     stamps: dict[str, Array] = {}
     timed: dict[str, list[quality.Verdict]] = {}
     tracks: list[_Track] = []
@@ -136,7 +143,7 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
     dataset = xr.Dataset(
         variables,
         coords={dimension: (dimension, time) for dimension, time in stamps.items()},
-        attrs={"notes": "; ".join(_notes(recordings))},
+        attrs={"notes": "; ".join(_notes(recordings)), "recorded_at": dates.recorded_at(recordings)},
     )
     dataset = flag_dead_on_specimen(dataset, inputs.channels, warnings)
     dataset.attrs["warnings"] = warnings

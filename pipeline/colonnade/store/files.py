@@ -16,7 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import IO, Any, TypeVar
 
 import netCDF4
 import xarray as xr
@@ -190,6 +190,25 @@ def write_bytes(path: Path, data: bytes | memoryview) -> None:
     _put(path, data)
 
 
+def write_stream(path: Path, write_to: Callable[[IO[bytes]], object]) -> None:
+    """
+    Let a long file be written piece by piece, whole or not at all.
+
+    Raises
+    ------
+    StoreError
+        If it cannot be written.
+    """
+
+    def write_partial(partial: Path) -> None:
+        with partial.open("wb") as stream:
+            write_to(stream)
+            stream.flush()
+            os.fsync(stream.fileno())
+
+    _in_one_step(path, write_partial)
+
+
 def remove(path: Path) -> bool:
     """Remove a file if it exists; return whether it did."""
     _expect_permit()
@@ -272,13 +291,7 @@ def _put_long(path: Path, dataset: xr.Dataset) -> str:
 
 
 def _put(path: Path, data: bytes | memoryview) -> None:
-    def write_to(partial: Path) -> None:
-        with partial.open("wb") as stream:
-            stream.write(data)
-            stream.flush()
-            os.fsync(stream.fileno())
-
-    _in_one_step(path, write_to)
+    write_stream(path, lambda stream: stream.write(data))
 
 
 def _in_one_step(path: Path, write_to: Callable[[Path], Result]) -> Result:

@@ -67,6 +67,11 @@ class Layout:
         return self.home / "report" / "index.html"
 
     @property
+    def pdf(self) -> Path:
+        """The report on paper."""
+        return self.report.with_name("report.pdf")
+
+    @property
     def summary_json(self) -> Path:
         """A record a test, for machines."""
         return self.processed / "summary.json"

@@ -33,7 +33,7 @@ _CIRCUMSTANCES = frozenset(
         *("history", "date_created", "standard_name_vocabulary", "colonnade_version", "stage", "test", "specimen"),
         *("time_coverage_duration", "time_coverage_resolution", "time_coverage_start", "time_coverage_end"),
         *("status", "key", "ingredients", "settings", "content"),
-        *("raw_files", "raw_sha256", "notes", "warnings", "review"),
+        *("raw_files", "raw_sha256", "notes", "warnings", "review", "recorded_at"),
     }
 )
 

@@ -28,7 +28,7 @@ OWN_CODE_ONLY = ("colonnade.campaign", "colonnade.store", "colonnade.workflow")
 Mark = tuple[int, int, int]
 """Size (bytes), time (ns) and inode of a file. A file that replaces another by a rename has another inode."""
 
-_KINDS = ("raw", "results", "pages", "records", "code")
+_KINDS = ("raw", "results", "pages", "photos", "records", "code")
 
 
 def mark_of(path: Path) -> Mark:
@@ -69,7 +69,7 @@ class Catalogue:
         Parameters
         ----------
         kind : str
-            raw, results or pages.
+            raw, results, pages or photos.
         path : Path
         ask : callable
             Opens the file and returns what it holds, as JSON can hold it.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -14,6 +14,7 @@ from colonnade.interruption import expect_none
 from colonnade.readers.recording import Recording
 from colonnade.store.results import models_of
 from colonnade.workflow.copies import digests_of_equal_sizes, with_copies
+from colonnade.workflow.photos import unshown_photos
 
 
 @dataclass
@@ -102,6 +103,7 @@ def check(campaign: Campaign, progress: Callable[[int, int], None] = lambda done
         return read(path, file.format, file.options, within=campaign.folder)
 
     campaign = with_copies(campaign, digests_of_equal_sizes(campaign))
+    campaign = replace(campaign, warnings=(*campaign.warnings, *unshown_photos(campaign)))
     found: dict[str, Checked] = {}
     for name, test in campaign.tests.items():
         progress(len(found), len(campaign.tests))

@@ -16,6 +16,7 @@ from colonnade.workflow.copies import Digests, with_copies
 from colonnade.workflow.execution.lock import only_run
 from colonnade.workflow.outcome import RunResult
 from colonnade.workflow.pages import update_report
+from colonnade.workflow.photos import with_photos
 from colonnade.workflow.raw_files import RawFiles, raw_files
 from colonnade.workflow.steps import Graph
 from colonnade.workflow.summary import write_summary
@@ -105,6 +106,7 @@ def run(
         report = None
         if last == "report":
             walk.map(summary.tests)
+            loaded = with_photos(loaded, layout, catalogue)
             report = update_report(loaded, layout, catalogue, outdated, workers)
         catalogue.save()
     concerning = {name: loaded.concerning(name) for name in loaded.tests}

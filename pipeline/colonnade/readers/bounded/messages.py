@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import IO, Annotated, Any, Literal
 
 import numpy as np
-from pydantic import AfterValidator, BaseModel, ConfigDict, NonNegativeInt
+from numpy.typing import NDArray
+from pydantic import AfterValidator, BaseModel, ConfigDict, NonNegativeInt, PositiveInt
 
 from colonnade.arrays import Array
 from colonnade.readers.bounded.bounds import Bounds
@@ -52,7 +53,7 @@ class Request:
     Attributes
     ----------
     wanted : str
-        What it holds, or the names of the other files that it is in.
+        What it holds, the names of the other files that it is in, or the pixels of a photo.
     path, within : str
         The file, and the folder whose files may be read.
     format : str
@@ -61,7 +62,7 @@ class Request:
     bounds : Bounds
     """
 
-    wanted: Literal["recording", "companions"]
+    wanted: Literal["recording", "companions", "photo"]
     path: str
     within: str
     format: str
@@ -123,6 +124,7 @@ class Answer(BaseModel):
     hint: Text = ""
     left_out: tuple[tuple[Text, Text], ...] = ()
     columns: tuple[Column, ...] = ()
+    photo: tuple[PositiveInt, PositiveInt] | None = None
     sizes: tuple[NonNegativeInt, ...] = ()
 
 
@@ -162,6 +164,35 @@ def told(recording: Recording) -> tuple[Answer, list[Array]]:
     )
     same = {name: getattr(recording, name) for name in _SAME}
     return Answer(**same, columns=columns, sizes=tuple(array.size for array in arrays)), arrays
+
+
+def pixels_told(pixels: NDArray[np.uint8]) -> tuple[Answer, list[Array]]:
+    """Send a photo's pixels, three bytes each, as if they were numbers of eight bytes."""
+    height, width, _ = pixels.shape
+    packed = np.zeros(_packed_size(height, width))
+    packed.view(np.uint8)[: pixels.size] = pixels.ravel()
+    return Answer(photo=(height, width), sizes=(packed.size,)), [packed]
+
+
+def pixels_of(answer: Answer, arrays: list[Array], largest_side: int) -> NDArray[np.uint8]:
+    """
+    Take a photo's pixels out of an answer.
+
+    Raises
+    ------
+    BrokenAnswerError
+        If there is none, or it is larger than was asked for.
+    """
+    if answer.photo is None or len(arrays) != 1 or max(answer.photo) > largest_side:
+        raise BrokenAnswerError("the answer is no photo")
+    height, width = answer.photo
+    if arrays[0].size != _packed_size(height, width):
+        raise BrokenAnswerError("the photo is not whole")
+    return arrays[0].view(np.uint8)[: 3 * height * width].reshape(height, width, 3)
+
+
+def _packed_size(height: int, width: int) -> int:
+    return -(-3 * height * width // 8)
 
 
 def receive(stream: IO[bytes], largest: int) -> tuple[Answer, list[Array]]:

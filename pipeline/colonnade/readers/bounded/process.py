@@ -20,6 +20,7 @@ from colonnade.errors import ReadError
 from colonnade.readers.bounded import messages
 from colonnade.readers.bounded.bounds import MEGABYTE, bounds_of
 from colonnade.readers.bounded.messages import Answer, BrokenAnswerError, EndedError, Request
+from colonnade.readers.photo import LARGEST_SIDE, Pixels
 from colonnade.readers.recording import Recording
 
 START = 120.0
@@ -83,6 +84,23 @@ def companions(request: Request) -> tuple[Path, ...]:
     if any(name in ("", "..") or name != PureWindowsPath(name).name or "\0" in name for name in names):
         raise _crash(request, 0)
     return tuple(Path(request.path).with_name(name) for name in dict.fromkeys(names))
+
+
+def decode(path: Path, within: Path) -> Pixels:
+    """
+    Decode a photo in the bounded process.
+
+    Raises
+    ------
+    ReadError
+        If the photo is refused, or decoding it crashes, swells or does not end.
+    """
+    request = Request("photo", str(path.absolute()), str(within), "photo", {}, None, bounds_of(path))
+    answer, arrays = _answer(request)
+    try:
+        return messages.pixels_of(answer, arrays, LARGEST_SIDE)
+    except BrokenAnswerError:
+        raise _crash(request, 0) from None
 
 
 def _answer(request: Request) -> tuple[Answer, list[Array]]:

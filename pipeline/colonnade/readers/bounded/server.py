@@ -14,6 +14,7 @@ from typing import IO, Any
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
+from colonnade.readers import photo
 from colonnade.readers.bounded import messages
 from colonnade.readers.bounded.enclosure import enclose, limit, own_folders, watch
 from colonnade.readers.bounded.messages import Answer, Request
@@ -46,7 +47,7 @@ def serve(requests: IO[bytes], answers: IO[bytes], handle: Callable[[Request, IO
     while line := requests.readline():
         request = Request.of(line)
         format = formats().get(request.format)
-        for module in () if format is None else format.modules:
+        for module in photo.MODULES if request.wanted == "photo" else () if format is None else format.modules:
             import_module(module)
         handle(request, requests, answers)
 
@@ -93,6 +94,8 @@ def _answer(request: Request) -> tuple[Answer, list[Array]]:
 
     path = Path(request.path)
     try:
+        if request.wanted == "photo":
+            return messages.pixels_told(photo.decode_here(path))
         if request.wanted == "companions":
             return Answer(companions=companions_here(path, request.format, request.options)), []
         return messages.told(read_here(path, request.format, request.options, request.window))

@@ -166,7 +166,7 @@ def _as_times(column: Column, unit: str | None) -> tuple[Array, datetime | None,
 
 
 def _moment(text: str, later: float) -> datetime | None:
-    """Date and time, in UTC, `later` s after the one that is written."""
+    """Date and time, `later` s after the one that is written, in its zone; without one it is in UTC, as CF says."""
     import pandas as pd
 
     try:
@@ -174,8 +174,8 @@ def _moment(text: str, later: float) -> datetime | None:
         moment = origin + pd.Timedelta(later, unit="s")
     except (ValueError, OverflowError):
         return None
-    zoned = moment.tz_localize("UTC") if moment.tzinfo is None else moment.tz_convert("UTC")
-    return zoned.to_pydatetime(warn=False).astimezone(UTC)
+    zoned = moment.tz_localize(UTC) if moment.tzinfo is None else moment
+    return zoned.to_pydatetime(warn=False)
 
 
 FORMAT = Format(

@@ -20,9 +20,10 @@ class Done:
     notes: list[str]
 
 
-def of_test(row: TestRow, stored: Stored) -> Done:
-    """Say what was asked for, and what the readers noted."""
-    return Done(known(_facts(row)), _notes(stored))
+def of_test(row: TestRow, stored: Stored, who_and_when: list[Fact]) -> Done:
+    """Say where, when and by whom the test was done, what was asked for, and what the readers noted."""
+    recorded = [("recorded", stored.text("ingest", "recorded_at"))]
+    return Done([*who_and_when, *known([*recorded, *_facts(row)])], _notes(stored))
 
 
 def _facts(row: TestRow) -> list[Fact]:

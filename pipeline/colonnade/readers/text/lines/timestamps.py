@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from datetime import datetime
+import re
+from contextlib import suppress
+from datetime import datetime, timedelta, timezone
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +16,7 @@ if TYPE_CHECKING:
 DAY = 86400.0
 DATED = r"\d+[-/.]\d+[-/.]\d+[T ]"
 DOTTED = r"^(\d{1,2})\.(\d{1,2})\.(\d{4})"
-ZONED = r"(?:Z|:\d{2}(?:\.\d+)?\s?[+-]\d{2}:?\d{2})$"
+ZONED = r"(?::\d{2}(?:\.\d+)?\s?)(Z|[+-]\d{2}:?\d{2})$"
 
 
 class Timestamps:
@@ -27,7 +29,7 @@ class Timestamps:
     Attributes
     ----------
     start : datetime or None
-        The first timestamp; in UTC if it has a zone; None for times of day.
+        The first timestamp, in its own zone if it has one; None for times of day.
     """
 
     def __init__(self) -> None:
@@ -65,11 +67,21 @@ class Timestamps:
             self._origin = int(whole[first])
             if dated:
                 moment = moments.iloc[first].to_pydatetime(warn=False)
-                zoned = bool(pd.Series([texts.iloc[first]]).str.contains(ZONED).iloc[0])
-                self.start = moment if zoned else moment.replace(tzinfo=None)
+                zone = re.search(ZONED, texts.iloc[first])
+                self.start = _in_zone(moment, zone[1]) if zone else moment.replace(tzinfo=None)
         seconds = np.full(whole.shape, np.nan)
         seconds[known] = (whole[known] - (self._origin or 0)) / 1e6
         return seconds
+
+
+def _in_zone(moment: datetime, zone: str) -> datetime:
+    """Give an instant in the zone that is written, `Z`, `+02:00` or `-0330`; one that no clock has stays in UTC."""
+    if zone == "Z":
+        return moment
+    offset = timedelta(hours=int(zone[1:3]), minutes=int(zone[-2:]))
+    with suppress(ValueError, OverflowError):
+        return moment.astimezone(timezone(-offset if zone[0] == "-" else offset))
+    return moment
 
 
 def past_midnight(seconds: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,0 +1,47 @@
+"""Where, when and by whom a campaign's tests were done."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from colonnade.campaign import Campaign, Test
+from colonnade.report.test_page.facts import Fact, known
+from colonnade.store.records.wording import listed
+
+MOST_NAMED = 12
+"""Operators that are named."""
+
+
+def of_campaign(campaign: Campaign) -> list[Fact]:
+    """Give facility, days and operators, as far as they are known."""
+    tests = list(campaign.tests.values())
+    operators = list(dict.fromkeys(test.operator for test in tests if test.operator))
+    return known(
+        [
+            ("facility", campaign.facility or ""),
+            ("tested", days(tests)),
+            ("operator" if len(operators) == 1 else "operators", listed(operators, MOST_NAMED)),
+        ]
+    )
+
+
+def of_test(campaign: Campaign, test: Test) -> list[Fact]:
+    """Give facility, day and operator of one test, as far as they are known."""
+    day = test.date.isoformat() if test.date else ""
+    return known([("facility", campaign.facility or ""), ("date", day), ("operator", test.operator or "")])
+
+
+def days(tests: Iterable[Test]) -> str:
+    """
+    Write the first and the last day of tests; empty if no day is known.
+
+    Examples
+    --------
+    >>> days([])
+    ''
+    """
+    known_days = sorted(test.date for test in tests if test.date)
+    if not known_days:
+        return ""
+    first, last = known_days[0].isoformat(), known_days[-1].isoformat()
+    return first if first == last else f"{first} to {last}"

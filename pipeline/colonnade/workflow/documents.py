@@ -1,0 +1,89 @@
+"""The report as one file: a PDF, made only when what it shows changed, and a bundle of all pages."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+
+from colonnade.campaign import load
+from colonnade.errors import StoreError
+from colonnade.report import addresses, who_and_when
+from colonnade.store import bundle, files, stamps
+from colonnade.store.freshness import Recipe
+from colonnade.store.layout import Layout
+from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.execution.lock import only_run
+
+MADE_BY = ("colonnade.report.paper",)
+"""What the PDF is made by."""
+
+SHOWN = ("photos/*.jpg", "setups/*.svg")
+"""Files of the report that pages show."""
+
+
+def write_pdf(campaign: Path | str, *, results: Path | str | None = None) -> Path:
+    """
+    Typeset the report of a campaign as a PDF, unless it is there and shows the pages as they are.
+
+    Parameters
+    ----------
+    campaign : Path or str
+        A campaign.toml or its folder; its report is up to date.
+    results : Path or str, optional
+        Folder that holds `processed` and `report`; default that of the campaign file.
+
+    Returns
+    -------
+    pdf : Path
+
+    Raises
+    ------
+    CampaignError
+        If the campaign file is not usable.
+    StoreError
+        If there is no report, another run is under way, or the PDF cannot be written.
+    """
+    loaded = load(Path(campaign))
+    layout = Layout.of(loaded.folder, results)
+    with only_run(layout):
+        folder = _there(layout)
+        from colonnade.report.paper.typesetting import pdf_of, template_hash
+
+        pages = {page: stamps.key_of(folder / page) for found in addresses.addresses(loaded) for page in found}
+        shown = [template_hash(), loaded.title, loaded.campaign, who_and_when.of_campaign(loaded)]
+        pictures = {path.name: _hash(path) for pattern in SHOWN for path in sorted(folder.glob(pattern))}
+        recipe = Recipe("pdf", Catalogue(layout).code(MADE_BY), json.dumps(shown), pages | pictures)
+        if stamps.key_of(layout.pdf) != recipe.key:
+            files.write_bytes(layout.pdf, stamps.stamped_pdf(pdf_of(loaded, folder), recipe.key))
+    return layout.pdf
+
+
+def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | str | None = None) -> Path:
+    """
+    Put the whole report of a campaign into one zip file; `campaign`, `results` and errors as for `write_pdf`.
+
+    Parameters
+    ----------
+    target : Path or str
+        The file, with the ending .zip; outside the report.
+
+    Returns
+    -------
+    target : Path
+    """
+    layout = Layout.of(load(Path(campaign)).folder, results)
+    with only_run(layout):
+        bundle.write_bundle(_there(layout), Path(target))
+    return Path(target)
+
+
+def _hash(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _there(layout: Layout) -> Path:
+    """Folder of the report; refused where it is not there."""
+    if not layout.report.is_file():
+        raise StoreError(f"{layout.report}: report not found. Run `colonnade report` to make it.")
+    return layout.report.parent

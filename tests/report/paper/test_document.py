@@ -1,0 +1,56 @@
+"""The document: chapters in their order, pictures by name, links only to its own places."""
+
+from __future__ import annotations
+
+from colonnade.report.paper.document import document_of
+
+from .conftest import HOSTILE
+
+
+def test_chapters_are_the_summary_specimens_spans_and_methods(campaign, folder):
+    data = document_of(campaign, folder).data
+    titles = [chapter["title"] for chapter in data["chapters"]]
+    assert titles == ["Summary", "Specimen prism", "El Centro", "Kobe", "Methods"]
+    assert [chapter["equations"] for chapter in data["chapters"]] == [False, False, False, False, True]
+    assert [sheet["title"] for sheet in data["appendix"]] == ["free-01", "free-02"]
+
+
+def test_the_cover_says_who_where_and_when(campaign, folder):
+    data = document_of(campaign, folder).data
+    assert data["title"] == HOSTILE
+    assert data["facts"] == [
+        ("facility", "Ευστάθεια & Söhne"),
+        ("tested", "2013-04-26 to 2013-04-29"),
+        ("operators", "M. Rossi, K. #Papas"),
+    ]
+    assert data["photo"] == {"is": "picture", "file": "photos-free-02-1.jpg", "alt": "it lies", "photo": True}
+
+
+def test_links_lead_to_places_of_the_document_or_nowhere(campaign, folder):
+    (said,) = document_of(campaign, folder).data["chapters"][0]["in"]
+    assert [part["to"] for part in said["in"] if isinstance(part, dict)] == ["tests/free-01.html", ""]
+
+
+def test_each_figure_has_a_file_of_its_own(campaign, folder):
+    document = document_of(campaign, folder)
+    assert list(document.pictures) == ["figure-1.svg", "figure-2.svg"]
+    assert document.files == {"photos-free-02-1.jpg": folder / "photos" / "free-02-1.jpg"}
+    assert "not on paper" not in str(document.data)
+
+
+def test_no_picture_is_taken_from_outside_the_report(campaign, folder, tmp_path):
+    (tmp_path / "secret.jpg").write_bytes(b"secret")
+    (folder / "photos" / "link.jpg").symlink_to(tmp_path / "secret.jpg")
+    page = folder / "tests" / "free-02.html"
+    for source in (
+        "../../secret.jpg",
+        "../index.html",
+        "../photos/../../secret.jpg",
+        "../photos/missing.jpg",
+        "../photos/link.jpg",
+        "/etc/passwd",
+    ):
+        page.write_text(f'<main><section id="photos"><img src="{source}" alt=""></section></main>', encoding="utf-8")
+        document = document_of(campaign, folder)
+        assert document.files == {}
+        assert document.data["photo"] is None

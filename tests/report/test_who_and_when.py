@@ -1,0 +1,63 @@
+"""Where, when and by whom: the span of days, each operator once, and nothing that is not known."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from datetime import date
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from colonnade.report import who_and_when
+
+
+@pytest.fixture
+def campaign(empty_campaign):
+    return replace(empty_campaign[0], facility="Simulator <1>")
+
+
+def dated(campaign, *said):
+    """Give the campaign's first tests a day and an operator each."""
+    tests = {name: test.model_copy(update={"date": None, "operator": None}) for name, test in campaign.tests.items()}
+    for name, (day, who) in zip(tests, said, strict=False):
+        tests[name] = tests[name].model_copy(update={"date": day, "operator": who})
+    return replace(campaign, tests=tests)
+
+
+def test_a_campaign_says_from_when_to_when_and_names_each_operator_once(campaign):
+    first, last = date(2013, 4, 26), date(2013, 5, 2)
+    said = who_and_when.of_campaign(dated(campaign, (last, "K. Papas"), (first, "M. Rossi"), (last, "K. Papas")))
+    assert said == [
+        ("facility", "Simulator <1>"),
+        ("tested", "2013-04-26 to 2013-05-02"),
+        ("operators", "K. Papas, M. Rossi"),
+    ]
+
+
+def test_one_day_and_one_operator_are_one(campaign):
+    said = who_and_when.of_campaign(dated(campaign, *[(date(2013, 4, 26), "M. Rossi")] * 3))
+    assert said[1:] == [("tested", "2013-04-26"), ("operator", "M. Rossi")]
+
+
+def test_what_is_not_known_is_not_shown(campaign):
+    assert who_and_when.of_campaign(replace(dated(campaign), facility=None)) == []
+    unknown = dated(campaign)
+    assert who_and_when.of_test(unknown, next(iter(unknown.tests.values()))) == [("facility", "Simulator <1>")]
+
+
+def test_a_test_says_its_own_day_and_operator(campaign):
+    told = dated(campaign, (date(2013, 4, 26), "M. Rossi"))
+    test = next(iter(told.tests.values()))
+    assert who_and_when.of_test(told, test)[1:] == [("date", "2013-04-26"), ("operator", "M. Rossi")]
+
+
+@given(st.lists(st.none() | st.dates(date(1900, 1, 1), date(2100, 12, 31)), min_size=1))
+def test_the_days_of_tests_are_from_the_first_to_the_last(days):
+    class Dated:
+        def __init__(self, day):
+            self.date = day
+
+    known = sorted(day for day in days if day)
+    said = who_and_when.days(map(Dated, days))
+    assert said.split(" to ") == ([day.isoformat() for day in dict.fromkeys([known[0], known[-1]])] if known else [""])

@@ -1,0 +1,64 @@
+"""The report as one file: typeset once, again only when what it shows changed, and refused without a report."""
+
+from __future__ import annotations
+
+import shutil
+import zipfile
+
+import pytest
+
+from colonnade.errors import StoreError
+from colonnade.store import stamps
+from colonnade.workflow.documents import write_bundle, write_pdf
+
+
+@pytest.fixture(scope="module")
+def folder(undisturbed, tmp_path_factory):
+    """The small campaign with its report, without raw files."""
+    folder = tmp_path_factory.mktemp("documents") / "small"
+    return shutil.copytree(undisturbed.folder, folder, ignore=shutil.ignore_patterns("raw"))
+
+
+@pytest.fixture(scope="module")
+def pdf(folder):
+    return write_pdf(folder)
+
+
+def test_the_pages_of_a_real_report_are_typeset(folder, pdf):
+    assert pdf == folder.resolve() / "report" / "report.pdf"
+    assert pdf.read_bytes().startswith(b"%PDF-")
+    assert stamps.key_of(pdf)
+
+
+def test_it_is_typeset_again_only_if_a_page_changed(folder, pdf):
+    before = pdf.stat()
+    write_pdf(folder)
+    assert pdf.stat() == before
+    page = folder / "report" / "methods.html"
+    text = page.read_text(encoding="utf-8")
+    page.write_text(stamps.stamped(text, "abc"), encoding="utf-8")
+    write_pdf(folder)
+    assert pdf.stat().st_mtime_ns > before.st_mtime_ns
+    page.write_text(text, encoding="utf-8")
+
+
+def test_an_altered_pdf_is_made_again(folder, pdf):
+    whole = write_pdf(folder).read_bytes()
+    pdf.write_bytes(whole[:1000] + whole[2000:])
+    assert write_pdf(folder).read_bytes() == whole
+
+
+def test_the_bundle_holds_the_whole_report(folder, pdf, tmp_path):
+    with zipfile.ZipFile(write_bundle(folder, tmp_path / "all.zip")) as archive:
+        names = set(archive.namelist())
+    pages = {path for path in (folder / "report").rglob("*") if path.is_file()}
+    assert names == {path.relative_to(folder).as_posix() for path in pages}
+    assert {"report/index.html", "report/report.pdf"} <= names
+
+
+@pytest.mark.parametrize("write", [write_pdf, lambda folder: write_bundle(folder, folder / "all.zip")])
+def test_without_a_report_there_is_nothing_to_take_along(folder, tmp_path, write):
+    shutil.copy(folder / "campaign.toml", tmp_path)
+    with pytest.raises(StoreError, match="report not found"):
+        write(tmp_path)
+    assert not (tmp_path / "all.zip").exists()
