@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
+from colonnade.store.layout import Layout
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.wording import number, quantity
 
@@ -22,8 +23,15 @@ class Done:
 
 def of_test(row: TestRow, stored: Stored, who_and_when: list[Fact]) -> Done:
     """Say where, when and by whom the test was done, what was asked for, and what the readers noted."""
-    recorded = [("recorded", stored.text("ingest", "recorded_at"))]
-    return Done([*who_and_when, *known([*recorded, *_facts(row)])], _notes(stored))
+    recorded = ("recorded", stored.text("ingest", "recorded_at"))
+    return Done([*who_and_when, *known([recorded, *_facts(row), ("results", _place(row, stored))])], _notes(stored))
+
+
+def _place(row: TestRow, stored: Stored) -> str:
+    """Say where the results are: a link would be broken as soon as the report is moved alone."""
+    if not stored.datasets:
+        return ""
+    return f"NetCDF files in {Layout(Path()).test(row.id).as_posix()}/, next to the folder of the report, not in it"
 
 
 def _facts(row: TestRow) -> list[Fact]:
