@@ -42,11 +42,13 @@ def test_the_head_gives_its_lines_but_not_the_way_to_other_pages():
 
 def test_a_table_keeps_its_spans_and_where_numbers_are():
     (table,) = blocks_of(
-        '<div class="scroll"><table><thead><tr><th rowspan="2">a</th><th colspan="2">b</th></tr>'
+        '<div class="scroll"><table><caption> <b>both</b> </caption>'
+        '<thead><tr><th rowspan="2">a</th><th colspan="2">b</th></tr>'
         "<tr><th>c</th><th>d</th></tr></thead><tbody>"
         '<tr><td class="wide">x<br>y</td><td class="number">1</td><td></td></tr></tbody></table></div>'
     )
     assert (table["columns"], len(table["head"]), len(table["body"])) == (3, 2, 1)
+    assert table["caption"] == [{"is": "strong", "in": ["both"]}]
     assert [(cell["columns"], cell["rows"]) for cell in table["head"][0]] == [(1, 2), (2, 1)]
     wide, number, empty = table["body"][0]
     assert (wide["wide"], wide["number"], number["number"], empty["in"]) == (True, False, True, [])

@@ -120,7 +120,9 @@ class Page:
                 cells = [self._cell(node) for node in row["children"] if _tag(node) in ("th", "td")]
                 rows[part["tag"] == "thead"].append(cells)
         columns = max((sum(cell["columns"] for cell in row) for row in (*rows[True], *rows[False])), default=1)
-        return {"is": "table", "columns": columns, "head": rows[True], "body": rows[False]}
+        captions = [_trimmed(self._inline(each["children"])) for each in _all(table["children"], "caption")]
+        caption = captions[0] if captions else []
+        return {"is": "table", "caption": caption, "columns": columns, "head": rows[True], "body": rows[False]}
 
     def _cell(self, node: Node) -> Block:
         attributes, classes = node["attributes"], _classes(node)
