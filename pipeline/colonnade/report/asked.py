@@ -7,21 +7,21 @@ from dataclasses import dataclass, replace
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.summary import TestSummary
-from colonnade.report.photos import Photos, photos_of
+from colonnade.report.photos import NO_PHOTOS, Photos, photos_of
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import read_summary, records_of_tests
 
 
 @dataclass(frozen=True)
 class Asked:
-    """A test whose page is asked for: its neighbours, its record, its photos, and whether its results are out of date."""
+    """A test whose page is asked for: its neighbours, record and photos, and whether its results are out of date."""
 
     test: str
     before: str | None
     after: str | None
     record: TestSummary
     is_outdated: bool
-    photos: Photos = Photos()
+    photos: Photos = NO_PHOTOS
 
 
 def asked_of(campaign: Campaign, layout: Layout, outdated: Collection[str] = ()) -> list[Asked]:

@@ -27,6 +27,9 @@ class Photos:
     problems: tuple[str, ...] = ()
 
 
+NO_PHOTOS = Photos()
+
+
 def address_of(test: str, number: int) -> str:
     """Address of a test's photo within the report; photos are numbered from 1."""
     return f"photos/{test}-{number}.jpg"
