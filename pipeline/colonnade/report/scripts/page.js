@@ -14,6 +14,7 @@ document.addEventListener("DOMContentLoaded", async () => {
     if (place && colonnade.given.groups.length) await new colonnade.Page(colonnade.given, place).make();
   } finally {
     colonnade.addDownloads(colonnade.given.tables);
+    colonnade.is_ready = true;
   }
 });
 
@@ -37,12 +38,20 @@ colonnade.Page = class {
     const made = this.given.groups.map((group) => this.addGroup(group));
     this.place.append(this.root);
     this.place.hidden = false;
+    this.addToContents();
     await Promise.all(made.map((group) => group.open && this.fill(group)));
-    document.documentElement.classList.add("scripted");
+    document.documentElement.classList.add("scripted"); // the style sheet hides the picture that the panels replace
     colonnade.page = this;
     this.move(this.cursor);
     new ResizeObserver(() => this.redraw()).observe(this.root);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.repaint());
+  }
+
+  // The table of contents is written without the sections that need scripts.
+  addToContents() {
+    const before = [...document.querySelectorAll(".contents a")].filter((link) => ["#done", "#found"].includes(link.hash)).at(-1);
+    const link = colonnade.element("a", { href: `#${this.place.id}` }, this.place.querySelector("h2").textContent);
+    if (before) before.closest("li").after(colonnade.element("li", {}, link));
   }
 
   // Time of the largest value of the first curve, where the cursor stands at first.
@@ -88,7 +97,7 @@ colonnade.Page = class {
       this.redraw();
       return;
     }
-    box.panels = box.group.panels.map((panel) => new colonnade.Panel(panel, this));
+    box.panels = box.group.panels.map((panel) => new colonnade.Panel(panel, box.group, this));
     box.panels.at(-1).is_last = true;
     for (const panel of box.panels) {
       box.inside.append(panel.root);

@@ -1,7 +1,8 @@
 // One panel: its title, a button a curve with the value under the cursor, and the plot, which Bokeh draws.
 "use strict";
 
-const BORDER = { left: 64, right: 60 }; // px beside the frame of each panel, so that all frames are above each other
+const LEFT = 64; // px left of the frame of each panel, so that all frames are above each other
+const RIGHT = 60; // px right of the frames of a group in which a panel has an axis there
 const LARGEST_RATIO = 1.35; // of θ/α: an overturning leaves the axis
 const FLAGS = { 2: "not evaluated", 3: "suspect", 4: "failed", 9: "missing" };
 
@@ -27,9 +28,10 @@ colonnade.written = function (value, digits = 4) {
 };
 
 colonnade.Panel = class {
-  constructor(given, page) {
+  constructor(given, group, page) {
     this.given = given;
     this.page = page;
+    this.right_border = group.panels.some((panel) => panel.second) ? RIGHT : 12;
     this.curves = given.curves.map((curve) => ({ ...curve, clockOf: page.clocks[curve.clock], of: page.series[curve.values] }));
     this.bands = (given.bands || []).map((band) => ({ ...band, clockOf: page.clocks[band.clock], is: "band" }));
     const unit = given.unit ? ` (${given.unit}${given.second ? `; right: ${given.second.unit}` : ""})` : "";
@@ -79,8 +81,8 @@ colonnade.Panel = class {
       sizing_mode: "stretch_width",
       toolbar_location: null,
       tools: "",
-      min_border_left: BORDER.left,
-      min_border_right: BORDER.right,
+      min_border_left: LEFT,
+      min_border_right: this.right_border,
       min_border_top: 4,
       background_fill_alpha: 0,
       border_fill_alpha: 0,
@@ -125,17 +127,17 @@ colonnade.Panel = class {
 
   // Width of the frame in pixels of the screen, and where a time is in it.
   get pixels() {
-    return Math.max(this.box.clientWidth - BORDER.left - BORDER.right, 60);
+    return Math.max(this.box.clientWidth - LEFT - this.right_border, 60);
   }
 
   place(time) {
     const { from, to } = this.page.view;
-    return BORDER.left + ((time - from) / (to - from)) * this.pixels;
+    return LEFT + ((time - from) / (to - from)) * this.pixels;
   }
 
   time(clientX) {
     const { from, to } = this.page.view;
-    return from + ((clientX - this.box.getBoundingClientRect().left - BORDER.left) / this.pixels) * (to - from);
+    return from + ((clientX - this.box.getBoundingClientRect().left - LEFT) / this.pixels) * (to - from);
   }
 
   // Draw what the view shows: thinned to the screen's own pixels.
@@ -186,7 +188,7 @@ colonnade.Panel = class {
   // Show the cursor and the value of each curve at the sample next to it.
   point(time) {
     const place = this.place(time);
-    this.line.hidden = place < BORDER.left || place > BORDER.left + this.pixels;
+    this.line.hidden = place < LEFT || place > LEFT + this.pixels;
     this.line.style.left = `${place}px`;
     for (const curve of this.curves) curve.value.textContent = curve.is_hidden ? "" : this.reading(curve, time);
     for (const band of this.bands) {
