@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import zlib
-from base64 import b64decode
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -12,33 +9,13 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.signal import butter, sosfiltfilt
 
-from colonnade.report.interactive.packing import PLANES, packed
-
-
-def unpacked(found) -> list[np.ndarray]:
-    """Undo the packing by its own description, as the script does, in another way."""
-    data = np.frombuffer(zlib.decompress(b64decode(found.text)), np.uint8).astype(np.int64)
-    series, start = [], 0
-    for one in found.series:
-        planes = data[start : start + PLANES * one["count"]].reshape(PLANES, one["count"])
-        start += planes.size
-        folded = sum(plane << (8 * place) for place, plane in enumerate(planes))
-        values = np.where(folded % 2, -(folded + 1) // 2, folded // 2)
-        for _ in range(one["order"]):
-            values = np.cumsum(values)
-        values = (values * one["step"]).astype(np.float32).astype(float)
-        for first, last in one["gaps"]:
-            values[first:last] = np.nan
-        series.append(values)
-    assert start == data.size
-    return series
-
+from colonnade.report.interactive.packing import packed
 
 numbers = st.floats(-1e12, 1e12) | st.just(float("nan")) | st.floats(1e-20, 1e-9)
 
 
 @given(st.lists(arrays(np.float64, st.integers(0, 60), elements=numbers), max_size=4))
-def test_what_is_unpacked_is_what_was_packed_to_a_millionth_of_the_largest(series):
+def test_what_is_unpacked_is_what_was_packed_to_a_millionth_of_the_largest(unpacked, series):
     found = unpacked(packed(series))
     assert len(found) == len(series)
     for before, after in zip(series, found, strict=True):
@@ -47,7 +24,7 @@ def test_what_is_unpacked_is_what_was_packed_to_a_millionth_of_the_largest(serie
         np.testing.assert_allclose(after, before, rtol=0, atol=1e-6 * largest + 1e-37, equal_nan=True)
 
 
-def test_the_largest_jumps_fit():
+def test_the_largest_jumps_fit(unpacked):
     jumps = np.array([1.0, -1.0, 1.0, -1.0, -1.0, 1.0])
     assert np.array_equal(unpacked(packed([jumps]))[0], jumps)
 
@@ -65,5 +42,5 @@ def test_a_test_of_half_a_minute_with_eight_channels_and_two_models_takes_two_me
 
 
 @pytest.mark.parametrize("count", [0, 1, 2])
-def test_short_series(count):
+def test_short_series(unpacked, count):
     assert unpacked(packed([np.arange(count, dtype=float)]))[0].tolist() == list(range(count))

@@ -187,6 +187,8 @@ def _recorded(recorded: xr.Dataset | None, conditioned: xr.Dataset | None, sampl
         as_recorded = recorded[f"{name}_recorded"]
         offset = conditioned[name].attrs if conditioned is not None and name in conditioned else {}
         time = _on_common_clock(recorded[str(variable.dims[0])].to_numpy(), offset)
+        if not (time.size and np.isfinite(time).all()):
+            continue
         quantity, unit = str(variable.attrs.get("quantity")), str(variable.attrs.get("recorded_unit", ""))
         panel: Panel = {
             "title": f"{channel}, as recorded",

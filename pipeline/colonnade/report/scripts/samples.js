@@ -40,13 +40,14 @@ colonnade.Clock = class {
 
   // First sample at a time or after it; `count` if all are before it.
   from(time) {
-    let index = Math.ceil((time - this.start) / this.interval);
-    index = Math.min(Math.max(index, 0), this.count);
-    if (this.uneven) {
-      while (index > 0 && this.at(index - 1) >= time) index -= 1;
-      while (index < this.count && this.at(index) < time) index += 1;
+    if (!this.uneven) return Math.min(Math.max(Math.ceil((time - this.start) / this.interval), 0), this.count);
+    let [before, found] = [-1, this.count];
+    while (found - before > 1) {
+      const middle = (before + found) >> 1;
+      if (this.at(middle) < time) before = middle;
+      else found = middle;
     }
-    return index;
+    return found;
   }
 
   // Sample next to a time; -1 if the series has none there.

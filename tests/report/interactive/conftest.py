@@ -1,0 +1,36 @@
+"""Packed samples read back."""
+
+from __future__ import annotations
+
+import zlib
+from base64 import b64decode
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from colonnade.report.interactive.packing import PLANES, Packed
+
+
+@pytest.fixture(scope="session")
+def unpacked() -> Callable[[Packed], list[np.ndarray]]:
+    """Undo the packing by its own description, as the script of a page does, in another way."""
+    return _unpacked
+
+
+def _unpacked(found: Packed) -> list[np.ndarray]:
+    data = np.frombuffer(zlib.decompress(b64decode(found.text)), np.uint8).astype(np.int64)
+    series, start = [], 0
+    for one in found.series:
+        planes = data[start : start + PLANES * one["count"]].reshape(PLANES, one["count"])
+        start += planes.size
+        folded = sum(plane << (8 * place) for place, plane in enumerate(planes))
+        values = np.where(folded % 2, -(folded + 1) // 2, folded // 2)
+        for _ in range(one["order"]):
+            values = np.cumsum(values)
+        values = (values * one["step"]).astype(np.float32).astype(float)
+        for first, last in one["gaps"]:
+            values[first:last] = np.nan
+        series.append(values)
+    assert start == data.size
+    return series

@@ -1,0 +1,128 @@
+"""The data of a test's page hold what is stored, in the units that the page names."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from colonnade.report.interactive import test_data
+from colonnade.report.interactive.packing import Packed
+from colonnade.store import files
+from colonnade.store.results import ResultId
+
+
+def data_of(campaign, layout, stored, test):
+    """Data of a page as its script reads them, and the channels that they show."""
+    channels = [
+        files.read(layout.path(ResultId(test, stage))) if stored.has(stage) else None
+        for stage in ("ingest", "condition")
+    ]
+    text = test_data.of_test(campaign, campaign.tests[test], stored, [], *channels)
+    given = json.loads(text.removeprefix("colonnade.show(").removesuffix(");\n"))
+    return given, *channels
+
+
+@pytest.fixture(scope="module")
+def shaken(filled_campaign, reported, unpacked):
+    given, *channels = data_of(*filled_campaign, reported["span-2.0"][1], "span-2.0")
+    return given, unpacked(Packed(given["series"], given["samples"])), *channels
+
+
+def panels(given, group):
+    return {panel["short"]: panel for each in given["groups"] if each["title"] == group for panel in each["panels"]}
+
+
+def test_groups_in_their_order_and_what_is_shown_at_first(shaken):
+    assert [(group["title"], group["is_open"]) for group in shaken[0]["groups"]] == [
+        ("Response", True),
+        ("Table motion", True),
+        ("Channels, conditioned", False),
+        ("Channels, as recorded", False),
+    ]
+
+
+def test_the_angle_has_every_model_with_its_bands(shaken):
+    panel = panels(shaken[0], "Response")["θ/α"]
+    assert [curve["name"] for curve in panel["curves"]] == ["measured", "linear model", "nonlinear model"]
+    assert [band["name"] for band in panel["bands"]][-2:] == [
+        "nonlinear model, 95% of runs",
+        "nonlinear model, 50% of runs",
+    ]
+    assert [band["is_hidden"] for band in panel["bands"]] == [True, True, False, True]
+
+
+def test_conditioned_channels_are_in_the_unit_of_their_panel(shaken):
+    given, series, _, conditioned = shaken
+    panel = panels(given, "Channels, conditioned")["conditioned displacement"]
+    assert panel["unit"] == "mm"
+    for curve in panel["curves"]:
+        expected = 1e3 * conditioned[curve["name"]].to_numpy()
+        np.testing.assert_allclose(series[curve["values"]], expected, atol=1e-6 * np.nanmax(np.abs(expected)))
+
+
+def test_recorded_channels_have_the_units_of_the_file_and_of_the_quantity(shaken):
+    given, series, recorded, _ = shaken
+    panel = panels(given, "Channels, as recorded")["top recorded"]
+    assert (panel["unit"], panel["second"]["unit"]) == ("V", "mm")
+    values = series[panel["curves"][0]["values"]]
+    np.testing.assert_allclose(values, recorded["top_recorded"], atol=2e-6 * np.abs(values).max())
+    converted = panel["second"]["factor"] * values + panel["second"]["offset"]
+    np.testing.assert_allclose(converted, 1e3 * recorded["top"], atol=1e-5 * np.abs(converted).max())
+
+
+def test_flagged_samples_are_those_that_are_not_good(shaken):
+    given, _, recorded, _ = shaken
+    for channel in ("top", "bottom", "table_acceleration"):
+        flags = np.ones(recorded[f"{channel}_quality"].size, dtype=int)
+        for first, last, flag in panels(given, "Channels, as recorded")[f"{channel} recorded"]["flags"]:
+            flags[first:last] = flag
+        assert np.array_equal(flags, recorded[f"{channel}_quality"])
+        assert (flags > 1).any()
+
+
+def test_a_test_without_results_has_no_groups(filled_campaign, reported):
+    given, *_ = data_of(*filled_campaign, reported["sine-dead"][1], "sine-dead")
+    assert (given["groups"], given["moving"], given["series"]) == ([], None, [])
+
+
+def test_a_test_without_transducers_on_the_specimen_shows_the_models_on_the_table(filled_campaign, reported):
+    given, *_ = data_of(*filled_campaign, reported["watched"][1], "watched")
+    assert [body["name"] for body in given["moving"]["bodies"]] == ["linear model", "nonlinear model"]
+    assert given["moving"]["how"] == "base: recorded acceleration integrated twice"
+    assert given["critical"] == [0.21, 0.23]
+
+
+def recorded_channel(time, values, **attributes):
+    """A channel of one recorder with a unit gain."""
+    dataset = xr.Dataset({"c": ("elapsed", values), "c_recorded": ("elapsed", values)}, {"elapsed": time})
+    dataset["c"].attrs = {"channel": "c", "quantity": "displacement", "recorded_unit": "m", **attributes}
+    return dataset
+
+
+def test_recorded_samples_are_put_on_the_common_clock():
+    time = 0.01 * np.arange(200)
+    recorded = recorded_channel(time, np.sin(time))
+    late = {"clock_offset": 0.5, "clock_rate_ppm": 1e4, "clock_offset_at": 1.0}
+    conditioned = xr.Dataset({"c": ("elapsed", np.zeros(3), late)}, {"elapsed": [0.0, 0.01, 0.02]})
+    samples = test_data.Samples()
+    test_data._recorded(recorded, conditioned, samples)
+    (clock,) = samples.clocks
+    # Delay at time t: 0.5 + 0.01 (t − 1).
+    assert clock["start"] == pytest.approx(0.0 - 0.5 + 0.01)
+    assert clock["interval"] == pytest.approx(0.01 * 0.99)
+
+
+@pytest.mark.parametrize("time", [np.empty(0), np.array([0.0, np.nan])], ids=["no sample", "no time"])
+def test_a_channel_that_cannot_be_drawn_has_no_panel(time):
+    assert test_data._recorded(recorded_channel(time, np.ones(time.size)), None, test_data.Samples()) == []
+
+
+def test_a_channel_that_was_corrected_in_part_has_no_second_axis():
+    dataset = recorded_channel(np.arange(4.0), np.array([0.0, 1.0, 2.0, 3.0]))
+    dataset["c"] = dataset["c"].copy(data=[0.0, 1.0, -2.0, 3.0])
+    dataset["c"].attrs = {"channel": "c", "quantity": "displacement", "recorded_unit": "V"}
+    (panel,) = test_data._recorded(dataset, None, test_data.Samples())
+    assert "second" not in panel
