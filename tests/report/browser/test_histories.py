@@ -252,6 +252,14 @@ def test_without_scripts_the_picture_stands(visit):
     assert page.locator("#histories").is_hidden()
 
 
+def test_a_page_that_was_moved_alone_has_its_picture(browser, report_folder, tmp_path):
+    (tmp_path / "alone.html").write_bytes((report_folder / "tests" / f"{TEST}.html").read_bytes())
+    page = browser.new_page()
+    page.goto((tmp_path / "alone.html").as_uri())
+    assert page.locator(".replaced svg").is_visible()
+    page.close()
+
+
 def test_on_paper_the_picture_stands(page):
     page.emulate_media(media="print")
     assert page.locator(".replaced svg").is_visible()

@@ -10,10 +10,11 @@ colonnade.show = (given) => Object.assign(colonnade, { given });
 
 document.addEventListener("DOMContentLoaded", async () => {
   const place = document.querySelector("[data-interactive]");
+  const { groups, tables } = colonnade.given || {}; // a page that was moved without its data has its pictures alone
   try {
-    if (place && colonnade.given.groups.length) await new colonnade.Page(colonnade.given, place).make();
+    if (place && groups && groups.length) await new colonnade.Page(colonnade.given, place).make();
   } finally {
-    colonnade.addDownloads(colonnade.given.tables);
+    colonnade.addDownloads(tables || {});
     colonnade.is_ready = true;
   }
 });

@@ -53,6 +53,9 @@ colonnade.Panel = class {
     sample.style.setProperty("--colour", ["ink", "soft"].includes(colour) ? `var(--${colour})` : colour);
     if (shown.dash && shown.dash.length) sample.classList.add("dashed");
     shown.value = colonnade.element("span", { class: "value" });
+    // Room for the longest reading, so that nothing below moves while the cursor does.
+    const { is_angle: isAngle, second, unit } = this.given;
+    shown.value.style.minWidth = `${shown.is === "band" ? 16 : isAngle ? 21 : (second ? 21 : 10) + (unit || "").length}ch`;
     const button = colonnade.element("button", { type: "button", "aria-pressed": String(!shown.is_hidden) }, sample, shown.name, " ", shown.value);
     button.addEventListener("click", () => {
       shown.is_hidden = !shown.is_hidden;
