@@ -8,13 +8,14 @@ import colonnade
 from colonnade.cli.calibrate import calibrate
 from colonnade.cli.check import check
 from colonnade.cli.demo import demo
+from colonnade.cli.figure import figure
 from colonnade.cli.init import init
 from colonnade.cli.map import map_command
 from colonnade.cli.run import identify, ingest, predict, report, run
 from colonnade.cli.schema import schema
 from colonnade.cli.show import show
 
-COMMANDS = (demo, init, check, run, ingest, identify, predict, report, map_command, calibrate, show, schema)
+COMMANDS = (demo, init, check, run, ingest, identify, predict, report, map_command, calibrate, figure, show, schema)
 
 
 class InOrder(click.RichGroup):

@@ -44,6 +44,21 @@ campaign_argument = click.argument("campaign", type=click.Path(path_type=Path), 
 CAMPAIGN = "CAMPAIGN is a campaign.toml or its folder, by default the current folder."
 """What their help says of it."""
 
+campaign_and_id_argument = click.argument("arguments", nargs=-1, metavar="[CAMPAIGN] [ID]")
+"""The arguments of commands that show one test or specimen; `campaign_and_id` reads them."""
+
+
+def campaign_and_id(arguments: tuple[str, ...]) -> tuple[Path, str | None]:
+    """Take a single argument as CAMPAIGN if such a file or folder exists, else as ID."""
+    if len(arguments) > 2:
+        raise click.UsageError(f"{len(arguments)} arguments were found. Give at most a CAMPAIGN and an ID.")
+    if len(arguments) == 2:
+        return Path(arguments[0]), arguments[1]
+    if arguments and not Path(arguments[0]).exists():
+        return Path(), arguments[0]
+    return Path(*arguments), None
+
+
 specimen_option = click.option(
     "--specimen", multiple=True, metavar="ID", help="Only this specimen. Repeat the option for several."
 )

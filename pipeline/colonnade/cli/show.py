@@ -10,15 +10,13 @@ import rich_click as click
 
 from colonnade.cli.console import show_fields, show_json, show_table, shown
 from colonnade.cli.findings import line_of
-from colonnade.cli.options import json_option, results_option
+from colonnade.cli.options import campaign_and_id, campaign_and_id_argument, json_option, results_option
 
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign
     from colonnade.campaign.summary import Summary
 
 Record = dict[str, Any]
-
-campaign_and_id = click.argument("arguments", nargs=-1, metavar="[CAMPAIGN] [ID]")
 
 
 @click.group()
@@ -27,7 +25,7 @@ def show() -> None:
 
 
 @show.command(epilog="Example: colonnade show tests demo span-2.0")
-@campaign_and_id
+@campaign_and_id_argument
 @results_option
 @json_option
 def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> int:
@@ -38,7 +36,7 @@ def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> in
     """
     from colonnade.store.records.summary import records_of_tests
 
-    campaign, identifier = _campaign_and_id(arguments)
+    campaign, identifier = campaign_and_id(arguments)
     records = {
         name: each.model_dump(mode="json") for name, each in records_of_tests(*_known(campaign, results)).items()
     }
@@ -47,7 +45,7 @@ def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> in
 
 
 @show.command(epilog="Example: colonnade show specimens demo")
-@campaign_and_id
+@campaign_and_id_argument
 @results_option
 @json_option
 def specimens(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> int:
@@ -58,7 +56,7 @@ def specimens(arguments: tuple[str, ...], results: Path | None, as_json: bool) -
     """
     from colonnade.store.records.summary import records_of_specimens
 
-    campaign, identifier = _campaign_and_id(arguments)
+    campaign, identifier = campaign_and_id(arguments)
     records = records_of_specimens(*_known(campaign, results))
     heads = ("specimen", "shape", "α rad", "R m", "I₀ kg m²", "p rad/s", "rigid-body e", "e", "source")
     return _show_records("specimen", records, identifier, heads, _specimen_cells, as_json=as_json)
@@ -111,16 +109,6 @@ def formats(as_json: bool) -> int:
     ]
     show_table(("format", "option", "what it says"), options)
     return 0
-
-
-def _campaign_and_id(arguments: tuple[str, ...]) -> tuple[Path, str | None]:
-    if len(arguments) > 2:
-        raise click.UsageError(f"{len(arguments)} arguments were found. Give at most a CAMPAIGN and an ID.")
-    if len(arguments) == 2:
-        return Path(arguments[0]), arguments[1]
-    if arguments and not Path(arguments[0]).exists():
-        return Path(), arguments[0]
-    return Path(*arguments), None
 
 
 def _known(path: Path, results: Path | None) -> tuple[Campaign, Summary | None]:

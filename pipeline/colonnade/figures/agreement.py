@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 
 from colonnade.figures.output import link_to
-from colonnade.figures.style import INK, LIMIT, WIDTH, model_style, styled
+from colonnade.figures.style import INK, LIMIT, model_style, styled, width
 
 LEAST_SPAN = 0.1, 1.0
 """Of both axes, at least."""
@@ -75,8 +75,8 @@ def predicted_over_measured(points: Mapping[str, Sequence[PeakPoint]]) -> Figure
     if not drawn:
         raise ValueError("no prediction was given; at least one point was expected")
     limits = _limits([point for own in drawn.values() for point in own])
-    side = min(WIDTH / max(len(drawn), 2), 3.4)
-    figure = Figure(figsize=(WIDTH, side + 0.2), layout="constrained")
+    side = min(width() / max(len(drawn), 2), 3.4)
+    figure = Figure(figsize=(width(), side + 0.2), layout="constrained")
     panels = figure.subplots(1, max(len(drawn), 2), sharex=True, sharey=True, squeeze=False)[0]
     for axes in panels[len(drawn) :]:
         axes.remove()

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from io import BytesIO, StringIO
@@ -17,6 +18,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from matplotlib.figure import Figure
+from PIL import Image
 
 from colonnade.figures.style import styled
 from colonnade.figures.table import table_of
@@ -32,10 +34,12 @@ _TEST = "test:"
 MARK = "made by colonnade"
 """In every file of a figure of its own: only such a file is overwritten."""
 
+COLOURS = 64
+"""Of a GIF: lines, fills and their edges need no more."""
+
 MOST_PIXELS = 60_000
 """Of a PNG in either direction; its writer can do 65,535."""
 
-_SAME = {"Software": MARK}
 _IDENTITY = re.compile(r"[A-Za-z][A-Za-z0-9._-]*")
 _REFERENCE = re.compile(r"url\(#([^)]+)\)")
 _BEYOND_HUNDREDTHS = re.compile(r"(?<=\.\d\d)\d+")
@@ -62,14 +66,57 @@ class Picture:
         return to_svg(self.figure, identity=self.identity, title=self.title, description=self.description)
 
 
+@dataclass(frozen=True)
+class Movie:
+    """
+    A figure that moves.
+
+    Attributes
+    ----------
+    figure : Figure
+    show : callable
+        Brings the figure to a frame, by its number.
+    frames : int
+    rate : float
+        Frames a second.
+    title, description : str
+    """
+
+    figure: Figure
+    show: Callable[[int], None]
+    frames: int
+    rate: float
+    title: str
+    description: str
+
+
+def to_gif(movie: Movie, *, dpi: int = 100) -> bytes:
+    """Return a movie as a GIF that repeats; frames are written one by one."""
+    pictures = []
+    with styled():
+        for frame in range(movie.frames):
+            movie.show(frame)
+            drawn = BytesIO()
+            movie.figure.savefig(drawn, format="rgba", dpi=dpi, facecolor="white")
+            wide, high = (round(float(side) * dpi) for side in movie.figure.get_size_inches())
+            whole = Image.frombytes("RGBA", (wide, high), drawn.getvalue()).convert("RGB")
+            pictures.append(whole.quantize(COLOURS, dither=Image.Dither.NONE))
+    written = BytesIO()
+    first, *others = pictures
+    options = {"duration": round(1000 / movie.rate), "loop": 0, "comment": MARK.encode()}
+    first.save(written, format="GIF", save_all=True, append_images=others, **options)
+    return written.getvalue()
+
+
 def link_to(test: str) -> str:
     """Return the address by which a mark of a figure leads to a test; pages know where that is."""
     return f"{_TEST}{test}"
 
 
 def to_png(figure: Figure, *, dpi: int = 150) -> bytes:
-    """Return a figure as a PNG file, without date and program; one that would be too high for the format is coarser."""
-    return _written(figure, "png", dpi=min(dpi, MOST_PIXELS / float(max(figure.get_size_inches()))), metadata=_SAME)
+    """Return a figure as a PNG file on white, without a date; one that would be too high for the format is coarser."""
+    finest = MOST_PIXELS / float(max(figure.get_size_inches()))
+    return _written(figure, "png", dpi=min(dpi, finest), metadata={"Software": MARK}, facecolor="white")
 
 
 def to_pdf(figure: Figure) -> bytes:

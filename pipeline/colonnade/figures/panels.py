@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.path import Path
 
 from colonnade.arrays import Array
-from colonnade.figures.style import WIDTH, grid_line
+from colonnade.figures.style import fitting, grid_line, is_narrow, width
 
 LEFT, RIGHT, TOP, BOTTOM, GAP = 0.92, 0.5, 0.34, 0.44, 0.14
 """Room for labels left and right, the legend above, the time axis below, and between panels; inches."""
@@ -23,6 +23,9 @@ LABEL = 0.52
 
 ROOMY = 4
 """Lines up to which a legend has its usual spacing; more, as all models with a band, have to stand closer."""
+
+ROW = 0.15
+"""Height of a further row of a legend, inches."""
 
 COLUMNS = 3
 """Largest number of columns side by side: more would be too narrow to read."""
@@ -80,12 +83,13 @@ def side_by_side(columns: int, heights: Sequence[float], *, title: float = 0.2) 
     """
     if columns < 1 or not heights:
         raise ValueError(f"{columns} columns of {len(heights)} panels; at least one column with one panel was expected")
-    across = min(columns, COLUMNS)
+    across = 1 if is_narrow() else min(columns, COLUMNS)
     bands = -(-columns // across)
     band = title + sum(heights) + GAP * (len(heights) - 1) + BOTTOM
     total = TOP + bands * band
-    width = (WIDTH - LEFT - RIGHT - (across - 1) * GAP) / across
-    figure = Figure(figsize=(WIDTH, total))
+    left, right = _margins()
+    panel = (width() - left - right - (across - 1) * GAP) / across
+    figure = Figure(figsize=(width(), total))
     grid: list[list[Axes]] = []
     for column in range(columns):
         row, place = divmod(column, across)
@@ -93,18 +97,28 @@ def side_by_side(columns: int, heights: Sequence[float], *, title: float = 0.2) 
         panels: list[Axes] = []
         for index, height in enumerate(heights):
             one = figure.add_axes(
-                (((LEFT + place * (width + GAP)) / WIDTH), (top - height) / total, width / WIDTH, height / total),
+                (
+                    (left + place * (panel + GAP)) / width(),
+                    (top - height) / total,
+                    panel / width(),
+                    height / total,
+                ),
                 sharex=grid[0][0] if grid else panels[0] if panels else None,
                 sharey=grid[0][index] if grid else None,
             )
             one.tick_params(labelleft=place == 0)
-            one.yaxis.set_label_coords(-LABEL / width, 0.5)
+            one.yaxis.set_label_coords(-LABEL * left / LEFT / panel, 0.5)
             panels.append(one)
             top -= height + GAP
         for one in panels[:-1]:
             borrow_grid(one, panels[-1])
         grid.append(panels)
     return figure, grid
+
+
+def _margins() -> tuple[float, float]:
+    """Return the room left and right, less where the text is smaller."""
+    return (0.8 * LEFT, 0.95 * RIGHT) if is_narrow() else (LEFT, RIGHT)
 
 
 class _BorrowedGrid(Artist):
@@ -127,7 +141,7 @@ class _BorrowedGrid(Artist):
         ticks = self.lines()
         gc = renderer.new_gc()
         gc.set_foreground(self._color)
-        gc.set_linewidth(float(np.asarray(renderer.points_to_pixels(self._width))))
+        gc.set_linewidth(self._width)
         vertices = np.column_stack((np.repeat(ticks, 2), np.tile((0.0, 1.0), ticks.size)))
         codes = np.tile(np.array((Path.MOVETO, Path.LINETO), dtype=np.uint8), ticks.size)
         renderer.draw_path(gc, Path(vertices, codes), self.get_transform())
@@ -149,25 +163,42 @@ def borrow_grid(panel: Axes, below: Axes) -> None:
 def legend_above(figure: Figure, axes: Sequence[Axes]) -> None:
     """Name each line once, in the room that `stacked_panels` and `side_by_side` leave above all panels."""
     named = _named(axes)
-    if named:
-        closer = {"columnspacing": 0.9, "handlelength": 1.6, "handletextpad": 0.4} if len(named) > ROOMY else {}
-        figure.legend(
-            list(named.values()),
-            list(named),
-            loc="upper left",
-            bbox_to_anchor=(LEFT / WIDTH, 1 - 0.03 / float(figure.get_size_inches()[1])),
-            ncols=len(named),
-            borderaxespad=0.0,
-            borderpad=0.0,
-            **{"columnspacing": 1.4, **closer},
-        )
+    if not named:
+        return
+    left, right = _margins()
+    if is_narrow():
+        ncols = fitting(list(named), inches=width() - left - right, points=7.0, most=len(named))
+        _raise(figure, (-(-len(named) // ncols) - 1) * ROW)
+    else:
+        ncols = len(named)
+    closer = {"columnspacing": 0.9, "handlelength": 1.6, "handletextpad": 0.4} if len(named) > ROOMY else {}
+    figure.legend(
+        list(named.values()),
+        list(named),
+        loc="upper left",
+        bbox_to_anchor=(left / width(), 1 - 0.03 / float(figure.get_size_inches()[1])),
+        ncols=ncols,
+        borderaxespad=0.0,
+        borderpad=0.0,
+        **{"columnspacing": 1.4, **closer},
+    )
+
+
+def _raise(figure: Figure, more: float) -> None:
+    """Make a figure higher by so many inches at the top; its panels stay as they are."""
+    wide, high = (float(size) for size in figure.get_size_inches())
+    for axes in figure.axes:
+        box = axes.get_position()
+        axes.set_position((box.x0, box.y0 * high / (high + more), box.width, box.height * high / (high + more)))
+    figure.set_size_inches(wide, high + more)
 
 
 def legend_outside(figure: Figure, axes: Sequence[Axes]) -> None:
     """Name each line once, above all panels of a figure that is laid out automatically."""
     named = _named(axes)
     if named:
-        figure.legend(list(named.values()), list(named), loc="outside upper left", ncols=len(named), borderaxespad=0.2)
+        ncols = fitting(list(named), inches=width(), points=7.0, most=len(named)) if is_narrow() else len(named)
+        figure.legend(list(named.values()), list(named), loc="outside upper left", ncols=ncols, borderaxespad=0.2)
 
 
 def _named(axes: Sequence[Axes]) -> dict[str, Artist]:

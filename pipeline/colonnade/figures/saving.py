@@ -5,12 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from matplotlib.collections import Collection
+from matplotlib.figure import Figure
+
 from colonnade.errors import CampaignError, quoted
-from colonnade.figures.output import MARK, Picture, to_csv, to_pdf, to_png
+from colonnade.figures.output import MARK, Movie, Picture, to_csv, to_gif, to_pdf, to_png
 from colonnade.store import files
 
 PICTURES = (".svg", ".pdf", ".png")
 """Endings of pictures."""
+
+MOVIE = ".gif"
+"""Ending of a figure that moves."""
 
 TABLE = ".csv"
 """Ending of the table of what a figure shows."""
@@ -45,13 +51,13 @@ def expect_place(path: Path, endings: Sequence[str] = PICTURES) -> None:
         )
 
 
-def save(picture: Picture, path: Path) -> Path:
+def save(picture: Picture | Movie, path: Path) -> Path:
     """
     Write a picture, or the table of what it shows, to a file.
 
     Parameters
     ----------
-    picture : Picture
+    picture : Picture or Movie
     path : Path
         Its ending says what is written.
 
@@ -66,8 +72,13 @@ def save(picture: Picture, path: Path) -> Path:
     StoreError
         If it cannot be written.
     """
-    expect_place(path, (*PICTURES, TABLE))
     ending = path.suffix.lower()
+    if isinstance(picture, Movie):
+        expect_place(path, (MOVIE,))
+        files.write_bytes(path, to_gif(picture))
+        return path
+    expect_place(path, (*PICTURES, TABLE))
+    _drop_links(picture.figure)
     if ending == TABLE:
         text = to_csv(picture.figure)
         _expect_same_columns(path, text)
@@ -77,6 +88,14 @@ def save(picture: Picture, path: Path) -> Path:
     else:
         files.write_bytes(path, to_pdf(picture.figure) if ending == ".pdf" else to_png(picture.figure, dpi=300))
     return path
+
+
+def _drop_links(figure: Figure) -> None:
+    """Take away the links to pages of tests: they lead nowhere from a file of its own."""
+    for artist in figure.findobj():
+        artist.set_url(None)
+        if isinstance(artist, Collection):
+            artist.set_urls([None])
 
 
 def _is_ours(path: Path) -> bool:

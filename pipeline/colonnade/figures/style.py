@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache
 from pathlib import Path
 from typing import Any, TypedDict
@@ -17,7 +18,26 @@ from colonnade.dynamics.models.registry import model_of
 STYLE_FILE = Path(__file__).with_name("colonnade.mplstyle")
 
 WIDTH = 7.2
-"""Width of every figure, inches."""
+"""Width of every figure of a page, inches."""
+
+COLUMNS = {"single": 90 / 25.4, "double": 190 / 25.4}
+"""Widths of a journal's column and of its page, inches."""
+
+NARROW = 4.0
+"""A figure narrower than this, inches, has smaller text, and its parts stand below each other."""
+
+SMALL_TEXT: Any = {
+    "font.size": 7.5,
+    "axes.labelsize": 7.5,
+    "axes.titlesize": 7.5,
+    "xtick.labelsize": 7.0,
+    "ytick.labelsize": 7.0,
+    "legend.fontsize": 7.0,
+    "legend.handlelength": 2.0,
+}
+"""Settings of a narrow figure: points and lines of an 8-point text beside it."""
+
+_column: ContextVar[str] = ContextVar("column", default="")
 
 
 class LineStyle(TypedDict):
@@ -51,10 +71,32 @@ def model_style(model: str, thinness: float = 1.0) -> LineStyle:
 
 
 @contextmanager
+def journal(column: str) -> Iterator[None]:
+    """Draw figures as wide as the "single" or "double" column of a journal, in this context."""
+    before = _column.set(column)
+    try:
+        yield
+    finally:
+        _column.reset(before)
+
+
+def width() -> float:
+    """Return the width of a figure, inches: that of a page, unless a journal's column is asked for."""
+    return COLUMNS.get(_column.get(), WIDTH)
+
+
+def is_narrow() -> bool:
+    """Return whether figures are drawn for a single column."""
+    return width() < NARROW
+
+
+@contextmanager
 def styled() -> Iterator[None]:
     """Apply the style sheet over matplotlib's own defaults: a user's matplotlibrc changes no figure."""
     with matplotlib.rc_context():
         matplotlib.rcParams.update(_settings())
+        if is_narrow():
+            matplotlib.rcParams.update(SMALL_TEXT)
         yield
 
 
@@ -76,4 +118,23 @@ def grid_line() -> tuple[str, float]:
 
 def blank_figure(height: float) -> Figure:
     """Return an empty figure of the common width and of `height` (inches), laid out so that no label is cut off."""
-    return Figure(figsize=(WIDTH, height), layout="constrained")
+    return Figure(figsize=(width(), height), layout="constrained")
+
+
+def fitting(labels: Sequence[str], *, inches: float, points: float, most: int) -> int:
+    """
+    Return into how many columns a legend's entries go beside each other.
+
+    Parameters
+    ----------
+    labels : sequence of str
+    inches : float
+        Room for them.
+    points : float
+        Size of the text.
+    most : int
+        Largest number of columns.
+    """
+    longest = max(map(len, labels), default=0)
+    entry = points / 72 * (0.48 * longest + 3.2)  # letters of mean width, handle and gaps
+    return max(min(most, len(labels), int(inches / entry)), 1)

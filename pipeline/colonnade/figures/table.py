@@ -62,9 +62,9 @@ def table_of(figure: Figure) -> Table:
     Returns
     -------
     table : dict of str to sequence
-        Columns by heading: title of the panel, label of the axis with its unit, and name of the series. Series at the
-        same places share the column of these. Named series of one point each, as the estimates of a quantity, are
-        rows with their names in a column.
+        Columns by heading: title of the panel if there are several, label of the axis with its unit, and name of the
+        series. Series at the same places share the column of these. Named series of one point each, as the estimates
+        of a quantity, are rows with their names in a column.
 
     Examples
     --------
@@ -76,8 +76,11 @@ def table_of(figure: Figure) -> Table:
     {'time (s)': [0.0, 1.0], 'slide (mm), measured': [2.0, 3.0]}
     """
     table: Table = {}
+    titles = {_title(axes) for axes in figure.axes}
     for axes in figure.axes:
         labels, found = _labels(axes), list(_series_of(axes))
+        if len(titles) == 1:  # it tells no panel from another
+            labels = labels._replace(title="")
         single = [each for each in found if each.is_single]
         if len(single) > 1:
             _add_rows(table, labels, single)
@@ -137,12 +140,15 @@ def _labels(axes: Axes) -> _Labels:
     shared_x, shared_y = axes.get_shared_x_axes(), axes.get_shared_y_axes()
     across = _label([one.get_xlabel() for one in (axes, *shared_x.get_siblings(axes))])
     up = _label([one.get_ylabel() for one in (axes, *shared_y.get_siblings(axes))])
-    title = axes.get_title("left") or axes.get_title("center")
     return _Labels(
-        _label([title]),
+        _title(axes),
         across or ("x" if axes.xaxis.get_tick_params()["labelbottom"] else None),
         up or ("y" if axes.yaxis.get_tick_params()["labelleft"] else None),
     )
+
+
+def _title(axes: Axes) -> str:
+    return _label([axes.get_title("left"), axes.get_title("center")])
 
 
 def _label(given: Sequence[str]) -> str:

@@ -22,7 +22,7 @@ from colonnade.figures.drawing.body import (
 from colonnade.figures.drawing.parts import Body, Transducer
 from colonnade.figures.drawing.transducers import draw_transducer, places_of
 from colonnade.figures.drawing.view import FINE, SMALL, View
-from colonnade.figures.style import INK, SOFT, WIDTH, styled
+from colonnade.figures.style import INK, SOFT, WIDTH, styled, width
 
 HEIGHT = 4.85
 """Of the drawing of one setup, inches."""
@@ -75,7 +75,7 @@ def setup_drawings(drawn: Sequence[Drawn]) -> Figure:
     """
     if not drawn:
         raise ValueError("no specimen was given; at least one with a setup was expected")
-    figure = Figure(figsize=(WIDTH, HEIGHT * len(drawn)))
+    figure = Figure(figsize=(width(), width() / WIDTH * HEIGHT * len(drawn)))
     parents = figure.subfigures(len(drawn), 1, squeeze=False)[:, 0]
     for parent, each in zip(parents, drawn, strict=True):
         _draw(parent, each)

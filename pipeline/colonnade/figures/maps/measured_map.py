@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from colonnade.figures.output import link_to
-from colonnade.figures.style import LIMIT, MEASURED, SOFT, blank_figure, styled
+from colonnade.figures.style import LIMIT, MEASURED, SOFT, blank_figure, fitting, is_narrow, styled, width
 from colonnade.identification.response.boundaries import Boundaries, Bracket, MapPoint, bracket_boundaries
 
 MARKERS: dict[str, dict[str, Any]] = {
@@ -71,7 +71,9 @@ def measured_map(points: Sequence[MapPoint], *, linked: bool = False, axes: Axes
     draw_points(axes, points, linked=linked)
     figure = cast(Figure, axes.get_figure(root=True))
     if own:
-        figure.legend(loc="outside upper left", ncols=5, columnspacing=1.2, handletextpad=0.5, borderaxespad=0.2)
+        labels = axes.get_legend_handles_labels()[1]
+        ncols = fitting(labels, inches=width(), points=7.0, most=5) if is_narrow() else 5
+        figure.legend(loc="outside upper left", ncols=ncols, columnspacing=1.2, handletextpad=0.5, borderaxespad=0.2)
     return figure
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from textwrap import fill
 from typing import Any, cast
 
 from matplotlib.axes import Axes
@@ -13,8 +14,22 @@ from matplotlib.patches import Patch
 from colonnade.arrays import Array
 from colonnade.dynamics.maps.chart import StabilityMap
 from colonnade.figures.maps.measured_map import LOGARITHMIC, draw_points, label_logarithmic, name_axes
-from colonnade.figures.style import BASE, SOFT, LineStyle, blank_figure, model_style, styled
+from colonnade.figures.style import (
+    BASE,
+    SMALL_TEXT,
+    SOFT,
+    LineStyle,
+    blank_figure,
+    fitting,
+    is_narrow,
+    model_style,
+    styled,
+    width,
+)
 from colonnade.identification.response.boundaries import MapPoint
+
+NARROW_LINE = 62
+"""Letters of a line above the map in a single column."""
 
 OVERTURNED_COLOUR = "#eec9b4"
 SHADE = LinearSegmentedColormap.from_list("overturning", ["#ffffff", OVERTURNED_COLOUR])
@@ -84,15 +99,19 @@ def stability_map(
     draw_points(axes, points, prefix="measured: ", linked=linked)
     figure = cast(Figure, axes.get_figure(root=True))
     if own:
-        axes.set_title(_words(charts), fontsize=8, color=SOFT)
+        words, most = _words(charts), 3
         handles, labels = axes.get_legend_handles_labels()
         shade = Patch(facecolor=SHADE(1.0), label=f"overturned, share of cell ({first.options['model']})")
+        labels = [str(shade.get_label()), *labels]
+        if is_narrow():
+            words, most = fill(words, NARROW_LINE), fitting(labels, inches=width(), points=7.0, most=3)
+        axes.set_title(words, fontsize=SMALL_TEXT["legend.fontsize"] if is_narrow() else 8, color=SOFT)
         figure.legend(
             handles=[shade, *handles],
-            labels=[str(shade.get_label()), *labels],
+            labels=labels,
             loc="outside lower center",
-            ncols=3,
-            fontsize=8,
+            ncols=most,
+            fontsize=SMALL_TEXT["legend.fontsize"] if is_narrow() else 8,
             columnspacing=1.4,
             handletextpad=0.6,
         )

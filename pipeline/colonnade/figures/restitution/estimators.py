@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from colonnade.figures.style import FIT, INK, LIMIT, MEASURED, SOFT, WIDTH, styled
+from colonnade.figures.style import FIT, INK, LIMIT, MEASURED, SOFT, styled, width
 from colonnade.units import format_uncertain
 
 ROW, GROUP = 0.21, 0.26
@@ -73,8 +73,8 @@ def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float | N
     titles = sum(bool(group.title) for group in groups)
     body = count * ROW + titles * GROUP + (MARGIN if rigid is None else GROUP)
     height = TOP + body + BOTTOM
-    figure = Figure(figsize=(WIDTH, height))
-    axes = figure.add_axes((LEFT / WIDTH, BOTTOM / height, (WIDTH - LEFT - RIGHT) / WIDTH, body / height))
+    figure = Figure(figsize=(width(), height))
+    axes = figure.add_axes((LEFT / width(), BOTTOM / height, (width() - LEFT - RIGHT) / width(), body / height))
     low, high = _limits([row for group in groups for row in group.rows])
     axes.set_xlim(low, high)
     axes.set_ylim(body, 0)
@@ -123,7 +123,7 @@ def _draw_row(axes: Axes, place: float, row: EstimateRow, title: str) -> None:
         axes.plot([edge], [place], mark, color=colour, markersize=size, clip_on=False, transform=beside)
     half = (row.high - row.low) / 2
     told = format_uncertain(row.value, half) if np.isfinite(half) else f"{row.value:.4f}"
-    _write(axes, place, told, WIDTH - LEFT - RIGHT + 0.12, weight=weight)
+    _write(axes, place, told, width() - LEFT - RIGHT + 0.12, weight=weight)
 
 
 def _write(
@@ -131,7 +131,7 @@ def _write(
 ) -> None:
     """Write at a height, `left` inches from the left edge of the panel, or in its middle."""
     axes.text(
-        0.5 if left is None else left / (WIDTH - LEFT - RIGHT),
+        0.5 if left is None else left / (width() - LEFT - RIGHT),
         place,
         text,
         transform=axes.get_yaxis_transform(),

@@ -58,9 +58,14 @@ def _map(campaign: Campaign, layout: Layout, specimen: str, points: Sequence[Map
     boundaries = tuple(map(_boundary, bracket_boundaries(points)))
     if not makes_map(points):
         return MeasuredMap(specimen, None, None, boundaries)
-    charts = list(filter(None, (_chart(layout, specimen, model) for model in campaign.processing.predict.models)))
+    charts = charts_of(campaign, layout, specimen)
     computed = maps.computed(specimen, charts, points, linked=True) if charts else None
     return MeasuredMap(specimen, computed, maps.tested(f"map-{specimen}", points), boundaries)
+
+
+def charts_of(campaign: Campaign, layout: Layout, specimen: str) -> list[StabilityMap]:
+    """Read the stability maps of a specimen by the campaign's models in the plane."""
+    return list(filter(None, (_chart(layout, specimen, model) for model in campaign.processing.predict.models)))
 
 
 def _chart(layout: Layout, specimen: str, model: str) -> StabilityMap | None:

@@ -1,0 +1,91 @@
+"""`colonnade figure`: one figure at the size of a journal, with its data."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import rich_click as click
+
+from colonnade.cli.console import say, show_json, show_table
+from colonnade.cli.options import campaign_and_id, campaign_and_id_argument, json_option, results_option
+
+
+@click.command(
+    epilog="Example: colonnade figure angle demo span-2.5 --width single --out span-2.5.pdf --data span-2.5.csv",
+)
+@click.argument("name", required=False)
+@campaign_and_id_argument
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Where to write it: .svg, .pdf, .png, or .csv for its data. By default NAME-ID.svg in the current folder.",
+)
+@click.option("--data", type=click.Path(path_type=Path), metavar="FILE", help="Also write its data, as a .csv table.")
+@click.option(
+    "--width",
+    type=click.Choice(("single", "double")),
+    default="double",
+    show_default=True,
+    help="Of a journal's column, 90 mm, or of its page, 190 mm.",
+)
+@click.option("--list", "listed", is_flag=True, help="List the figures.")
+@results_option
+@json_option
+def figure(
+    name: str | None,
+    arguments: tuple[str, ...],
+    out: Path | None,
+    data: Path | None,
+    width: str,
+    listed: bool,
+    results: Path | None,
+    as_json: bool,
+) -> int:
+    """
+    Draw one figure at the size of a journal, with its data.
+
+    NAME is a figure of `colonnade figure --list`, ID the test or specimen that it is of. A single argument after the
+    name is taken as CAMPAIGN if such a file or folder exists, else as ID. The figure shows the results of the last run;
+    its table has all samples.
+
+    `colonnade figure animation TEST` writes the rocking block, measured and by each model, as a GIF.
+    """
+    if listed or name is None:
+        return _list(as_json=as_json)
+    from colonnade.campaign import load
+    from colonnade.figures.saving import MOVIE, PICTURES, TABLE, expect_place, save
+    from colonnade.figures.style import journal
+    from colonnade.workflow.figure import chosen, draw
+
+    path, identifier = campaign_and_id(arguments)
+    campaign = load(path)
+    entry, subject = chosen(campaign, name, identifier)
+    moves = name == "animation"
+    target = out or (None if data else Path(f"{'-'.join(filter(None, (name, subject)))}{MOVIE if moves else '.svg'}"))
+    if moves and data is not None:
+        raise click.UsageError('An animation has no table. Use the figure "angle" with --data.')
+    for place, endings in ((target, (MOVIE,) if moves else (*PICTURES, TABLE)), (data, (TABLE,))):
+        if place is not None:
+            expect_place(place, endings)
+    if width == "single" and not entry.is_narrow:
+        raise click.UsageError(f'"{name}" is not legible in a single column. Use --width double.')
+    with journal(width):
+        picture = draw(campaign, entry, subject, results)
+        written = [save(picture, place) for place in (target, data) if place is not None]
+    if as_json:
+        show_json({"figure": target, "data": data, "title": picture.title, "description": picture.description})
+    else:
+        for place in written:
+            say(f"{'data' if place.suffix.lower() == TABLE else 'figure'}: {place}")
+    return 0
+
+
+def _list(*, as_json: bool) -> int:
+    from colonnade.report.pictures.registry import FIGURES
+
+    if as_json:
+        show_json([{"name": each.name, "of": each.of, "shows": each.shows, "needs": each.needs} for each in FIGURES])
+    else:
+        show_table(("figure", "of a", "shows"), [(each.name, each.of, each.shows) for each in FIGURES])
+    return 0

@@ -1,0 +1,133 @@
+"""The block itself as it rocks: measured and by each model, on the motion of its base."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import ceil
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+
+from colonnade.arrays import Array
+from colonnade.figures.curve import Curve
+from colonnade.figures.drawing.parts import Body
+from colonnade.figures.output import Movie
+from colonnade.figures.style import INK, MEASURED, SOFT, model_style, styled
+
+RATE, MOST_FRAMES = 25.0, 250
+"""Frames a second, and of a movie: a longer test is played faster."""
+
+FALLS = 0.5
+"""rad: an angle beyond it needs room for a block that lies down."""
+
+SIZE = (3.6, 4.0)
+"""Of the picture, inches."""
+
+
+@styled()
+def rocking_block(
+    angles: Mapping[str, Curve], body: Body, base: Curve | None, *, title: str, description: str
+) -> Movie:
+    """
+    Draw the rocking block, one outline for each history.
+
+    Parameters
+    ----------
+    angles : mapping of str to Curve
+        θ in rad over time (s): under "measured", and by model.
+    body : Body
+        With what it rocks about.
+    base : Curve or None
+        Displacement of the base, m, over time; None if it was not recorded: the base is then drawn at rest.
+    title, description : str
+
+    Returns
+    -------
+    movie : Movie
+        Of at most `MOST_FRAMES` frames; a long test is shown faster, and the picture says how much.
+
+    Raises
+    ------
+    ValueError
+        If there is no history or it is not known what the body rocks about.
+    """
+    if not angles or body.rocking is None:
+        raise ValueError("no history of a body with poles was given; at least one was expected")
+    first, last = _time_limits(list(angles.values()))
+    frames = min(max(ceil((last - first) * RATE), 2), MOST_FRAMES)
+    times = np.linspace(first, last, frames)
+    speed = (last - first) * RATE / frames
+    shift = np.zeros(frames) if base is None else _at(base, times)
+    shift = shift - shift[0]
+    figure = Figure(figsize=SIZE)
+    axes = figure.add_axes((0.0, 0.0, 1.0, 0.86))
+    axes.set_axis_off()
+    axes.set_aspect("equal")
+    falls = max(float(np.nanmax(np.abs(curve.values))) for curve in angles.values()) > FALLS
+    wide = body.height * (1.15 if falls else 0.6) + float(np.abs(shift).max())
+    axes.set_xlim(-wide, wide)
+    axes.set_ylim(-0.15 * body.height, max(1.12 * body.height, body.height + 0.2 * max(body.width)))
+    (table,) = axes.plot([], [], color=INK, linewidth=2.0)
+    poles, corners = body.rocking.poles, _outline(body)
+    blocks: list[tuple[Polygon, Array]] = []
+    for name, curve in angles.items():
+        look = MEASURED if name == "measured" else model_style(name)
+        block = Polygon(corners, closed=True, label=_label(name), edgecolor=look["color"], linestyle=look["linestyle"])
+        block.set_facecolor("#e8ecf1" if name == "measured" else "none")
+        axes.add_patch(block)
+        blocks.append((block, _at(curve, times)))
+    figure.legend(loc="upper left", ncols=2, fontsize=7, borderaxespad=0.3, columnspacing=1.0)
+    clock = axes.text(0.98, 0.02, "", transform=axes.transAxes, ha="right", fontsize=8, color=SOFT)
+
+    def show(frame: int) -> None:
+        aside = np.array([shift[frame], 0.0])
+        for block, turned in blocks:
+            block.set_xy(turn(corners, float(turned[frame]), poles) + aside)
+        table.set_data(shift[frame] + np.array([-0.5, 0.5]) * body.height, [0.0, 0.0])
+        clock.set_text(f"{times[frame]:.2f} s" + (f", {speed:.2g} × faster" if speed > 1.01 else ""))
+
+    return Movie(figure, show, frames, RATE, title, description)
+
+
+def turn(outline: Array, angle: float, poles: Sequence[float]) -> Array:
+    """
+    Turn an outline about the pole that it rocks about; an angle that is not known leaves nothing to draw.
+
+    Parameters
+    ----------
+    outline : ndarray, shape (n, 2)
+        x and z, m.
+    angle : float
+        θ, rad, positive when the top moves to +x: about the pole at +x.
+    poles : (float, float)
+        x of the poles for θ < 0 and θ > 0, m.
+
+    Returns
+    -------
+    turned : ndarray, shape (n, 2)
+    """
+    pole = np.array([poles[1] if angle > 0 else poles[0], 0.0])
+    sine, cosine = np.sin(angle), np.cos(angle)
+    return np.asarray((outline - pole) @ np.array([[cosine, -sine], [sine, cosine]]) + pole)
+
+
+def _outline(body: Body) -> Array:
+    base, top = (size / 2 for size in body.width)
+    return np.array([(-base, 0.0), (base, 0.0), (top, body.height), (-top, body.height)])
+
+
+def _at(curve: Curve, times: Array) -> Array:
+    known = np.isfinite(curve.values)
+    if not known.any():
+        return np.zeros_like(times)
+    # Past its end a history keeps its last value: an overturned block stays where it fell.
+    return np.interp(times, curve.time[known], curve.values[known])
+
+
+def _time_limits(curves: Sequence[Curve]) -> tuple[float, float]:
+    return min(float(curve.time[0]) for curve in curves), max(float(curve.time[-1]) for curve in curves)
+
+
+def _label(name: str) -> str:
+    return name if name == "measured" else f"{name} model"

@@ -1,0 +1,169 @@
+"""
+The figures, each by its name: what it is of, what it shows, what it needs, and the function that draws it.
+
+A new figure is a module in `figures` and an entry here; from then on pages can show it and `colonnade figure` draws it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import isfinite
+from typing import Any, Literal, NamedTuple
+
+from colonnade.figures.drawing import described
+from colonnade.figures.output import Movie, Picture
+from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow
+from colonnade.figures.stored import angle, maps, moving, record
+from colonnade.figures.stored import restitution as decays
+from colonnade.identification.response.boundaries import makes_map
+from colonnade.report.overview_page import peaks as agreement
+from colonnade.report.overview_page.spans import span_groups
+from colonnade.report.pictures.subjects import OfCampaign, OfSpecimen, OfTest, Subject
+
+
+class Entry(NamedTuple):
+    """
+    A figure.
+
+    Attributes
+    ----------
+    name : str
+        Its name, the same for a test and a specimen if it shows the same of both.
+    of : {"test", "specimen", "campaign"}
+    shows : str
+        In words, for lists.
+    needs : str
+        What has to be there.
+    draw : callable
+        Takes an `OfTest`, `OfSpecimen` or `OfCampaign`; None if there is nothing to draw.
+    is_narrow : bool
+        Whether it is legible in a single column of a journal.
+    """
+
+    name: str
+    of: Literal["test", "specimen", "campaign"]
+    shows: str
+    needs: str
+    draw: Callable[[Any], Picture | Movie | None]
+    is_narrow: bool = True
+
+
+def _record(one: OfTest) -> Picture | None:
+    return record.record(one.row.test, one.row.record, one.stored, one.block)
+
+
+def _angle(one: OfTest) -> Picture | None:
+    return angle.angle(one.row.test, one.row.record, one.stored, one.block)
+
+
+def _bands(one: OfTest) -> Picture | None:
+    return record.bands(one.row.test, one.stored, one.block)
+
+
+def _fitted(one: OfTest) -> Picture | None:
+    return decays.fitted(one.row.test, one.stored, one.block)
+
+
+def _estimators_of_test(one: OfTest) -> Picture | None:
+    groups = [EstimateGroup("", decays.estimate_rows(one.stored))]
+    return decays.estimators(f"estimators-{one.row.id}", groups, one.block.restitution)
+
+
+def _peaks_of_test(one: OfTest) -> Picture | None:
+    series = decays.peak_series(one.row.test, one.stored, one.block)
+    return decays.peaks(f"peaks-{one.row.id}", [series] if series else [], one.block)
+
+
+def _impacts_of_test(one: OfTest) -> Picture | None:
+    series = decays.impact_series(one.row.test, one.stored)
+    level = decays.level_of(one.stored, decays.STAGE, "e identified")
+    return decays.impacts(f"impacts-{one.row.id}", [series] if series else [], level, one.block.restitution)
+
+
+def _region(one: OfTest) -> Picture | None:
+    return decays.region(one.row.test, one.stored)
+
+
+def _animation(one: OfTest) -> Movie | None:
+    return moving.animation(one.row.test, one.campaign.specimens[one.row.test.specimen], one.stored, one.block)
+
+
+def _setup(one: OfTest) -> Picture:
+    return described.picture(one.campaign, one.row.test.specimen, one.row.test.setup)
+
+
+def _estimators(one: OfSpecimen) -> Picture | None:
+    groups = [EstimateGroup(each.test, each.rows) for each in one.decays]
+    level = decays.level_of(one.pooled, "specimen", "e pooled")
+    if isfinite(level.low):
+        groups.append(EstimateGroup("all together", [EstimateRow("pooled", *level[:3], recommended=True)]))
+    return decays.estimators(f"estimators-{one.name}", groups, one.block.restitution)
+
+
+def _peaks(one: OfSpecimen) -> Picture | None:
+    series = [each.peaks for each in one.decays if each.peaks is not None]
+    return decays.peaks(f"peaks-{one.name}", series, one.block)
+
+
+def _impacts(one: OfSpecimen) -> Picture | None:
+    series = [each.impacts for each in one.decays if each.impacts is not None]
+    level = decays.level_of(one.pooled, "specimen", "e pooled")
+    return decays.impacts(f"impacts-{one.name}", series, level, one.block.restitution)
+
+
+def _measured_map(one: OfSpecimen) -> Picture | None:
+    return maps.tested(f"map-{one.name}", one.points) if makes_map(one.points) else None
+
+
+def _map(one: OfSpecimen) -> Picture | None:
+    return maps.computed(one.name, one.charts, one.points, linked=True) if one.charts else None
+
+
+def _spans(one: OfSpecimen) -> Picture | None:
+    groups = span_groups(one.spans)
+    return max(groups, key=lambda group: len(group.tests)).picture if groups else None
+
+
+def _agreement(one: OfCampaign) -> Picture | None:
+    models = one.campaign.processing.predict.models
+    return agreement.picture(agreement.points(one.rows, models, agreement.worst(one.rows, models)))
+
+
+_SINES = "It needs sine tests at two frequencies or more."
+_MAP = "Without them, `colonnade map` makes one."
+_ANGLE = "It needs a measured or predicted angle."
+_FREE = "It needs a free vibration with an angle."
+_FREED = f"{_FREE} Its fit must free the critical angle."
+FIGURES: tuple[Entry, ...] = (
+    Entry("record", "test", "all of a test over time: angle, misfit, other motions, base", _ANGLE, _record),
+    Entry("angle", "test", "rocking angle over time, measured and predicted", _ANGLE, _angle),
+    Entry("bands", "test", "measured angle over each model's bands", "It needs an ensemble.", _bands),
+    Entry("fitted", "test", "free vibration, fitted history and residual", _FREE, _fitted),
+    Entry("estimators", "test", "e from every estimator", _FREE, _estimators_of_test, is_narrow=False),
+    Entry("peaks", "test", "energy of successive peaks and its line", _FREE, _peaks_of_test),
+    Entry("impacts", "test", "e of each impact over its velocity", _FREE, _impacts_of_test),
+    Entry(
+        "region",
+        "test",
+        "joint region of e and the critical angle",
+        _FREED,
+        _region,
+        is_narrow=False,
+    ),
+    Entry("setup", "test", "specimen and transducers to scale", "", _setup, is_narrow=False),
+    Entry("animation", "test", "the rocking block, measured and by each model, as a GIF", _ANGLE, _animation),
+    Entry("estimators", "specimen", "e from every estimator and record", _FREE, _estimators, is_narrow=False),
+    Entry("peaks", "specimen", "energy of successive peaks of every record", _FREE, _peaks),
+    Entry("impacts", "specimen", "e of each impact of every record", _FREE, _impacts),
+    Entry("measured-map", "specimen", "sine tests by outcome over Ω and A", _SINES, _measured_map),
+    Entry("map", "specimen", "computed stability map with the measured points", f"{_SINES} {_MAP}", _map),
+    Entry("spans", "specimen", "earthquake tests side by side by Span", "It needs two Spans of one motion.", _spans),
+    Entry("agreement", "campaign", "predicted over measured peak of each test", "A test must have rocked.", _agreement),
+)
+"""Every figure; no two of one subject have the same name."""
+
+
+def picture(name: str, of: Subject) -> Picture | Movie | None:
+    """Draw a figure of a test, a specimen or the campaign by its name; None if there is nothing to draw."""
+    kind = "test" if isinstance(of, OfTest) else "specimen" if isinstance(of, OfSpecimen) else "campaign"
+    return next(entry for entry in FIGURES if (entry.of, entry.name) == (kind, name)).draw(of)

@@ -1,0 +1,155 @@
+"""What figures are drawn of: one test, one specimen with its tests, or the campaign, as stored."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from colonnade.campaign import Campaign
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.maps.chart import StabilityMap
+from colonnade.figures.restitution.estimators import EstimateRow
+from colonnade.figures.restitution.impacts import ImpactSeries
+from colonnade.figures.restitution.peaks import PeakSeries
+from colonnade.figures.stored import record, restitution
+from colonnade.identification.response.boundaries import MapPoint
+from colonnade.report.overview_page.maps import charts_of
+from colonnade.report.overview_page.spans import SpanTest
+from colonnade.report.rows import TestRow
+from colonnade.store.layout import Layout
+from colonnade.store.records.stored import Failure, Stored, read_specimen, read_test
+from colonnade.store.records.summary import map_points, read_summary, records_of_tests
+
+
+@dataclass(frozen=True)
+class OfTest:
+    """A test: its row in the tables, and what is stored of it."""
+
+    campaign: Campaign
+    row: TestRow
+    stored: Stored
+
+    @property
+    def block(self) -> Block:
+        """Of its specimen."""
+        return self.campaign.block(self.row.test.specimen)
+
+    @property
+    def failures(self) -> Sequence[Failure]:
+        """Why it failed."""
+        return self.row.failures
+
+
+@dataclass(frozen=True)
+class Decaying:
+    """What the figures of a specimen show of one free vibration."""
+
+    test: str
+    rows: Sequence[EstimateRow]
+    peaks: PeakSeries | None
+    impacts: ImpactSeries | None
+
+    @classmethod
+    def of(cls, subject: OfTest) -> Decaying:
+        """Read it from what is stored of a test."""
+        test, stored = subject.row.test, subject.stored
+        return cls(
+            test.id,
+            restitution.estimate_rows(stored),
+            restitution.peak_series(test, stored, subject.block),
+            restitution.impact_series(test, stored),
+        )
+
+
+@dataclass(frozen=True)
+class OfSpecimen:
+    """
+    A specimen.
+
+    Attributes
+    ----------
+    campaign : Campaign
+    name : str
+    pooled : Stored
+        Its own results.
+    decays : sequence of Decaying
+        Its free vibrations.
+    points : sequence of MapPoint
+        Its sine tests of known Ω, A and outcome.
+    charts : sequence of StabilityMap
+        Its stability maps, one a model.
+    spans : sequence of SpanTest
+        Its earthquake tests with a Span.
+    """
+
+    campaign: Campaign
+    name: str
+    pooled: Stored
+    decays: Sequence[Decaying] = ()
+    points: Sequence[MapPoint] = ()
+    charts: Sequence[StabilityMap] = ()
+    spans: Sequence[SpanTest] = field(default=())
+
+    @property
+    def block(self) -> Block:
+        """Of the specimen."""
+        return self.campaign.block(self.name)
+
+    @property
+    def failures(self) -> Sequence[Failure]:
+        """Why it failed."""
+        return self.pooled.failures
+
+
+@dataclass(frozen=True)
+class OfCampaign:
+    """A campaign: all its tests as rows of the tables."""
+
+    campaign: Campaign
+    rows: Sequence[TestRow]
+    failures: Sequence[Failure] = ()
+
+
+Subject = OfTest | OfSpecimen | OfCampaign
+"""What a figure is drawn of."""
+
+
+def read_of_test(campaign: Campaign, layout: Layout, test: str) -> OfTest:
+    """Read what is stored of a test, as of the last run."""
+    stored = read_test(campaign, layout, campaign.tests[test])
+    record_of = records_of_tests(campaign, read_summary(layout))[test]
+    return OfTest(campaign, TestRow.of(campaign, campaign.tests[test], record_of, stored), stored)
+
+
+def read_of_specimen(campaign: Campaign, layout: Layout, specimen: str) -> OfSpecimen:
+    """Read what is stored of a specimen and its tests, as of the last run."""
+    tests = [read_of_test(campaign, layout, name) for name, test in campaign.tests.items() if test.specimen == specimen]
+    records = {each.row.id: each.row.record for each in tests}
+    return OfSpecimen(
+        campaign,
+        specimen,
+        read_specimen(campaign, layout, specimen),
+        [Decaying.of(each) for each in tests if each.stored.has(restitution.STAGE)],
+        map_points(records, specimen),
+        charts_of(campaign, layout, specimen),
+        [span_of(each) for each in tests if has_span(each)],
+    )
+
+
+def read_of_campaign(campaign: Campaign, layout: Layout) -> OfCampaign:
+    """Read the records of all tests, as of the last run."""
+    records = records_of_tests(campaign, read_summary(layout))
+    rows = [TestRow.of(campaign, test, records[name], Stored()) for name, test in campaign.tests.items()]
+    return OfCampaign(campaign, rows)
+
+
+def has_span(subject: OfTest) -> bool:
+    """Whether it is an earthquake test with a Span and an angle, measured or predicted."""
+    datasets = subject.stored.datasets.values()
+    return subject.row.test.span is not None and any("rocking_angle" in dataset for dataset in datasets)
+
+
+def span_of(subject: OfTest) -> SpanTest:
+    """Gather of an earthquake test what the figure of all Spans shows."""
+    row, stored = subject.row, subject.stored
+    return SpanTest(row, record.span_panel(row.test, stored, subject.block), record.seen(row.record, stored))

@@ -1,0 +1,63 @@
+"""Every figure of the registry is drawn from stored results, in both widths of a journal, and has a table."""
+
+from __future__ import annotations
+
+import pytest
+
+from colonnade.figures.output import Movie
+from colonnade.figures.style import COLUMNS, journal
+from colonnade.figures.table import table_of
+from colonnade.report.pictures import subjects
+from colonnade.report.pictures.registry import FIGURES, picture
+
+SUBJECTS = {"test": ("free-01", "span-2.0"), "specimen": ("prism",), "campaign": ("",)}
+
+
+NARROW = [entry for entry in FIGURES if entry.is_narrow and entry.name != "animation"]
+
+
+@pytest.fixture(scope="module")
+def read(filled_campaign):
+    campaign, layout = filled_campaign
+    return {
+        **{name: subjects.read_of_test(campaign, layout, name) for name in SUBJECTS["test"]},
+        "prism": subjects.read_of_specimen(campaign, layout, "prism"),
+        "": subjects.read_of_campaign(campaign, layout),
+    }
+
+
+def test_no_two_figures_of_a_subject_have_one_name():
+    names = [(entry.of, entry.name) for entry in FIGURES]
+    assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize("entry", FIGURES, ids=lambda entry: f"{entry.name} of a {entry.of}")
+def test_every_figure_is_drawn_of_what_is_stored(read, entry):
+    found = [entry.draw(read[name]) for name in SUBJECTS[entry.of]]
+    drawn = next((each for each in found if each is not None), None)
+    if drawn is None:
+        pytest.skip(f"the small campaign has no data for {entry.name}")
+    if not isinstance(drawn, Movie) and entry.name != "setup":
+        assert any(len(column) for column in table_of(drawn.figure).values())
+
+
+@pytest.mark.parametrize("column", COLUMNS)
+@pytest.mark.parametrize("entry", NARROW, ids=lambda entry: entry.name)
+def test_the_journals_column_gives_the_width_and_nothing_leaves_it(read, entry, column):
+    if column == "double" and entry.name not in ("angle", "map"):
+        pytest.skip("the width of a page is close to that of the report")
+    with journal(column):
+        drawn = next(filter(None, (entry.draw(read[name]) for name in SUBJECTS[entry.of])), None)
+        if drawn is None:
+            pytest.skip("no data")
+        wide = float(drawn.figure.get_size_inches()[0])
+        assert wide == pytest.approx(COLUMNS[column])
+        drawn.figure.draw_without_rendering()
+        for legend in drawn.figure.legends:
+            assert legend.get_window_extent().x1 <= wide * drawn.figure.dpi * 1.01
+
+
+def test_a_page_and_the_command_draw_the_same(read):
+    same = picture("fitted", read["free-01"])
+    assert same is not None
+    assert same.identity == "fitted-free-01"
