@@ -48,7 +48,17 @@ def test_an_altered_pdf_is_made_again(folder, pdf):
     assert write_pdf(folder).read_bytes() == whole
 
 
+def test_a_pdf_of_older_pages_is_left_out_of_the_bundle(folder, pdf, tmp_path):
+    page = folder / "report" / "methods.html"
+    text = page.read_text(encoding="utf-8")
+    page.write_text(stamps.stamped(text, "abc"), encoding="utf-8")
+    with zipfile.ZipFile(write_bundle(folder, tmp_path / "all.zip")) as archive:
+        assert "report/report.pdf" not in archive.namelist()
+    page.write_text(text, encoding="utf-8")
+
+
 def test_the_bundle_holds_the_whole_report(folder, pdf, tmp_path):
+    write_pdf(folder)
     with zipfile.ZipFile(write_bundle(folder, tmp_path / "all.zip")) as archive:
         names = set(archive.namelist())
     pages = {path for path in (folder / "report").rglob("*") if path.is_file()}

@@ -13,10 +13,11 @@ KIND = "photo"
 
 @dataclass(frozen=True)
 class Photo:
-    """A photo: its address within the report, and what it is, for those who do not see it."""
+    """A photo: its address within the report, what it is, for those who do not see it, and its path as written."""
 
     address: str
     description: str
+    written: str
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,6 @@ def photos_of(campaign: Campaign, test: Test, folder: Path) -> Photos:
     for number, written in enumerate(test.photos, start=1):
         address = address_of(test.id, number)
         if (folder / address).is_file():
-            shown.append(Photo(address, f"Photo {number} of test {test.id}, {written}"))
+            shown.append(Photo(address, f"Photo {number} of test {test.id}", written))
     problems = tuple(found.text for found in campaign.concerning(test.id) if found.kind == KIND)
     return Photos(tuple(shown), problems)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Collection
 from pathlib import Path
 from typing import IO
 
@@ -17,7 +18,7 @@ READABLE = 0o100644 << 16
 """A plain file that everybody may read, as zip files say it."""
 
 
-def write_bundle(folder: Path, target: Path) -> None:
+def write_bundle(folder: Path, target: Path, *, without: Collection[Path] = ()) -> None:
     """
     Put all files of a folder into a zip file.
 
@@ -27,6 +28,8 @@ def write_bundle(folder: Path, target: Path) -> None:
         The report's. Links in it, and names that begin with a dot, are left out.
     target : Path
         The zip file, outside the folder; written whole or not at all.
+    without : collection of Path, optional
+        Files of the folder that are left out.
 
     Raises
     ------
@@ -39,7 +42,7 @@ def write_bundle(folder: Path, target: Path) -> None:
         raise StoreError(f"{target}: this is in the report itself. Name a file outside {folder}.")
     if target.is_dir():
         raise StoreError(f"{target}: this is a folder. Name the file that the bundle is written to.")
-    found = [path for path in own_files(folder) if not path.is_symlink()]
+    found = [path for path in own_files(folder) if not path.is_symlink() and path not in without]
     names = {path.relative_to(folder).as_posix(): path for path in found if not path.name.startswith(".")}
 
     def write_to(stream: IO[bytes]) -> None:

@@ -6,7 +6,7 @@ import hashlib
 import json
 from pathlib import Path
 
-from colonnade.campaign import load
+from colonnade.campaign import Campaign, load
 from colonnade.errors import StoreError
 from colonnade.report import addresses, who_and_when
 from colonnade.store import bundle, files, stamps
@@ -48,13 +48,10 @@ def write_pdf(campaign: Path | str, *, results: Path | str | None = None) -> Pat
     layout = Layout.of(loaded.folder, results)
     with only_run(layout):
         folder = _there(layout)
-        from colonnade.report.paper.typesetting import pdf_of, template_hash
-
-        pages = {page: stamps.key_of(folder / page) for found in addresses.addresses(loaded) for page in found}
-        shown = [template_hash(), loaded.title, loaded.campaign, who_and_when.of_campaign(loaded)]
-        pictures = {path.name: _hash(path) for pattern in SHOWN for path in sorted(folder.glob(pattern))}
-        recipe = Recipe("pdf", Catalogue(layout).code(MADE_BY), json.dumps(shown), pages | pictures)
+        recipe = _recipe(loaded, layout, folder)
         if stamps.key_of(layout.pdf) != recipe.key:
+            from colonnade.report.paper.typesetting import pdf_of
+
             files.write_bytes(layout.pdf, stamps.stamped_pdf(pdf_of(loaded, folder), recipe.key))
     return layout.pdf
 
@@ -62,6 +59,8 @@ def write_pdf(campaign: Path | str, *, results: Path | str | None = None) -> Pat
 def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | str | None = None) -> Path:
     """
     Put the whole report of a campaign into one zip file; `campaign`, `results` and errors as for `write_pdf`.
+
+    A PDF of older pages is left out.
 
     Parameters
     ----------
@@ -72,10 +71,23 @@ def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | st
     -------
     target : Path
     """
-    layout = Layout.of(load(Path(campaign)).folder, results)
+    loaded = load(Path(campaign))
+    layout = Layout.of(loaded.folder, results)
     with only_run(layout):
-        bundle.write_bundle(_there(layout), Path(target))
+        folder = _there(layout)
+        is_current = stamps.key_of(layout.pdf) == _recipe(loaded, layout, folder).key
+        bundle.write_bundle(folder, Path(target), without=() if is_current else (layout.pdf,))
     return Path(target)
+
+
+def _recipe(campaign: Campaign, layout: Layout, folder: Path) -> Recipe:
+    """Give all that the PDF is made from."""
+    from colonnade.report.paper.typesetting import template_hash
+
+    pages = {page: stamps.key_of(folder / page) for found in addresses.addresses(campaign) for page in found}
+    shown = [template_hash(), campaign.title, campaign.campaign, who_and_when.of_campaign(campaign)]
+    pictures = {path.name: _hash(path) for pattern in SHOWN for path in sorted(folder.glob(pattern))}
+    return Recipe("pdf", Catalogue(layout).code(MADE_BY), json.dumps(shown), pages | pictures)
 
 
 def _hash(path: Path) -> str:
