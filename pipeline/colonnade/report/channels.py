@@ -23,6 +23,8 @@ UNITS = {
 _NOTHING_LEFT = 1e-6
 """Residuals smaller than this, over the noise, mean that there are no more transducers than motions."""
 
+_GOOD = "good"
+
 FLAGS = {2: "not evaluated", 3: "suspect", 4: "failed", 9: "missing"}
 """Meanings of the quality flags but "good"."""
 
@@ -43,6 +45,11 @@ class ChannelRow:
     cutoff: str
     clock: str
     residual: str
+
+    @property
+    def is_good(self) -> bool:
+        """Whether no sample is flagged and its quality has no remark."""
+        return self.flagged == NOTHING and self.quality == _GOOD
 
 
 def of_test(stored: Stored) -> tuple[ChannelRow, ...]:
@@ -75,7 +82,7 @@ def _channel(
         quantity=kind.replace("_", " "),
         recorded="" if samples is None else f"{samples.count} at {quantity(samples.rate, 'Hz', 4)}",
         flagged=NOTHING if samples is None else _flagged(samples),
-        quality=str(given.get("quality_report", "")) or "good",
+        quality=str(given.get("quality_report", "")) or _GOOD,
         zero=value("zero", 4),
         zero_window=str(given.get("zero_window", "")) or NOTHING,
         noise=value("noise", 2),

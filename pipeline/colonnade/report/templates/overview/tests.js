@@ -14,10 +14,31 @@
     .concat(heads.slice(7).map(function (head) { return head.dataset.column; }));
   inOrder.forEach(function (name, index) { place[name] = index; });
 
-  const rows = Array.from(body.rows, function (row) {
+  // In the order in which they stand.
+  let rows = Array.from(body.rows, function (row) {
     const cells = Array.from(row.cells, function (cell) { return cell.textContent.replace(/\s+/g, " ").trim(); });
-    return { row: row, cells: cells, words: cells.join(" ").toLowerCase() };
+    return { row: row, cells: cells, words: cells.join(" ").toLowerCase(), fits: true };
   });
+
+  // Rows that appear at once; of a long table the others follow, so that the answer does not wait for them.
+  const AT_ONCE = 100;
+  let latest = 0;
+
+  function show() {
+    const turn = ++latest;
+    const hidden = [];
+    let count = 0;
+    rows.forEach(function (each) {
+      if (each.fits && ++count > AT_ONCE && each.row.hidden) hidden.push(each.row);
+      else if (each.row.hidden === each.fits) each.row.hidden = !each.fits;
+    });
+    function more() {
+      if (turn !== latest || !hidden.length) return;
+      hidden.splice(0, AT_ONCE).forEach(function (row) { row.hidden = false; });
+      setTimeout(more);
+    }
+    requestAnimationFrame(function () { setTimeout(more); });
+  }
 
   function fits(cell, wanted, name) {
     if (name === "outcome") return cell.replace(/^– observed: /, "").split(" ")[0] === wanted;
@@ -29,14 +50,12 @@
     const wanted = Array.from(form.querySelectorAll("select"), function (select) { return [select.name, select.value]; })
       .filter(function (pair) { return pair[1]; });
     const words = form.elements.words.value.toLowerCase().split(/\s+/).filter(Boolean);
-    let count = 0;
     rows.forEach(function (each) {
-      const stays = wanted.every(function (pair) { return fits(each.cells[place[pair[0]]], pair[1], pair[0]); })
+      each.fits = wanted.every(function (pair) { return fits(each.cells[place[pair[0]]], pair[1], pair[0]); })
         && words.every(function (word) { return each.words.includes(word); });
-      if (each.row.hidden === stays) each.row.hidden = !stays;
-      count += stays;
     });
-    shown.textContent = count + " of " + rows.length + " tests";
+    shown.textContent = rows.filter(function (each) { return each.fits; }).length + " of " + rows.length + " tests";
+    show();
   }
 
   function value(text) {
@@ -60,9 +79,14 @@
       const order = isNumber ? one.key - other.key : names.compare(one.key, other.key);
       return down ? -order : order;
     });
+    rows = keyed.map(function (entry) { return entry.each; });
     const all = document.createDocumentFragment();
-    keyed.forEach(function (entry) { all.append(entry.each.row); });
+    rows.forEach(function (each, index) {
+      if (index >= AT_ONCE) each.row.hidden = true;
+      all.append(each.row);
+    });
     body.append(all);
+    show();
   }
 
   heads.forEach(function (head) {
@@ -89,5 +113,8 @@
     (form.querySelector("select") || form.elements.words).focus({ preventScroll: true });
   });
   window.addEventListener("pageshow", filter);
+  window.addEventListener("beforeprint", function () {
+    rows.forEach(function (each) { each.row.hidden = !each.fits; });
+  });
   form.hidden = false;
 })();

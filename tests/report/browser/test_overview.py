@@ -1,0 +1,111 @@
+"""The table of all tests in a browser: filtered, sorted, by keyboard, from a count of missed outcomes, and whole."""
+
+from __future__ import annotations
+
+import pytest
+
+from .conftest import TELEPHONE
+
+SHOWN = (
+    "() => [...document.querySelectorAll('#tests-table tbody tr:not([hidden]) th')].map(th => th.textContent.trim())"
+)
+STRONG = "sine-3hz-too-strong-for-the-block-1"
+
+
+@pytest.fixture
+def overview(visit):
+    return visit("index.html")
+
+
+def choose(page, name, value):
+    page.select_option(f"#filter select[name='{name}']", value)
+
+
+def test_without_scripts_the_whole_table_stands(visit):
+    page = visit("index.html", scripts=False)
+    assert page.locator("#tests-table tbody tr").count() == 9
+    assert not page.locator("#filter").is_visible()
+    assert page.locator("#missed-linear-rocking-overturned a").first.inner_text() == "span-3.0"
+
+
+def test_it_is_filtered_by_each_choice_and_by_words(overview):
+    choose(overview, "kind", "earthquake")
+    assert overview.evaluate(SHOWN) == ["span-2.0", "span-2.5", "span-3.0", "watched"]
+    choose(overview, "specimen", "prism")
+    assert overview.evaluate(SHOWN) == ["span-2.0", "span-2.5", "span-3.0"]
+    choose(overview, "linear", "overturned")
+    assert overview.evaluate(SHOWN) == ["span-3.0"]
+    assert overview.locator("#filter output").inner_text() == "1 of 9 tests"
+    overview.click("#filter button[type=reset]")
+    overview.wait_for_function("document.querySelector('#filter output').textContent === '9 of 9 tests'")
+    overview.fill("#filter input[name=words]", "sine Failed")
+    assert overview.evaluate(SHOWN) == ["sine-dead"]
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "expected"),
+    [
+        ("status", "failed", ["sine-dead"]),
+        ("outcome", "overturned", [STRONG]),
+        ("outcome", "not-overturned", ["watched"]),
+    ],
+)
+def test_a_status_and_an_outcome_are_found(overview, name, value, expected):
+    choose(overview, name, value)
+    assert overview.evaluate(SHOWN) == expected
+
+
+def test_a_count_of_missed_outcomes_leads_to_its_tests_in_the_table(overview):
+    overview.click("#agreement a[data-filter='outcome=rocking&linear=overturned']")
+    assert overview.evaluate(SHOWN) == ["span-3.0"]
+    assert overview.evaluate("document.activeElement.name") == "specimen"
+
+
+def test_it_is_sorted_by_the_keyboard_and_what_is_not_known_stays_last(overview):
+    head = overview.locator("#tests-table th[data-column='peak']")
+    head.locator("button").focus()
+    overview.keyboard.press("Enter")
+    assert head.get_attribute("aria-sort") == "ascending"
+    rows = overview.locator("#tests-table tbody tr")
+    peaks = [rows.nth(place).locator("td").nth(6).inner_text() for place in range(9)]
+    known = [float(peak) for peak in peaks if peak != "–"]
+    assert known == sorted(known)
+    assert len(known) == 5
+    overview.keyboard.press("Enter")
+    assert head.get_attribute("aria-sort") == "descending"
+    assert float(rows.first.locator("td").nth(6).inner_text()) == max(known)
+    overview.click("#tests-table th[data-column='test'] button")
+    assert overview.evaluate(SHOWN) == sorted(overview.evaluate(SHOWN))
+    assert overview.locator("[aria-sort]").count() == 1
+
+
+def test_a_mark_of_a_figure_leads_to_its_test(overview):
+    overview.locator("#peaks a[aria-label='span-2.0']").first.click()
+    assert overview.url.endswith("tests/span-2.0.html")
+
+
+def test_the_keyboard_skips_to_the_content(overview):
+    overview.keyboard.press("Tab")
+    assert overview.evaluate("document.activeElement.className") == "skip"
+    overview.keyboard.press("Enter")
+    assert overview.evaluate("document.activeElement.id") == "content"
+
+
+def test_contents_stay_in_sight_at_the_side_of_a_wide_screen(visit):
+    page = visit("index.html", screen=(1440, 900))
+    page.evaluate("document.getElementById('tests').scrollIntoView()")
+    box = page.locator("nav.contents").bounding_box()
+    assert box["y"] == pytest.approx(0, abs=1)
+    assert box["x"] + box["width"] < page.locator("main").bounding_box()["x"]
+    links = page.locator("nav.contents a").evaluate_all("links => links.map(link => link.getAttribute('href'))")
+    assert links[:2] == ["#attention", "#summary"]
+
+
+def test_on_a_telephone_what_is_wider_says_that_it_scrolls(visit):
+    page = visit("index.html", screen=TELEPHONE)
+    boxes = page.locator(".scroll").evaluate_all(
+        "boxes => boxes.map(box => [box.scrollWidth > box.clientWidth,"
+        " parseFloat(getComputedStyle(box, '::before').fontSize) > 5])"
+    )
+    assert [True, True] in boxes
+    assert all(wider == said for wider, said in boxes)

@@ -1,0 +1,59 @@
+"""What one sees first of a campaign with a wrong gain, a wrong outcome and a failed test is just that."""
+
+from __future__ import annotations
+
+import re
+import shutil
+
+import pytest
+
+from colonnade.workflow import run
+
+WRONG_GAIN = """
+schema = 1
+
+[[correct]]
+test = "span-2.0"
+channel = "top"
+factor = 10
+who = "N. N."
+when = 2013-04-26
+why = "a slip"
+"""
+
+
+@pytest.fixture(scope="module")
+def first(empty_campaign, tmp_path_factory) -> str:
+    """Words of the overview up to its summary."""
+    folder = tmp_path_factory.mktemp("urgent") / "campaign"
+    shutil.copytree(empty_campaign[1].folder, folder, ignore=shutil.ignore_patterns("processed", "report"))
+    (folder / "review.toml").write_text(WRONG_GAIN, encoding="utf-8")
+    path = folder / "campaign.toml"
+    text = path.read_text(encoding="utf-8").replace("members = 20", "members = 0")
+    text = text.replace('id = "span-2.5"', 'id = "span-2.5"\nobserved_outcome = "overturned"')
+    path.write_text(text, encoding="utf-8")
+    result = run(folder, only=["span-2.0", "span-2.5", "span-3.0", "sine-dead"], workers=1)
+    page = result.report.read_text(encoding="utf-8")
+    main = page[page.index("<main") : page.index('<section id="summary">')]
+    return " ".join(re.sub(r"<[^>]+>", " ", main).split())
+
+
+def test_the_failed_test_comes_first_with_its_reason(first):
+    assert re.match(r"What needs a look 1 test failed sine-dead ingest: sine-dead\.csv: the file is empty", first)
+
+
+def test_then_what_makes_results_wrong_the_gain_and_the_outcome_with_their_tests(first):
+    wrong = first[first.index("Results are wrong until this is corrected") :]
+    assert re.search(r"serious \w+: Channel top .* gain wrong by a factor of 10.*? In span-2\.0", wrong)
+    assert re.search(
+        r"serious compare: The transducers show rocking, the test log says overturned.*? In span-2\.5", wrong
+    )
+
+
+def test_then_the_outcomes_that_a_model_misses(first):
+    assert first.index("Results are wrong") < first.index("Outcomes that a model misses")
+    assert re.search(r"The linear model predicts overturned in 1 test measured as rocking : span-3\.0", first)
+
+
+def test_notes_are_counted_at_the_end(first):
+    assert re.search(r"All findings , with .*\d+ notes? that do(es)? not affect results\.$", first)
