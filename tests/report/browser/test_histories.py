@@ -64,7 +64,7 @@ def saved(page, button) -> str:
 def test_every_history_has_its_panel(page):
     for title in ("Channels, conditioned", "Channels, as recorded"):
         opened(page, title)
-    titles = page.locator(".panel h4").all_inner_texts()
+    titles = page.locator(".panel h3").all_inner_texts()
     assert titles[0] == "Rocking angle over critical angle, θ/α"
     assert "Predicted minus measured, over critical angle" in titles
     assert "Base acceleration; dotted: ± g tan α (m/s²)" in titles
@@ -196,6 +196,25 @@ def test_corners_turn_about_the_pole(page, angle, corner, there):
         "([outline, angle]) => colonnade.MovingBlock.corners(outline, [-0.05, 0.05], angle, 0)", [outline, angle]
     )
     assert corners[corner] == pytest.approx(there, abs=1e-9)
+
+
+def test_names_are_texts_whatever_they_are(page):
+    name = '<img src=x onerror=alert(1)> "Größe" θ\''
+    shown = page.evaluate(
+        """name => {
+          const curve = { name, clock: 0, values: 0, colour: "ink" };
+          const given = { title: name, short: name, unit: name, curves: [curve] };
+          const made = new colonnade.Panel(given, { panels: [] }, colonnade.page);
+          return [made.root.querySelector("h3").textContent, made.root.querySelector("button").textContent,
+            made.root.querySelectorAll("img").length, colonnade.cell(name)];
+        }""",
+        name,
+    )
+    assert shown == [f"{name} ({name})", f"{name} ", 0, '"' + name.replace('"', '""') + '"']
+
+
+def test_a_text_is_no_formula_in_a_spreadsheet(page):
+    assert page.evaluate("['=1+1', '-x', -1.5, NaN].map(colonnade.cell)") == ["'=1+1", "'-x", "-1.5", ""]
 
 
 def test_flagged_samples_of_a_recorded_channel_are_marked(page, filled_campaign):

@@ -14,10 +14,13 @@ colonnade.element = function (tag, attributes = {}, ...children) {
   return made;
 };
 
-// A colour of the page's own, as it is now, light or dark.
+// A colour as it is now: one of the page's own by its name, any other lighter in the dark.
 colonnade.colour = function (name) {
   const own = { ink: "--ink", soft: "--soft", line: "--line" }[name];
-  return own ? getComputedStyle(document.documentElement).getPropertyValue(own).trim() : name;
+  if (own) return getComputedStyle(document.documentElement).getPropertyValue(own).trim();
+  if (!matchMedia("(prefers-color-scheme: dark)").matches) return name;
+  const lighter = [1, 3, 5].map((at) => Math.round(0.6 * parseInt(name.slice(at, at + 2), 16) + 0.4 * 255));
+  return `rgb(${lighter.join(", ")})`;
 };
 
 colonnade.written = function (value, digits = 4) {
@@ -40,7 +43,7 @@ colonnade.Panel = class {
     this.line = colonnade.element("div", { class: "cursor", hidden: "" });
     this.chosen = colonnade.element("div", { class: "chosen", hidden: "" });
     this.box = colonnade.element("div", { class: "plotted" }, this.plot, this.line, this.chosen);
-    this.root = colonnade.element("section", { class: "panel" }, colonnade.element("h4", {}, given.title + unit), this.keys, this.box);
+    this.root = colonnade.element("section", { class: "panel" }, colonnade.element("h3", {}, given.title + unit), this.keys, this.box);
     for (const shown of [...this.curves, ...this.bands]) this.addKey(shown);
     for (const mark of given.marks || []) this.keys.append(colonnade.element("span", { class: "mark" }, `┊ ${mark.name}: ${mark.time.toFixed(2)} s`));
     if (given.flags && given.flags.length) this.keys.append(this.flagKey(given.flags));
@@ -102,10 +105,10 @@ colonnade.Panel = class {
     this.figure.ygrid.grid_line_color = line;
     for (const band of this.bands) {
       band.source = new Bokeh.ColumnDataSource({ data: { x: [], low: [], high: [] } });
-      this.figure.varea({ field: "x" }, { field: "low" }, { field: "high" }, { source: band.source, fill_color: band.colour, fill_alpha: 0.2 });
+      this.figure.varea({ field: "x" }, { field: "low" }, { field: "high" }, { source: band.source, fill_color: colonnade.colour(band.colour), fill_alpha: 0.2 });
     }
     for (const level of given.levels || []) this.span({ dimension: "width", location: level });
-    for (const mark of given.marks || []) this.span({ dimension: "height", location: mark.time, line_color: mark.colour });
+    for (const mark of given.marks || []) this.span({ dimension: "height", location: mark.time, line_color: colonnade.colour(mark.colour) });
     for (const curve of this.curves) {
       curve.source = new Bokeh.ColumnDataSource({ data: { x: [], y: [] } });
       const look = { line_color: colonnade.colour(curve.colour), line_width: curve.width, line_dash: (curve.dash || []).map((part) => 1.5 * part) };
