@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import cos
 from typing import Any
 
 import numpy as np
@@ -10,8 +9,10 @@ from scipy.integrate import cumulative_trapezoid
 from scipy.signal import butter, sosfiltfilt
 
 from colonnade.arrays import Array
-from colonnade.campaign.specimen import Cone, Cylinder, Prism, Specimen
+from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block
+from colonnade.figures.drawing.described import body_of
+from colonnade.figures.drawing.parts import Body, Rocking
 from colonnade.figures.stored.curves import measured_ratio, motion, predicted_ratios
 from colonnade.figures.style import model_style
 from colonnade.report.interactive.panels import Samples
@@ -21,35 +22,21 @@ SLOWEST = 0.2
 """Hz: what is slower in a displacement that is integrated from an acceleration is its drift, not the table."""
 
 
-def outline(specimen: Specimen, block: Block) -> list[tuple[float, float]]:
-    """
-    Return the corners of a specimen seen along y, m, from the left end of its base around over its top.
-
-    A measured specimen is drawn as the rectangle whose centre is its centre of mass: R and α give no more.
-    """
-    if isinstance(specimen, Prism):
-        base, top, height = specimen.width, specimen.width, specimen.height
-    elif isinstance(specimen, Cylinder):
-        base, top, height = specimen.diameter, specimen.diameter, specimen.height
-    elif isinstance(specimen, Cone):
-        base, top, height = specimen.base_diameter, specimen.top_diameter, specimen.height
-    else:
-        left, right = block.negative.half_width, block.positive.half_width
-        height = 2 * block.positive.pole_distance * cos(block.positive.critical_angle)
-        return [(-left, 0.0), (-left, height), (right, height), (right, 0.0)]
-    return [(-base / 2, 0.0), (-top / 2, height), (top / 2, height), (base / 2, 0.0)]
+def outline(body: Body) -> list[tuple[float, float]]:
+    """Return the corners of a specimen seen along y, x and z in m: from the left end of its base around its top."""
+    base, top = (size / 2 for size in body.width)
+    return [(-base, 0.0), (-top, body.height), (top, body.height), (base, 0.0)]
 
 
 def of_test(specimen: Specimen, block: Block, stored: Stored, samples: Samples) -> dict[str, Any]:
     """Describe the moving block for the script: measured and by each model, on the recorded motion of the base."""
-    corners = outline(specimen, block)
+    body, rocking = body_of(specimen, block), Rocking.of(block)
     measured, slide = measured_ratio(stored, block), motion(stored, "slide", "mm")
     bodies = []
     if measured is not None:
-        body = samples.curve("measured", *measured, colour="ink")
+        bodies.append(samples.curve("measured", *measured, colour="ink"))
         if slide is not None and np.isfinite(slide.values).any():
-            body["slide"] = samples.add(slide.values)
-        bodies.append(body)
+            bodies[0]["slide"] = samples.add(slide.values)
     for model, curve in predicted_ratios(stored, block).items():
         bodies.append(samples.curve(f"{model} model", *curve, colour=model_style(model)["color"]))
     base, how = motion(stored, "base_displacement", "mm"), "base: recorded displacement"
@@ -57,8 +44,8 @@ def of_test(specimen: Specimen, block: Block, stored: Stored, samples: Samples) 
         base, how = motion(stored, "base_acceleration", "m/s²"), "base: recorded acceleration integrated twice"
         base = None if base is None else base._replace(values=1e3 * displacement(*base))
     return {
-        "outline": corners,
-        "poles": [corners[0][0], corners[-1][0]],
+        "outline": outline(body),
+        "poles": rocking.poles,
         "bodies": bodies,
         "base": None if base is None else samples.curve("base", *base),
         "how": how if base is not None else "base: not recorded, drawn at rest",
