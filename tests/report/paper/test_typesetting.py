@@ -12,6 +12,8 @@ import pytest
 from PIL import Image
 
 from colonnade.campaign import load
+from colonnade.errors import StoreError
+from colonnade.report.paper import typesetting
 from colonnade.report.paper.document import document_of
 from colonnade.report.paper.typesetting import pdf_of, prepared, typeset
 
@@ -21,6 +23,7 @@ TYPESET = """
 import sys
 from pathlib import Path
 from colonnade.campaign import load
+from colonnade.errors import StoreError
 from colonnade.report.paper.typesetting import pdf_of
 folder = Path(sys.argv[1])
 sys.stdout.buffer.write(pdf_of(load(folder), folder / "report"))
@@ -83,3 +86,27 @@ def test_pages_are_whole_as_pictures(campaign, folder):
         assert page.convert("L").crop((0, 0, page.width, 30)).getextrema() == (255, 255), "nothing runs off its top"
         right = page.convert("L").crop((page.width - 30, 0, page.width, page.height))
         assert right.getextrema() == (255, 255), "nothing runs off its side"
+
+
+def test_a_character_that_no_svg_may_have_does_not_stop_the_pdf(campaign, folder):
+    page = folder / "tests" / "free-01.html"
+    text = page.read_text(encoding="utf-8")
+    page.write_text(text.replace("falls</desc>", "falls\x01\uffff</desc>"), encoding="utf-8")
+    assert "\x01" in page.read_text(encoding="utf-8")
+    assert pdf_of(campaign, folder).startswith(b"%PDF-")
+
+
+def test_a_page_that_cannot_be_typeset_is_a_sentence(campaign, folder):
+    page = folder / "tests" / "free-01.html"
+    page.write_text('<main><section id="found"><svg>broken</section></svg></main>', encoding="utf-8")
+    with pytest.raises(StoreError, match="cannot be typeset"):
+        pdf_of(campaign, folder)
+
+
+def test_a_full_disk_is_a_sentence(campaign, folder, monkeypatch):
+    def full(*_, **__):
+        raise OSError(28, "No space left on device", "report.json")
+
+    monkeypatch.setattr(typesetting, "TemporaryDirectory", full)
+    with pytest.raises(StoreError, match="No space left on device"):
+        pdf_of(campaign, folder)
