@@ -1,14 +1,13 @@
-"""The outline of a specimen and the motion of the base below it."""
+"""The outline of a specimen."""
 
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from pydantic import TypeAdapter
 
 from colonnade.campaign.specimen import AnySpecimen
 from colonnade.figures.drawing.described import body_of
-from colonnade.report.interactive.moving import displacement, outline
+from colonnade.report.interactive.moving import outline
 
 
 def corners(**given):
@@ -38,15 +37,3 @@ def test_a_measured_specimen_reaches_from_pole_to_pole_with_its_centre_of_mass_i
     poles, heights = 0.61 * np.sin([0.21, 0.23]), 0.61 * np.cos([0.21, 0.23])
     np.testing.assert_allclose(np.ptp(found[:, 0]), poles.sum())
     np.testing.assert_allclose(found[1, 1] / 2, heights.mean())
-
-
-def test_a_motion_that_begins_and_ends_at_rest_comes_out_of_its_acceleration_and_an_offset():
-    time = np.arange(0, 20, 0.002)
-    moved = 0.01 * np.sin(2 * np.pi * 2.0 * time) * np.exp(-(((time - 10) / 3) ** 2))
-    acceleration = np.gradient(np.gradient(moved, time), time)
-    np.testing.assert_allclose(displacement(time, 0.05 + acceleration), moved, atol=2e-4)
-
-
-@pytest.mark.parametrize("count", [1, 5])
-def test_too_short_a_record_stands_still(count):
-    assert not displacement(np.arange(count) / 100, np.ones(count)).any()

@@ -5,10 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
-from scipy.signal import butter, sosfiltfilt
 
-from colonnade.arrays import Array
 from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block
 from colonnade.figures.drawing.described import body_of
@@ -16,10 +13,8 @@ from colonnade.figures.drawing.parts import Body, Rocking
 from colonnade.figures.stored.curves import measured_ratio, motion, predicted_ratios
 from colonnade.figures.style import model_style
 from colonnade.report.interactive.panels import Samples
+from colonnade.signals.displacement import displacement
 from colonnade.store.records.stored import Stored
-
-SLOWEST = 0.2
-"""Hz: what is slower in a displacement that is integrated from an acceleration is its drift, not the table."""
 
 
 def outline(body: Body) -> list[tuple[float, float]]:
@@ -50,29 +45,3 @@ def of_test(specimen: Specimen, block: Block, stored: Stored, samples: Samples) 
         "base": None if base is None else samples.curve("base", *base),
         "how": how if base is not None else "base: not recorded, drawn at rest",
     }
-
-
-def displacement(time: Array, acceleration: Array) -> Array:
-    """
-    Integrate an acceleration twice, without what is slower than `SLOWEST`: an offset would carry the base away.
-
-    Parameters
-    ----------
-    time : ndarray, shape (n,)
-        s, even.
-    acceleration : ndarray, shape (n,)
-        m/s²; NaN counts as 0.
-
-    Returns
-    -------
-    displacement : ndarray, shape (n,)
-        m.
-    """
-    values = np.nan_to_num(acceleration)
-    rate = (time.size - 1) / float(time[-1] - time[0]) if time.size > 1 else 0.0
-    if rate <= 4 * SLOWEST or time.size < 20:
-        return np.zeros_like(values)
-    highpass = butter(2, SLOWEST, "highpass", fs=rate, output="sos")
-    for _ in range(2):
-        values = cumulative_trapezoid(sosfiltfilt(highpass, values), time, initial=0.0)
-    return np.asarray(sosfiltfilt(highpass, values))
