@@ -1,4 +1,5 @@
 from dataclasses import replace
+from datetime import date, datetime, timedelta, timezone
 from pathlib import Path
 
 import numpy as np
@@ -172,3 +173,18 @@ def test_one_wild_time_stamp_costs_one_sample(small_campaign, free_vibration):
         channel.time[9] = 1e6
     recorded = ingest(recordings, IngestInputs.of(small_campaign, small_campaign.tests["free-01"]))
     assert np.flatnonzero(recorded["top_quality"] != Flag.GOOD).tolist() == [9]
+
+
+def test_the_time_of_the_file_is_kept_and_another_day_is_a_warning(small_campaign, free_vibration):
+    recordings, test = free_vibration[0], small_campaign.tests["free-01"]
+    assert ingest(recordings, IngestInputs.of(small_campaign, test)).attrs["recorded_at"] == ""
+    start = datetime(2013, 4, 26, 10, 15, tzinfo=timezone(timedelta(hours=3)))
+    dated = {"main": replace(recordings["main"], start=start)}
+    told = [
+        ingest(dated, IngestInputs.of(small_campaign, test.model_copy(update={"date": day}))).attrs
+        for day in (None, date(2013, 4, 26), date(2013, 4, 27))
+    ]
+    assert {each["recorded_at"] for each in told} == {"2013-04-26 10:15:00+03:00"}
+    assert [[found.kind for found in each["warnings"]] for each in told] == [[], [], ["date"]]
+    assert "recorded on 2013-04-26" in str(told[2]["warnings"][0])
+    assert "gives the date 2013-04-27" in str(told[2]["warnings"][0])

@@ -112,7 +112,8 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
         If a column is not in its file.
     """
     warnings = [Finding.of(each, RAW_FILE) for recording in recordings.values() for each in recording.warnings]
-    warnings += dates.contradictions(recordings, inputs.day)
+    begin = inputs.window[0] if inputs.window else 0.0
+    warnings += dates.contradictions(recordings, inputs.day, begin)
     stamps: dict[str, Array] = {}
     timed: dict[str, list[quality.Verdict]] = {}
     tracks: list[_Track] = []
@@ -143,7 +144,7 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
     dataset = xr.Dataset(
         variables,
         coords={dimension: (dimension, time) for dimension, time in stamps.items()},
-        attrs={"notes": "; ".join(_notes(recordings)), "recorded_at": dates.recorded_at(recordings)},
+        attrs={"notes": "; ".join(_notes(recordings)), "recorded_at": dates.recorded_at(recordings, begin)},
     )
     dataset = flag_dead_on_specimen(dataset, inputs.channels, warnings)
     dataset.attrs["warnings"] = warnings

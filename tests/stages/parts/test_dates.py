@@ -68,3 +68,10 @@ def test_any_other_clock_is_taken_at_its_word(wall, zone, days):
 def test_the_ends_of_the_calendar_are_dates_too(start):
     assert contradictions(recorded(start.replace(tzinfo=UTC)), start.date()) == []
     assert recorded_at(recorded(start))
+
+
+def test_a_test_late_in_a_long_file_has_its_own_time():
+    night = datetime(2013, 4, 25, 23, 30, 0)
+    assert recorded_at(recorded(night), 3600.0) == "2013-04-26 00:30:00, no time zone recorded"
+    assert contradictions(recorded(night), date(2013, 4, 26), 3600.0) == []
+    assert len(contradictions(recorded(night), date(2013, 4, 25), 3600.0)) == 1

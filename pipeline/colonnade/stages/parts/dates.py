@@ -18,20 +18,26 @@ ZONES = (timedelta(hours=-12), timedelta(0), timedelta(hours=14))
 NO_ZONE = "no time zone recorded"
 
 
-def recorded_at(recordings: Mapping[str, Recording]) -> str:
+def recorded_at(recordings: Mapping[str, Recording], begin: float = 0.0) -> str:
     """
-    Write when the first sample was recorded, by the first recorder whose file says so; empty if none does.
+    Write when a test was recorded, by the first recorder whose file says so; empty if none does.
+
+    Parameters
+    ----------
+    recordings : mapping of str to Recording
+    begin : float, optional
+        Of the test in its files, s.
 
     Returns
     -------
     text : str
         ``2013-04-26 10:15:00+02:00``, in the zone of the file; without one, that is said.
     """
-    start = next((recording.start for recording in recordings.values() if recording.start), None)
-    return "" if start is None else _written(start)
+    starts = (moment_after(recording.start, begin) for recording in recordings.values())
+    return next((_written(start) for start in starts if start is not None), "")
 
 
-def contradictions(recordings: Mapping[str, Recording], day: date | None) -> list[Finding]:
+def contradictions(recordings: Mapping[str, Recording], day: date | None, begin: float = 0.0) -> list[Finding]:
     """
     Compare the day of each file with that of the campaign file.
 
@@ -40,6 +46,8 @@ def contradictions(recordings: Mapping[str, Recording], day: date | None) -> lis
     recordings : mapping of str to Recording
     day : date or None
         As campaign.toml gives it; None if it does not.
+    begin : float, optional
+        Of the test in its files, s.
 
     Returns
     -------
@@ -48,16 +56,17 @@ def contradictions(recordings: Mapping[str, Recording], day: date | None) -> lis
     """
     if day is None:
         return []
-    return [
-        warning(
-            KIND,
-            f"{recording.path.name} was recorded on {recording.start.date()} by its own clock "
-            f"({_written(recording.start)}), but the campaign file gives the date {day}. Correct the date, or check "
-            "that this is the file of the test and that the recorder's clock was right.",
-        )
-        for recording in recordings.values()
-        if recording.start is not None and day not in _days(recording.start)
-    ]
+    found = []
+    for recording in recordings.values():
+        start = moment_after(recording.start, begin)
+        if start is not None and day not in _days(start):
+            text = (
+                f"{recording.path.name} was recorded on {start.date()} by its own clock ({_written(start)}), but the "
+                f"campaign file gives the date {day}. Correct the date, or check that this is the file of the test and "
+                "that the recorder's clock was right."
+            )
+            found.append(warning(KIND, text))
+    return found
 
 
 def _days(start: datetime) -> set[date]:
