@@ -1,5 +1,5 @@
 """
-One browser a session, one small report, and pages that must not complain.
+One browser a module, one small report, and pages that must not complain.
 
 Playwright drives the machine's own chromium. Without one these tests are skipped; with CI=true that is a failure.
 """
@@ -27,9 +27,13 @@ DESK, TELEPHONE = (1200, 900), (380, 700)
 Visit = Callable[..., "Page"]
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
-    """The machine's own chromium."""
+    """
+    The machine's own chromium.
+
+    One a module: while Playwright is on, its event loop counts as running, and no later test could start one.
+    """
     if CHROMIUM is None:
         if os.environ.get("CI") == "true":
             pytest.fail("no chromium on this machine: `apt-get install chromium`", pytrace=False)
