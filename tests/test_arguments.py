@@ -229,7 +229,8 @@ FOR["a coefficient"] = {name: value for name, value in FOR["deviation"].items() 
 GIVEN_BACK = {"Ensemble", "History", "Reactions", "Restitution", "StabilityMap"}
 """Results: nobody makes them from arguments; what their methods take is checked."""
 
-NOT_CALLED = {"__version__", "ColonnadeError"}
+NOT_CALLED = {"__version__", "ColonnadeError", "animate", "plot"}
+"""`animate` and `plot` take results alone: tests/figures/test_plot.py."""
 
 OTHERS = {
     ("stability_map", "motion_frequency"): {"motion": MOTION},

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from colonnade.dynamics.restitution_law import RestitutionLaw
     from colonnade.dynamics.rock import rock
     from colonnade.errors import ColonnadeError
+    from colonnade.figures.plot import animate, plot
     from colonnade.identification.fusion.angle import rocking_angle
     from colonnade.identification.restitution.identify import identify_restitution
     from colonnade.identification.restitution.result import Restitution
@@ -40,8 +41,10 @@ __all__ = [
     "StabilityMap",
     "Uncertainty",
     "__version__",
+    "animate",
     "ensemble",
     "identify_restitution",
+    "plot",
     "reactions",
     "read_motion",
     "rock",
@@ -61,8 +64,10 @@ _ROOMS = {
     "RestitutionLaw": "colonnade.dynamics.restitution_law",
     "StabilityMap": "colonnade.dynamics.maps.chart",
     "Uncertainty": "colonnade.dynamics.ensembles.uncertainty",
+    "animate": "colonnade.figures.plot",
     "ensemble": "colonnade.dynamics.ensembles.ensemble",
     "identify_restitution": "colonnade.identification.restitution.identify",
+    "plot": "colonnade.figures.plot",
     "reactions": "colonnade.dynamics.plane.reactions",
     "read_motion": "colonnade.readers.motion",
     "rock": "colonnade.dynamics.rock",

@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from colonnade.arrays import Array
+from colonnade.digest import Digested, written
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.models.registry import DEFAULT, MODELS
 
@@ -17,8 +18,8 @@ NO_ROCKING_RATIO = 1e-3
 """A block whose largest |θ|/α stays at or below this has not rocked; the same for measured and predicted histories."""
 
 
-@dataclass(frozen=True)
-class History:
+@dataclass(frozen=True, repr=False)
+class History(Digested):
     """
     A rocking history.
 
@@ -44,6 +45,18 @@ class History:
     rebound_velocities: Array
     overturning_time: float
     model: str = DEFAULT
+
+    def digest(self) -> dict[str, str]:
+        """Return outcome, largest angle, impacts, duration and model."""
+        fell = np.isfinite(self.overturning_time)
+        name, size = ("at", written(self.overturning_time, "s")) if fell else ("max |θ|/α", written(self.peak_ratio))
+        return {
+            "outcome": self.outcome,
+            name: size,
+            "impacts": str(self.impacts),
+            "duration": written(float(self.time[-1] - self.time[0]), "s"),
+            "model": self.model,
+        }
 
     @property
     def amplitude(self) -> Array:

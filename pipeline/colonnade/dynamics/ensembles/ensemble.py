@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array
+from colonnade.digest import Digested, written
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.ensembles.bands import Counts, band, count, empty_counts
 from colonnade.dynamics.ensembles.rank_correlation import rank_correlations
@@ -137,8 +138,8 @@ class Part:
     histories: Histories
 
 
-@dataclass(frozen=True)
-class Ensemble:
+@dataclass(frozen=True, repr=False)
+class Ensemble(Digested):
     """
     What all members together say.
 
@@ -168,6 +169,16 @@ class Ensemble:
     overturning_time: Array
     histories: Histories
     names: tuple[str, ...] = INPUTS
+
+    def digest(self) -> dict[str, str]:
+        """Return the number of members, the share that overturns, the median peak and the duration."""
+        median = float(self.peak_quantiles([0.5])[0])
+        return {
+            "members": str(self.overturning_time.size),
+            "overturned": f"{self.overturning_probability:.1%}",
+            "median of max |θ|/α": "overturned" if median == inf else written(median),
+            "duration": written(float(self.time[-1] - self.time[0]), "s"),
+        }
 
     def horizon(self, width: float) -> float:
         """Return the first time (s) at which the widest band is wider than `width` (rad), else the last one."""

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Codes
+from colonnade.digest import Digested
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.maps.column import MapColumn, map_column
 from colonnade.dynamics.maps.plan import EDGE, WIDTH, MapPlan, plan_map
@@ -24,8 +25,8 @@ from colonnade.validation import whole
 MOST_THREADS = 1024
 
 
-@dataclass(frozen=True)
-class StabilityMap:
+@dataclass(frozen=True, repr=False)
+class StabilityMap(Digested):
     """
     Outcomes over Ω and A, and the limits between them.
 
@@ -58,6 +59,18 @@ class StabilityMap:
     interval_start: Array
     interval_end: Array
     options: dict[str, Any]
+
+    def digest(self) -> dict[str, str]:
+        """Return model, axes, and the range of the lower limit."""
+        known = self.lower[np.isfinite(self.lower)]
+        omegas, amplitudes = self.frequency_ratio, self.amplitude_ratio
+        lower = f"A = {known.min():.3g} to {known.max():.3g}" if known.size else "above the largest A"
+        return {
+            "model": str(self.options["model"]),
+            "Ω": f"{omegas[0]:.3g} to {omegas[-1]:.3g} in {omegas.size}",
+            "A": f"{amplitudes[0]:.3g} to {amplitudes[-1]:.3g} in {amplitudes.size}",
+            "lower limit": lower,
+        }
 
     @property
     def islands(self) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -62,6 +62,7 @@ def impact_restitution(
     *,
     level: Level | None = None,
     rigid: float | None = None,
+    axes: Axes | None = None,
 ) -> Figure:
     """
     Draw e of each impact with its error, and the value identified with its band.
@@ -74,6 +75,8 @@ def impact_restitution(
         The value if e is constant.
     rigid : float, optional
         Rigid-body value, drawn if the axis reaches it, else written at its edge.
+    axes : Axes, optional
+        To draw into; a new figure with its legend otherwise.
 
     Returns
     -------
@@ -86,7 +89,10 @@ def impact_restitution(
     """
     if not series:
         raise ValueError("no free vibration was given; at least one series of impacts was expected")
-    figure, (axes,) = stacked_panels([HEIGHT])
+    own = axes is None
+    if axes is None:
+        _, (axes,) = stacked_panels([HEIGHT])
+    figure = cast(Figure, axes.get_figure(root=True))
     fastest = max((float(np.nanmax(one.velocity, initial=0.0)) for one in series), default=0.0) or 1.0
     axes.set_xlim(0, 1.05 * fastest)
     for index, one in enumerate(series):
@@ -101,7 +107,8 @@ def impact_restitution(
     axes.yaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
     axes.set_xlabel("angular velocity before the impact (rad/s)")
     axes.set_ylabel("e of each impact")
-    legend_above(figure, [axes])
+    if own:
+        legend_above(figure, [axes])
     return figure
 
 

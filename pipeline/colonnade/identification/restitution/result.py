@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from colonnade.arrays import Array, Mask
+from colonnade.digest import Digested, written
 
 
 def _none() -> Array:
@@ -138,8 +139,8 @@ class FittedHistory:
     cutoff_hz: float | None = None
 
 
-@dataclass(frozen=True)
-class Restitution:
+@dataclass(frozen=True, repr=False)
+class Restitution(Digested):
     """
     An identified coefficient of restitution, or the reason why it is missing.
 
@@ -183,3 +184,13 @@ class Restitution:
     departures: tuple[Any, ...] = ()
     recommended: str = ""
     constancy: Constancy = field(default_factory=Constancy)
+
+    def digest(self) -> dict[str, str]:
+        """Return e with its interval, the method and the peaks that it is from, or why it is missing."""
+        if self.value is None:
+            return {"e": written(None), "reason": self.reason}
+        e = written(self.value, digits=5)
+        if self.low is not None and self.high is not None:
+            e += f" ({self.low:.5g} to {self.high:.5g}, {self.level:.0%})"
+        seen = f"{int(self.peaks.used.sum())} of {self.peaks.used.size}"
+        return {"e": e, "method": self.recommended or self.method, "peaks used": seen}

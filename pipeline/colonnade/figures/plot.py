@@ -1,0 +1,155 @@
+"""Results of the library as pictures: `plot` for each kind of result, `animate` for a rocking history."""
+
+from __future__ import annotations
+
+from functools import singledispatch
+from typing import Any
+
+import numpy as np
+from matplotlib import pyplot
+from matplotlib.animation import FuncAnimation
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+
+from colonnade.dynamics.ensembles.ensemble import Ensemble
+from colonnade.dynamics.history import History
+from colonnade.dynamics.maps.chart import StabilityMap
+from colonnade.figures.curve import Curve
+from colonnade.figures.drawing.parts import Body, Rocking
+from colonnade.figures.histories import SHADES, draw_angle, limit_of
+from colonnade.figures.long import draw_band, draw_curve
+from colonnade.figures.maps.stability_map import stability_map
+from colonnade.figures.moving import rocking_block
+from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
+from colonnade.figures.style import MEASURED, model_style
+from colonnade.identification.restitution.result import Restitution
+from colonnade.validation import described, instance
+
+KINDS = "a History, a Restitution, a StabilityMap or an Ensemble"
+
+
+@singledispatch
+def plot(result: Any, ax: Axes | None = None) -> Axes:
+    """
+    Draw a result.
+
+    Parameters
+    ----------
+    result : History, Restitution, StabilityMap or Ensemble
+        A history is drawn as θ/α over time; a restitution as e of each impact over the angular velocity before it, with
+        the value identified; a map with its limits over Ω and A; an ensemble as its bands over time.
+    ax : matplotlib.axes.Axes, optional
+        To draw into, as of several results one over the other; by default those of a new figure.
+
+    Returns
+    -------
+    ax : matplotlib.axes.Axes
+
+    Raises
+    ------
+    ValueError
+        If the result is of another kind, or `ax` are no axes.
+
+    Examples
+    --------
+    >>> from colonnade.dynamics.block import Block
+    >>> from colonnade.dynamics.rock import rock
+    >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> axes = plot(rock(block, theta0=0.09, restitution=0.95, duration=5.0))
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('time (s)', 'θ / α')
+    """
+    raise ValueError(f"result is {described(result)}; {KINDS} was expected")
+
+
+@plot.register
+def _(result: History, ax: Axes | None = None) -> Axes:
+    axes = _axes(ax)
+    drawn = Curve(result.time, result.angle / result.block.critical_angle_at(result.angle))
+    draw_angle(axes, None, {result.model: drawn}, max(limit_of([drawn]), _reach(axes)))
+    axes.set_xlabel("time (s)")
+    axes.legend()
+    return axes
+
+
+@plot.register
+def _(result: Restitution, ax: Axes | None = None) -> Axes:
+    axes, impacts = _axes(ax), result.impacts
+    series = ImpactSeries(
+        "impacts", impacts.velocity, impacts.restitution, impacts.restitution_standard_error, impacts.used
+    )
+    value, low, high = (np.nan if each is None else each for each in (result.value, result.low, result.high))
+    impact_restitution([series], level=Level(value, low, high, "e identified"), axes=axes)
+    axes.legend()
+    return axes
+
+
+@plot.register
+def _(result: StabilityMap, ax: Axes | None = None) -> Axes:
+    axes = _axes(ax)
+    stability_map(result, axes=axes)
+    axes.legend()
+    return axes
+
+
+@plot.register
+def _(result: Ensemble, ax: Axes | None = None) -> Axes:
+    axes = _axes(ax)
+    colour = model_style("nonlinear")["color"]
+    for index in range(int((result.levels < 0.5).sum())):
+        low, high = result.bands[index], result.bands[-1 - index]
+        share = f"{1 - 2 * result.levels[index]:.0%} of the runs"
+        shade = SHADES[min(index, len(SHADES) - 1)]
+        draw_band(axes, result.time, low, high, color=colour, alpha=shade, label=share)
+    draw_curve(axes, Curve(result.time, result.central), label="nothing varied", **MEASURED)
+    axes.set_xlabel("time (s)")
+    axes.set_ylabel("θ (rad)")
+    axes.legend()
+    return axes
+
+
+def animate(history: History) -> FuncAnimation:
+    """
+    Let a block rock as a history says.
+
+    Parameters
+    ----------
+    history : History
+        Its block is drawn from pole to pole, twice as high as its centre of mass: that is a prism.
+
+    Returns
+    -------
+    animation : matplotlib.animation.FuncAnimation
+        `animation.to_jshtml()` shows it in a notebook, `animation.save("rocking.gif", writer="pillow")` writes it. It
+        has at most 250 frames: a long history is shown faster.
+
+    Raises
+    ------
+    ValueError
+        If it is not a history.
+    """
+    instance("history", history, History)
+    rocking = Rocking.of(history.block)
+    wide, solid = rocking.poles[1] - rocking.poles[0], history.block.solid
+    shape = "rectangle" if solid is None else solid.base
+    body = Body(shape, (wide, wide), (wide, wide), 2 * rocking.centre[1], is_known=False, rocking=rocking)
+    curve = Curve(history.time, history.angle)
+    movie = rocking_block({history.model: curve}, body, None, title="", description="")
+
+    def show(frame: int) -> list[Artist]:
+        movie.show(frame)
+        return movie.figure.axes[0].get_children()
+
+    return FuncAnimation(movie.figure, show, frames=movie.frames, interval=1000 / movie.rate)
+
+
+def _axes(ax: Axes | None) -> Axes:
+    if ax is None:
+        return pyplot.subplots(layout="constrained")[1]
+    instance("ax", ax, Axes)
+    return ax
+
+
+def _reach(axes: Axes) -> float:
+    """Return how far an axis of θ/α reaches that has a history already."""
+    return max(map(abs, axes.get_ylim())) if axes.lines else 0.0

@@ -1,0 +1,105 @@
+"""Each kind of result is drawn into axes that are given back; a history can be animated; results show themselves."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from matplotlib import pyplot
+from matplotlib.axes import Axes
+
+import colonnade
+from colonnade.figures.table import table_of
+
+BLOCK = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+
+
+@pytest.fixture(scope="module")
+def history():
+    return colonnade.rock(BLOCK, theta0=0.5 * BLOCK.critical_angle, restitution=0.93, duration=6.0)
+
+
+@pytest.fixture(scope="module")
+def restitution(history):
+    return colonnade.identify_restitution(history.time, history.angle, BLOCK)
+
+
+@pytest.fixture(scope="module")
+def chart():
+    return colonnade.stability_map(
+        BLOCK, frequency_ratio=[2.0, 4.0], amplitude_ratio=np.linspace(0.8, 4.0, 5), restitution=0.93, cycles=3
+    )
+
+
+@pytest.fixture(scope="module")
+def spread():
+    pulse = np.sin(2 * np.pi * np.arange(200) / 200)
+    motion = colonnade.Motion(np.concatenate([2.5 * pulse, np.zeros(400)]), 0.01)
+    return colonnade.ensemble(BLOCK, motion, uncertainty=colonnade.Uncertainty(), restitution=0.93, count=8)
+
+
+@pytest.fixture(params=["history", "restitution", "chart", "spread"])
+def result(request):
+    return request.getfixturevalue(request.param)
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    yield
+    pyplot.close("all")
+
+
+def test_a_result_is_drawn_into_the_axes_that_are_given(result):
+    _, axes = pyplot.subplots()
+    assert colonnade.plot(result, axes) is axes
+    assert axes.get_xlabel()
+    assert table_of(axes.figure)
+
+
+def test_without_axes_a_figure_is_made(result):
+    assert isinstance(colonnade.plot(result), Axes)
+
+
+def test_what_is_drawn_is_the_history(history):
+    table = table_of(colonnade.plot(history).figure)
+    np.testing.assert_array_equal(table["time (s)"], history.time)
+    np.testing.assert_allclose(table["θ / α, linear model"], history.angle / BLOCK.critical_angle)
+
+
+def test_two_histories_share_axes_that_hold_both(history):
+    higher = colonnade.rock(BLOCK, theta0=0.9 * BLOCK.critical_angle, restitution=0.93, duration=6.0, model="nonlinear")
+    axes = colonnade.plot(history, colonnade.plot(higher))
+    assert axes.get_ylim()[1] > 0.9
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["nonlinear model", "linear model"]
+
+
+@pytest.mark.parametrize("wrong", [None, 3.0, "history", BLOCK])
+def test_what_is_no_result_is_refused(wrong):
+    with pytest.raises(ValueError, match=r"result is .*a History, a Restitution, a StabilityMap or an Ensemble"):
+        colonnade.plot(wrong)
+    with pytest.raises(ValueError, match="history"):
+        colonnade.animate(wrong)
+
+
+def test_what_are_no_axes_is_refused(history):
+    with pytest.raises(ValueError, match="ax is"):
+        colonnade.plot(history, ax="here")
+
+
+def test_a_history_is_animated_and_can_be_written(history, tmp_path):
+    moving = colonnade.animate(history)
+    moving.save(tmp_path / "rocking.gif", writer="pillow", dpi=30)
+    assert (tmp_path / "rocking.gif").read_bytes().startswith(b"GIF89a")
+
+
+def test_a_result_shows_itself_in_a_line_and_as_a_small_table(result):
+    assert len(repr(result)) < 200
+    assert repr(result).startswith(f"<{type(result).__name__}: ")
+    table = result._repr_html_()
+    assert table.count("<tr>") == len(result.digest()) > 1
+    assert len(table) < 2000
+
+
+def test_a_history_says_what_happened(history):
+    assert repr(history) == (
+        f"<History: outcome rocking, max |θ|/α 0.5, impacts {history.impacts}, duration 6 s, model linear>"
+    )
