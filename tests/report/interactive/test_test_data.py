@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from colonnade.report.interactive import test_data
+from colonnade.report.interactive import panels, test_data
 from colonnade.report.interactive.packing import Packed
 from colonnade.store import files
 from colonnade.store.results import ResultId
@@ -31,7 +31,7 @@ def shaken(filled_campaign, reported, unpacked):
     return given, unpacked(Packed(given["series"], given["samples"])), *channels
 
 
-def panels(given, group):
+def panels_of(given, group):
     return {panel["short"]: panel for each in given["groups"] if each["title"] == group for panel in each["panels"]}
 
 
@@ -45,7 +45,7 @@ def test_groups_in_their_order_and_what_is_shown_at_first(shaken):
 
 
 def test_the_angle_has_every_model_with_its_bands(shaken):
-    panel = panels(shaken[0], "Response")["θ/α"]
+    panel = panels_of(shaken[0], "Response")["θ/α"]
     assert [curve["name"] for curve in panel["curves"]] == ["measured", "linear model", "nonlinear model"]
     assert [band["name"] for band in panel["bands"]][-2:] == [
         "nonlinear model, 95% of runs",
@@ -56,7 +56,7 @@ def test_the_angle_has_every_model_with_its_bands(shaken):
 
 def test_conditioned_channels_are_in_the_unit_of_their_panel(shaken):
     given, series, _, conditioned = shaken
-    panel = panels(given, "Channels, conditioned")["conditioned displacement"]
+    panel = panels_of(given, "Channels, conditioned")["conditioned displacement"]
     assert panel["unit"] == "mm"
     for curve in panel["curves"]:
         expected = 1e3 * conditioned[curve["name"]].to_numpy()
@@ -65,7 +65,7 @@ def test_conditioned_channels_are_in_the_unit_of_their_panel(shaken):
 
 def test_recorded_channels_have_the_units_of_the_file_and_of_the_quantity(shaken):
     given, series, recorded, _ = shaken
-    panel = panels(given, "Channels, as recorded")["top recorded"]
+    panel = panels_of(given, "Channels, as recorded")["top recorded"]
     assert (panel["unit"], panel["second"]["unit"]) == ("V", "mm")
     values = series[panel["curves"][0]["values"]]
     np.testing.assert_allclose(values, recorded["top_recorded"], atol=2e-6 * np.abs(values).max())
@@ -77,7 +77,7 @@ def test_flagged_samples_are_those_that_are_not_good(shaken):
     given, _, recorded, _ = shaken
     for channel in ("top", "bottom", "table_acceleration"):
         flags = np.ones(recorded[f"{channel}_quality"].size, dtype=int)
-        for first, last, flag in panels(given, "Channels, as recorded")[f"{channel} recorded"]["flags"]:
+        for first, last, flag in panels_of(given, "Channels, as recorded")[f"{channel} recorded"]["flags"]:
             flags[first:last] = flag
         assert np.array_equal(flags, recorded[f"{channel}_quality"])
         assert (flags > 1).any()
@@ -93,6 +93,18 @@ def test_a_test_without_transducers_on_the_specimen_shows_the_models_on_the_tabl
     assert [body["name"] for body in given["moving"]["bodies"]] == ["linear model", "nonlinear model"]
     assert given["moving"]["how"] == "base: recorded acceleration integrated twice"
     assert given["critical"] == [0.21, 0.23]
+
+
+def test_what_is_too_much_for_a_page_is_left_out_and_said_so(filled_campaign, reported, shaken, monkeypatch):
+    stored, count = reported["span-2.0"][1], sum(one["count"] for one in shaken[0]["series"])
+    monkeypatch.setattr(panels, "MOST", int(0.9 * count))
+    given, *_ = data_of(*filled_campaign, stored, "span-2.0")
+    assert sum(one["count"] for one in given["series"]) <= 0.9 * count
+    left = [group["title"] for group in given["groups"] if not group["panels"]]
+    assert left == ["Channels, as recorded"]
+    assert given["groups"][-1]["note"] == test_data.TOO_MANY
+    monkeypatch.setattr(panels, "MOST", 10)
+    assert data_of(*filled_campaign, stored, "span-2.0")[0]["groups"] == []
 
 
 def recorded_channel(time, values, **attributes):

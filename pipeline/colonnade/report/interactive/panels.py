@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any, TypeVar
 
 import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.report.interactive.packing import PLANES, packed
 
+MOST = 20_000_000
+"""Samples of a page: in a browser they take half a second and some 200 MB. What is beyond is left out, and said so."""
+
 EVEN = 1e-3
 """Times that stay this close to even ones, in intervals, are even."""
+
+Found = TypeVar("Found")
 
 
 @dataclass
@@ -28,17 +35,29 @@ class Samples:
     _known: dict[bytes, int] = field(default_factory=dict)
     _known_clocks: dict[bytes, int] = field(default_factory=dict)
 
+    def with_more(self, add: Callable[[Samples], Found]) -> tuple[Samples, Found | None]:
+        """Return samples to which `add` has added, and what that returned; these and None if they would be too many."""
+        more = replace(
+            self,
+            series=[*self.series],
+            clocks=[*self.clocks],
+            _known={**self._known},
+            _known_clocks={**self._known_clocks},
+        )
+        found = add(more)
+        return (more, found) if sum(values.size for values in more.series) <= MOST else (self, None)
+
     def add(self, values: Array) -> int:
         """Keep a series."""
         values = np.asarray(values, dtype=np.float64)
-        number = self._known.setdefault(values.tobytes(), len(self.series))
+        number = self._known.setdefault(_hash(values), len(self.series))
         if number == len(self.series):
             self.series.append(values)
         return number
 
     def clock(self, time: Array) -> int:
         """Keep times (s): the first, the interval and, where they are not even, how far each is from even ones."""
-        known = self._known_clocks.get(time.tobytes())
+        known = self._known_clocks.get(_hash(time))
         if known is not None:
             return known
         interval = float((time[-1] - time[0]) / (time.size - 1)) if time.size > 1 else 1.0
@@ -47,12 +66,16 @@ class Samples:
         if np.abs(uneven).max() > EVEN * interval:
             described["uneven"] = self.add(uneven)
         self.clocks.append(described)
-        self._known_clocks[time.tobytes()] = len(self.clocks) - 1
+        self._known_clocks[_hash(time)] = len(self.clocks) - 1
         return len(self.clocks) - 1
 
     def curve(self, name: str, time: Array, values: Array, **look: Any) -> dict[str, Any]:
         """Keep a curve and describe it: its name, and its look (`colour`, `dash`, `width`)."""
         return {"name": name, "clock": self.clock(time), "values": self.add(values), **look}
+
+
+def _hash(values: Array) -> bytes:
+    return hashlib.blake2b(values.tobytes(), digest_size=16).digest()
 
 
 def script(page: str, samples: Samples, **more: Any) -> str:

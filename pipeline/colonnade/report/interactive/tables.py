@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from colonnade.figures.output import Picture, to_csv
-from colonnade.figures.table import table_of
+from colonnade.figures.table import Table, table_of
 from colonnade.report.interactive.panels import Samples, script
 
 LONG = 2000
 """Cells up to which a table is CSV text; the columns of a longer one are packed with the samples of the page."""
 
 
-def tables_of(pictures: Iterable[Picture], samples: Samples) -> dict[str, Any]:
+def tables_of(pictures: Iterable[Picture], samples: Samples) -> tuple[Samples, dict[str, Any]]:
     """
-    Give the table of each picture by its id: CSV text, or headings with columns.
+    Give the table of each picture by its id: CSV text, or headings with columns. One that is too long has none.
 
-    A column is a list of words, or names a series or, if it rises throughout, a clock of `samples`.
+    A column is a list of words, or names a series or, if it rises throughout, a clock of the samples, which are
+    returned with those of the tables.
     """
     found: dict[str, Any] = {}
     for picture in pictures:
@@ -27,16 +29,20 @@ def tables_of(pictures: Iterable[Picture], samples: Samples) -> dict[str, Any]:
         if sum(map(len, table.values())) <= LONG:
             found[picture.identity] = to_csv(picture.figure)
         else:
-            columns = [_column(column, samples) for column in table.values()]
-            found[picture.identity] = {"heads": list(table), "columns": columns}
-    return found
+            samples, columns = samples.with_more(partial(_columns, table))
+            if columns is not None:
+                found[picture.identity] = {"heads": list(table), "columns": columns}
+    return samples, found
 
 
 def of_page(address: str, pictures: Iterable[Picture]) -> str:
     """Return the script with the data of a page that has no histories: the tables of its pictures."""
-    samples = Samples()
-    tables = tables_of(pictures, samples)
+    samples, tables = tables_of(pictures, Samples())
     return script(address, samples, tables=tables)
+
+
+def _columns(table: Table, samples: Samples) -> list[Any]:
+    return [_column(column, samples) for column in table.values()]
 
 
 def _column(column: Sequence[float] | Sequence[str], samples: Samples) -> Any:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -26,6 +27,9 @@ from colonnade.units import from_si
 
 PROPORTIONAL = 1e-6
 """A channel in SI is a straight line of what was recorded if no sample is further from it, over the largest."""
+
+TOO_MANY = "Too many samples for a page; they are in the stored results of this test."
+"""Said of a group of panels that is left out."""
 
 Panel = dict[str, Any]
 
@@ -53,22 +57,32 @@ def of_test(
         Results of `ingest` and `condition` with their samples.
     """
     block, samples = campaign.block(test.specimen), Samples()
-    angles = _angles(stored, block, samples)
-    groups = [
-        ("Response", True, [*angles, *_misfit(stored, block, samples), *_motions(stored, samples)]),
-        ("Table motion", True, _base(stored, block, samples)),
-        ("Channels, conditioned", False, _conditioned(conditioned, samples)),
-        ("Channels, as recorded", False, _recorded(recorded, conditioned, samples)),
+    groups: list[tuple[str, bool, Callable[[Samples], list[Panel]]]] = [
+        ("Response", True, partial(_response, stored, block)),
+        ("Table motion", True, partial(_base, stored, block)),
+        ("Channels, conditioned", False, partial(_conditioned, conditioned)),
+        ("Channels, as recorded", False, partial(_recorded, recorded, conditioned)),
     ]
-    shown: list[dict[str, Any]] = [
-        {"title": title, "is_open": is_open, "panels": found} for title, is_open, found in groups if found
-    ]
-    if shown:
-        shown[0]["is_open"] = True
-    moves = moving.of_test(campaign.specimens[test.specimen], block, stored, samples) if angles else None
+    shown: list[dict[str, Any]] = []
+    for title, is_open, panels_of in groups:
+        samples, found = samples.with_more(panels_of)
+        if found is None or found:
+            note = TOO_MANY if found is None else ""
+            shown.append({"title": title, "is_open": is_open, "panels": found or [], "note": note})
+    drawn = [group for group in shown if group["panels"]]
+    if drawn:
+        drawn[0]["is_open"] = True
+    moves = None
+    if any(panel.get("is_angle") for group in drawn for panel in group["panels"]):
+        samples, moves = samples.with_more(partial(moving.of_test, campaign.specimens[test.specimen], block, stored))
     critical = [block.negative.critical_angle, block.positive.critical_angle]
-    tables = tables_of(pictures, samples)
-    return script(test.id, samples, groups=shown, critical=critical, moving=moves, tables=tables)
+    samples, tables = tables_of(pictures, samples)
+    return script(test.id, samples, groups=shown if drawn else [], critical=critical, moving=moves, tables=tables)
+
+
+def _response(stored: Stored, block: Block, samples: Samples) -> list[Panel]:
+    found = [_angles(stored, block, samples), _misfit(stored, block, samples), _motions(stored, samples)]
+    return [panel for panels in found for panel in panels]
 
 
 def _angles(stored: Stored, block: Block, samples: Samples) -> list[Panel]:

@@ -57,7 +57,7 @@ colonnade.Page = class {
 
   // Time of the largest value of the first curve, where the cursor stands at first.
   peak() {
-    const [curve] = this.given.groups[0].panels[0].curves;
+    const [curve] = this.given.groups.find(({ panels }) => panels.length).panels[0].curves;
     const values = this.series[curve.values];
     let best = 0;
     for (let i = 0; i < values.length; i += 1) if (!(Math.abs(values[i]) <= Math.abs(values[best]))) best = values[i] === values[i] ? i : best;
@@ -85,6 +85,7 @@ colonnade.Page = class {
   addGroup(group) {
     const inside = colonnade.element("div");
     const box = colonnade.element("details", { class: "group-of-panels" }, colonnade.element("summary", {}, group.title), inside);
+    if (group.note) box.append(colonnade.element("p", { class: "soft" }, group.note));
     box.open = group.is_open;
     box.addEventListener("toggle", () => box.open && this.fill(box));
     Object.assign(box, { group, inside });
@@ -94,7 +95,7 @@ colonnade.Page = class {
 
   // Draw the panels of a group when it is first opened.
   async fill(box) {
-    if (box.panels) {
+    if (box.panels || !box.group.panels.length) {
       this.redraw();
       return;
     }
