@@ -82,8 +82,8 @@ def test_a_record_gives_one_time_and_a_column_a_curve_at_full_length():
         "time (s), measured impact",
         "time (s), largest measured",
         "θ / α, largest measured",
-        "θ / α, 90% of runs, low",
-        "θ / α, 90% of runs, high",
+        "θ / α, linear 90 % band, low",
+        "θ / α, linear 90 % band, high",
         "predicted − measured, / α, linear model",
         "base (m/s²)",
     ]
@@ -91,7 +91,7 @@ def test_a_record_gives_one_time_and_a_column_a_curve_at_full_length():
         "time (s)": TIME,
         "θ / α, measured": measured.values,
         "base (m/s²)": base.curve.values,
-        "θ / α, 90% of runs, high": spread.bands[-1],
+        "θ / α, linear 90 % band, high": spread.bands[-1],
         "time (s), measured impact": impacts,
     }.items():
         np.testing.assert_array_equal(table[heading], values)

@@ -5,7 +5,7 @@ import pytest
 
 from colonnade.readers.motion import read_motion
 from colonnade.signals.filters import lowpass
-from colonnade.signals.named_motion import Series, best_scale, check_motion, match
+from colonnade.signals.named_motion import Series, best_scale, check_motion, laid_on, match
 
 SCALE = 1 / np.sqrt(20)
 STEP = 0.02
@@ -92,3 +92,17 @@ def test_other_versions_of_el_centro_are_told_from_the_one_named(name, said, sha
     told = " ".join(map(str, found))
     assert (told == "") == (said == "")
     assert re.search(said, told)
+
+
+def test_a_motion_is_laid_on_its_record_with_delay_and_factor():
+    usual = _record(VALLEY, gain=1.7)
+    record = Series(-usual.acceleration, usual.interval)
+    laid = laid_on(record, Series(VALLEY, STEP), time_scale=SCALE)
+    assert laid.factor == pytest.approx(-1.7, rel=2e-2)
+    assert laid.correlation < -0.95
+    misfit = record.acceleration - laid.acceleration
+    assert np.std(misfit) < 0.15 * np.std(record.acceleration)
+
+
+def test_another_motion_is_not_laid_on_a_record():
+    assert laid_on(_record(VALLEY), Series(_motion(99), STEP), time_scale=SCALE) is None

@@ -63,7 +63,7 @@ def demo(folder: Path, seed: int, motion: Path | None, short: bool, workers: int
 def _show(comparison: dict[str, Any]) -> None:
     from colonnade.laboratory.ladder import KEPT_AWAY
     from colonnade.report.agreement import agreement
-    from colonnade.units import format_uncertain
+    from colonnade.units import format_percent, format_uncertain
 
     for specimen, restitution in comparison["restitution"].items():
         true, value, low, high = (restitution[key] for key in ("true", "value", "low", "high"))
@@ -71,7 +71,8 @@ def _show(comparison: dict[str, Any]) -> None:
             say(f"{specimen}: {restitution['reason'] or restitution['source']}; true is {true:g}")
         else:
             held = "inside" if low <= true <= high else "outside"
-            found = f"e identified as {format_uncertain(value, (high - low) / 2)} ({restitution['level']:.0%} interval)"
+            level = format_percent(restitution["level"])
+            found = f"e identified as {format_uncertain(value, (high - low) / 2)} ({level} interval)"
             say(f"{specimen}: {found}; true is {true:g}, {held} the interval")
     say()
     rows = []

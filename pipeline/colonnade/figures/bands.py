@@ -9,8 +9,9 @@ from matplotlib.figure import Figure
 
 from colonnade.figures.curve import Curve
 from colonnade.figures.histories import ANGLE_LABEL, Spread, draw_angle, limit_of, mark_horizon, shade, time_limits
-from colonnade.figures.panels import legend_above, stacked_panels
-from colonnade.figures.style import model_style, styled
+from colonnade.figures.panels import stacked_panels
+from colonnade.figures.style import INK, model_style, styled
+from colonnade.units import format_percent
 
 HEIGHT = 1.9
 """Of a model's panel, inches."""
@@ -19,7 +20,7 @@ HEIGHT = 1.9
 @styled()
 def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Figure:
     """
-    Draw the measured angle over the bands of each model, one panel a model.
+    Draw the measured angle over the bands of each model, one panel a model; the panel says whose bands they are.
 
     Parameters
     ----------
@@ -49,19 +50,15 @@ def bands_over_time(measured: Curve | None, spreads: Mapping[str, Spread]) -> Fi
     for panel, (model, spread) in zip(axes, spreads.items(), strict=True):
         colour = model_style(model)["color"]
         for index in range(int((spread.levels < 0.5).sum())):
-            shade(panel, spread, index, colour, label=f"{spread.share(index):.0%} of the runs")
+            shade(panel, spread, index, colour, label=f"{model} {format_percent(spread.share(index))} band")
         mark_horizon(panel, spread, colour)
         draw_angle(panel, measured, {}, limit)
-        panel.set_ylabel(f"{ANGLE_LABEL}, {model}")
+        panel.set_ylabel(ANGLE_LABEL)
+        shares = " and ".join(format_percent(spread.share(index)) for index in range(int((spread.levels < 0.5).sum())))
+        said = f"line: measured; bands: {shares} of the {model} model's runs"
         if spread.overturning_probability > 0:
-            panel.annotate(
-                f"{spread.overturning_probability:.0%} overturn",
-                (0.995, 0.04),
-                xycoords="axes fraction",
-                ha="right",
-                fontsize=8,
-            )
+            said += f"; {format_percent(spread.overturning_probability)} overturn"
+        panel.annotate(said, (0.995, 0.04), xycoords="axes fraction", ha="right", fontsize=8, color=INK)
     axes[-1].set_xlim(*time_limits(curves))
     axes[-1].set_xlabel("time (s)")
-    legend_above(figure, axes)
     return figure

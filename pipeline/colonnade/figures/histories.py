@@ -13,6 +13,7 @@ from colonnade.arrays import Array
 from colonnade.figures.curve import Curve
 from colonnade.figures.long import draw_band, draw_curve
 from colonnade.figures.style import INK, LIMIT, MEASURED, LineStyle, model_style
+from colonnade.units import format_percent
 
 SMALLEST_RATIO = 0.02
 """No θ/α axis is narrower than ± this, so that the noise of a block at rest does not look like rocking."""
@@ -84,7 +85,7 @@ def draw_angle(
         Written beside the line of the critical angle, which is drawn where the axis reaches it.
     """
     for model, spread in (spreads or {}).items():
-        label = f"{spread.share(0):.0%} of runs"
+        label = f"{model} {format_percent(spread.share(0))} band"
         shade(axes, spread, 0, model_style(model)["color"], label=label)
         mark_horizon(axes, spread, model_style(model)["color"])
     lines: list[tuple[Curve | None, str, LineStyle]] = [(measured, "measured", MEASURED)]

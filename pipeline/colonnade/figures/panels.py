@@ -171,7 +171,7 @@ def legend_above(figure: Figure, axes: Sequence[Axes]) -> None:
         _raise(figure, (-(-len(named) // ncols) - 1) * ROW)
     else:
         ncols = len(named)
-    closer = {"columnspacing": 0.9, "handlelength": 1.6, "handletextpad": 0.4} if len(named) > ROOMY else {}
+    closer = {"columnspacing": 0.7, "handlelength": 1.4, "handletextpad": 0.3} if len(named) > ROOMY else {}
     figure.legend(
         list(named.values()),
         list(named),

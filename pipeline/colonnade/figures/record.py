@@ -27,6 +27,9 @@ from colonnade.figures.style import BASE, MEASURED, model_style, styled
 ANGLE_HEIGHT, OTHER_HEIGHT = 2.0, 0.8
 """Heights of the panels, inches."""
 
+AFTER = 0.05
+"""Share of the time up to an overturning that the axis shows after it."""
+
 
 class Quantity(NamedTuple):
     """A quantity in a panel of its own: label with unit, curve, and a level to mark at ± with its name."""
@@ -55,6 +58,7 @@ def whole_record(
     impacts: Array | None = None,
     peak: Peak | None = None,
     spreads: Mapping[str, Spread] | None = None,
+    until: float | None = None,
 ) -> Figure:
     """
     Draw one test: measured and predicted angle above, then what else moved, and the base motion at the bottom.
@@ -72,9 +76,11 @@ def whole_record(
     impacts : ndarray, optional
         Times (s) of the measured impacts, marked along the foot of the uppermost panel.
     peak : Peak, optional
-        Marked with a ring.
+        Marked with a ring; of an overturned test the overturning.
     spreads : mapping of str to Spread, optional
         Ensembles by model: the widest band of each is shaded.
+    until : float, optional
+        When all has overturned, s: the time axis ends shortly after.
 
     Returns
     -------
@@ -103,7 +109,8 @@ def whole_record(
     for one, quantity in zip(axes[1 + bool(misfits) :], others, strict=True):
         _draw_quantity(one, quantity)
     curves = [measured, *predicted.values(), *(quantity.curve for quantity in others)]
-    axes[0].set_xlim(*time_limits([curve for curve in curves if curve is not None]))
+    first, last = time_limits([curve for curve in curves if curve is not None])
+    axes[0].set_xlim(first, last if until is None else min(last, until + AFTER * (until - first)))
     axes[-1].set_xlabel("time (s)")
     legend_above(figure, axes[:1])
     return figure

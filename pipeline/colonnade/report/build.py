@@ -33,6 +33,7 @@ from colonnade.report.specimens_page import SpecimenPage
 from colonnade.store import files, stamps
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_specimen
+from colonnade.units import format_percent
 
 IN_A_BLOCK = 5
 """Tests whose pages are drawn one after the other, so that templates are not read again for each."""
@@ -192,8 +193,8 @@ def _shown(campaign: Campaign, tests: list[Part], specimens: list[SpecimenPage],
         "software": methods.software(),
         "rule": RULE,
         "estimators": ESTIMATORS.values(),
-        "within": f"{WITHIN:.0%}",
-        "least_motion": LEAST_MOTION,
+        "within": format_percent(WITHIN),
+        "least_motion": format_percent(LEAST_MOTION, 1),
     }
 
 

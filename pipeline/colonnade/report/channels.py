@@ -8,17 +8,7 @@ from math import isfinite
 from typing import Any
 
 from colonnade.store.records.stored import Samples, Stored
-from colonnade.store.records.wording import NOTHING, number, quantity, share
-
-UNITS = {
-    "displacement": "mm",
-    "velocity": "mm/s",
-    "acceleration": "m/s²",
-    "angle": "mrad",
-    "angular_velocity": "rad/s",
-    "force": "N",
-}
-"""Units in which a channel's zero and noise are written."""
+from colonnade.store.records.wording import CHANNEL_UNITS, NOTHING, number, quantity, share
 
 _NOTHING_LEFT = 1e-6
 """Residuals smaller than this, over the noise, mean that there are no more transducers than motions."""
@@ -69,7 +59,7 @@ def _channel(
     residual_to_reading: float | None,
 ) -> ChannelRow:
     kind = str(given.get("quantity", ""))
-    unit = UNITS.get(kind)
+    unit = CHANNEL_UNITS.get(kind)
 
     def value(key: str, digits: int) -> str:
         amount = _number(given, key)

@@ -13,6 +13,7 @@ from colonnade import __version__
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.store.records import wording
 from colonnade.store.records.stored import Stored
+from colonnade.units import format_percent
 
 LIBRARIES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "pandas", "matplotlib")
 """Libraries whose versions are shown."""
@@ -21,6 +22,15 @@ _LONGEST = 6
 
 _ANY_ENSEMBLE = "any ensemble"
 _ENSEMBLE_IN_SPACE = "ensemble in space"
+
+
+def _to_a_tenth(share: float) -> str:
+    return format_percent(share, 1)
+
+
+def _range(share: float) -> str:
+    return f"± {format_percent(share)}"
+
 
 _STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
     "spike threshold": ("ingest", "settings.spike_threshold", "{:g} robust standard deviations"),
@@ -34,7 +44,7 @@ _STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
     "rest duration": ("condition", "settings.rest_duration", "{:g} s"),
     "longest offset": ("condition", "settings.longest_offset", "{:g} s"),
     "lowest amplitude": ("restitution", "settings.lowest_amplitude", "{:g} α"),
-    "level": ("restitution", "settings.level", "{:.0%}"),
+    "level": ("restitution", "settings.level", format_percent),
     "rest angle": ("predict", "rest_angle", "{:g} α"),
     "mesh": ("predict", "space.settings.mesh", "{}"),
     "contact step": ("predict", "space.settings.step", lambda step: wording.quantity(step, "µs")),
@@ -43,17 +53,17 @@ _STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
     "initial rotation": ("predict", "space.settings.out_of_plane", "{:g} rad"),
     "runs": ("ensemble", "settings.members", "{:d}"),
     "deviation of e": ("ensemble", "settings.restitution", "{:g}"),
-    "deviation of α": ("ensemble", "settings.critical_angle", "{:.1%}"),
-    "deviation of p": ("ensemble", "settings.p", "{:.1%}"),
-    "deviation of gain": ("ensemble", "settings.gain", "{:.1%}"),
+    "deviation of α": ("ensemble", "settings.critical_angle", _to_a_tenth),
+    "deviation of p": ("ensemble", "settings.p", _to_a_tenth),
+    "deviation of gain": ("ensemble", "settings.gain", _to_a_tenth),
     "deviation of clock": ("ensemble", "settings.clock", "{:g}"),
-    "deviation of filter": ("ensemble", "settings.filter", "{:.0%}"),
+    "deviation of filter": ("ensemble", "settings.filter", format_percent),
     "horizon": (_ANY_ENSEMBLE, "measurement.settings.horizon", "{:g} α"),
     "deviation of zero": (_ANY_ENSEMBLE, "measurement.settings.angle_zero", "{:g} α"),
-    "deviation of angle gain": (_ANY_ENSEMBLE, "measurement.settings.angle_gain", "{:.1%}"),
+    "deviation of angle gain": (_ANY_ENSEMBLE, "measurement.settings.angle_gain", _to_a_tenth),
     "runs in space": (_ENSEMBLE_IN_SPACE, "settings.members", "{:d}"),
-    "range of friction": (_ENSEMBLE_IN_SPACE, "settings.friction", "± {:.0%}"),
-    "range of damping": (_ENSEMBLE_IN_SPACE, "settings.damping_fraction", "± {:.0%}"),
+    "range of friction": (_ENSEMBLE_IN_SPACE, "settings.friction", _range),
+    "range of damping": (_ENSEMBLE_IN_SPACE, "settings.damping_fraction", _range),
     "range of rotation": (_ENSEMBLE_IN_SPACE, "settings.out_of_plane", "± {:g} rad"),
 }
 """Settings by the name that the text uses: stage, path in its inputs, and how the value is written."""

@@ -80,7 +80,7 @@ def parts_of(campaign: Campaign, layout: Layout, code: str, block: Sequence[Aske
 def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: str, asked: Asked) -> Part:
     test = campaign.tests[asked.test]
     block = campaign.block(test.specimen)
-    stored = read_test(campaign, layout, test, is_outdated=asked.is_outdated)
+    stored = read_test(campaign, layout, test, is_outdated=asked.is_outdated, with_samples=True)
     row = TestRow.of(campaign, test, asked.record, stored)
     used, span, free_vibration = Used(), None, None
     used.gather(test.id, stored)

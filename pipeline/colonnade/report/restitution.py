@@ -6,9 +6,10 @@ from math import isfinite
 from typing import NamedTuple
 
 from colonnade.campaign.summary import IdentifiedSummary
+from colonnade.figures.restitution.estimators import trusted_half_width
 from colonnade.figures.stored.restitution import STAGE, estimate_rows
 from colonnade.store.records.stored import Stored
-from colonnade.store.records.wording import NOTHING, interval, number, quantity
+from colonnade.store.records.wording import NOTHING, interval, number, quantity, signed
 from colonnade.units import format_uncertain
 
 
@@ -34,11 +35,12 @@ def estimates_of(stored: Stored) -> list[EstimateText]:
     assumptions, reasons = (
         dict(enumerate(stored.texts(STAGE, f"estimate_{name}"))) for name in ("assumptions", "reasons")
     )
+    least = trusted_half_width(rows)
     return [
         EstimateText(
             row.name,
             # Without the level of the interval: many of them are in one table.
-            format_uncertain(row.value, (row.high - row.low) / 2)
+            format_uncertain(row.value, (row.high - row.low) / 2, least=least)
             if isfinite(row.high - row.low)
             else number(row.value, 5),
             assumptions.get(index, ""),
@@ -59,7 +61,10 @@ def facts_of(stored: Stored, found: IdentifiedSummary | None) -> list[tuple[str,
         ("recommended estimator", chosen.name if chosen else ""),
         ("assumptions", chosen.assumptions if chosen else ""),
         ("method", stored.text(STAGE, "method")),
-        ("change of e with the speed of impact", f"{slope:+.2g} ± {error:.1g} per rad/s" if error > 0 else ""),
+        (
+            "change of e with the speed of impact",
+            f"{signed(slope)} ± {number(error, 1)} per rad/s" if error > 0 else "",
+        ),
         ("rest angle subtracted", quantity(stored.value(STAGE, "zero_offset"), "mrad", 2)),
     )
     return [(label, text) for label, text in facts if text not in ("", NOTHING)]

@@ -5,12 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from colonnade.campaign import Campaign
+from colonnade.figures.output import Picture
+from colonnade.figures.stored import channels as recording
+from colonnade.figures.stored import closer
 from colonnade.report import channels, drawings, who_and_when
 from colonnade.report.channels import ChannelRow
 from colonnade.report.drawings import Drawing
 from colonnade.report.photos import Photos
 from colonnade.report.rows import TestRow
-from colonnade.report.test_page import decay, done, found, spread
+from colonnade.report.test_page import base, decay, done, found, spread
+from colonnade.report.test_page.base import Table
 from colonnade.report.test_page.decay import Decay
 from colonnade.report.test_page.done import Done
 from colonnade.report.test_page.found import Found
@@ -31,9 +35,12 @@ class TestPage:
     done: Done
     drawing: Drawing
     found: Found
+    closer: Picture | None
+    base: Table
     spread: ModelSpread
     decay: Decay
     channels: tuple[ChannelRow, ...]
+    recording: Picture | None
 
 
 def of_test(campaign: Campaign, row: TestRow, stored: Stored, shown: Photos) -> TestPage:
@@ -47,7 +54,10 @@ def of_test(campaign: Campaign, row: TestRow, stored: Stored, shown: Photos) -> 
         done=done.of_test(row, stored, who_and_when.of_test(campaign, test)),
         drawing=drawings.of_setup(campaign, test.specimen, test.setup),
         found=found.of_test(row, stored, block, campaign.specimens[test.specimen].scale),
+        closer=closer.picture(test, row.record, stored, block),
+        base=base.of_test(campaign, row, stored, block),
         spread=spread.of_test(row, stored, block),
         decay=decay.of_test(row, stored, block),
         channels=channels.of_test(stored),
+        recording=recording.picture(test, stored),
     )

@@ -83,6 +83,57 @@ class Match:
     start: float
 
 
+@dataclass(frozen=True)
+class Laid:
+    """
+    A motion laid on a record.
+
+    Attributes
+    ----------
+    acceleration : ndarray, shape (n,)
+        At the record's samples, in its unit; zero before it begins and after it ends.
+    factor : float
+        On the motion's own values: record over motion by least squares below the frequency of `match`.
+    correlation : float
+    scale : float
+        Factor on the motion's own time.
+    """
+
+    acceleration: Array
+    factor: float
+    correlation: float
+    scale: float
+
+
+def laid_on(record: Series, motion: Series, *, time_scale: float | None) -> Laid | None:
+    """
+    Lay a motion on a record, with the delay and the factor with which the two agree best.
+
+    Parameters
+    ----------
+    record, motion : Series
+        What was recorded, finite; the motion at its own time scale.
+    time_scale : float or None
+        Factor on the motion's time; None if it is not known.
+
+    Returns
+    -------
+    laid : Laid or None
+        None if the record is not of this motion.
+    """
+    scale = time_scale if time_scale is not None else best_scale(record, motion)
+    stretched = motion.stretched(scale)
+    found = match(record, stretched)
+    if abs(found.correlation) < AGREES:
+        return None
+    own = found.start + stretched.interval * np.arange(stretched.acceleration.size)
+    clock = record.interval * np.arange(record.acceleration.size)
+    on_clock = np.interp(clock, own, stretched.acceleration, left=0.0, right=0.0)
+    one, other = (series.acceleration for series in _below_one_cutoff(record, Series(on_clock, record.interval)))
+    factor = float(one @ other / max(float(other @ other), 1e-300))
+    return Laid(factor * on_clock, factor, found.correlation, scale)
+
+
 def check_motion(
     record: Series, name: str, named: Series, *, time_scale: float | None, others: Mapping[str, Series]
 ) -> list[Finding]:

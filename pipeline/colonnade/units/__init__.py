@@ -13,13 +13,14 @@ from colonnade.units.conversion import (
     to_si,
 )
 from colonnade.units.dimensions import DIMENSIONS, QUANTITY_DIMENSIONS
-from colonnade.units.writing import format_quantity, format_uncertain
+from colonnade.units.writing import format_percent, format_quantity, format_uncertain, with_minus
 
 __all__ = [
     "DIMENSIONS",
     "NUMBER_PATTERN",
     "QUANTITY_DIMENSIONS",
     "factor_to_si",
+    "format_percent",
     "format_quantity",
     "format_uncertain",
     "from_si",
@@ -30,4 +31,5 @@ __all__ = [
     "same_unit",
     "si_factor",
     "to_si",
+    "with_minus",
 ]

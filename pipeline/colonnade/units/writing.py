@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from math import floor, isfinite, log10
 
 from colonnade.units.conversion import from_si
+
+MINUS = "−"
+"""U+2212: as wide as a digit, and never broken off its number."""
+
+_EXPONENT = re.compile(r"e([+-]\d+)")
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def format_quantity(value: float, unit: str, digits: int = 3) -> str:
@@ -19,20 +26,57 @@ def format_quantity(value: float, unit: str, digits: int = 3) -> str:
     return f"{from_si(value, unit):.{digits}g} {unit}".rstrip()
 
 
-def format_uncertain(value: float, half_width: float, unit: str = "") -> str:
+def format_percent(share: float, decimals: int = 0) -> str:
+    """
+    Write a share in per cent.
+
+    Examples
+    --------
+    >>> format_percent(0.9), format_percent(0.0012, 1), format_percent(-0.25)
+    ('90 %', '0.1 %', '−25 %')
+    """
+    return with_minus(f"{100 * share:.{decimals}f} %")
+
+
+def with_minus(number: str) -> str:
+    """
+    Write a number that begins with a hyphen, and its exponent, as people read them.
+
+    Examples
+    --------
+    >>> with_minus("-0.5"), with_minus("1.2e-05 m"), with_minus("3e+06")
+    ('−0.5', '1.2·10⁻⁵ m', '3·10⁶')
+    """
+    if number.startswith("-"):
+        number = MINUS + number[1:]
+    return _EXPONENT.sub(lambda found: f"·10{str(int(found[1])).translate(_RAISED)}", number)
+
+
+def format_uncertain(value: float, half_width: float, unit: str = "", *, least: float = 0.0) -> str:
     """
     Write an SI value in `unit` with as many digits as its half-width allows: one, two where it starts with 1.
+
+    A half-width below `least` gives no more digits than that does: it is written as smaller than the last of them.
 
     Examples
     --------
     >>> format_uncertain(0.97608, 0.0008), format_uncertain(0.23204, 0.0012, "mm")
     ('0.9761 ± 0.0008', '232.0 ± 1.2 mm')
+    >>> format_uncertain(0.9760003, 0.0000008, least=0.00018)
+    '0.97600 ± < 0.00001'
     """
-    value, half_width = from_si(value, unit), abs(from_si(half_width, unit))
+    value, half_width, least = from_si(value, unit), abs(from_si(half_width, unit)), abs(from_si(least, unit))
     if not (isfinite(half_width) and half_width > 0.0 and isfinite(value)):
-        return f"{value:.4g} {unit}".rstrip()
+        return f"{with_minus(f'{value:.4g}')} {unit}".rstrip()
+    shown = max(_decimals(max(half_width, least) if isfinite(least) else half_width), 0)
+    decimals = min(_decimals(half_width), shown)
+    written = f"{round(half_width, decimals):.{shown}f}"
+    if float(written) == 0.0:
+        written = f"< {10.0**-shown:.{shown}f}"
+    return f"{with_minus(f'{round(value, decimals):.{shown}f}')} ± {written} {unit}".rstrip()
+
+
+def _decimals(half_width: float) -> int:
+    """Decimals with which a half-width is written; negative if it is rounded to tens."""
     decimals = -floor(log10(half_width))
-    if round(half_width * 10.0**decimals, 1) < 2.0:
-        decimals += 1
-    shown = max(decimals, 0)
-    return f"{round(value, decimals):.{shown}f} ± {round(half_width, decimals):.{shown}f} {unit}".rstrip()
+    return decimals + 1 if round(half_width * 10.0**decimals, 1) < 2.0 else decimals

@@ -3,6 +3,8 @@ import pytest
 
 from colonnade.figures.stored import curves
 
+STRONG = "sine-3hz-too-strong-for-the-block-1"
+
 
 def test_measured_and_predicted_are_over_the_critical_angle(known):
     _, record, stored, block = known("span-2.0")
@@ -30,3 +32,14 @@ def test_what_was_not_measured_is_none(known):
     assert curves.measured_ratio(stored, block) is None
     assert curves.motion(stored, "slide", "mm") is None
     assert curves.motion(stored, "base_acceleration", "m/s²") is not None
+
+
+def test_a_curve_ends_where_it_overturns(known):
+    _, record, stored, block = known(STRONG)
+    curve = curves.measured_ratio(stored, block)
+    fall = stored.value("rocking", "overturning_time")
+    last = int(np.flatnonzero(np.isfinite(curve.values))[-1])
+    assert record.outcome == "overturned"
+    assert record.peak_time == fall
+    assert curve.time[last] == pytest.approx(fall, abs=0.005)
+    assert abs(curve.values[last]) == pytest.approx(1.0, abs=0.1)

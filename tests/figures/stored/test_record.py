@@ -8,7 +8,7 @@ from colonnade.figures.stored import record
 def test_a_test_is_drawn_and_described(known):
     picture = record.record(*known("span-2.0"))
     assert picture.identity == "record-span-2.0"
-    assert picture.description.startswith("Measured: rocking, largest |θ|/α 0.19 at 2.54 s. Linear model: rocking")
+    assert picture.description.startswith("Measured: rocking, largest |θ|/α 0.19 at 2.536 s. Linear model: rocking")
     assert len(picture.figure.axes) == 4  # angle, misfit, slide, base
 
 

@@ -9,7 +9,7 @@ from colonnade.store.records import wording
 
 @pytest.mark.parametrize(
     ("value", "text"),
-    [(0.41234, "0.412"), (0.0, "0"), (123456.0, "123000"), (2e-6, "2e-06"), (nan, "–"), (inf, "–"), (None, "–")],
+    [(0.41234, "0.412"), (0.0, "0"), (123456.0, "123000"), (2e-6, "2·10⁻⁶"), (nan, "–"), (inf, "–"), (None, "–")],
 )
 def test_numbers_are_rounded_and_never_nan(value, text):
     assert wording.number(value) == text

@@ -12,6 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from colonnade.arrays import Array
 from colonnade.figures.panels import legend_outside
 from colonnade.figures.style import FIT, LIMIT, MEASURED, blank_figure, styled
+from colonnade.units import format_percent
 
 POINTS = 181
 """Of an ellipse."""
@@ -66,7 +67,7 @@ def joint_region(
     for region in regions:
         for level in levels:
             outline = _ellipse(region, level)
-            axes.plot(*outline, label=f"{level:.0%}", color=FIT["color"], linewidth=0.6 + 0.8 * level)
+            axes.plot(*outline, label=format_percent(level), color=FIT["color"], linewidth=0.6 + 0.8 * level)
             axes.fill(*outline, color=FIT["color"], alpha=0.1, linewidth=0)
         axes.plot(*region.centre, "o", color=FIT["color"], markersize=4)
         axes.annotate(

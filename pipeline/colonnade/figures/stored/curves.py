@@ -73,5 +73,9 @@ def motion(stored: Stored, name: str, unit: str) -> Curve | None:
 def _ratio(stored: Stored, block: Block, stage: str, model: str | None = None, *, offset: float = 0.0) -> Curve | None:
     if not stored.has(stage, "rocking_angle", model):
         return None
-    angle = stored.array(stage, "rocking_angle", model) - offset
-    return Curve(stored.array(stage, "elapsed", model), angle / block.critical_angle_at(angle))
+    time, angle = stored.array(stage, "elapsed", model), stored.array(stage, "rocking_angle", model) - offset
+    # An overturned test ends where it overturns: what a frame or a floor does to it then is no rocking.
+    fall = stored.value(stage, "overturning_time", model)
+    ended = time.size if np.isnan(fall) else int(np.searchsorted(time, fall)) + 1
+    angle = np.where(np.arange(time.size) < ended, angle, np.nan)
+    return Curve(time, angle / block.critical_angle_at(angle))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -17,8 +17,9 @@ from colonnade.figures.spans import SpanPanel, spans_side_by_side
 from colonnade.figures.stored.curves import measured_ratio, misfits, motion, predicted_ratios, quantities, spreads
 from colonnade.stages.parts.beginning import RECORDED
 from colonnade.store.records.stored import Stored
-from colonnade.store.records.test import driven_by
+from colonnade.store.records.test import driven_by, predicted_peak_time
 from colonnade.store.records.wording import number, quantity
+from colonnade.units import format_percent
 
 MOTIONS = (
     ("slide", "slide", "slide", "mm"),
@@ -58,6 +59,7 @@ def record(test: Test, record: TestSummary, stored: Stored, block: Block) -> Pic
         base=base,
         impacts=stored.array("rocking", "impact_time"),
         peak=_peak(record, measured),
+        until=_end(stored, measured, predicted),
         # Shades of several models on each other cannot be distinguished: those of the others are in `bands` alone.
         spreads=dict(sorted(spreads(stored, block).items(), key=lambda item: item[0] != SHADED)[:1]),
     )
@@ -71,7 +73,7 @@ def bands(test: Test, stored: Stored, block: Block) -> Picture | None:
     if not found:
         return None
     said = [
-        f"{model.capitalize()} model: {spread.overturning_probability:.0%} of its runs overturn."
+        f"{model.capitalize()} model: {format_percent(spread.overturning_probability)} of its runs overturn."
         for model, spread in found.items()
     ]
     title = f"{test.id}: measured rocking angle over the spread of each model"
@@ -105,18 +107,27 @@ def seen(record: TestSummary, stored: Stored) -> str:
         parts.append(_said("Measured", record.outcome, record.peak_ratio, record.peak_time))
     for model, predicted in record.predicted.items():
         if stored.has("predict", "rocking_angle", model):
-            time = stored.value("predict", "peak_time", model)
+            time = predicted_peak_time(stored, model)
             parts.append(_said(f"{model.capitalize()} model", predicted.outcome, predicted.peak_ratio, time))
     return " ".join(parts) or "No rocking angle."
 
 
 def _said(name: str, outcome: str | None, ratio: float | None, time: float | None) -> str:
-    peak = "" if ratio is None else f", largest |θ|/α {number(ratio)} at {quantity(time, 's')}"
+    at = f" at {quantity(time, 's', 4)}"
+    peak = f", largest |θ|/α {number(ratio)}{at}" if ratio is not None else at if outcome == "overturned" else ""
     return f"{name}: {outcome or 'no outcome'}{peak}."
 
 
 def _peak(record: TestSummary, measured: Curve | None) -> Peak | None:
-    if measured is None or record.peak_ratio is None or record.peak_time is None:
+    if measured is None or record.peak_time is None:
         return None
     nearest = int(np.argmin(np.abs(measured.time - record.peak_time)))
     return Peak(record.peak_time, float(measured.values[nearest]))
+
+
+def _end(stored: Stored, measured: Curve | None, predicted: Mapping[str, Curve]) -> float | None:
+    """Return when all that rocks has overturned, s; None if something stands to the end."""
+    falls = [stored.value("predict", "overturning_time", model) for model in predicted]
+    if measured is not None:
+        falls.append(stored.value("rocking", "overturning_time"))
+    return None if not falls or np.isnan(falls).any() else max(falls)

@@ -12,21 +12,31 @@ from colonnade.figures.stored import record
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.store.records.stored import Stored
-from colonnade.store.records.test import driven_by, largest_motion
+from colonnade.store.records.test import driven_by, largest_motion, predicted_peak_time
 from colonnade.store.records.wording import NOTHING, acceleration, number, order, quantity
 
 
 @dataclass(frozen=True)
 class Found:
-    """`facts` on the measured motion; `record` is None if there is nothing to draw."""
+    """
+    The measured motion and the predicted ones.
+
+    `record` is None if there is nothing to draw; `predicted_times` are when each model's largest angle or its
+    overturning is, s.
+    """
 
     facts: list[Fact]
     record: Picture | None
+    predicted_times: dict[str, float]
 
 
 def of_test(row: TestRow, stored: Stored, block: Block, scale: float | None) -> Found:
     """Say what was measured, and draw it with what the models predict; scale of the specimen if it is a model."""
-    return Found(known(_facts(row, stored, scale)), record.record(row.test, row.record, stored, block))
+    return Found(
+        known(_facts(row, stored, scale)),
+        record.record(row.test, row.record, stored, block),
+        {model: predicted_peak_time(stored, model) for model in stored.models("predict")},
+    )
 
 
 def _facts(row: TestRow, stored: Stored, scale: float | None) -> list[Fact]:
@@ -35,7 +45,9 @@ def _facts(row: TestRow, stored: Stored, scale: float | None) -> list[Fact]:
     return [
         (
             "largest |θ|, release included" if is_free else "largest |θ|",
-            quantity(abs(stored.value("rocking", "peak_angle")), "mrad", 4),
+            ""
+            if row.record.outcome == "overturned"
+            else quantity(abs(stored.value("rocking", "peak_angle")), "mrad", 4),
         ),
         ("released at |θ|/α", number(row.record.release_ratio)),
         ("predictions use", driven_by(stored) if is_free else ""),

@@ -13,6 +13,7 @@ from colonnade.identification.response.rank import FEWEST, is_within
 from colonnade.report.rows import TestRow
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.wording import quantity
+from colonnade.units import format_percent
 
 
 @dataclass(frozen=True)
@@ -38,10 +39,10 @@ def verdict_sentence(model: str, predicted: PredictionSummary) -> str:
     within = is_within(nan if rank is None else rank)
     if within is None:
         return f"{name}: predicted up to {until}; not ranked: that needs {FEWEST} runs and a measured angle."
-    said = [f"{rank:.0%} of the runs are closer to their median"]
+    said = [f"{format_percent(rank or 0.0)} of the runs are closer to their median"]
     if predicted.peak_rank is not None:
-        said.append(f"{predicted.peak_rank:.0%} stay below the measured peak")
+        said.append(f"{format_percent(predicted.peak_rank)} stay below the measured peak")
     if predicted.overturning_probability:
-        said.append(f"{predicted.overturning_probability:.0%} overturn")
+        said.append(f"{format_percent(predicted.overturning_probability)} overturn")
     where = "within" if within else "outside"
     return f"{name}: the measured angle is {where} its own spread up to {until} ({'; '.join(said)})."

@@ -62,7 +62,8 @@ class Stored:
     Attributes
     ----------
     datasets : mapping of (str, str or None) to Dataset
-        Results that are done, by stage and model. Those of `ingest` and `condition` have no samples.
+        Results that are done, by stage and model. Those of `ingest` and `condition` have no samples, unless they were
+        asked for.
     failures : list of Failure
         In the order of the stages.
     findings : list of Finding
@@ -81,6 +82,8 @@ class Stored:
         Of each result, by its name, what identifies it: its key and the hash of its content.
     is_foreign : bool
         Whether the stored results are out of date; they are then not read.
+    with_samples : bool
+        Whether the samples of `ingest` and `condition` are kept.
     """
 
     datasets: dict[Made, xr.Dataset] = field(default_factory=dict)
@@ -93,6 +96,7 @@ class Stored:
     settings: dict[Made, Mapping[str, Any]] = field(default_factory=dict)
     keys: dict[str, str] = field(default_factory=dict)
     is_foreign: bool = False
+    with_samples: bool = False
 
     @property
     def status(self) -> Literal["done", "failed", "pending"]:
@@ -165,7 +169,8 @@ class Stored:
             return
         if result.stage in WITHOUT_SAMPLES:
             self._add_channels(dataset, recorded=result.stage == "ingest")
-            dataset = dataset.drop_vars(list(dataset.variables))
+            if not self.with_samples:
+                dataset = dataset.drop_vars(list(dataset.variables))
         self.datasets[made] = dataset
 
     def _add_channels(self, dataset: xr.Dataset, *, recorded: bool) -> None:
@@ -178,7 +183,13 @@ class Stored:
 
 
 def read_test(
-    campaign: Campaign, layout: Layout, test: Test, *, is_outdated: bool = False, failure: str | None = None
+    campaign: Campaign,
+    layout: Layout,
+    test: Test,
+    *,
+    is_outdated: bool = False,
+    failure: str | None = None,
+    with_samples: bool = False,
 ) -> Stored:
     """
     Read what is stored of a test.
@@ -192,11 +203,13 @@ def read_test(
         Whether the stored results are out of date: they are then not read.
     failure : str, optional
         Why it failed, if no result says so.
+    with_samples : bool, optional
+        Whether to keep the samples of all channels, as recorded and as conditioned.
     """
     results = results_of(campaign, test)
     if is_outdated:
         return _read(Stored(is_foreign=any(layout.path(result).exists() for result in results)), layout, [], failure)
-    return _read(Stored(), layout, results, failure)
+    return _read(Stored(with_samples=with_samples), layout, results, failure)
 
 
 def read_specimen(campaign: Campaign, layout: Layout, specimen: str) -> Stored:

@@ -92,6 +92,12 @@ def largest_motion(stored: Stored, name: str) -> float:
     return float(np.nanmax(standing)) if np.isfinite(standing).any() else nan
 
 
+def predicted_peak_time(stored: Stored, model: str) -> float:
+    """Return when a model predicts its largest angle, s; if it overturns, when it does."""
+    fall = stored.value("predict", "overturning_time", model)
+    return stored.value("predict", "peak_time", model) if isnan(fall) else fall
+
+
 def driven_by(stored: Stored) -> str:
     """Return the base motion that drives the predictions, empty if there is no prediction."""
     return next(filter(None, (stored.text("predict", "driven_by", model) for model in stored.models("predict"))), "")
@@ -115,9 +121,10 @@ def _peak(test: Test, stored: Stored) -> dict[str, Any]:
     """Give the peak that predictions are compared with; of a free vibration it is known once that is done."""
     impacts = stored.datasets["rocking", None].sizes.get("impact", 0)
     stage, before = ("compare", "measured_") if test.kind == "free-vibration" else ("rocking", "")
+    fall = stored.value("rocking", "overturning_time")
     return {
         "peak_ratio": stored.value(stage, f"{before}peak_ratio"),
-        "peak_time": stored.value(stage, f"{before}peak_time"),
+        "peak_time": stored.value(stage, f"{before}peak_time") if isnan(fall) else fall,
         "release_ratio": stored.value("compare", "release_ratio") if before else nan,
         "impacts": int(impacts),
     }

@@ -6,9 +6,19 @@ from collections.abc import Sequence
 from math import isfinite
 
 from colonnade.campaign.summary import Order
-from colonnade.units import format_quantity, format_uncertain, from_si
+from colonnade.units import format_percent, format_quantity, format_uncertain, from_si, with_minus
 
 NOTHING = "–"
+
+CHANNEL_UNITS = {
+    "displacement": "mm",
+    "velocity": "mm/s",
+    "acceleration": "m/s²",
+    "angle": "mrad",
+    "angular_velocity": "rad/s",
+    "force": "N",
+}
+"""Units in which a channel is written and drawn, by its quantity."""
 
 
 def number(value: float | None, digits: int = 3) -> str:
@@ -23,7 +33,7 @@ def number(value: float | None, digits: int = 3) -> str:
     if value is None or not isfinite(value):
         return NOTHING
     text = f"{value:.{digits}g}"
-    return text if "e" not in text or abs(value) < 1e-4 else f"{float(text):.0f}"
+    return with_minus(text if "e" not in text or abs(value) < 1e-4 else f"{float(text):.0f}")
 
 
 def signed(value: float) -> str:
@@ -33,9 +43,9 @@ def signed(value: float) -> str:
     Examples
     --------
     >>> signed(0.0123), signed(-0.5), signed(float("nan"))
-    ('+0.012', '-0.5', '–')
+    ('+0.012', '−0.5', '–')
     """
-    return f"{value:+.2g}" if isfinite(value) else NOTHING
+    return with_minus(f"{value:+.2g}") if isfinite(value) else NOTHING
 
 
 def quantity(value: float | None, unit: str, digits: int = 3) -> str:
@@ -51,7 +61,7 @@ def quantity(value: float | None, unit: str, digits: int = 3) -> str:
         return NOTHING
     if "e" in f"{from_si(value, unit):.{digits}g}":
         return f"{number(from_si(value, unit), digits)} {unit}"
-    return format_quantity(value, unit, digits)
+    return with_minus(format_quantity(value, unit, digits))
 
 
 def acceleration(value: float | None) -> str:
@@ -83,7 +93,7 @@ def interval(value: float | None, low: float | None, high: float | None, level: 
         return NOTHING
     if low is None or high is None or level is None or not isfinite(high - low):
         return number(value, 4)
-    return f"{format_uncertain(value, (high - low) / 2)} ({100 * level:g} % interval)"
+    return f"{format_uncertain(value, (high - low) / 2)} ({format_percent(level)} interval)"
 
 
 def share(part: int, whole: int) -> str:

@@ -1,0 +1,116 @@
+"""What the table did against what it was to do: acceleration over time, response spectra and their ratio."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, MaxNLocator, NullLocator, StrMethodFormatter
+
+from colonnade.arrays import Array
+from colonnade.figures.curve import Curve
+from colonnade.figures.histories import draw_limit, largest_of, scale_symmetric, time_limits
+from colonnade.figures.long import draw_curve
+from colonnade.figures.panels import BOTTOM, LEFT, RIGHT, TOP, legend_above
+from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, WIDTH, LineStyle, styled
+
+HISTORY_HEIGHT, SPECTRUM_HEIGHT, BETWEEN = 1.3, 1.6, 0.62
+"""Heights of the panels and the room between them, inches."""
+
+APART = 0.8
+"""Between the two lower panels, inches."""
+
+TARGET: LineStyle = {"color": FIT["color"], "linestyle": (0, (4.0, 1.6)), "linewidth": 1.0}
+
+DECADES = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
+"""Periods that an axis names, s."""
+
+RATIO_LIMITS = (0.0, 2.0)
+"""Of the axis of the ratio."""
+
+
+class BaseSpectra(NamedTuple):
+    """Periods (s) and pseudo-accelerations (m/s²) of 5 % damping, achieved and of the target (None without one)."""
+
+    period: Array
+    achieved: Array
+    target: Array | None
+
+
+@styled()
+def base_motion(achieved: Curve, target: Curve | None, spectra: BaseSpectra, *, uplift: float | None = None) -> Figure:
+    """
+    Draw the acceleration of a table over time, and below the response spectra and, with a target, their ratio.
+
+    Parameters
+    ----------
+    achieved, target : Curve
+        m/s² over time (s); the target on the same clock, None if it is not known.
+    spectra : BaseSpectra
+    uplift : float, optional
+        Base acceleration from which the block rocks, m/s².
+
+    Returns
+    -------
+    figure : Figure
+    """
+    total = TOP + HISTORY_HEIGHT + BETWEEN + SPECTRUM_HEIGHT + BOTTOM
+    figure = Figure(figsize=(WIDTH, total))
+    room = WIDTH - LEFT - RIGHT
+    columns = 1 if spectra.target is None else 2
+    width = (room - APART * (columns - 1)) / columns
+    history = _panel(figure, LEFT, TOP, room, HISTORY_HEIGHT)
+    below = [
+        _panel(figure, LEFT + column * (width + APART), TOP + HISTORY_HEIGHT + BETWEEN, width, SPECTRUM_HEIGHT)
+        for column in range(columns)
+    ]
+    if target is not None:
+        draw_curve(history, target, label="target", **TARGET)
+    draw_curve(history, achieved, label="achieved", color=MEASURED["color"], linewidth=0.8)
+    largest = largest_of([curve for curve in (achieved, target) if curve is not None]) or 1.0
+    scale_symmetric(history, largest)
+    if uplift is not None and uplift < 1.12 * largest:
+        draw_limit(history, uplift, "g tan α")
+    history.set_xlim(*time_limits([achieved]))
+    history.set_xlabel("time (s)")
+    history.set_ylabel("acceleration\n(m/s²)")
+    _draw_spectra(below[0], spectra)
+    if spectra.target is not None:
+        _draw_ratio(below[1], spectra.period, spectra.achieved / spectra.target)
+    legend_above(figure, [history])
+    return figure
+
+
+def _panel(figure: Figure, left: float, top: float, width: float, height: float) -> Axes:
+    across, total = (float(size) for size in figure.get_size_inches())
+    return figure.add_axes((left / across, 1 - (top + height) / total, width / across, height / total))
+
+
+def _draw_spectra(axes: Axes, spectra: BaseSpectra) -> None:
+    if spectra.target is not None:
+        axes.plot(spectra.period, spectra.target, **TARGET)
+    axes.plot(spectra.period, spectra.achieved, color=MEASURED["color"], linewidth=1.0)
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel("5 % damped response\n(m/s²)")
+    _scale_periods(axes, spectra.period)
+
+
+def _draw_ratio(axes: Axes, period: Array, ratio: Array) -> None:
+    axes.plot(period, np.clip(ratio, *RATIO_LIMITS), color=MEASURED["color"], linewidth=1.0)
+    axes.axhline(1.0, **LIMIT)
+    axes.axhspan(0.9, 1.1, color=FAINT, alpha=0.15, linewidth=0)
+    axes.set_ylim(*RATIO_LIMITS)
+    axes.set_ylabel("achieved / target")
+    _scale_periods(axes, period)
+
+
+def _scale_periods(axes: Axes, period: Array) -> None:
+    axes.set_xscale("log")
+    axes.set_xlim(float(period[0]), float(period[-1]))
+    axes.xaxis.set_major_locator(FixedLocator([each for each in DECADES if period[0] <= each <= period[-1]]))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.yaxis.set_major_locator(MaxNLocator(nbins=5))
+    axes.set_xlabel("period of the oscillator (s)")

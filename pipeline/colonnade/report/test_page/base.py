@@ -1,0 +1,127 @@
+"""What the table did: its motion against the target, in numbers at both scales, and its response spectrum."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import isnan, nan
+from typing import NamedTuple
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.campaign import Campaign
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.similitude import at_prototype
+from colonnade.figures.output import Picture
+from colonnade.figures.stored import base
+from colonnade.figures.stored.base import BaseMotion
+from colonnade.report.rows import TestRow
+from colonnade.report.test_page.facts import Fact, known
+from colonnade.signals.intensity import LARGEST_DRIFT, arias_intensity, peak_displacement, peak_velocity
+from colonnade.store.records.stored import Stored
+from colonnade.store.records.test import largest_motion
+from colonnade.store.records.wording import NOTHING, number, quantity
+
+
+class Measure(NamedTuple):
+    """A measure of the motion: achieved, of the target, and at prototype scale; how it is computed."""
+
+    name: str
+    achieved: str
+    target: str
+    prototype: str
+    how: str
+
+
+@dataclass(frozen=True)
+class Table:
+    """`measures` are empty without a recorded motion; `facts` are of a sine, or say how the target was laid on it."""
+
+    measures: list[Measure]
+    facts: list[Fact]
+    picture: Picture | None
+    has_target: bool
+
+
+def of_test(campaign: Campaign, row: TestRow, stored: Stored, block: Block) -> Table:
+    """Measure the table's motion, and draw it with its target."""
+    motion = base.base_of(campaign, row.test, stored)
+    if motion is None:
+        return Table([], [], None, has_target=False)
+    scale = campaign.specimens[row.test.specimen].scale
+    return Table(
+        _measures(motion, stored, campaign.gravity, scale),
+        known([*_sine(row, stored), *_target(motion)]),
+        base.picture(row.test, motion, block),
+        has_target=motion.target is not None,
+    )
+
+
+def _measures(motion: BaseMotion, stored: Stored, gravity: float, scale: float | None) -> list[Measure]:
+    series = [motion.acceleration, None if motion.target is None else motion.target.acceleration]
+    measured = largest_motion(stored, "base_displacement")
+
+    def row(name: str, unit: str, kind: str, values: list[float], how: str) -> Measure:
+        achieved, target = values
+        prototype = nan if scale is None else at_prototype(kind, achieved, scale)
+        return Measure(name, quantity(achieved, unit), quantity(target, unit), quantity(prototype, unit), how)
+
+    def each(measure: Callable[[Array], float]) -> list[float]:
+        return [nan if values is None else measure(values) for values in series]
+
+    velocity = each(lambda values: peak_velocity(values, motion.interval).peak)
+    displacement = each(lambda values: peak_displacement(values, motion.interval).peak)
+    drifts = f"not given: the integral of the acceleration drifts by more than {100 * LARGEST_DRIFT:g} % of its peak"
+    integrated = "integral of the acceleration, less a line through its ends"
+    return [
+        row("peak acceleration (PGA)", "m/s²", "acceleration", each(lambda values: float(np.abs(values).max())), ""),
+        row("peak velocity (PGV)", "mm/s", "velocity", velocity, drifts if isnan(velocity[0]) else integrated),
+        row(
+            "peak displacement (PGD)",
+            "mm",
+            "length",
+            [displacement[0] if isnan(measured) else measured, displacement[1]],
+            "measured" if not isnan(measured) else drifts if isnan(displacement[0]) else f"twice the {integrated}",
+        ),
+        row(
+            "Arias intensity",
+            "m/s",
+            "velocity",
+            each(lambda values: arias_intensity(values, motion.interval, gravity)),
+            "π/(2g) times the integral of the squared acceleration",
+        ),
+    ]
+
+
+def _sine(row: TestRow, stored: Stored) -> list[Fact]:
+    """Give what was achieved of a sine, over its steady part."""
+    frequency, amplitude, distortion, start, stop = (
+        stored.value("compare", name)
+        for name in ("forcing_frequency", "forcing_amplitude", "forcing_distortion", "steady_start", "steady_stop")
+    )
+    if isnan(frequency):
+        return []
+    spread = stored.value("compare", "forcing_amplitude_spread")
+    asked = row.test.frequency
+    return [
+        ("frequency", quantity(frequency, "Hz", 4) + (f"; asked for: {quantity(asked, 'Hz', 4)}" if asked else "")),
+        ("amplitude", f"{quantity(amplitude, 'm/s²')} ± {quantity(spread, 'm/s²', 2)} from period to period"),
+        ("distortion", f"{number(100 * distortion, 2)} % (RMS of what is not the sine, over that of the sine)"),
+        ("steady from", f"{quantity(start, 's', 4)} to {quantity(stop, 's', 4)}"),
+    ]
+
+
+def _target(motion: BaseMotion) -> list[Fact]:
+    target = motion.target
+    if target is None:
+        return []
+    turned = "; its polarity is reversed" if target.correlation < 0 else ""
+    factor = NOTHING if isnan(target.factor) else number(abs(target.factor))
+    return [
+        (
+            "target",
+            f"laid on the recorded motion with the delay and the factor that fit best: {factor} times the reference, "
+            f"at time scale {number(target.scale, 4)}; correlation {number(abs(target.correlation))}{turned}",
+        )
+    ]

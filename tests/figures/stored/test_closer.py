@@ -1,0 +1,77 @@
+"""The closer look at stored tests: the separatrix against the equation of motion, and steady cycles in phase."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from colonnade.campaign import Test
+from colonnade.campaign.summary import TestSummary
+from colonnade.dynamics.block import Block
+from colonnade.figures.stored import closer
+from colonnade.store.records.stored import Stored
+
+BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+
+
+def test_the_free_motion_on_the_separatrix_arrives_at_the_critical_angle_at_rest():
+    """Integrated backwards from just below α with θ'' = −p² sin(α − θ): the same curve (nonlinear model, a = 0)."""
+    found = closer.separatrix(BLOCK)
+    alpha, p, step = BLOCK.critical_angle, BLOCK.p, 1e-5
+    angle, velocity = alpha * (1 - 1e-3), alpha * p * 1e-3
+    while angle > 0:
+        velocity += step * p**2 * np.sin(alpha - angle)
+        angle -= step * velocity
+    assert found.velocity[40] == pytest.approx(velocity / (p * alpha), rel=1e-3)
+    assert (found.velocity[0], found.velocity[-1]) == (0.0, 0.0)
+
+
+def test_a_small_block_has_nearly_straight_lines_as_the_linear_model():
+    found = closer.separatrix(BLOCK)
+    assert found.velocity == pytest.approx(1 - np.abs(found.ratio), abs=2e-3)
+
+
+def test_a_steady_sine_is_drawn_over_the_phase_of_the_base():
+    time = np.arange(0, 12, 0.004)
+    base = 3 * np.sin(2 * np.pi * 2.0 * (time - 0.2))
+    angle = 0.05 * np.sin(np.pi * 2.0 * (time - 0.2))  # repeats after two periods of the base
+    stored = Stored(
+        datasets={
+            ("rocking", None): xr.Dataset(
+                {"rocking_angle": ("elapsed", angle), "base_acceleration": ("elapsed", base)}, {"elapsed": time}
+            ),
+            ("compare", None): xr.Dataset({"forcing_frequency": 2.0, "steady_start": 1.0, "steady_stop": 11.0}),
+        }
+    )
+    record = TestSummary(status="done", kind="sine", specimen="prism", outcome="rocking", order=2)
+    picture = closer.picture(Test.model_construct(id="sine"), record, stored, BLOCK)
+    portrait, steady = picture.figure.axes
+    phase, ratio = steady.lines[0].get_data()
+    assert steady.get_xlabel() == "phase of the base (periods)"
+    assert (np.nanmin(phase), np.nanmax(phase)) == pytest.approx((0, 2), abs=0.02)
+    known = np.isfinite(phase)
+    due = 0.05 * np.sin(np.pi * phase[known]) / BLOCK.critical_angle
+    assert np.minimum(np.abs(ratio[known] - due), np.abs(ratio[known] + due)) == pytest.approx(0, abs=1e-3)
+    assert portrait.get_ylabel() == "θ′ / (p α)"
+    velocity = np.abs(portrait.lines[0].get_ydata()).max()
+    assert velocity == pytest.approx(0.05 * np.pi * 2.0 / (BLOCK.p * BLOCK.critical_angle), rel=1e-2)
+
+
+def test_the_base_rises_through_zero_at_phase_zero():
+    time = np.arange(0, 10, 0.002)
+    base = 3 * np.sin(2 * np.pi * 2.0 * (time - 0.123))
+    zero = closer._rising(time, base, 2.0, 4.0, 9.0)
+    assert (zero - 0.123) * 2.0 == pytest.approx(round((zero - 0.123) * 2.0), abs=1e-3)
+
+
+def test_an_earthquake_is_enlarged_about_its_largest_angle(known):
+    _, record, *_ = known("span-2.0")
+    axes = closer.picture(*known("span-2.0")).figure.axes[1]
+    low, high = np.nanmin(axes.lines[0].get_xdata()), np.nanmax(axes.lines[0].get_xdata())
+    assert low < record.peak_time < high
+    assert axes.texts[0].get_text() == "about the largest angle"
+
+
+def test_what_was_not_run_has_no_picture(known):
+    assert closer.picture(*known("later")) is None

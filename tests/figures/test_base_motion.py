@@ -1,0 +1,29 @@
+"""The motion of a table against its target: with a target three panels, without one two."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from colonnade.figures.base_motion import BaseSpectra, base_motion
+from colonnade.figures.curve import Curve
+
+TIME = np.arange(0, 5, 0.01)
+ACHIEVED = Curve(TIME, 2 * np.sin(6 * TIME))
+PERIOD = np.geomspace(0.02, 2, 30)
+
+
+def test_the_ratio_of_the_spectra_is_drawn_about_one():
+    spectra = BaseSpectra(PERIOD, 1.1 * np.sqrt(PERIOD), np.sqrt(PERIOD))
+    figure = base_motion(ACHIEVED, Curve(TIME, 1.8 * np.sin(6 * TIME)), spectra, uplift=1.9)
+    history, spectrum, ratio = figure.axes
+    assert [line.get_label() for line in history.lines[:2]] == ["target", "achieved"]
+    assert ratio.lines[0].get_ydata() == pytest.approx(1.1)
+    assert ratio.get_ylim() == (0.0, 2.0)
+    assert spectrum.get_xlim() == pytest.approx((0.02, 2))
+    assert "g tan α" in [text.get_text() for text in history.texts]
+
+
+def test_without_a_target_there_is_no_ratio():
+    figure = base_motion(ACHIEVED, None, BaseSpectra(PERIOD, np.sqrt(PERIOD), None))
+    assert len(figure.axes) == 2

@@ -1,0 +1,76 @@
+"""Channels as recorded: both scales, flags, spikes enlarged, spectra; and that nothing grows without bound."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from colonnade.figures.channels import MOST_SPIKES, Channel, Scale, Spike, channels_as_recorded
+from colonnade.figures.curve import Curve
+from colonnade.signals.spectra import Density
+
+TIME = np.arange(0, 2, 0.01)
+NONE = Curve(np.empty(0), np.empty(0))
+FREQUENCY = np.geomspace(1, 50, 20)
+
+
+def channel(**changed):
+    given = {
+        "name": "top",
+        "unit": "mm",
+        "curve": Curve(TIME, 10 * np.sin(TIME)),
+        "recorded": Scale("V", -5.0, 1.0),
+        "failed": NONE,
+        "suspect": NONE,
+        "before": Density(FREQUENCY, 1 / FREQUENCY),
+        "after": Density(FREQUENCY, FREQUENCY**-3),
+        "cutoff": 25.0,
+    }
+    return Channel(**given | changed)
+
+
+def spike(name="top"):
+    return Spike(name, 0.5, Curve(TIME[40:60], TIME[40:60]), Curve(TIME[50:51], TIME[50:51]))
+
+
+def test_a_channel_has_its_physical_scale_and_that_of_its_recorder():
+    history = channels_as_recorded([channel()]).axes[0]
+    assert history.get_ylabel() == "mm"
+    right = {text.get_text(): text.get_position()[1] for text in history.texts}
+    assert "V" in right
+    assert right["−1"] == pytest.approx(6.0)  # 10 mm/V turned: −1 V is −5 × −1 + 1 mm
+
+
+def test_a_channel_recorded_in_its_own_unit_has_one_scale():
+    history = channels_as_recorded([channel(recorded=Scale("mm", None, 0.0))]).axes[0]
+    assert [text.get_text() for text in history.texts] == ["top"]
+
+
+def test_flagged_samples_are_marked_where_they_are_and_missing_ones_at_the_foot():
+    failed = Curve(np.array([0.5, 0.6]), np.array([90.0, np.nan]))
+    history = channels_as_recorded([channel(failed=failed)]).axes[0]
+    marked = next(line for line in history.lines if line.get_label() == "failed or missing")
+    assert marked.get_xdata().tolist() == [0.5, 0.6]
+    assert marked.get_ydata().tolist() == [90.0, pytest.approx(0.0)]
+
+
+def test_the_cut_off_is_marked_in_the_spectrum():
+    spectrum = channels_as_recorded([channel()]).axes[1]
+    assert [line.get_label() for line in spectrum.lines] == ["spectrum before the filter", "after it", "cut-off"]
+    assert spectrum.lines[2].get_xdata()[0] == 25.0
+
+
+def test_the_first_spikes_are_enlarged():
+    few, many = (channels_as_recorded([channel()], [spike()] * number) for number in (2, 500))
+    assert [len(figure.axes) for figure in (few, many)] == [4, 2 + MOST_SPIKES]
+    assert few.axes[2].get_title(loc="left") == "top\n0.500 s"
+
+
+def test_a_channel_without_samples_enough_has_no_spectrum():
+    figure = channels_as_recorded([channel(before=None, after=None)])
+    assert [text.get_text() for text in figure.axes[1].texts] == ["no spectrum"]
+
+
+def test_no_channel_is_refused():
+    with pytest.raises(ValueError, match="no channel was given"):
+        channels_as_recorded([])
