@@ -12,6 +12,7 @@ from matplotlib.ticker import FixedLocator, MaxNLocator, NullLocator, StrMethodF
 from colonnade.arrays import Array
 from colonnade.figures.curve import Curve
 from colonnade.figures.histories import draw_limit, largest_of, scale_symmetric, time_limits
+from colonnade.figures.lean import add_panel
 from colonnade.figures.long import draw_curve
 from colonnade.figures.panels import BOTTOM, LEFT, RIGHT, TOP, legend_above
 from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, WIDTH, LineStyle, styled
@@ -61,9 +62,9 @@ def base_motion(achieved: Curve, target: Curve | None, spectra: BaseSpectra, *, 
     room = WIDTH - LEFT - RIGHT
     columns = 1 if spectra.target is None else 2
     width = (room - APART * (columns - 1)) / columns
-    history = _panel(figure, LEFT, TOP, room, HISTORY_HEIGHT)
+    history = add_panel(figure, LEFT, TOP, room, HISTORY_HEIGHT)
     below = [
-        _panel(figure, LEFT + column * (width + APART), TOP + HISTORY_HEIGHT + BETWEEN, width, SPECTRUM_HEIGHT)
+        add_panel(figure, LEFT + column * (width + APART), TOP + HISTORY_HEIGHT + BETWEEN, width, SPECTRUM_HEIGHT)
         for column in range(columns)
     ]
     if target is not None:
@@ -81,11 +82,6 @@ def base_motion(achieved: Curve, target: Curve | None, spectra: BaseSpectra, *, 
         _draw_ratio(below[1], spectra.period, spectra.achieved / spectra.target)
     legend_above(figure, [history])
     return figure
-
-
-def _panel(figure: Figure, left: float, top: float, width: float, height: float) -> Axes:
-    across, total = (float(size) for size in figure.get_size_inches())
-    return figure.add_axes((left / across, 1 - (top + height) / total, width / across, height / total))
 
 
 def _draw_spectra(axes: Axes, spectra: BaseSpectra) -> None:

@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
 from colonnade.figures.curve import Curve, envelope
+from colonnade.figures.lean import add_panel
 from colonnade.figures.long import draw_curve
-from colonnade.figures.panels import BOTTOM, LABEL, LEFT, TOP, borrow_grid, legend_above
+from colonnade.figures.panels import BOTTOM, LEFT, TOP, borrow_grid, legend_above
 from colonnade.figures.style import FAINT, INK, LIMIT, MEASURED, SOFT, WIDTH, styled
 from colonnade.signals.spectra import Density
 
@@ -116,8 +117,8 @@ def channels_as_recorded(channels: Sequence[Channel], spikes: Sequence[Spike] = 
     spectra: list[Axes] = []
     for index in range(len(channels)):
         top = TOP + index * (HEIGHT + GAP)
-        histories.append(_panel(figure, LEFT, top, HISTORY, HEIGHT, histories))
-        spectra.append(_panel(figure, WIDTH - RIGHT - SPECTRUM, top, SPECTRUM, HEIGHT, spectra))
+        histories.append(add_panel(figure, LEFT, top, HISTORY, HEIGHT, sharex=_first(histories)))
+        spectra.append(add_panel(figure, WIDTH - RIGHT - SPECTRUM, top, SPECTRUM, HEIGHT, sharex=_first(spectra)))
     for history, spectrum, channel in zip(histories, spectra, channels, strict=True):
         _draw_history(history, channel)
         _draw_spectrum(spectrum, channel)
@@ -131,17 +132,13 @@ def channels_as_recorded(channels: Sequence[Channel], spikes: Sequence[Spike] = 
     _scale_frequencies(spectra[-1])
     for index, spike in enumerate(spikes[:MOST_SPIKES]):
         left = LEFT + index * (WIDTH - LEFT - RIGHT - SPIKE_WIDTH) / (MOST_SPIKES - 1)
-        _draw_spike(
-            _panel(figure, left, TOP + rows + BOTTOM + SPIKE_TITLE - 0.06, SPIKE_WIDTH, SPIKE_HEIGHT, []), spike
-        )
+        _draw_spike(add_panel(figure, left, TOP + rows + BOTTOM + SPIKE_TITLE - 0.06, SPIKE_WIDTH, SPIKE_HEIGHT), spike)
     legend_above(figure, [*histories, *spectra])
     return figure
 
 
-def _panel(figure: Figure, left: float, top: float, width: float, height: float, shared: Sequence[Axes]) -> Axes:
-    across, total = (float(size) for size in figure.get_size_inches())
-    place = (left / across, 1 - (top + height) / total, width / across, height / total)
-    return figure.add_axes(place, sharex=shared[0] if shared else None)
+def _first(panels: Sequence[Axes]) -> Axes | None:
+    return panels[0] if panels else None
 
 
 def _draw_history(axes: Axes, channel: Channel) -> None:
@@ -158,7 +155,6 @@ def _draw_history(axes: Axes, channel: Channel) -> None:
     axes.margins(y=0.08)
     axes.yaxis.set_major_locator(MaxNLocator(nbins=3, steps=[1, 2, 5, 10]))
     axes.set_ylabel(channel.unit)
-    axes.yaxis.set_label_coords(-LABEL / HISTORY, 0.5)
     axes.text(0.0, 1.02, channel.name, transform=axes.transAxes, fontsize=8, va="bottom", color=INK, weight="bold")
     _draw_recorded(axes, channel.recorded)
 

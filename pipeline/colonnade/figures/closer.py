@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from colonnade.arrays import Array
 from colonnade.figures.curve import Curve
 from colonnade.figures.histories import ANGLE_LABEL, LARGEST_RATIO, scale_symmetric
+from colonnade.figures.lean import add_panel
 from colonnade.figures.panels import BOTTOM, LEFT, RIGHT, TOP, legend_above
 from colonnade.figures.style import LIMIT, MEASURED, SOFT, WIDTH, LineStyle, model_style, styled
 
@@ -78,8 +79,7 @@ def closer_look(
     columns = 1 if enlarged is None else 2
     width = (WIDTH - LEFT - RIGHT - APART * (columns - 1)) / columns
     portrait, *others = (
-        figure.add_axes(((LEFT + column * (width + APART)) / WIDTH, BOTTOM / total, width / WIDTH, HEIGHT / total))
-        for column in range(columns)
+        add_panel(figure, LEFT + column * (width + APART), TOP, width, HEIGHT) for column in range(columns)
     )
     _draw_portrait(portrait, measured, predicted, separatrix, phases)
     if enlarged is not None:

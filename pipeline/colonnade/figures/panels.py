@@ -7,19 +7,15 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.axis import XAxis
 from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
-from matplotlib.path import Path
 
 from colonnade.arrays import Array
-from colonnade.figures.style import fitting, grid_line, is_narrow, width
+from colonnade.figures.lean import LeanXAxis, add_panel, columns, draw_lines
+from colonnade.figures.style import fitting, is_narrow, width
 
 LEFT, RIGHT, TOP, BOTTOM, GAP = 0.92, 0.5, 0.34, 0.44, 0.14
 """Room for labels left and right, the legend above, the time axis below, and between panels; inches."""
-
-LABEL = 0.52
-"""Distance of the labels of vertical axes from their panel, inches: numbers of any length fit between."""
 
 ROOMY = 4
 """Lines up to which a legend has its usual spacing; more, as all models with a band, have to stand closer."""
@@ -96,18 +92,17 @@ def side_by_side(columns: int, heights: Sequence[float], *, title: float = 0.2) 
         top = total - TOP - row * band - title
         panels: list[Axes] = []
         for index, height in enumerate(heights):
-            one = figure.add_axes(
-                (
-                    (left + place * (panel + GAP)) / width(),
-                    (top - height) / total,
-                    panel / width(),
-                    height / total,
-                ),
+            one = add_panel(
+                figure,
+                left + place * (panel + GAP),
+                total - top,
+                panel,
+                height,
                 sharex=grid[0][0] if grid else panels[0] if panels else None,
                 sharey=grid[0][index] if grid else None,
             )
-            one.tick_params(labelleft=place == 0)
-            one.yaxis.set_label_coords(-LABEL * left / LEFT / panel, 0.5)
+            if place > 0:
+                one.tick_params(labelleft=False)
             panels.append(one)
             top -= height + GAP
         for one in panels[:-1]:
@@ -124,28 +119,23 @@ def _margins() -> tuple[float, float]:
 class _BorrowedGrid(Artist):
     """Upright grid lines where another panel's horizontal axis has its ticks."""
 
-    def __init__(self, axis: XAxis) -> None:
+    def __init__(self, below: LeanXAxis) -> None:
         super().__init__()
-        self._axis = axis
-        self._color, self._width = grid_line()
+        self._below = below
         self.set_zorder(0.4)
 
     def lines(self) -> Array:
         """Return where the lines are now."""
-        low, high = sorted(self._axis.get_view_interval())
-        ticks = np.asarray(self._axis.get_majorticklocs(), dtype=float)
-        return ticks[(ticks >= low) & (ticks <= high)]
+        return self._below.shown_ticks()
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw all lines as one path."""
-        ticks = self.lines()
-        gc = renderer.new_gc()
-        gc.set_foreground(self._color)
-        gc.set_linewidth(self._width)
-        vertices = np.column_stack((np.repeat(ticks, 2), np.tile((0.0, 1.0), ticks.size)))
-        codes = np.tile(np.array((Path.MOVETO, Path.LINETO), dtype=np.uint8), ticks.size)
-        renderer.draw_path(gc, Path(vertices, codes), self.get_transform())
-        gc.restore()
+        panel = self.axes
+        if isinstance(panel, Axes):
+            places, look = self._below.places(), self._below.look
+            thickness = look.grid_width * float(np.asarray(renderer.points_to_pixels(1.0)))
+            foot, head = columns(places, panel.bbox.y0), columns(places, panel.bbox.y1)
+            draw_lines(renderer, foot, head, look.grid_color, thickness)
 
 
 def borrow_grid(panel: Axes, below: Axes) -> None:
@@ -155,9 +145,8 @@ def borrow_grid(panel: Axes, below: Axes) -> None:
     An axis makes an artist for each tick, mark, line and label, hidden ones too: this halves the time of a panel.
     """
     panel.xaxis.set_visible(False)
-    grid = _BorrowedGrid(below.xaxis)
-    grid.set_transform(panel.get_xaxis_transform())
-    panel.add_artist(grid)
+    if isinstance(below.xaxis, LeanXAxis):
+        panel.add_artist(_BorrowedGrid(below.xaxis))
 
 
 def legend_above(figure: Figure, axes: Sequence[Axes]) -> None:

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import Any, NamedTuple, TypedDict
 
 import matplotlib
 from matplotlib.colors import to_hex
@@ -110,10 +110,36 @@ def _settings() -> Any:
     return {name: settings[name] for name in settings if name != "backend"}
 
 
-def grid_line() -> tuple[str, float]:
-    """Return colour and width (points) of grid lines."""
+class ScaleStyle(NamedTuple):
+    """How a scale looks: colours; widths, sizes and distances in points."""
+
+    grid_color: str
+    grid_width: float
+    color: str
+    tick_width: float
+    tick_size: float
+    pad: float
+    label_color: str
+    label_size: float
+    label_pad: float
+
+
+@cache
+def scale_style() -> ScaleStyle:
+    """Return how the scales of all panels look, from the style sheet."""
     settings = _settings()
-    return to_hex(settings["grid.color"]), float(settings["grid.linewidth"])
+    size = settings["ytick.labelsize"]
+    return ScaleStyle(
+        to_hex(settings["grid.color"]),
+        float(settings["grid.linewidth"]),
+        to_hex(settings["ytick.color"]),
+        float(settings["ytick.major.width"]),
+        float(settings["ytick.major.size"]),
+        float(settings["ytick.major.pad"]),
+        to_hex(settings["ytick.labelcolor"]),
+        float(size),
+        float(settings["axes.labelpad"]),
+    )
 
 
 def blank_figure(height: float) -> Figure:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import gc
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from colonnade.campaign import Campaign
 from colonnade.figures.stored import record
@@ -18,14 +19,13 @@ from colonnade.report.overview_page import thumbnails
 from colonnade.report.overview_page.spans import SpanTest
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import FreeVibration
-from colonnade.store import files, stamps
+from colonnade.store import stamps
 from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
-from colonnade.store.records.stored import WITHOUT_SAMPLES, Stored, read_test
-from colonnade.store.results import ResultId
+from colonnade.store.records.stored import WITHOUT_SAMPLES, read_test
 
-if TYPE_CHECKING:
-    import xarray as xr
+SELDOM = (200_000, 20, 100)
+"""Thresholds of the garbage collector while pages are drawn: about once a page."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,25 @@ def parts_of(campaign: Campaign, layout: Layout, code: str, block: Sequence[Aske
     block : sequence of Asked
     """
     renderer = pages.renderer_of(campaign)
-    return [_part(renderer, campaign, layout, code, asked) for asked in block]
+    with _seldom_collected():
+        return [_part(renderer, campaign, layout, code, asked) for asked in block]
+
+
+@contextmanager
+def _seldom_collected() -> Iterator[None]:
+    """
+    Look for garbage seldom: a figure is thousands of objects that refer to each other and live for one page.
+
+    Going through all libraries' objects for them takes a fifth of the time of a page.
+    """
+    thresholds = gc.get_threshold()
+    gc.freeze()
+    gc.set_threshold(*SELDOM)
+    try:
+        yield
+    finally:
+        gc.set_threshold(*thresholds)
+        gc.unfreeze()
 
 
 def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: str, asked: Asked) -> Part:
@@ -96,11 +114,7 @@ def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: st
     if not made_from or any(made_from != stamps.key_of(path) for path in written):
         page = tests_page.of_test(campaign, row, stored, asked.photos)
         text = renderer.page("test", address, test=page, before=asked.before, after=asked.after)
-        data = test_data.of_test(campaign, test, stored, renderer.pictures, *_channels(layout, stored, test.id))
+        samples = (stored.datasets.get((stage, None)) for stage in WITHOUT_SAMPLES)
+        data = test_data.of_test(campaign, test, stored, renderer.pictures, *samples)
     thumbnail = thumbnails.polyline(measured_ratio(stored, block))
     return Part(row, channels.of_test(stored), thumbnail, span, free_vibration, used, text, data, made_from)
-
-
-def _channels(layout: Layout, stored: Stored, test: str) -> list[xr.Dataset | None]:
-    """Read the channels as recorded and as conditioned again: `stored` keeps none of their samples."""
-    return [files.read(layout.path(ResultId(test, stage))) if stored.has(stage) else None for stage in WITHOUT_SAMPLES]

@@ -18,11 +18,11 @@ from colonnade.figures.output import Picture
 from colonnade.figures.stored.curves import measured_ratio, misfits, motion, predicted_ratios, spreads
 from colonnade.figures.stored.record import BASE, MOTIONS, SHADED
 from colonnade.figures.style import model_style
-from colonnade.report.channels import UNITS
 from colonnade.report.interactive import moving
 from colonnade.report.interactive.panels import Samples, script
 from colonnade.report.interactive.tables import tables_of
 from colonnade.store.records.stored import GOOD, Stored
+from colonnade.store.records.wording import CHANNEL_UNITS
 from colonnade.units import from_si
 
 PROPORTIONAL = 1e-6
@@ -174,15 +174,15 @@ def _conditioned(conditioned: xr.Dataset | None, samples: Samples) -> list[Panel
     found: dict[str, list[dict[str, Any]]] = {}
     for variable in conditioned.data_vars.values():
         channel, quantity = variable.attrs.get("channel"), str(variable.attrs.get("quantity"))
-        if channel is not None and quantity in UNITS:
+        if channel is not None and quantity in CHANNEL_UNITS:
             curves = found.setdefault(quantity, [])
-            values = from_si(1.0, UNITS[quantity]) * variable.to_numpy()
+            values = from_si(1.0, CHANNEL_UNITS[quantity]) * variable.to_numpy()
             curves.append(samples.curve(str(channel), time, values, **_numbered(len(curves))))
     return [
         {
             "title": f"{quantity.replace('_', ' ').capitalize()}, conditioned",
             "short": f"conditioned {quantity.replace('_', ' ')}",
-            "unit": UNITS[quantity],
+            "unit": CHANNEL_UNITS[quantity],
             "curves": curves,
         }
         for quantity, curves in found.items()
@@ -211,10 +211,10 @@ def _recorded(recorded: xr.Dataset | None, conditioned: xr.Dataset | None, sampl
             "curves": [samples.curve(str(channel), time, as_recorded.to_numpy(), colour="ink", width=1)],
             "flags": _flags(recorded.get(f"{name}_quality")),
         }
-        if quantity in UNITS and UNITS[quantity] != unit:
-            line = _line(as_recorded.to_numpy(), from_si(1.0, UNITS[quantity]) * variable.to_numpy())
+        if quantity in CHANNEL_UNITS and CHANNEL_UNITS[quantity] != unit:
+            line = _line(as_recorded.to_numpy(), from_si(1.0, CHANNEL_UNITS[quantity]) * variable.to_numpy())
             if line is not None:
-                panel["second"] = {"unit": UNITS[quantity], "factor": line[0], "offset": line[1]}
+                panel["second"] = {"unit": CHANNEL_UNITS[quantity], "factor": line[0], "offset": line[1]}
         found.append(panel)
     return found
 

@@ -18,10 +18,14 @@ from colonnade.figures.stored import base
 from colonnade.figures.stored.base import BaseMotion
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
+from colonnade.signals.filters import lowpass
 from colonnade.signals.intensity import LARGEST_DRIFT, arias_intensity, peak_displacement, peak_velocity
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import largest_motion
 from colonnade.store.records.wording import NOTHING, number, quantity
+
+FASTEST = 25.0
+"""Hz, below which a measured displacement is differentiated: above it its noise is larger than its motion."""
 
 
 class Measure(NamedTuple):
@@ -71,12 +75,25 @@ def _measures(motion: BaseMotion, stored: Stored, gravity: float, scale: float |
         return [nan if values is None else measure(values) for values in series]
 
     velocity = each(lambda values: peak_velocity(values, motion.interval).peak)
+    derived = isnan(velocity[0]) and not isnan(measured)
+    if derived:
+        velocity[0] = _from_displacement(stored, motion.interval)
     displacement = each(lambda values: peak_displacement(values, motion.interval).peak)
     drifts = f"not given: the integral of the acceleration drifts by more than {100 * LARGEST_DRIFT:g} % of its peak"
     integrated = "integral of the acceleration, less a line through its ends"
     return [
         row("peak acceleration (PGA)", "m/s²", "acceleration", each(lambda values: float(np.abs(values).max())), ""),
-        row("peak velocity (PGV)", "mm/s", "velocity", velocity, drifts if isnan(velocity[0]) else integrated),
+        row(
+            "peak velocity (PGV)",
+            "mm/s",
+            "velocity",
+            velocity,
+            f"derivative of the measured displacement below {FASTEST:g} Hz, as the integral of the acceleration drifts"
+            if derived
+            else drifts
+            if isnan(velocity[0])
+            else integrated,
+        ),
         row(
             "peak displacement (PGD)",
             "mm",
@@ -92,6 +109,15 @@ def _measures(motion: BaseMotion, stored: Stored, gravity: float, scale: float |
             "π/(2g) times the integral of the squared acceleration",
         ),
     ]
+
+
+def _from_displacement(stored: Stored, interval: float) -> float:
+    """Return the largest velocity of the measured displacement, m/s; NaN if it has gaps."""
+    displacement = stored.array("rocking", "base_displacement")
+    if not np.isfinite(displacement).all():
+        return nan
+    smooth = lowpass(displacement, interval, min(FASTEST, 0.2 / interval))
+    return float(np.abs(np.gradient(smooth, interval)).max())
 
 
 def _sine(row: TestRow, stored: Stored) -> list[Fact]:
