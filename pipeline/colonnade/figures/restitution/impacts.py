@@ -12,12 +12,16 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array
-from colonnade.figures.panels import legend_above, stacked_panels
+from colonnade.figures.lean import add_panel
+from colonnade.figures.panels import BOTTOM, GAP, LEFT, RIGHT, TOP, legend_above
 from colonnade.figures.restitution.marks import draw_marks
-from colonnade.figures.style import FIT, INK, LIMIT, styled
+from colonnade.figures.style import FIT, INK, LIMIT, WIDTH, styled
 
 HEIGHT = 2.4
-"""Of the panel, inches."""
+"""Of the panels, inches."""
+
+OVER_SPEED = 0.6
+"""Share of the width of the panel over the speed of impact; the rest is over the impact number."""
 
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "<", ">")
 """Of several free vibrations; from the tenth on they are drawn as the first ones."""
@@ -65,7 +69,7 @@ def impact_restitution(
     axes: Axes | None = None,
 ) -> Figure:
     """
-    Draw e of each impact with its error, and the value identified with its band.
+    Draw e of each impact with its error over speed and number, and the value identified with its band.
 
     Parameters
     ----------
@@ -90,15 +94,22 @@ def impact_restitution(
     if not series:
         raise ValueError("no free vibration was given; at least one series of impacts was expected")
     own = axes is None
+    later = None
     if axes is None:
-        _, (axes,) = stacked_panels([HEIGHT])
+        axes, later = _panels()
     figure = cast(Figure, axes.get_figure(root=True))
     fastest = max((float(np.nanmax(one.velocity, initial=0.0)) for one in series), default=0.0) or 1.0
     axes.set_xlim(0, 1.05 * fastest)
+    if later is not None:
+        later.set_xlim(0, max(one.velocity.size for one in series) + 1)
     for index, one in enumerate(series):
-        _draw_impacts(axes, one, MARKS[index % len(MARKS)], named=1 < len(series) <= MOST_NAMED)
+        mark, named = MARKS[index % len(MARKS)], 1 < len(series) <= MOST_NAMED
+        _draw_impacts(axes, one, one.velocity, mark, named=named)
+        if later is not None:
+            _draw_impacts(later, one, np.arange(1.0, one.velocity.size + 1), mark, named=named)
     if level is not None and np.isfinite(level.value):
-        draw_level(axes, level)
+        for panel in filter(None, (axes, later)):
+            draw_level(panel, level)
     axes.set_ylim(*_limits(series, level))
     if rigid is not None:
         draw_rigid(axes, rigid)
@@ -112,11 +123,24 @@ def impact_restitution(
     return figure
 
 
-def _draw_impacts(axes: Axes, impacts: ImpactSeries, mark: str, *, named: bool) -> None:
+def _panels() -> tuple[Axes, Axes]:
+    """Return a panel over the speed of impact, and a narrower one over the impact number at the same height."""
+    figure = Figure(figsize=(WIDTH, TOP + HEIGHT + BOTTOM))
+    room = WIDTH - LEFT - RIGHT - 2 * GAP
+    wide = OVER_SPEED * room
+    axes = add_panel(figure, LEFT, TOP, wide, HEIGHT)
+    later = add_panel(figure, LEFT + wide + 2 * GAP, TOP, room - wide, HEIGHT, sharey=axes)
+    later.tick_params(labelleft=False)
+    later.xaxis.set_major_locator(MaxNLocator(nbins=5, integer=True))
+    later.set_xlabel("impact number n")
+    return axes, later
+
+
+def _draw_impacts(axes: Axes, impacts: ImpactSeries, place: Array, mark: str, *, named: bool) -> None:
     shown = np.isfinite(impacts.restitution) & np.isfinite(impacts.velocity)
     labels = (impacts.title if named else "impact used", "impact left out")
     bars = 2 * impacts.standard_error
-    draw_marks(axes, impacts.velocity, impacts.restitution, bars, shown, impacts.used, labels, mark=mark)
+    draw_marks(axes, place, impacts.restitution, bars, shown, impacts.used, labels, mark=mark)
 
 
 def draw_level(axes: Axes, level: Level) -> None:
