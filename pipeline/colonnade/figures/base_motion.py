@@ -14,8 +14,8 @@ from colonnade.figures.curve import Curve
 from colonnade.figures.histories import draw_limit, largest_of, scale_symmetric, time_limits
 from colonnade.figures.lean import add_panel
 from colonnade.figures.long import draw_curve
-from colonnade.figures.panels import BOTTOM, LEFT, RIGHT, TOP, legend_above
-from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, WIDTH, LineStyle, styled
+from colonnade.figures.panels import BOTTOM, TOP, legend_above, margins
+from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, LineStyle, is_narrow, styled, width
 
 HISTORY_HEIGHT, SPECTRUM_HEIGHT, BETWEEN = 1.3, 1.6, 0.62
 """Heights of the panels and the room between them, inches."""
@@ -57,16 +57,19 @@ def base_motion(achieved: Curve, target: Curve | None, spectra: BaseSpectra, *, 
     -------
     figure : Figure
     """
-    total = TOP + HISTORY_HEIGHT + BETWEEN + SPECTRUM_HEIGHT + BOTTOM
-    figure = Figure(figsize=(WIDTH, total))
-    room = WIDTH - LEFT - RIGHT
+    left, right = margins()
+    room = width() - left - right
     columns = 1 if spectra.target is None else 2
-    width = (room - APART * (columns - 1)) / columns
-    history = add_panel(figure, LEFT, TOP, room, HISTORY_HEIGHT)
-    below = [
-        add_panel(figure, LEFT + column * (width + APART), TOP + HISTORY_HEIGHT + BETWEEN, width, SPECTRUM_HEIGHT)
-        for column in range(columns)
-    ]
+    beside = 1 if is_narrow() else columns
+    panel = (room - APART * (beside - 1)) / beside
+    below = SPECTRUM_HEIGHT + BETWEEN
+    figure = Figure(figsize=(width(), TOP + HISTORY_HEIGHT + columns // beside * below + BOTTOM))
+    history = add_panel(figure, left, TOP, room, HISTORY_HEIGHT)
+    lower = []
+    for column in range(columns):
+        row, place = divmod(column, beside)
+        top = TOP + HISTORY_HEIGHT + BETWEEN + row * below
+        lower.append(add_panel(figure, left + place * (panel + APART), top, panel, SPECTRUM_HEIGHT))
     if target is not None:
         draw_curve(history, target, label="target", **TARGET)
     draw_curve(history, achieved, label="achieved", color=MEASURED["color"], linewidth=0.8)
@@ -77,9 +80,9 @@ def base_motion(achieved: Curve, target: Curve | None, spectra: BaseSpectra, *, 
     history.set_xlim(*time_limits([achieved]))
     history.set_xlabel("time (s)")
     history.set_ylabel("acceleration\n(m/s²)")
-    _draw_spectra(below[0], spectra)
+    _draw_spectra(lower[0], spectra)
     if spectra.target is not None:
-        _draw_ratio(below[1], spectra.period, spectra.achieved / spectra.target)
+        _draw_ratio(lower[1], spectra.period, spectra.achieved / spectra.target)
     legend_above(figure, [history])
     return figure
 

@@ -13,17 +13,20 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocato
 from colonnade.figures.curve import Curve, envelope
 from colonnade.figures.lean import add_panel
 from colonnade.figures.long import draw_curve
-from colonnade.figures.panels import BOTTOM, LEFT, TOP, borrow_grid, legend_above
-from colonnade.figures.style import FAINT, INK, LIMIT, MEASURED, SOFT, WIDTH, styled
+from colonnade.figures.panels import BOTTOM, TOP, borrow_grid, legend_above, margins
+from colonnade.figures.style import FAINT, INK, LIMIT, MEASURED, SOFT, styled, width
 from colonnade.signals.spectra import Density
 
 HEIGHT, GAP = 0.62, 0.21
 """Of a channel's row, and between rows; inches."""
 
-HISTORY, SPECTRUM, RIGHT = 3.55, 1.45, 0.1
-"""Widths of the panels and of the right margin, inches."""
+HISTORY, SPECTRUM, SPIKE_WIDTH = 0.575, 0.235, 0.16
+"""Widths of the panels over the room for them."""
 
-SPIKE_WIDTH, SPIKE_HEIGHT, SPIKE_TITLE = 1.0, 0.6, 0.34
+RIGHT = 0.1
+"""Right margin, inches."""
+
+SPIKE_HEIGHT, SPIKE_TITLE = 0.6, 0.34
 """Of an enlarged spike and the room above it, inches."""
 
 MOST_SPIKES = 6
@@ -112,16 +115,20 @@ def channels_as_recorded(channels: Sequence[Channel], spikes: Sequence[Spike] = 
         raise ValueError("no channel was given; at least one was expected")
     rows = len(channels) * (HEIGHT + GAP) - GAP
     strip = SPIKE_TITLE + SPIKE_HEIGHT if spikes else 0.0
-    figure = Figure(figsize=(WIDTH, TOP + rows + BOTTOM + strip))
+    across, (left, _) = width(), margins()
+    history, spectrum_width = (share * (across - left - RIGHT) for share in (HISTORY, SPECTRUM))
+    figure = Figure(figsize=(across, TOP + rows + BOTTOM + strip))
     histories: list[Axes] = []
     spectra: list[Axes] = []
     for index in range(len(channels)):
         top = TOP + index * (HEIGHT + GAP)
-        histories.append(add_panel(figure, LEFT, top, HISTORY, HEIGHT, sharex=_first(histories)))
-        spectra.append(add_panel(figure, WIDTH - RIGHT - SPECTRUM, top, SPECTRUM, HEIGHT, sharex=_first(spectra)))
-    for history, spectrum, channel in zip(histories, spectra, channels, strict=True):
-        _draw_history(history, channel)
-        _draw_spectrum(spectrum, channel)
+        histories.append(add_panel(figure, left, top, history, HEIGHT, sharex=_first(histories)))
+        spectra.append(
+            add_panel(figure, across - RIGHT - spectrum_width, top, spectrum_width, HEIGHT, sharex=_first(spectra))
+        )
+    for over_time, over_frequency, channel in zip(histories, spectra, channels, strict=True):
+        _draw_history(over_time, channel)
+        _draw_spectrum(over_frequency, channel)
     for panels, name in ((histories, "time (s)"), (spectra, "frequency (Hz)")):
         for one in panels[:-1]:
             borrow_grid(one, panels[-1])
@@ -130,9 +137,12 @@ def channels_as_recorded(channels: Sequence[Channel], spikes: Sequence[Spike] = 
     if ends:
         histories[0].set_xlim(min(first for first, _ in ends), max(last for _, last in ends))
     _scale_frequencies(spectra[-1])
+    spike_width = SPIKE_WIDTH * (across - left - RIGHT)
     for index, spike in enumerate(spikes[:MOST_SPIKES]):
-        left = LEFT + index * (WIDTH - LEFT - RIGHT - SPIKE_WIDTH) / (MOST_SPIKES - 1)
-        _draw_spike(add_panel(figure, left, TOP + rows + BOTTOM + SPIKE_TITLE - 0.06, SPIKE_WIDTH, SPIKE_HEIGHT), spike)
+        place = left + index * (across - left - RIGHT - spike_width) / (MOST_SPIKES - 1)
+        _draw_spike(
+            add_panel(figure, place, TOP + rows + BOTTOM + SPIKE_TITLE - 0.06, spike_width, SPIKE_HEIGHT), spike
+        )
     legend_above(figure, [*histories, *spectra])
     return figure
 
@@ -197,7 +207,6 @@ def _draw_spectrum(axes: Axes, channel: Channel) -> None:
     axes.yaxis.set_major_formatter(FuncFormatter(_power_of_ten))
     axes.tick_params(labelsize=7.5)
     axes.set_ylabel(f"{channel.unit}/√Hz", fontsize=8)
-    axes.yaxis.set_label_coords(-0.47 / SPECTRUM, 0.5)
     if np.isfinite(channel.cutoff):
         axes.axvline(channel.cutoff, label="cut-off", **LIMIT)
 

@@ -13,8 +13,8 @@ from colonnade.arrays import Array
 from colonnade.figures.curve import Curve
 from colonnade.figures.histories import ANGLE_LABEL, LARGEST_RATIO, scale_symmetric
 from colonnade.figures.lean import add_panel
-from colonnade.figures.panels import BOTTOM, LEFT, RIGHT, TOP, legend_above
-from colonnade.figures.style import LIMIT, MEASURED, SOFT, WIDTH, LineStyle, model_style, styled
+from colonnade.figures.panels import BOTTOM, TOP, legend_above, margins
+from colonnade.figures.style import LIMIT, MEASURED, SOFT, LineStyle, is_narrow, model_style, styled, width
 
 HEIGHT, APART = 2.5, 0.75
 """Of both panels, and the room between them; inches."""
@@ -74,12 +74,14 @@ def closer_look(
     phases = [phase for phase in (measured, *predicted.values()) if phase is not None]
     if not phases:
         raise ValueError("no motion was given; a measured or a predicted one was expected")
-    total = TOP + HEIGHT + BOTTOM
-    figure = Figure(figsize=(WIDTH, total))
+    left, right = margins()
     columns = 1 if enlarged is None else 2
-    width = (WIDTH - LEFT - RIGHT - APART * (columns - 1)) / columns
+    beside = 1 if is_narrow() else columns
+    panel = (width() - left - right - APART * (beside - 1)) / beside
+    figure = Figure(figsize=(width(), TOP + columns // beside * (HEIGHT + BOTTOM)))
     portrait, *others = (
-        add_panel(figure, LEFT + column * (width + APART), TOP, width, HEIGHT) for column in range(columns)
+        add_panel(figure, left + place * (panel + APART), TOP + row * (HEIGHT + BOTTOM), panel, HEIGHT)
+        for row, place in (divmod(column, beside) for column in range(columns))
     )
     _draw_portrait(portrait, measured, predicted, separatrix, phases)
     if enlarged is not None:

@@ -19,7 +19,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import IdentityTransform
 
 from colonnade.arrays import Array
-from colonnade.figures.style import ScaleStyle, scale_style
+from colonnade.figures.style import ScaleStyle, is_narrow, scale_style
 
 LABEL = 0.52
 """Distance of the labels of vertical axes from their panel, inches: numbers of any length fit between."""
@@ -51,7 +51,7 @@ class _Lean(Axis):
         """Draw grid, marks, labels, power of ten and label."""
         if not self.get_visible():
             return
-        ticks, style, chosen = self.shown_ticks(), scale_style(), self.get_tick_params()
+        ticks, style, chosen = self.shown_ticks(), self.look, self.get_tick_params()
         texts = self.get_major_formatter().format_ticks(list(ticks))
         pixels = float(np.asarray(renderer.points_to_pixels(1.0)))
         places = self._places(ticks)
@@ -68,6 +68,10 @@ class _Lean(Axis):
         self.stale = False
 
     side: Literal["bottom", "left"]
+
+    def __init__(self, axes: Axes, **options: Any) -> None:
+        super().__init__(axes, **options)
+        self.look = scale_style()
 
     def get_ticks_position(self) -> Any:
         """Return the side at which marks and labels are; matplotlib would ask a tick."""
@@ -189,7 +193,7 @@ def add_panel(
     panel = LeanAxes(figure, place, sharex=sharex, sharey=sharey)
     for spine in panel.spines.values():
         spine.get_position()  # a spine takes its place when somebody asks for it; else the first tick does
-    panel.yaxis.set_label_coords(-LABEL / width, 0.5)
+    panel.yaxis.set_label_coords(-(0.8 if is_narrow() else 1.0) * LABEL / width, 0.5)
     figure.add_axes(panel)
     return panel
 

@@ -83,7 +83,7 @@ def side_by_side(columns: int, heights: Sequence[float], *, title: float = 0.2) 
     bands = -(-columns // across)
     band = title + sum(heights) + GAP * (len(heights) - 1) + BOTTOM
     total = TOP + bands * band
-    left, right = _margins()
+    left, right = margins()
     panel = (width() - left - right - (across - 1) * GAP) / across
     figure = Figure(figsize=(width(), total))
     grid: list[list[Axes]] = []
@@ -111,7 +111,7 @@ def side_by_side(columns: int, heights: Sequence[float], *, title: float = 0.2) 
     return figure, grid
 
 
-def _margins() -> tuple[float, float]:
+def margins() -> tuple[float, float]:
     """Return the room left and right, less where the text is smaller."""
     return (0.8 * LEFT, 0.95 * RIGHT) if is_narrow() else (LEFT, RIGHT)
 
@@ -154,7 +154,7 @@ def legend_above(figure: Figure, axes: Sequence[Axes]) -> None:
     named = _named(axes)
     if not named:
         return
-    left, right = _margins()
+    left, right = margins()
     if is_narrow():
         ncols = fitting(list(named), inches=width() - left - right, points=7.0, most=len(named))
         _raise(figure, (-(-len(named) // ncols) - 1) * ROW)

@@ -124,11 +124,14 @@ class ScaleStyle(NamedTuple):
     label_pad: float
 
 
-@cache
 def scale_style() -> ScaleStyle:
-    """Return how the scales of all panels look, from the style sheet."""
-    settings = _settings()
-    size = settings["ytick.labelsize"]
+    """Return how the scales of panels look that are made now, from the style sheet."""
+    return _scale_style(narrow=is_narrow())
+
+
+@cache
+def _scale_style(*, narrow: bool) -> ScaleStyle:
+    settings = _settings() | (SMALL_TEXT if narrow else {})
     return ScaleStyle(
         to_hex(settings["grid.color"]),
         float(settings["grid.linewidth"]),
@@ -137,7 +140,7 @@ def scale_style() -> ScaleStyle:
         float(settings["ytick.major.size"]),
         float(settings["ytick.major.pad"]),
         to_hex(settings["ytick.labelcolor"]),
-        float(size),
+        float(settings["ytick.labelsize"]),
         float(settings["axes.labelpad"]),
     )
 

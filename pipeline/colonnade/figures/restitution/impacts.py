@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.figures.lean import add_panel
-from colonnade.figures.panels import BOTTOM, GAP, LEFT, RIGHT, TOP, legend_above
+from colonnade.figures.panels import BOTTOM, GAP, TOP, legend_above, margins
 from colonnade.figures.restitution.marks import draw_marks
-from colonnade.figures.style import FIT, INK, LIMIT, WIDTH, styled
+from colonnade.figures.style import FIT, INK, LIMIT, is_narrow, styled, width
 
 HEIGHT = 2.4
 """Of the panels, inches."""
@@ -116,7 +116,7 @@ def impact_restitution(
     if not any(np.isfinite(one.restitution).any() for one in series):
         axes.text(0.5, 0.5, "no impacts", transform=axes.transAxes, ha="center", va="center")
     axes.yaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
-    axes.set_xlabel("angular velocity before the impact (rad/s)")
+    axes.set_xlabel("speed of impact (rad/s)" if is_narrow() else "angular velocity before the impact (rad/s)")
     axes.set_ylabel("e of each impact")
     if own:
         legend_above(figure, [axes])
@@ -125,11 +125,12 @@ def impact_restitution(
 
 def _panels() -> tuple[Axes, Axes]:
     """Return a panel over the speed of impact, and a narrower one over the impact number at the same height."""
-    figure = Figure(figsize=(WIDTH, TOP + HEIGHT + BOTTOM))
-    room = WIDTH - LEFT - RIGHT - 2 * GAP
+    left, right = margins()
+    figure = Figure(figsize=(width(), TOP + HEIGHT + BOTTOM))
+    room = width() - left - right - 2 * GAP
     wide = OVER_SPEED * room
-    axes = add_panel(figure, LEFT, TOP, wide, HEIGHT)
-    later = add_panel(figure, LEFT + wide + 2 * GAP, TOP, room - wide, HEIGHT, sharey=axes)
+    axes = add_panel(figure, left, TOP, wide, HEIGHT)
+    later = add_panel(figure, left + wide + 2 * GAP, TOP, room - wide, HEIGHT, sharey=axes)
     later.tick_params(labelleft=False)
     later.xaxis.set_major_locator(MaxNLocator(nbins=5, integer=True))
     later.set_xlabel("impact number n")
