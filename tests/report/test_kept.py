@@ -41,7 +41,10 @@ def test_curves_and_peaks_come_back_to_the_last_bit(parts):
     panel, back = every["span-2.0"].span.panel, again(campaign, every["span-2.0"]).span.panel
     assert back.predicted.keys() == panel.predicted.keys()
     assert np.array_equal(back.measured.values, panel.measured.values, equal_nan=True)
-    series, back = every["free-01"].free_vibration.peaks, again(campaign, every["free-01"]).free_vibration.peaks
+    series, back = (
+        every["free-01"].free_vibration.drawn.peaks,
+        again(campaign, every["free-01"]).free_vibration.drawn.peaks,
+    )
     assert np.array_equal(back.angle, series.angle)
     assert back.used.dtype == np.bool_
 

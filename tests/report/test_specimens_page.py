@@ -1,12 +1,12 @@
 from colonnade.report import specimens_page
+from colonnade.report.pictures.subjects import OfTest
 from colonnade.store.records.stored import read_specimen
 
 
 def page_of(name, reported, filled_campaign):
     campaign, layout = filled_campaign
-    block = campaign.block(name)
     free = [
-        specimens_page.free_vibration(row, stored, block)
+        specimens_page.free_vibration(OfTest(campaign, row, stored))
         for row, stored in reported.values()
         if row.test.specimen == name and stored.has("restitution")
     ]

@@ -17,6 +17,7 @@ from colonnade.report.interactive import test_data
 from colonnade.report.methods import Used
 from colonnade.report.overview_page import thumbnails
 from colonnade.report.overview_page.spans import SpanTest
+from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import FreeVibration
 from colonnade.store import stamps
@@ -105,7 +106,7 @@ def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: st
     if test.span is not None and any("rocking_angle" in dataset for dataset in stored.datasets.values()):
         span = SpanTest(row, record.span_panel(test, stored, block), record.seen(row.record, stored))
     if stored.has("restitution"):
-        free_vibration = specimens_page.free_vibration(row, stored, block)
+        free_vibration = specimens_page.free_vibration(OfTest(campaign, row, stored))
     address, text, data = addresses.of_test(test.id), None, None
     made_from = ""
     if code:

@@ -14,15 +14,13 @@ from colonnade.campaign.summary import Warned
 from colonnade.dynamics.block import Block, pair
 from colonnade.dynamics.similitude import at_prototype
 from colonnade.figures.output import Picture
-from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow
-from colonnade.figures.restitution.impacts import ImpactSeries
-from colonnade.figures.restitution.peaks import PeakSeries
-from colonnade.figures.stored import restitution as pictures
+from colonnade.figures.stored.restitution import STAGE
 from colonnade.findings import in_order
 from colonnade.report import drawings, restitution
 from colonnade.report.drawings import Drawing
+from colonnade.report.pictures.registry import picture
+from colonnade.report.pictures.subjects import Decaying, OfSpecimen, OfTest
 from colonnade.report.restitution import EstimateText
-from colonnade.report.rows import TestRow
 from colonnade.store.records.stored import Failure, Stored
 from colonnade.store.records.wording import NOTHING, interval, number, quantity
 
@@ -67,9 +65,7 @@ class FreeVibration(NamedTuple):
     estimates: list[EstimateText]
     departures: list[str]
     reason: str
-    rows: Sequence[EstimateRow]
-    peaks: PeakSeries | None
-    impacts: ImpactSeries | None
+    drawn: Decaying
 
 
 @dataclass(frozen=True)
@@ -100,17 +96,16 @@ class SpecimenPage:
     pictures: dict[str, Picture | None]
 
 
-def free_vibration(row: TestRow, stored: Stored, block: Block) -> FreeVibration:
+def free_vibration(subject: OfTest) -> FreeVibration:
     """Gather of one free vibration what the page of its specimen shows."""
+    row, stored = subject.row, subject.stored
     return FreeVibration(
         row.id,
         restitution.value_of(stored, row.record.restitution),
         restitution.estimates_of(stored),
-        stored.texts(pictures.STAGE, "departures"),
-        stored.text(pictures.STAGE, "reason"),
-        pictures.estimate_rows(stored),
-        pictures.peak_series(row.test, stored, block),
-        pictures.impact_series(row.test, stored),
+        stored.texts(STAGE, "departures"),
+        stored.text(STAGE, "reason"),
+        Decaying.of(subject),
     )
 
 
@@ -121,6 +116,7 @@ def of_specimen(
     specimen, block = campaign.specimens[name], campaign.block(name)
     value, low, high, level = (pooled.value("specimen", each) for each in ("restitution", *BOUNDS))
     unknown = "failed" if pooled.failures else "not yet known"
+    subject = OfSpecimen(campaign, name, pooled, [each.drawn for each in free_vibrations])
     return SpecimenPage(
         id=name,
         shape=specimen.shape,
@@ -139,7 +135,7 @@ def of_specimen(
         warnings=[Warned.of(found, explained=explained) for found, explained in in_order(pooled.findings)],
         failures=pooled.failures,
         free_vibrations=free_vibrations,
-        pictures=_pictures(name, pooled, free_vibrations, block),
+        pictures={figure: picture(figure, subject) for figure in ("estimators", "peaks", "impacts")},
     )
 
 
@@ -182,22 +178,6 @@ def _contact(pooled: Stored) -> list[tuple[str, str]]:
 def _range(values: Array, unit: str) -> str:
     low, high = (number(float(value)) for value in (values.min(), values.max()))
     return f"{low} {unit}" if low == high else f"{low} to {high} {unit}"
-
-
-def _pictures(
-    name: str, pooled: Stored, free_vibrations: Sequence[FreeVibration], block: Block
-) -> dict[str, Picture | None]:
-    groups = [EstimateGroup(each.test, each.rows) for each in free_vibrations]
-    level, rigid = pictures.level_of(pooled, "specimen", "e pooled"), block.restitution
-    if isfinite(level.low):
-        groups.append(EstimateGroup("all together", [EstimateRow("pooled", *level[:3], recommended=True)]))
-    peaks = [each.peaks for each in free_vibrations if each.peaks is not None]
-    impacts = [each.impacts for each in free_vibrations if each.impacts is not None]
-    return {
-        "estimators": pictures.estimators(f"estimators-{name}", groups, rigid),
-        "peaks": pictures.peaks(f"peaks-{name}", peaks, block),
-        "impacts": pictures.impacts(f"impacts-{name}", impacts, level, rigid),
-    }
 
 
 def _properties(specimen: Specimen, block: Block, gravity: float) -> list[Property]:

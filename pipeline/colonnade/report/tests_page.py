@@ -12,6 +12,7 @@ from colonnade.report import channels, drawings, who_and_when
 from colonnade.report.channels import ChannelRow
 from colonnade.report.drawings import Drawing
 from colonnade.report.photos import Photos
+from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page import base, decay, done, found, spread
 from colonnade.report.test_page.base import Table
@@ -57,7 +58,7 @@ def of_test(campaign: Campaign, row: TestRow, stored: Stored, shown: Photos) -> 
         closer=closer.picture(test, row.record, stored, block),
         base=base.of_test(campaign, row, stored, block),
         spread=spread.of_test(row, stored, block),
-        decay=decay.of_test(row, stored, block),
+        decay=decay.of_test(OfTest(campaign, row, stored)),
         channels=channels.of_test(stored),
         recording=recording.picture(test, stored),
     )

@@ -163,7 +163,8 @@ FIGURES: tuple[Entry, ...] = (
 """Every figure; no two of one subject have the same name."""
 
 
-def picture(name: str, of: Subject) -> Picture | Movie | None:
+def picture(name: str, of: Subject) -> Picture | None:
     """Draw a figure of a test, a specimen or the campaign by its name; None if there is nothing to draw."""
     kind = "test" if isinstance(of, OfTest) else "specimen" if isinstance(of, OfSpecimen) else "campaign"
-    return next(entry for entry in FIGURES if (entry.of, entry.name) == (kind, name)).draw(of)
+    drawn = next(entry for entry in FIGURES if (entry.of, entry.name) == (kind, name)).draw(of)
+    return drawn if isinstance(drawn, Picture) else None

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from colonnade.dynamics.block import Block
 from colonnade.figures.output import Picture
-from colonnade.figures.restitution.estimators import EstimateGroup
-from colonnade.figures.stored import restitution as pictures
+from colonnade.figures.stored.restitution import STAGE
 from colonnade.report import restitution
+from colonnade.report.pictures.registry import picture
+from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.restitution import EstimateText
-from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact
-from colonnade.store.records.stored import Stored
 
 PEAK = ("peak_time", "peak_angle", "peak_angle_standard_error", "fitted_angle", "peak_used")
 """Columns of the table of peaks, by their stored names."""
+
+FIGURES = ("fitted", "estimators", "peaks", "impacts", "region")
+"""Names of the figures, in their order."""
 
 
 @dataclass(frozen=True)
@@ -34,26 +35,13 @@ class Decay:
     pictures: dict[str, Picture | None]
 
 
-def of_test(row: TestRow, stored: Stored, block: Block) -> Decay:
+def of_test(subject: OfTest) -> Decay:
     """Put what is stored of a test's restitution into words and figures."""
+    stored = subject.stored
     return Decay(
-        facts=restitution.facts_of(stored, row.record.restitution),
+        facts=restitution.facts_of(stored, subject.row.record.restitution),
         estimates=restitution.estimates_of(stored),
-        departures=stored.texts(pictures.STAGE, "departures"),
-        peaks=list(zip(*(stored.array(pictures.STAGE, name).tolist() for name in PEAK), strict=True)),
-        pictures=_pictures(row, stored, block),
+        departures=stored.texts(STAGE, "departures"),
+        peaks=list(zip(*(stored.array(STAGE, name).tolist() for name in PEAK), strict=True)),
+        pictures={name: picture(name, subject) for name in FIGURES},
     )
-
-
-def _pictures(row: TestRow, stored: Stored, block: Block) -> dict[str, Picture | None]:
-    test, name = row.test, row.id
-    peaks, impacts = pictures.peak_series(test, stored, block), pictures.impact_series(test, stored)
-    estimates = [EstimateGroup("", pictures.estimate_rows(stored))]
-    level = pictures.level_of(stored, pictures.STAGE, "e identified")
-    return {
-        "fitted": pictures.fitted(test, stored, block),
-        "estimators": pictures.estimators(f"estimators-{name}", estimates, block.restitution),
-        "peaks": pictures.peaks(f"peaks-{name}", [peaks] if peaks else [], block),
-        "impacts": pictures.impacts(f"impacts-{name}", [impacts] if impacts else [], level, block.restitution),
-        "region": pictures.region(test, stored),
-    }
