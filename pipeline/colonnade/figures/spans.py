@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from matplotlib.figure import Figure
 
-from colonnade.figures.curve import Curve
+from colonnade.figures.curve import Curve, envelope
 from colonnade.figures.histories import ANGLE_LABEL, draw_angle, largest_of, limit_of, scale_symmetric, time_limits
 from colonnade.figures.long import draw_curve
 from colonnade.figures.panels import COLUMNS, legend_above, side_by_side
@@ -27,6 +27,11 @@ class SpanPanel(NamedTuple):
     measured: Curve | None
     predicted: Mapping[str, Curve]
     base: Curve | None = None
+
+    def thinned(self) -> SpanPanel:
+        """Return the same panel with curves of a few hundred points, so that many fit into memory."""
+        measured, base = (None if curve is None else envelope(curve) for curve in (self.measured, self.base))
+        return SpanPanel(self.title, measured, {name: envelope(curve) for name, curve in self.predicted.items()}, base)
 
 
 @styled()

@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from colonnade.campaign import Campaign
-from colonnade.figures.stored import record
 from colonnade.figures.stored.curves import measured_ratio
 from colonnade.report import addresses, channels, pages, specimens_page, tests_page
 from colonnade.report.asked import Asked, shows
@@ -17,7 +16,7 @@ from colonnade.report.interactive import test_data
 from colonnade.report.methods import Used
 from colonnade.report.overview_page import thumbnails
 from colonnade.report.overview_page.spans import SpanTest
-from colonnade.report.pictures.subjects import OfTest
+from colonnade.report.pictures.subjects import OfTest, has_span, span_of
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import FreeVibration
 from colonnade.store import stamps
@@ -103,10 +102,12 @@ def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: st
     row = TestRow.of(campaign, test, asked.record, stored)
     used, span, free_vibration = Used(), None, None
     used.gather(test.id, stored)
-    if test.span is not None and any("rocking_angle" in dataset for dataset in stored.datasets.values()):
-        span = SpanTest(row, record.span_panel(test, stored, block), record.seen(row.record, stored))
+    subject = OfTest(campaign, row, stored)
+    if has_span(subject):
+        span = span_of(subject)
+        span = span._replace(panel=span.panel.thinned())
     if stored.has("restitution"):
-        free_vibration = specimens_page.free_vibration(OfTest(campaign, row, stored))
+        free_vibration = specimens_page.free_vibration(subject)
     address, text, data = addresses.of_test(test.id), None, None
     made_from = ""
     if code:

@@ -6,12 +6,11 @@ from dataclasses import dataclass
 
 from colonnade.campaign import Campaign
 from colonnade.figures.output import Picture
-from colonnade.figures.stored import channels as recording
-from colonnade.figures.stored import closer
 from colonnade.report import channels, drawings, who_and_when
 from colonnade.report.channels import ChannelRow
 from colonnade.report.drawings import Drawing
 from colonnade.report.photos import Photos
+from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page import base, decay, done, found, spread
@@ -47,6 +46,7 @@ class TestPage:
 def of_test(campaign: Campaign, row: TestRow, stored: Stored, shown: Photos) -> TestPage:
     """Put all that is stored of a test into words and figures."""
     test, block = row.test, campaign.block(row.test.specimen)
+    subject = OfTest(campaign, row, stored)
     return TestPage(
         row=row,
         stored=stored,
@@ -54,11 +54,11 @@ def of_test(campaign: Campaign, row: TestRow, stored: Stored, shown: Photos) -> 
         photos=shown,
         done=done.of_test(row, stored, who_and_when.of_test(campaign, test)),
         drawing=drawings.of_setup(campaign, test.specimen, test.setup),
-        found=found.of_test(row, stored, block, campaign.specimens[test.specimen].scale),
-        closer=closer.picture(test, row.record, stored, block),
+        found=found.of_test(subject),
+        closer=picture("closer", subject),
         base=base.of_test(campaign, row, stored, block),
-        spread=spread.of_test(row, stored, block),
-        decay=decay.of_test(OfTest(campaign, row, stored)),
+        spread=spread.of_test(subject),
+        decay=decay.of_test(subject),
         channels=channels.of_test(stored),
-        recording=recording.picture(test, stored),
+        recording=picture("channels", subject),
     )

@@ -10,7 +10,7 @@ from colonnade.campaign import Test
 from colonnade.campaign.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.figures.bands import bands_over_time
-from colonnade.figures.curve import Curve, envelope
+from colonnade.figures.curve import Curve
 from colonnade.figures.output import Picture
 from colonnade.figures.record import Peak, whole_record
 from colonnade.figures.spans import SpanPanel, spans_side_by_side
@@ -81,14 +81,9 @@ def bands(test: Test, stored: Stored, block: Block) -> Picture | None:
 
 
 def span_panel(test: Test, stored: Stored, block: Block) -> SpanPanel:
-    """Return what the figure of all Spans shows of one test, thinned so that many fit into memory."""
+    """Return what the figure of all Spans shows of one test."""
     measured, base = measured_ratio(stored, block), motion(stored, "base_acceleration", "m/s²")
-    return SpanPanel(
-        f"Span {test.span or 0.0}",
-        None if measured is None else envelope(measured),
-        {model: envelope(curve) for model, curve in predicted_ratios(stored, block).items()},
-        None if base is None else envelope(base),
-    )
+    return SpanPanel(f"Span {test.span or 0.0}", measured, predicted_ratios(stored, block), base)
 
 
 def spans(identity: str, title: str, description: str, panels: Sequence[SpanPanel]) -> Picture:

@@ -13,7 +13,7 @@ from typing import Any, Literal, NamedTuple
 from colonnade.figures.drawing import described
 from colonnade.figures.output import Movie, Picture
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow
-from colonnade.figures.stored import angle, maps, moving, record
+from colonnade.figures.stored import angle, base, channels, closer, maps, moving, record
 from colonnade.figures.stored import restitution as decays
 from colonnade.identification.response.boundaries import makes_map
 from colonnade.report.overview_page import peaks as agreement
@@ -80,6 +80,18 @@ def _impacts_of_test(one: OfTest) -> Picture | None:
     return decays.impacts(f"impacts-{one.row.id}", [series] if series else [], level, one.block.restitution)
 
 
+def _channels(one: OfTest) -> Picture | None:
+    return channels.picture(one.row.test, one.stored)
+
+
+def _closer(one: OfTest) -> Picture | None:
+    return closer.picture(one.row.test, one.row.record, one.stored, one.block)
+
+
+def _base(one: OfTest) -> Picture | None:
+    return base.picture(one.row.test, base.base_of(one.campaign, one.row.test, one.stored), one.block)
+
+
 def _region(one: OfTest) -> Picture | None:
     return decays.region(one.row.test, one.stored)
 
@@ -131,12 +143,16 @@ def _agreement(one: OfCampaign) -> Picture | None:
 
 _SINES = "It needs sine tests at two frequencies or more."
 _MAP = "Without them, `colonnade map` makes one."
+_RAW = "It needs a raw file that could be read."
 _ANGLE = "It needs a measured or predicted angle."
 _FREE = "It needs a free vibration with an angle."
 _FREED = f"{_FREE} Its fit must free the critical angle."
 FIGURES: tuple[Entry, ...] = (
     Entry("record", "test", "all of a test over time: angle, misfit, other motions, base", _ANGLE, _record),
     Entry("angle", "test", "rocking angle over time, measured and predicted", _ANGLE, _angle),
+    Entry("closer", "test", "phase portrait, and of a sine the steady state", _ANGLE, _closer),
+    Entry("base", "test", "table's motion and its spectrum, with the target", "It needs a table motion.", _base),
+    Entry("channels", "test", "every channel as recorded, with flags, spikes and spectra", _RAW, _channels),
     Entry("bands", "test", "measured angle over each model's bands", "It needs an ensemble.", _bands),
     Entry("fitted", "test", "free vibration, fitted history and residual", _FREE, _fitted),
     Entry("estimators", "test", "e from every estimator", _FREE, _estimators_of_test, is_narrow=False),

@@ -6,12 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from colonnade.campaign import Campaign
+from colonnade.campaign.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.chart import StabilityMap
 from colonnade.figures.restitution.estimators import EstimateRow
 from colonnade.figures.restitution.impacts import ImpactSeries
 from colonnade.figures.restitution.peaks import PeakSeries
-from colonnade.figures.stored import record, restitution
+from colonnade.figures.stored import record as curves
+from colonnade.figures.stored import restitution
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.report.overview_page.maps import charts_of
 from colonnade.report.overview_page.spans import SpanTest
@@ -115,16 +117,22 @@ Subject = OfTest | OfSpecimen | OfCampaign
 
 
 def read_of_test(campaign: Campaign, layout: Layout, test: str) -> OfTest:
-    """Read what is stored of a test, as of the last run."""
-    stored = read_test(campaign, layout, campaign.tests[test])
-    record_of = records_of_tests(campaign, read_summary(layout))[test]
-    return OfTest(campaign, TestRow.of(campaign, campaign.tests[test], record_of, stored), stored)
+    """Read what is stored of a test, as of the last run, with the samples of its channels."""
+    record = records_of_tests(campaign, read_summary(layout))[test]
+    return _of_test(campaign, layout, test, record, with_samples=True)
+
+
+def _of_test(campaign: Campaign, layout: Layout, test: str, record: TestSummary, *, with_samples: bool) -> OfTest:
+    entry = campaign.tests[test]
+    stored = read_test(campaign, layout, entry, with_samples=with_samples)
+    return OfTest(campaign, TestRow.of(campaign, entry, record, stored), stored)
 
 
 def read_of_specimen(campaign: Campaign, layout: Layout, specimen: str) -> OfSpecimen:
     """Read what is stored of a specimen and its tests, as of the last run."""
-    tests = [read_of_test(campaign, layout, name) for name, test in campaign.tests.items() if test.specimen == specimen]
-    records = {each.row.id: each.row.record for each in tests}
+    known = records_of_tests(campaign, read_summary(layout))
+    records = {name: known[name] for name, test in campaign.tests.items() if test.specimen == specimen}
+    tests = [_of_test(campaign, layout, name, each, with_samples=False) for name, each in records.items()]
     return OfSpecimen(
         campaign,
         specimen,
@@ -152,4 +160,4 @@ def has_span(subject: OfTest) -> bool:
 def span_of(subject: OfTest) -> SpanTest:
     """Gather of an earthquake test what the figure of all Spans shows."""
     row, stored = subject.row, subject.stored
-    return SpanTest(row, record.span_panel(row.test, stored, subject.block), record.seen(row.record, stored))
+    return SpanTest(row, curves.span_panel(row.test, stored, subject.block), curves.seen(row.record, stored))

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import isnan
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.similitude import at_prototype
 from colonnade.figures.output import Picture
 from colonnade.figures.stored import record
+from colonnade.report.pictures.registry import picture
+from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.store.records.stored import Stored
@@ -30,11 +31,12 @@ class Found:
     predicted_times: dict[str, float]
 
 
-def of_test(row: TestRow, stored: Stored, block: Block, scale: float | None) -> Found:
-    """Say what was measured, and draw it with what the models predict; scale of the specimen if it is a model."""
+def of_test(subject: OfTest) -> Found:
+    """Say what was measured, and draw it with what the models predict."""
+    row, stored = subject.row, subject.stored
     return Found(
-        known(_facts(row, stored, scale)),
-        record.record(row.test, row.record, stored, block),
+        known(_facts(row, stored, subject.campaign.specimens[row.test.specimen].scale)),
+        picture("record", subject),
         {model: predicted_peak_time(stored, model) for model in stored.models("predict")},
     )
 

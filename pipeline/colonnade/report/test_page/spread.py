@@ -6,12 +6,10 @@ from dataclasses import dataclass
 from math import nan
 
 from colonnade.campaign.summary import PredictionSummary
-from colonnade.dynamics.block import Block
 from colonnade.figures.output import Picture
-from colonnade.figures.stored import record
 from colonnade.identification.response.rank import FEWEST, is_within
-from colonnade.report.rows import TestRow
-from colonnade.store.records.stored import Stored
+from colonnade.report.pictures.registry import picture
+from colonnade.report.pictures.subjects import OfTest
 from colonnade.store.records.wording import quantity
 from colonnade.units import format_percent
 
@@ -24,10 +22,11 @@ class ModelSpread:
     bands: Picture | None
 
 
-def of_test(row: TestRow, stored: Stored, block: Block) -> ModelSpread:
+def of_test(subject: OfTest) -> ModelSpread:
     """Say of each model whether the measured angle is within its spread, and draw the bands."""
-    verdicts = (verdict_sentence(model, predicted) for model, predicted in row.record.predicted.items())
-    return ModelSpread(list(filter(None, verdicts)), record.bands(row.test, stored, block))
+    predictions = subject.row.record.predicted.items()
+    verdicts = (verdict_sentence(model, predicted) for model, predicted in predictions)
+    return ModelSpread(list(filter(None, verdicts)), picture("bands", subject))
 
 
 def verdict_sentence(model: str, predicted: PredictionSummary) -> str:
