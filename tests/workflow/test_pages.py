@@ -52,3 +52,10 @@ def test_what_is_kept_outlasts_a_run_without_any_change(small, read_again):
     small.change_a_sample("pulse-02")
     small.run(until="report")
     assert read_again == ["pulse-02"]
+
+
+def test_what_is_kept_outlasts_a_run_that_stops_before_the_report(small, read_again):
+    small.change_a_sample("pulse-02")
+    small.run(until="compare")
+    small.run(until="report")
+    assert read_again == ["pulse-02"]

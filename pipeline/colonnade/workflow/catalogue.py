@@ -138,9 +138,11 @@ class Catalogue:
         """Keep a record for the next run."""
         self._seen["records"][subject] = [recipe.key, record]
 
-    def save(self) -> None:
-        """Write what this run looked at; other entries belong to files that are gone."""
+    def save(self, *, is_whole: bool = True) -> None:
+        """Write what was looked at; other entries belong to files that are gone, unless the run was not whole."""
         known: dict[str, Any] = dict(self._seen)
+        if not is_whole:
+            known |= {kind: self._known[kind] | self._seen[kind] for kind in _KINDS if kind != "code"}
         known["sha256"] = hash_of(known)
         files.write_text(self._layout.catalogue, json.dumps(known, separators=(",", ":"), sort_keys=True) + "\n")
 

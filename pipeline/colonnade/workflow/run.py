@@ -108,7 +108,7 @@ def run(
             walk.map(summary.tests)
             loaded = with_photos(loaded, layout, catalogue)
             report = update_report(loaded, layout, catalogue, outdated, workers)
-        catalogue.save()
+        catalogue.save(is_whole=last == "report")
     concerning = {name: loaded.concerning(name) for name in loaded.tests}
     return RunResult(tuple(walk.stages), layout.summary_json, report, loaded.warnings, concerning, tuple(notices))
 
