@@ -72,6 +72,11 @@ def test_every_history_has_its_panel(page):
     assert page.locator(".replaced svg").is_hidden()
 
 
+def test_the_whole_view_is_the_record(page, filled_campaign):
+    recorded = files.read(filled_campaign[1].path(ResultId(TEST, "ingest")))["elapsed"]
+    assert view(page) == pytest.approx([float(recorded[0]), float(recorded[-1])], abs=0.05)
+
+
 def test_the_wheel_zooms_with_ctrl_about_the_pointer_and_reset_shows_all(page):
     whole = view(page)
     box = page.locator(".plotted").first.bounding_box()
@@ -183,6 +188,19 @@ def test_the_block_moves_with_the_cursor_and_plays(page):
     stopped = cursor(page)
     page.evaluate(DRAWN)
     assert cursor(page) == stopped
+
+
+def test_an_overturned_block_stays_where_it_fell(visit):
+    page = visit("tests/sine-3hz-too-strong-for-the-block-1.html")
+    page.wait_for_function(READY)
+    end = page.evaluate("colonnade.page.block.bodies[0].end")
+    assert end < page.evaluate("colonnade.page.whole.to") - 1.0
+    page.evaluate("end => colonnade.page.move(end)", end)
+    assert "measured θ" in page.locator(".moving p").inner_text()
+    page.evaluate("colonnade.page.move(colonnade.page.whole.to)")
+    assert "measured θ" not in page.locator(".moving p").inner_text()
+    pixels = "[...document.querySelector('.moving canvas').getContext('2d').getImageData(0, 0, 200, 150).data]"
+    assert any(page.evaluate(pixels))
 
 
 @pytest.mark.parametrize(

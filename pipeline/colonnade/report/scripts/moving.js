@@ -6,6 +6,7 @@ colonnade.MovingBlock = class {
     Object.assign(this, { given, page });
     const read = (curve, name) => (curve && curve[name] !== undefined ? page.series[curve[name]] : null);
     this.bodies = given.bodies.map((body) => ({ ...body, clockOf: page.clocks[body.clock], of: read(body, "values"), slides: read(body, "slide") }));
+    for (const body of this.bodies) body.end = body.clockOf.at(body.of.findLastIndex(Number.isFinite));
     this.base = given.base && { clockOf: page.clocks[given.base.clock], of: read(given.base, "values") };
     this.height = Math.max(...given.outline.map(([, z]) => z));
     this.furthest = this.base ? this.base.of.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0) / 1000 : 0;
@@ -37,7 +38,8 @@ colonnade.MovingBlock = class {
     this.drawTable(context, width, floor, scale, moved);
     const said = [];
     for (const body of [...this.bodies].reverse()) {
-      const angle = colonnade.angle(valueAt(body, time, NaN), this.page.critical);
+      // Past its end a history keeps its last value: an overturned block stays where it fell.
+      const angle = colonnade.angle(valueAt(body, Math.min(time, body.end), NaN), this.page.critical);
       if (!Number.isFinite(angle)) continue;
       const slide = body.slides ? (valueAt({ clockOf: body.clockOf, of: body.slides }, time) || 0) / 1000 : 0;
       const corners = colonnade.MovingBlock.corners(this.given.outline, this.given.poles, angle, slide).map(at);
@@ -55,7 +57,7 @@ colonnade.MovingBlock = class {
         context.globalAlpha = 1;
       }
       context.stroke();
-      said.unshift(`${body.name} θ = ${colonnade.written(1e3 * angle, 3)} mrad`);
+      if (time <= body.end) said.unshift(`${body.name} θ = ${colonnade.written(1e3 * angle, 3)} mrad`);
     }
     context.setLineDash([]);
     const base = this.base ? `base at ${colonnade.written(1000 * moved, 3)} mm` : "";

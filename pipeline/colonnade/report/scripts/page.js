@@ -27,8 +27,10 @@ colonnade.Page = class {
   async make() {
     Bokeh.set_log_level("error");
     Object.assign(this, await colonnade.samples());
-    this.whole = { from: Math.min(...this.clocks.map((clock) => clock.start)), to: Math.max(...this.clocks.map((clock) => clock.end)) };
-    this.shortest = CLOSEST * Math.min(...this.clocks.map((clock) => clock.interval));
+    // Tables have clocks too, of frequencies for one: the view is that of what the panels show.
+    const shown = this.given.groups.flatMap(({ panels }) => panels.flatMap(({ curves }) => curves)).map(({ clock }) => this.clocks[clock]);
+    this.whole = { from: Math.min(...shown.map((clock) => clock.start)), to: Math.max(...shown.map((clock) => clock.end)) };
+    this.shortest = CLOSEST * Math.min(...shown.map((clock) => clock.interval));
     this.view = { ...this.whole };
     this.cursor = this.peak();
     this.addBar();
