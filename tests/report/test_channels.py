@@ -39,7 +39,7 @@ def test_a_test_that_was_not_run_has_no_channel(reported):
         ({"clock_offset": 0.0}, "–"),
         ({"clock_offset": 0.0201}, "20.10 ms"),
         ({"clock_offset": 0.0201, "clock_offset_standard_error": 2e-4}, "20.10 ms ± 0.20 ms"),
-        ({"clock_offset": 0.0201, "clock_drift": -3.2e-6}, "20.10 ms, -3.2 ppm"),
+        ({"clock_offset": 0.0201, "clock_drift": -3.2e-6}, "20.10 ms, −3.2 ppm"),
         ({"clock_drift": "unknown"}, "–"),
     ],
 )

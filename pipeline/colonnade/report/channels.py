@@ -9,6 +9,7 @@ from typing import Any
 
 from colonnade.store.records.stored import Samples, Stored
 from colonnade.store.records.wording import CHANNEL_UNITS, NOTHING, number, quantity, share
+from colonnade.units import with_minus
 
 _NOTHING_LEFT = 1e-6
 """Residuals smaller than this, over the noise, mean that there are no more transducers than motions."""
@@ -104,9 +105,9 @@ def _clock(given: Mapping[str, Any]) -> str:
     offset, drift = _number(given, "clock_offset"), _number(given, "clock_drift")
     parts = []
     if offset:
-        parts.append(f"{1e3 * offset:.2f} ms" + _error(given, "clock_offset_standard_error", 1e3, 2, "ms"))
+        parts.append(with_minus(f"{1e3 * offset:.2f} ms") + _error(given, "clock_offset_standard_error", 1e3, 2, "ms"))
     if drift:
-        parts.append(f"{1e6 * drift:.1f} ppm" + _error(given, "clock_drift_standard_error", 1e6, 1, "ppm"))
+        parts.append(with_minus(f"{1e6 * drift:.1f} ppm") + _error(given, "clock_drift_standard_error", 1e6, 1, "ppm"))
     return ", ".join(parts) or NOTHING
 
 

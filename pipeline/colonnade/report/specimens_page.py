@@ -145,7 +145,7 @@ def _between(pooled: Stored) -> str:
     within = number(pooled.median("specimen", "test_restitution_standard_error"), 2)
     if not isfinite(between):
         return ""
-    return f"{between:.2g} (standard deviation of e); standard error within a test {within}"
+    return f"{number(between, 2)} (standard deviation of e); standard error within a test {within}"
 
 
 def _contact(pooled: Stored) -> list[tuple[str, str]]:
@@ -171,7 +171,7 @@ def _contact(pooled: Stored) -> list[tuple[str, str]]:
         ),
         ("mean velocity ratio of the same impacts", number(value("contact_velocity_ratio"), 4)),
         ("step", quantity(value("contact_step"), "µs")),
-        ("largest gap in the energy balance", f"{100 * value('energy_residual'):.2g} % of the largest energy"),
+        ("largest gap in the energy balance", f"{number(100 * value('energy_residual'), 2)} % of the largest energy"),
     ]
 
 

@@ -107,7 +107,7 @@ def trusted_half_width(rows: Sequence[EstimateRow]) -> float:
 
 def _draw_row(axes: Axes, place: float, row: EstimateRow, title: str, least: float) -> None:
     weight = "bold" if row.recommended else "normal"
-    _write(axes, place, row.name, -LEFT + 0.2, weight=weight)
+    _write(axes, place, row.name, -LEFT + 0.15, colour=FIT["color"] if row.recommended else INK)
     if not np.isfinite(row.value):
         _write(axes, place, row.remark or "none", None, colour=SOFT)
         return
@@ -144,7 +144,7 @@ def _write(
         transform=axes.get_yaxis_transform(),
         ha="center" if left is None else "left",
         va="center",
-        fontsize=8.5,
+        fontsize=8,
         fontweight=weight,
         color=colour,
     )
