@@ -39,8 +39,8 @@ def test_a_test_that_was_not_run_has_no_channel(reported):
         ({"clock_offset": 0.0}, "–"),
         ({"clock_offset": 0.0201}, "20.10 ms"),
         ({"clock_offset": 0.0201, "clock_offset_standard_error": 2e-4}, "20.10 ms ± 0.20 ms"),
-        ({"clock_offset": 0.0201, "clock_drift": -3.2e-6}, "20.10 ms, −3.2 ppm"),
-        ({"clock_drift": "unknown"}, "–"),
+        ({"clock_offset": 0.0201, "clock_rate_ppm": -3.2}, "20.10 ms, −3.2 ppm"),
+        ({"clock_rate_ppm": "unknown"}, "–"),
     ],
 )
 def test_a_clock_is_given_in_milliseconds_and_its_drift_in_millionths(given, written):

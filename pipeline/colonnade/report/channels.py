@@ -102,12 +102,12 @@ def _residual(to_noise: float | None, to_reading: float | None) -> str:
 
 def _clock(given: Mapping[str, Any]) -> str:
     """Write how late a channel's clock is, and how fast, each with its standard error."""
-    offset, drift = _number(given, "clock_offset"), _number(given, "clock_drift")
+    offset, drift = _number(given, "clock_offset"), _number(given, "clock_rate_ppm")
     parts = []
     if offset:
         parts.append(with_minus(f"{1e3 * offset:.2f} ms") + _error(given, "clock_offset_standard_error", 1e3, 2, "ms"))
     if drift:
-        parts.append(with_minus(f"{1e6 * drift:.1f} ppm") + _error(given, "clock_drift_standard_error", 1e6, 1, "ppm"))
+        parts.append(with_minus(f"{drift:.1f} ppm") + _error(given, "clock_rate_standard_error_ppm", 1, 1, "ppm"))
     return ", ".join(parts) or NOTHING
 
 
