@@ -68,6 +68,22 @@ def test_a_campaign_file_is_never_written_over(colonnade, campaign):
     assert (campaign / "campaign.toml").read_bytes() == before
 
 
+def test_the_draft_is_drawn_next_to_it(colonnade, raw):
+    told = colonnade("init")
+    assert f"drawing: {raw / 'drawing.svg'}\n" in told.stdout
+    assert ">1 top<" in (raw / "drawing.svg").read_text(encoding="utf-8")
+    (raw / "campaign.toml").unlink()
+    assert json.loads(colonnade("init", "--json").stdout)["drawing"] == str(raw / "drawing.svg")
+
+
+def test_a_drawing_of_yours_stays_and_then_no_draft_is_written(colonnade, raw):
+    (raw / "drawing.svg").write_text("<svg/>", encoding="utf-8")
+    told = colonnade("init")
+    assert (told.returncode, "was not changed" in told.stderr) == (2, True)
+    assert (raw / "drawing.svg").read_text(encoding="utf-8") == "<svg/>"
+    assert not (raw / "campaign.toml").exists()
+
+
 @pytest.mark.parametrize("folder", ["nowhere", "empty"])
 def test_a_folder_without_recordings_is_a_usage_error_and_nothing_is_written(colonnade, tmp_path, folder):
     (tmp_path / "empty").mkdir()
