@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
+from pathlib import Path
+
 import pytest
 
 from .conftest import TELEPHONE
@@ -109,3 +112,22 @@ def test_on_a_telephone_what_is_wider_says_that_it_scrolls(visit):
     )
     assert [True, True] in boxes
     assert all(wider == said for wider, said in boxes)
+
+
+def test_a_thousand_rows_are_all_there_again_after_a_filter_and_after_a_sort(visit, report_folder, tmp_path):
+    folder = Path(shutil.copytree(report_folder, tmp_path / "report"))
+    page = folder / "index.html"
+    text = page.read_text(encoding="utf-8")
+    start = text.index("<tbody>", text.index('id="tests-table"')) + len("<tbody>")
+    end = text.index("</tbody>", start)
+    page.write_text(text[:start] + 112 * text[start:end] + text[end:], encoding="utf-8")
+    page = visit("index.html", folder=folder)
+    choose(page, "kind", "earthquake")
+    assert page.locator("#filter output").inner_text() == "448 of 1008 tests"
+    shown = "document.querySelectorAll('#tests-table tbody tr:not([hidden])').length"
+    page.wait_for_function(f"{shown} === 448")
+    choose(page, "kind", "")
+    page.wait_for_function(f"{shown} === 1008")
+    page.click("#tests-table th[data-column='test'] button")
+    page.wait_for_function(f"{shown} === 1008")
+    assert page.evaluate(SHOWN) == sorted(page.evaluate(SHOWN))
