@@ -55,6 +55,22 @@ def test_a_statement_changes_the_code_of_those_who_import_it_and_of_no_others(pa
     assert {stage for stage in stages if of(stage) != before[stage]} == {"rocking"}
 
 
+@pytest.mark.parametrize(
+    ("name", "mark"),
+    [
+        ("report/templates/page.css", "\n/* */"),
+        ("report/templates/test.html.jinja", "\n"),
+        ("report/scripts/page.js", "\n"),
+    ],
+)
+def test_a_template_a_script_or_a_style_changes_the_code_of_the_pages_alone(package, name, mark):
+    pages, rocking = code_hash(["colonnade.report.build"]), of("rocking")
+    (package / name).open("a", encoding="utf-8").write(mark)
+    forget()
+    assert code_hash(["colonnade.report.build"]) != pages
+    assert of("rocking") == rocking
+
+
 def test_a_change_in_a_reader_makes_no_prediction_anew(package):
     before = {stage: of(stage) for stage in ("rocking", "restitution", "contact", "predict", "contact_ensemble")}
     for path in (package / "readers").rglob("*.py"):

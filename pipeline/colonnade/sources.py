@@ -12,7 +12,8 @@ from typing import NamedTuple
 PACKAGE = Path(__file__).parent
 """Folder of the package."""
 
-_SUFFIXES = (".py", ".jinja", ".css", ".js", ".mplstyle", ".typ")
+_DATA = (".jinja", ".css", ".js", ".mplstyle", ".typ")
+"""Suffixes of templates, scripts and styles: what they say counts to the byte."""
 
 
 class _Module(NamedTuple):
@@ -25,7 +26,7 @@ class _Module(NamedTuple):
 def package_hash() -> str:
     """Hash of every source and template of the package, to the byte."""
     digest = hashlib.sha256()
-    for path in sorted(path for path in PACKAGE.rglob("*") if path.suffix in _SUFFIXES):
+    for path in sorted(path for path in PACKAGE.rglob("*") if path.suffix in (".py", *_DATA)):
         text = path.read_bytes()
         digest.update(f"{path.relative_to(PACKAGE).as_posix()} {len(text)}\n".encode() + text)
     return digest.hexdigest()
@@ -46,7 +47,8 @@ def code_hash(roots: Collection[str], *, alone: Collection[str] = (), without: C
     Returns
     -------
     code : str
-        SHA-256 of the modules as parsed: a comment, a docstring or a blank line changes nothing.
+        SHA-256 of the modules as parsed: a comment, a docstring or a blank line changes nothing. With a room count its
+        templates, scripts and styles.
     """
     reached: set[str] = set()
     waiting = [name for name in _modules() if _is_in(name, roots)]
@@ -84,7 +86,25 @@ def _module(name: str) -> _Module:
     for node in ast.walk(tree):
         if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)):
             node.body = [each for each in node.body if not _is_text(each)]
-    return _Module(hashlib.sha256(ast.dump(tree).encode()).hexdigest(), names)
+    digest = hashlib.sha256(ast.dump(tree).encode())
+    for path in _data(_modules()[name]):
+        digest.update(f"{path.name}\n".encode() + path.read_bytes())
+    return _Module(digest.hexdigest(), names)
+
+
+def _data(module: Path) -> list[Path]:
+    """Templates, scripts and styles of a room: those in its folder, and in folders below that hold no modules."""
+    if module.name != "__init__.py" or module.parent == PACKAGE:
+        return []
+    return sorted(
+        path
+        for path in module.parent.rglob("*")
+        if path.suffix in _DATA and next(folder for folder in path.parents if _is_room(folder)) == module.parent
+    )
+
+
+def _is_room(folder: Path) -> bool:
+    return (folder / "__init__.py").exists()
 
 
 def _is_text(node: ast.stmt) -> bool:
