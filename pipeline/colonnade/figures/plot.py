@@ -23,6 +23,7 @@ from colonnade.figures.moving import rocking_block
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
 from colonnade.figures.style import MEASURED, model_style
 from colonnade.identification.restitution.result import Restitution
+from colonnade.units import format_percent
 from colonnade.validation import described, instance
 
 KINDS = "a History, a Restitution, a StabilityMap or an Ensemble"
@@ -98,7 +99,7 @@ def _(result: Ensemble, ax: Axes | None = None) -> Axes:
     colour = model_style("nonlinear")["color"]
     for index in range(int((result.levels < 0.5).sum())):
         low, high = result.bands[index], result.bands[-1 - index]
-        share = f"{1 - 2 * result.levels[index]:.0%} of the runs"
+        share = f"{format_percent(1 - 2 * result.levels[index])} of the runs"
         shade = SHADES[min(index, len(SHADES) - 1)]
         draw_band(axes, result.time, low, high, color=colour, alpha=shade, label=share)
     draw_curve(axes, Curve(result.time, result.central), label="nothing varied", **MEASURED)

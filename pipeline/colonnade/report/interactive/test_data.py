@@ -23,7 +23,7 @@ from colonnade.report.interactive.panels import Samples, script
 from colonnade.report.interactive.tables import tables_of
 from colonnade.store.records.stored import GOOD, Stored
 from colonnade.store.records.wording import CHANNEL_UNITS
-from colonnade.units import from_si
+from colonnade.units import format_percent, from_si
 
 PROPORTIONAL = 1e-6
 """A channel in SI is a straight line of what was recorded if no sample is further from it, over the largest."""
@@ -116,7 +116,7 @@ def _bands(model: str, spread: Spread, samples: Samples, *, is_open: bool) -> li
     clock = samples.clock(spread.time)
     return [
         {
-            "name": f"{model} model, {spread.share(index):.0%} of runs",
+            "name": f"{model} model, {format_percent(spread.share(index))} of runs",
             "clock": clock,
             "low": samples.add(spread.bands[index]),
             "high": samples.add(spread.bands[-1 - index]),
