@@ -57,9 +57,9 @@ class _Lean(Axis):
         places = self._places(ticks)
         renderer.open_group("axis")
         if chosen.get("gridOn", True):
-            draw_lines(renderer, *self._grid(places), style.grid_color, style.grid_width * pixels)
+            draw_lines(renderer, *self._grid(places), style.grid_color, style.grid_width)
         if chosen.get(self.side, True):
-            draw_lines(renderer, *self._marks(places, style.tick_size * pixels), style.color, style.tick_width * pixels)
+            draw_lines(renderer, *self._marks(places, style.tick_size * pixels), style.color, style.tick_width)
         if chosen.get(f"label{self.side}", True):
             size = float(chosen.get("labelsize", style.label_size))
             self._draw_labels(renderer, places, texts, style, size, pixels)

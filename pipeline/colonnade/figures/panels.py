@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backend_bases import RendererBase
@@ -133,9 +132,8 @@ class _BorrowedGrid(Artist):
         panel = self.axes
         if isinstance(panel, Axes):
             places, look = self._below.places(), self._below.look
-            thickness = look.grid_width * float(np.asarray(renderer.points_to_pixels(1.0)))
             foot, head = columns(places, panel.bbox.y0), columns(places, panel.bbox.y1)
-            draw_lines(renderer, foot, head, look.grid_color, thickness)
+            draw_lines(renderer, foot, head, look.grid_color, look.grid_width)
 
 
 def borrow_grid(panel: Axes, below: Axes) -> None:

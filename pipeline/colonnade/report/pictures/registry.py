@@ -150,9 +150,16 @@ _FREED = f"{_FREE} Its fit must free the critical angle."
 FIGURES: tuple[Entry, ...] = (
     Entry("record", "test", "all of a test over time: angle, misfit, other motions, base", _ANGLE, _record),
     Entry("angle", "test", "rocking angle over time, measured and predicted", _ANGLE, _angle),
-    Entry("closer", "test", "phase portrait, and of a sine the steady state", _ANGLE, _closer),
+    Entry("closer", "test", "phase portrait, and of a sine the steady state", _ANGLE, _closer, is_narrow=False),
     Entry("base", "test", "table's motion and its spectrum, with the target", "It needs a table motion.", _base),
-    Entry("channels", "test", "every channel as recorded, with flags, spikes and spectra", _RAW, _channels),
+    Entry(
+        "channels",
+        "test",
+        "every channel as recorded: flags, spikes, spectra",
+        _RAW,
+        _channels,
+        is_narrow=False,
+    ),
     Entry("bands", "test", "measured angle over each model's bands", "It needs an ensemble.", _bands),
     Entry("fitted", "test", "free vibration, fitted history and residual", _FREE, _fitted),
     Entry("estimators", "test", "e from every estimator", _FREE, _estimators_of_test, is_narrow=False),
