@@ -120,7 +120,7 @@ def _released_beyond(rng, block, model):
     back = rock(block, model=model, theta0=theta0, omega0=-1.001 * barrier, duration=40 / block.p, restitution=0.3)
     assert back.impact_times.size > 0
     assert back.outcome == "rocking"
-    _refused("where the block lies", block=block, model=model, theta0=rng.uniform(1.58, 100), duration=1.0)
+    _refused("an angle between −π/2 and π/2", block=block, model=model, theta0=rng.uniform(1.58, 100), duration=1.0)
 
 
 def _not_a_number(rng, block, model):

@@ -59,7 +59,7 @@ def test_a_law_reaches_as_far_as_the_fastest_impact():
     [
         (replace(CASE, out_of_plane=0.1), 'for models in space; the model is "linear"'),
         (replace(CASE, restitution=1.2), "restitution is 1.2; a number between 0 and 1"),
-        (shaken([0.0, 1.1 * LARGEST_ACCELERATION * 9.81]), r"at sample 1; at most 1e\+06 g .* Is its unit right"),
+        (shaken([0.0, 1.1 * LARGEST_ACCELERATION * 9.81]), r"at sample 1; at most 1e\+06 g .* Check its unit"),
         (shaken([0.0, 1.0], 1.01 * LONGEST_SAMPLE / P), "a sampling interval below 300/p"),
         (shaken([0.0, 1.0], transverse=np.array([0.0, 1.0])), "a Motion without `transverse`"),
         (shaken([0.0, 1.0], vertical=np.array([0.0, -9.9])), "the base falls faster than the block"),

@@ -51,7 +51,7 @@ HEADS = {
     "CSMIP/DMG, volume 3": (
         ["Response and Fourier Amplitude Spectra   00000001", *CSMIP_2[:2], *["a line of text"] * 22],
         (8, "%10.6f"),
-        "CSMIP/DMG .* with response spectra and no motion",
+        "CSMIP/DMG .* with response spectra but no motion",
     ),
     "USC, volume 1": (
         ["OF UNCORRECTED ACCELEROGRAM DATA OF", *numbered(USC), *WHOLE],
