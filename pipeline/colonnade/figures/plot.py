@@ -146,6 +146,7 @@ def animate(history: History) -> FuncAnimation:
 
 def _axes(ax: Axes | None) -> Axes:
     if ax is None:
+        # A figure of pyplot is shown by a notebook, and by pyplot.show() in a script.
         return pyplot.subplots(layout="constrained")[1]
     instance("ax", ax, Axes)
     return ax
