@@ -105,7 +105,7 @@ def run(
         summary = write_summary(loaded, layout, catalogue, outdated=outdated, failed=walk.failed_tests, workers=workers)
         report = None
         if last == "report":
-            walk.map(summary.tests)
+            walk.map(summary)
             loaded = with_photos(loaded, layout, catalogue)
             report = update_report(loaded, layout, catalogue, outdated, workers)
         catalogue.save(is_whole=last == "report")

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.summary import TestSummary
+from colonnade.campaign.summary import Summary
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.interruption import expect_none
 from colonnade.store.provenance import Origin
@@ -128,12 +128,12 @@ class Walk:
                 ready.append(name)
         self._walk_tests(map(self._predicting, ready))
 
-    def map(self, tests: Mapping[str, TestSummary]) -> None:
-        """Bring the maps up to date of specimens with sine tests at several frequencies; `tests` are the records."""
+    def map(self, summary: Summary) -> None:
+        """Bring the maps up to date of specimens with sine tests at several frequencies, by their records."""
         from colonnade.workflow.maps.kept import map_steps
 
         known = [name for name in self._campaign.specimens if name not in self.failed_specimens]
-        self._walk_specimens(map_steps(self.graph, tests, known), self.workers)
+        self._walk_specimens(map_steps(self.graph, summary, known), self.workers)
 
     def _predicting(self, name: str) -> list[Step]:
         return [step for step in self._steps("predicting", name) if self._asks_for(step.result.stage)]

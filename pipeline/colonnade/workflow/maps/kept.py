@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from colonnade.campaign.summary import TestSummary
+from colonnade.campaign.summary import Summary
 from colonnade.dynamics.block import pair
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.errors import CampaignError
@@ -17,7 +16,7 @@ from colonnade.store.freshness import Recipe
 from colonnade.store.records.summary import map_points
 from colonnade.store.results import ResultId
 from colonnade.workflow.catalogue import stored_attributes
-from colonnade.workflow.maps.plans import Wanted, plan_of, restitution_of
+from colonnade.workflow.maps.plans import Wanted, plan_of
 from colonnade.workflow.maps.results import ASKED, MADE_BY, Options, given
 from colonnade.workflow.maps.stability import whole_map
 from colonnade.workflow.steps import Graph, Step
@@ -28,15 +27,15 @@ if TYPE_CHECKING:
     from colonnade.dynamics.maps.plan import MapPlan
 
 
-def map_steps(graph: Graph, tests: Mapping[str, TestSummary], specimens: Sequence[str]) -> Iterator[Step]:
+def map_steps(graph: Graph, summary: Summary, specimens: Sequence[str]) -> Iterator[Step]:
     """
     Give the steps of the maps that a run keeps.
 
     Parameters
     ----------
     graph : Graph
-    tests : mapping of str to TestSummary
-        Records; the maps have to include their sine tests.
+    summary : Summary
+        Records of tests and specimens: the maps have to include their sine tests, and use their e.
     specimens : sequence of str
         Ids of those that may have a map.
 
@@ -47,11 +46,11 @@ def map_steps(graph: Graph, tests: Mapping[str, TestSummary], specimens: Sequenc
         it is up to date with its specimen.
     """
     for specimen in specimens:
-        points = map_points(tests, specimen)
-        if makes_map(points):
-            restitution, source = restitution_of(graph.campaign, graph.layout, specimen)
-            maps = _Maps(graph, specimen, points, pair(restitution), source)
-            for model in graph.campaign.processing.predict.models if all(map(isfinite, pair(restitution))) else ():
+        points = map_points(summary.tests, specimen)
+        restitution = summary.specimens[specimen].restitution
+        if makes_map(points) and restitution.value is not None:
+            maps = _Maps(graph, specimen, points, pair(restitution.value), restitution.source)
+            for model in graph.campaign.processing.predict.models:
                 if not MODELS[model].in_space:
                     yield maps.step(model)
 
