@@ -91,12 +91,11 @@ class Small:
             if path.is_file() and path != self.layout.lock
         }
 
-    def contents(self, *names: str) -> dict[str, str]:
-        """Hash of the values of every result, or of those in files of these names; each is whole, or this raises."""
+    def contents(self) -> dict[str, str]:
+        """Hash of the values of every result; each is whole, or this raises."""
         return {
             path.relative_to(self.folder).as_posix(): files.read(path).attrs["content"]
             for path in sorted(self.layout.processed.rglob("*.nc"))
-            if not names or path.stem in names
         }
 
     def raw(self, test: str) -> Path:
