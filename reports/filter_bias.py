@@ -15,7 +15,7 @@ from colonnade.arrays import Array
 from colonnade.campaign import Campaign, load
 from colonnade.campaign import Test as OneTest
 from colonnade.dynamics.block import Block
-from colonnade.figures.output import to_svg
+from colonnade.figures.files.output import to_svg
 from colonnade.figures.style import blank_figure, styled
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.instruments import Imperfections, Transducer

@@ -16,7 +16,7 @@ from colonnade.dynamics.block import Block
 from colonnade.figures.stored import maps, record, restitution
 from colonnade.laboratory import paper_programme, prism_programme, write_campaign
 from colonnade.laboratory.ladder import KEPT_AWAY
-from colonnade.report.agreement import agreement
+from colonnade.report.overview_page.agreement import agreement
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_test
 from colonnade.store.records.summary import map_points

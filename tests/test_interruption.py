@@ -32,7 +32,7 @@ def test_a_signal_stops_at_once_and_at_every_point_after():
 
 
 def dropped(kind):
-    """As Python tells of an exception that it cannot raise."""
+    """As Python reports an exception that it cannot raise."""
     return SimpleNamespace(exc_type=kind, exc_value=None, exc_traceback=None, err_msg=None, object=None)
 
 

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from colonnade.dynamics.block import Block
-    from colonnade.dynamics.ensembles.ensemble import Ensemble, ensemble
+    from colonnade.dynamics.ensembles.ensemble import ensemble
+    from colonnade.dynamics.ensembles.outcome import Ensemble
     from colonnade.dynamics.ensembles.uncertainty import Uncertainty
     from colonnade.dynamics.history import History
     from colonnade.dynamics.maps.chart import StabilityMap, stability_map
@@ -56,7 +57,7 @@ __all__ = [
 _ROOMS = {
     "Block": "colonnade.dynamics.block",
     "ColonnadeError": "colonnade.errors",
-    "Ensemble": "colonnade.dynamics.ensembles.ensemble",
+    "Ensemble": "colonnade.dynamics.ensembles.outcome",
     "History": "colonnade.dynamics.history",
     "Motion": "colonnade.dynamics.motion",
     "Reactions": "colonnade.dynamics.plane.reactions",

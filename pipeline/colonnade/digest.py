@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from html import escape
 
 
-class Digested:
+class Digested(ABC):
     """A result that gives its essence by `digest`: shown by `repr` in a line and by a notebook as a table."""
 
+    @abstractmethod
     def digest(self) -> Mapping[str, str]:
         """Return what is most worth knowing, by name, with units."""
-        raise NotImplementedError
 
     def __repr__(self) -> str:
         """Write it in a line."""

@@ -17,7 +17,7 @@ def setup(**keys):
 
 
 def problems(**keys):
-    """Places below the setup and what is told there."""
+    """Places below the setup, and the error at each."""
     with pytest.raises(ValidationError) as caught:
         setup(**keys)
     return {

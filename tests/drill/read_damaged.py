@@ -19,10 +19,10 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from damage import KINDS, damaged
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read, read_here
+from damage import KINDS, damaged
 
 WITHOUT_LENGTH = ("delimited", "mts", "tdms")
 """Formats in which a file that ends between two rows or segments is whole as far as anyone can tell."""

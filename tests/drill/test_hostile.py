@@ -3,40 +3,26 @@
 from __future__ import annotations
 
 import contextlib
-import importlib.util
 import os
 import random
 import time
 from collections import Counter
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
 
+import damage
+import hostile
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
 
 pytestmark = pytest.mark.drill
 
-TESTS = Path(__file__).parents[1]
 MUTATIONS = int(os.environ.get("DRILL_MUTATIONS", "500"))
 SEED = os.environ.get("DRILL_SEED", "7")
 LONGEST = 10.0
 """Seconds that any may take."""
-
-
-def load(path: Path) -> ModuleType:
-    """A script of the tests, which are no package."""
-    specification = importlib.util.spec_from_file_location(path.stem, path)
-    assert specification is not None
-    assert specification.loader is not None
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module
-
-
-damage, hostile = load(TESTS / "drill" / "damage.py"), load(TESTS / "readers" / "hostile_files.py")
 
 
 @pytest.mark.parametrize("name", list(hostile.FILES))

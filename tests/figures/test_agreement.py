@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from colonnade.figures.agreement import PeakPoint, predicted_over_measured
-from colonnade.figures.output import to_svg
+from colonnade.figures.files.output import to_svg
 
 
 def point(measured, predicted, low=None, high=None, number=None, test="a"):

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from colonnade.figures.bands import bands_over_time
-from colonnade.figures.curve import Curve
 from colonnade.figures.histories import Spread
+from colonnade.figures.panels.curve import Curve
 
 LEVELS = np.array([0.05, 0.25, 0.5, 0.75, 0.95])
 TIME = np.linspace(0.0, 10.0, 5001)

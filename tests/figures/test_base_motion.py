@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.figures.base_motion import BaseSpectra, base_motion
-from colonnade.figures.curve import Curve
+from colonnade.figures.panels.curve import Curve
 
 TIME = np.arange(0, 5, 0.01)
 ACHIEVED = Curve(TIME, 2 * np.sin(6 * TIME))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.figures.channels import MOST_SPIKES, Channel, Scale, Spike, channels_as_recorded
-from colonnade.figures.curve import Curve
+from colonnade.figures.panels.curve import Curve
 from colonnade.signals.spectra import Density
 
 TIME = np.arange(0, 2, 0.01)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.figures.closer import Enlarged, Phase, closer_look
-from colonnade.figures.curve import Curve
+from colonnade.figures.panels.curve import Curve
 
 TURN = np.linspace(0, 2 * np.pi, 60)
 MEASURED = Phase(0.4 * np.sin(TURN), 0.3 * np.cos(TURN))

@@ -14,8 +14,8 @@ from colonnade.figures.bands import bands_over_time
 from colonnade.figures.base_motion import BaseSpectra, base_motion
 from colonnade.figures.channels import Channel, Scale, Spike, channels_as_recorded
 from colonnade.figures.closer import Enlarged, Phase, closer_look
-from colonnade.figures.curve import Curve
 from colonnade.figures.histories import Spread
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.record import Peak, Quantity, whole_record
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
 from colonnade.figures.restitution.peaks import PeakSeries, peak_decay

@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade.dynamics.block import Block
-from colonnade.figures.curve import Curve
 from colonnade.figures.drawing.parts import Body, Rocking
 from colonnade.figures.moving import MOST_FRAMES, RATE, rocking_block, turn
+from colonnade.figures.panels.curve import Curve
 
 BODY = Body(
     "rectangle",

@@ -8,7 +8,7 @@ from matplotlib import pyplot
 from matplotlib.axes import Axes
 
 import colonnade
-from colonnade.figures.table import table_of
+from colonnade.figures.files.table import table_of
 
 BLOCK = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 

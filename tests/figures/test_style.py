@@ -8,7 +8,7 @@ from colonnade.dynamics.models.registry import MODELS
 from colonnade.figures.style import WIDTH, blank_figure, model_style, styled
 
 PROJECT = Path(__file__).resolve().parents[2]
-OUTPUT = {"savefig": "figures/output.py", "rcParams": "figures/style.py", "rc_context": "figures/style.py"}
+OUTPUT = {"savefig": "figures/files/output.py", "rcParams": "figures/style.py", "rc_context": "figures/style.py"}
 
 
 @pytest.mark.parametrize("name", OUTPUT)

@@ -2,32 +2,18 @@
 
 from __future__ import annotations
 
-import importlib.util
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
 
+import hostile
 from colonnade.cli import invoke
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
 
 pytest.importorskip("xlwt")
-
-
-def _load(name: str) -> ModuleType:
-    """A script of this folder, which is no package."""
-    specification = importlib.util.spec_from_file_location(name, Path(__file__).parent / f"{name}.py")
-    assert specification is not None
-    assert specification.loader is not None
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module
-
-
-hostile = _load("hostile_files")
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""Raw files of two tests with the same bytes are told; those that cannot be are not even hashed."""
+"""Raw files of two tests with the same bytes give a warning; files that cannot be the same are not hashed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from colonnade.workflow.copies import digests_of_equal_sizes, with_copies
 
 @pytest.fixture
 def told(small):
-    """Say what is told of some digests."""
+    """Give the findings for some digests."""
     campaign = load(small.folder)
     return lambda digests: [found.text for found in with_copies(campaign, digests).warnings]
 

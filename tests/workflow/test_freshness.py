@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from colonnade.report import tests_page
+from colonnade.report.test_page import page
 from colonnade.workflow.catalogue import Catalogue
 
 OF_A_PULSE = ("ingest", "condition", "rocking", "predict", "ensemble", "compare")
@@ -191,8 +191,8 @@ def pages(small):
 def drawn(monkeypatch):
     """Tests whose pages were drawn."""
     names = []
-    of_test = tests_page.of_test
-    monkeypatch.setattr(tests_page, "of_test", lambda *given: names.append(given[1].id) or of_test(*given))
+    of_test = page.of_test
+    monkeypatch.setattr(page, "of_test", lambda *given: names.append(given[1].id) or of_test(*given))
     return names
 
 

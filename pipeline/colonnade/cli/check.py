@@ -59,7 +59,7 @@ def check(campaign: Path, drawing: Path | None, strict: bool, as_json: bool) -> 
 
 def _draw(campaign: Campaign, path: Path) -> None:
     from colonnade.figures.drawing.described import of_campaign
-    from colonnade.figures.saving import PICTURES, expect_place, save
+    from colonnade.figures.files.saving import PICTURES, expect_place, save
 
     expect_place(path, PICTURES)
     save(of_campaign(campaign), path)

@@ -62,7 +62,7 @@ def demo(folder: Path, seed: int, motion: Path | None, short: bool, workers: int
 
 def _show(comparison: dict[str, Any]) -> None:
     from colonnade.laboratory.ladder import KEPT_AWAY
-    from colonnade.report.agreement import agreement
+    from colonnade.report.overview_page.agreement import agreement
     from colonnade.units import format_percent, format_uncertain
 
     for specimen, restitution in comparison["restitution"].items():

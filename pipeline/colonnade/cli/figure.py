@@ -54,9 +54,9 @@ def figure(
     if listed or name is None:
         return _list(as_json=as_json)
     from colonnade.campaign import load
-    from colonnade.figures.saving import MOVIE, PICTURES, TABLE, expect_place, save
+    from colonnade.figures.files.saving import MOVIE, PICTURES, TABLE, expect_place, save
     from colonnade.figures.style import journal
-    from colonnade.workflow.figure import chosen, draw
+    from colonnade.workflow.publishing.figure import chosen, draw
 
     path, identifier = campaign_and_id(arguments)
     campaign = load(path)

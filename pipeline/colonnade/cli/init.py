@@ -36,7 +36,7 @@ def init(folder: Path, as_json: bool) -> int:
     """
     from colonnade.campaign.draft import draft
     from colonnade.figures.drawing.described import of_draft
-    from colonnade.figures.saving import expect_place, save
+    from colonnade.figures.files.saving import expect_place, save
     from colonnade.store.files import write_text
 
     with work_progress("Reading raw files") as advance:

@@ -117,7 +117,7 @@ predict = _up_to(
 @work_options
 def report(campaign: Path, *, with_pdf: bool, bundle: Path | None, results: Path | None, **choices: Any) -> int:
     """Run a campaign as far as the report, and write its PDF and its bundle if they are asked for."""
-    from colonnade.workflow.documents import write_bundle, write_pdf
+    from colonnade.workflow.publishing.documents import write_bundle, write_pdf
 
     documents: dict[str, Callable[[], Path]] = {}
     if with_pdf:

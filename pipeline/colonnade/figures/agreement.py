@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 
-from colonnade.figures.output import link_to
+from colonnade.figures.files.output import link_to
 from colonnade.figures.style import INK, LIMIT, model_style, styled, width
 
 LEAST_SPAN = 0.1, 1.0

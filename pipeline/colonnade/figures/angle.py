@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 from matplotlib.figure import Figure
 
-from colonnade.figures.curve import Curve
 from colonnade.figures.histories import draw_angle, limit_of, time_limits
-from colonnade.figures.panels import legend_above, side_by_side
+from colonnade.figures.panels.curve import Curve
+from colonnade.figures.panels.layout import legend_above, side_by_side
 from colonnade.figures.style import is_narrow, styled
 
 HEIGHT, LOWER = 2.4, 1.7

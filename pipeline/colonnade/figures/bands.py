@@ -7,9 +7,9 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.figure import Figure
 
-from colonnade.figures.curve import Curve
 from colonnade.figures.histories import ANGLE_LABEL, Spread, draw_angle, limit_of, mark_horizon, shade, time_limits
-from colonnade.figures.panels import stacked_panels
+from colonnade.figures.panels.curve import Curve
+from colonnade.figures.panels.layout import stacked_panels
 from colonnade.figures.style import INK, model_style, styled
 from colonnade.units import format_percent
 

@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, MaxNLocator, NullLocator, StrMethodFormatter
 
 from colonnade.arrays import Array
-from colonnade.figures.curve import Curve
 from colonnade.figures.histories import draw_limit, largest_of, scale_symmetric, time_limits
-from colonnade.figures.lean import add_panel
-from colonnade.figures.long import draw_curve
-from colonnade.figures.panels import BOTTOM, TOP, legend_above, margins
+from colonnade.figures.panels.curve import Curve
+from colonnade.figures.panels.layout import BOTTOM, TOP, legend_above, margins
+from colonnade.figures.panels.lean import add_panel
+from colonnade.figures.panels.long import draw_curve
 from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, LineStyle, is_narrow, styled, width
 
 HISTORY_HEIGHT, SPECTRUM_HEIGHT, BETWEEN = 1.3, 1.6, 0.62

@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
-from colonnade.figures.curve import Curve, envelope
-from colonnade.figures.lean import add_panel
-from colonnade.figures.long import draw_curve
-from colonnade.figures.panels import BOTTOM, TOP, borrow_grid, legend_above, margins
+from colonnade.figures.panels.curve import Curve, envelope
+from colonnade.figures.panels.layout import BOTTOM, TOP, borrow_grid, legend_above, margins
+from colonnade.figures.panels.lean import add_panel
+from colonnade.figures.panels.long import draw_curve
 from colonnade.figures.style import FAINT, INK, LIMIT, MEASURED, SOFT, styled, width
 from colonnade.signals.spectra import Density
 

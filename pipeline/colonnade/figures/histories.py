@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array
-from colonnade.figures.curve import Curve
-from colonnade.figures.long import draw_band, draw_curve
+from colonnade.figures.panels.curve import Curve
+from colonnade.figures.panels.long import draw_band, draw_curve
 from colonnade.figures.style import INK, LIMIT, MEASURED, LineStyle, model_style
 from colonnade.units import format_percent
 

@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from colonnade.arrays import Array
-from colonnade.figures.curve import Curve
 from colonnade.figures.drawing.parts import Body
-from colonnade.figures.output import Movie
+from colonnade.figures.files.output import Movie
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.style import INK, MEASURED, SOFT, model_style, styled
 
 RATE, MOST_FRAMES = 25.0, 250

@@ -11,15 +11,15 @@ from matplotlib.animation import FuncAnimation
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
-from colonnade.dynamics.ensembles.ensemble import Ensemble
+from colonnade.dynamics.ensembles.outcome import Ensemble
 from colonnade.dynamics.history import History
 from colonnade.dynamics.maps.chart import StabilityMap
-from colonnade.figures.curve import Curve
 from colonnade.figures.drawing.parts import Body, Rocking
 from colonnade.figures.histories import SHADES, draw_angle, limit_of
-from colonnade.figures.long import draw_band, draw_curve
 from colonnade.figures.maps.stability_map import stability_map
 from colonnade.figures.moving import rocking_block
+from colonnade.figures.panels.curve import Curve
+from colonnade.figures.panels.long import draw_band, draw_curve
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
 from colonnade.figures.style import MEASURED, model_style
 from colonnade.identification.restitution.result import Restitution

@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from colonnade.arrays import Array
-from colonnade.figures.curve import Curve
 from colonnade.figures.histories import (
     Spread,
     draw_angle,
@@ -20,8 +19,9 @@ from colonnade.figures.histories import (
     scale_symmetric,
     time_limits,
 )
-from colonnade.figures.long import draw_curve
-from colonnade.figures.panels import legend_above, stacked_panels
+from colonnade.figures.panels.curve import Curve
+from colonnade.figures.panels.layout import legend_above, stacked_panels
+from colonnade.figures.panels.long import draw_curve
 from colonnade.figures.style import BASE, MEASURED, model_style, styled
 
 ANGLE_HEIGHT, OTHER_HEIGHT = 2.0, 0.8

@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 from matplotlib.figure import Figure
 
-from colonnade.figures.curve import Curve, envelope
 from colonnade.figures.histories import ANGLE_LABEL, draw_angle, largest_of, limit_of, scale_symmetric, time_limits
-from colonnade.figures.long import draw_curve
-from colonnade.figures.panels import COLUMNS, legend_above, side_by_side
+from colonnade.figures.panels.curve import Curve, envelope
+from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side
+from colonnade.figures.panels.long import draw_curve
 from colonnade.figures.style import BASE, styled
 
 ANGLE_HEIGHT, BASE_HEIGHT = 1.35, 0.8

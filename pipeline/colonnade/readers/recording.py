@@ -149,7 +149,7 @@ class Recording:
         Raises
         ------
         ReadError
-            If there is none or more than one; the message gives the nearest name.
+            If no channel, or more than one, has this name; the message gives the nearest.
         """
         if isinstance(column, int):
             return self._numbered(column)

@@ -17,13 +17,13 @@ from colonnade.identification.restitution.choice import RULE
 from colonnade.identification.restitution.estimators.registry import ESTIMATORS
 from colonnade.interruption import expect_none
 from colonnade.report import addresses, drawings, methods, pages, problems, specimens_page
-from colonnade.report.agreement import agreement
 from colonnade.report.asked import Asked, asked_of
 from colonnade.report.interactive import tables
 from colonnade.report.interactive.scripts import scripts
 from colonnade.report.kept import ALTERED, from_text, to_text
 from colonnade.report.methods import Used
 from colonnade.report.overview_page import groups, maps, peaks, spans
+from colonnade.report.overview_page.agreement import agreement
 from colonnade.report.overview_page.attention import attention
 from colonnade.report.overview_page.confusion import confusions
 from colonnade.report.parts import Part, parts_of

@@ -13,12 +13,12 @@ import numpy as np
 from colonnade.campaign import Campaign
 from colonnade.campaign.summary import TestSummary
 from colonnade.figures.spans import SpanPanel
-from colonnade.report.channels import ChannelRow
 from colonnade.report.methods import Used
 from colonnade.report.overview_page.spans import SpanTest
 from colonnade.report.parts import Part
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import FreeVibration
+from colonnade.report.test_page.channels import ChannelRow
 from colonnade.store.records.stored import Failure
 
 ALTERED = (ValueError, TypeError, KeyError, IndexError, AttributeError)

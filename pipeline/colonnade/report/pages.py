@@ -12,7 +12,7 @@ from colonnade import __version__
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import Setting
 from colonnade.dynamics.models.registry import MODELS
-from colonnade.figures.output import Picture, link_to
+from colonnade.figures.files.output import Picture, link_to
 from colonnade.report import who_and_when
 from colonnade.report.addresses import of_specimen, of_test, scripts_of
 from colonnade.store.records import wording

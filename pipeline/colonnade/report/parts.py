@@ -9,9 +9,8 @@ from dataclasses import dataclass
 
 from colonnade.campaign import Campaign
 from colonnade.figures.stored.curves import measured_ratio
-from colonnade.report import addresses, channels, pages, specimens_page, tests_page
+from colonnade.report import addresses, pages, specimens_page
 from colonnade.report.asked import Asked, shows
-from colonnade.report.channels import ChannelRow
 from colonnade.report.interactive import test_data
 from colonnade.report.methods import Used
 from colonnade.report.overview_page import thumbnails
@@ -19,6 +18,8 @@ from colonnade.report.overview_page.spans import SpanTest
 from colonnade.report.pictures.subjects import OfTest, has_span, span_of
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import FreeVibration
+from colonnade.report.test_page import channels, page
+from colonnade.report.test_page.channels import ChannelRow
 from colonnade.store import stamps
 from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
@@ -114,8 +115,8 @@ def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: st
         made_from = Recipe("page", code, repr((shows(campaign, asked), row.failures)), stored.keys).key
     written = [layout.report.parent / made for made in (address, addresses.of_data(address))]
     if not made_from or any(made_from != stamps.key_of(path) for path in written):
-        page = tests_page.of_test(campaign, row, stored, asked.photos)
-        text = renderer.page("test", address, test=page, before=asked.before, after=asked.after)
+        shown = page.of_test(campaign, row, stored, asked.photos)
+        text = renderer.page("test", address, test=shown, before=asked.before, after=asked.after)
         samples = (stored.datasets.get((stage, None)) for stage in WITHOUT_SAMPLES)
         data = test_data.of_test(campaign, test, stored, renderer.pictures, *samples)
     thumbnail = thumbnails.polyline(measured_ratio(stored, block))

@@ -13,14 +13,15 @@ from colonnade.campaign.specimen import Specimen
 from colonnade.campaign.summary import Warned
 from colonnade.dynamics.block import Block, pair
 from colonnade.dynamics.similitude import at_prototype
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
 from colonnade.figures.stored.restitution import STAGE
 from colonnade.findings import in_order
-from colonnade.report import drawings, restitution
+from colonnade.report import drawings
 from colonnade.report.drawings import Drawing
 from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import Decaying, OfSpecimen, OfTest
-from colonnade.report.restitution import EstimateText
+from colonnade.report.test_page import restitution
+from colonnade.report.test_page.restitution import EstimateText
 from colonnade.store.records.stored import Failure, Stored
 from colonnade.store.records.wording import NOTHING, interval, number, quantity
 

@@ -22,7 +22,7 @@ def parse(text: str) -> tuple[float, str]:
     -------
     value : float
     unit : str
-        Empty if there is none.
+        Empty without a unit.
 
     Raises
     ------

@@ -14,7 +14,7 @@ from colonnade.interruption import expect_none
 from colonnade.readers.recording import Recording
 from colonnade.store.results import models_of
 from colonnade.workflow.copies import digests_of_equal_sizes, with_copies
-from colonnade.workflow.photos import unshown_photos
+from colonnade.workflow.publishing.photos import unshown_photos
 
 
 @dataclass

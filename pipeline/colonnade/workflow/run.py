@@ -15,8 +15,8 @@ from colonnade.workflow.chain import remove_later
 from colonnade.workflow.copies import Digests, with_copies
 from colonnade.workflow.execution.lock import only_run
 from colonnade.workflow.outcome import RunResult
-from colonnade.workflow.pages import update_report
-from colonnade.workflow.photos import with_photos
+from colonnade.workflow.publishing.pages import update_report
+from colonnade.workflow.publishing.photos import with_photos
 from colonnade.workflow.raw_files import RawFiles, raw_files
 from colonnade.workflow.steps import Graph
 from colonnade.workflow.summary import write_summary

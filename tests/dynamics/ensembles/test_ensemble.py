@@ -7,7 +7,7 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.ensembles.ensemble import Plan, ensemble, gather, run_member, run_members
-from colonnade.dynamics.ensembles.uncertainty import INPUTS, Uncertainty
+from colonnade.dynamics.ensembles.uncertainty import Uncertainty
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 
@@ -94,29 +94,6 @@ def test_the_probability_of_overturning_is_that_of_the_factor_that_overturns():
     assert above - below < 0.08
     assert np.isinf(result.peak_quantiles((0.9,))).all()
     assert np.isnan(result.peak_ratio[np.isfinite(result.overturning_time)]).all()
-
-
-def test_sensitivity_names_what_the_peak_follows_from():
-    """One pulse, peak before the first impact: e has no part in it, a larger motion rises higher, a larger α less."""
-    uncertainty = Uncertainty(restitution=0.01, critical_angle=0.003, gain=0.02)
-    half = Motion(np.concatenate((1.9 * np.sin(np.pi * np.arange(50) / 50), np.zeros(60))), 0.004)
-    result = ensemble(BLOCK, half, restitution=0.95, uncertainty=uncertainty, count=800)
-    found = result.sensitivity()
-    assert set(found) == {"restitution", "critical_angle", "gain"}
-    assert found["gain"] > 0.9
-    assert -0.6 < found["critical_angle"] < -0.1
-    assert abs(found["restitution"]) < 0.1
-    from scipy.stats import spearmanr
-
-    for name in found:
-        expected = spearmanr(result.peak_ratio, result.inputs[:, INPUTS.index(name)]).statistic
-        assert found[name] == pytest.approx(expected, abs=1e-12)
-
-
-def test_no_certainty_follows_from_few_members():
-    result = ensemble(BLOCK, PULSE, restitution=0.95, uncertainty=Uncertainty(gain=0.01), count=20)
-    assert result.overturning_probability == 0.0
-    assert result.overturning_interval() == pytest.approx((0.0, 0.16113), abs=1e-4)  # Wilson, 0 of 20
 
 
 def test_a_long_record_is_banded_on_every_second_sample():

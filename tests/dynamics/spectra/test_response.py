@@ -10,8 +10,11 @@ from hypothesis import strategies as st
 
 from colonnade.dynamics.spectra.response import response_spectrum
 
+FINER = 64
+"""Instants an interval of the motion at which scipy looks."""
 
-def by_lsim(acceleration, interval, period, damping, finer=64):
+
+def by_lsim(acceleration, interval, period, damping, finer):
     """Largest |u| by scipy's state-space solution on a finer grid of the same lines."""
     omega = 2 * np.pi / period
     system = ([[0, 1], [-(omega**2), -2 * damping * omega]], [[0], [-1]], [[1, 0]], [[0]])
@@ -33,8 +36,9 @@ def test_it_agrees_with_scipys_lsim(seed, period, damping, interval):
     # Recorded motions are smooth over a few samples; of white noise 2 % of a peak may lie between two instants.
     acceleration = np.convolve(np.random.default_rng(seed).standard_normal(150), np.hanning(9), "same")
     found = float(response_spectrum(acceleration, interval, period, damping=damping).displacement)
-    due = by_lsim(acceleration, interval, period, damping)
-    assert due * (1 - 5e-3) <= found <= due * (1 + 1e-6)
+    due = by_lsim(acceleration, interval, period, damping, FINER)
+    missed_by_lsim = 1 - np.cos(np.pi * interval / FINER / period)
+    assert due * (1 - 1e-3) <= found <= due * (1 + missed_by_lsim + 1e-6)
 
 
 def test_the_recursion_is_exact_at_the_samples():
@@ -50,7 +54,7 @@ def test_the_recursion_is_exact_at_the_samples():
 
 def test_a_step_doubles_the_static_response_of_an_undamped_oscillator():
     spectrum = response_spectrum(np.full(4000, 3.0), 0.001, [0.1, 0.5, 1.0], damping=0.0)
-    assert spectrum.pseudo_acceleration == pytest.approx(6.0, rel=4e-3)
+    assert spectrum.pseudo_acceleration == pytest.approx(6.0, rel=1e-3)
 
 
 def test_a_stiff_oscillator_follows_the_ground_and_a_soft_one_stays_behind():

@@ -1,6 +1,6 @@
 import numpy as np
 
-from colonnade.figures.curve import Curve
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.spans import SpanPanel
 from colonnade.figures.stored import record
 

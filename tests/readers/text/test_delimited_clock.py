@@ -4,27 +4,16 @@ from __future__ import annotations
 
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.recording import Recording, Window
+from colonnade.readers.recording import Window
 from colonnade.readers.registry import read
 from colonnade.readers.text import delimited
 from colonnade.readers.text.delimited_header import DelimitedOptions
-
-
-def recorded(tmp_path: Path, text: str, **options: Any) -> Recording:
-    path = tmp_path / "record.csv"
-    path.write_bytes(text.encode())
-    return read(path, "delimited", options)
-
-
-def values(recording: Recording, column: str | int) -> list[float]:
-    return recording.channel(column).values.tolist()
-
+from delimited_text import recorded
 
 ROWS = "".join(f"{row};{row},5;-0,{row}\n" for row in range(1, 10))
 

@@ -3,25 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.recording import Recording
-from colonnade.readers.registry import read
-
-
-def recorded(tmp_path: Path, text: str, **options: Any) -> Recording:
-    path = tmp_path / "record.csv"
-    path.write_bytes(text.encode())
-    return read(path, "delimited", options)
-
-
-def values(recording: Recording, column: str | int) -> list[float]:
-    return recording.channel(column).values.tolist()
-
+from delimited_text import recorded, values
 
 ROWS = "".join(f"{row};{row},5;-0,{row}\n" for row in range(1, 10))
 

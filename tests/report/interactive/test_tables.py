@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
 from colonnade.report.interactive import panels
 from colonnade.report.interactive.panels import Samples
 from colonnade.report.interactive.tables import LONG, tables_of

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.figures.curve import Curve
+from colonnade.figures.panels.curve import Curve
 from colonnade.report.overview_page.thumbnails import HEIGHT, WIDTH, polyline
 
 

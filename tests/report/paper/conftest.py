@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from colonnade.campaign import load
-from colonnade.figures.output import to_svg
+from colonnade.figures.files.output import to_svg
 
 HOSTILE = '#read("/etc/passwd") $x^2$ @all *bold* <label> \\ _emph_ `raw` // no comment'
 """A title that Typst would act on if it were markup."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from colonnade.figures.output import Movie
+from colonnade.figures.files.output import Movie
+from colonnade.figures.files.table import table_of
 from colonnade.figures.style import COLUMNS, journal
-from colonnade.figures.table import table_of
 from colonnade.report.pictures import subjects
 from colonnade.report.pictures.registry import FIGURES, picture
 

@@ -141,11 +141,11 @@ def test_too_few_samples_are_told_with_the_window_that_cut_them(window, words):
     assert f"channel top {words}" in str(error)
 
 
-@pytest.mark.parametrize(("resolution", "told"), [(0.0, False), (0.0005, False), (0.00051, True), (0.001, True)])
-def test_rounded_times_are_noted_above_the_share_of_an_interval(resolution, told):
+@pytest.mark.parametrize(("resolution", "is_warned"), [(0.0, False), (0.0005, False), (0.00051, True), (0.001, True)])
+def test_rounded_times_are_noted_above_the_share_of_an_interval(resolution, is_warned):
     findings = rounding(RECORDING, Clock(FILE_TIME, 0.005, resolution), jitter=0.1)
-    assert bool(findings) is told
-    if told:
+    assert bool(findings) is is_warned
+    if is_warned:
         assert (findings[0].kind, findings[0].severity) == ("rounded times", Severity.NOTE)
         assert f"rounded to {1e3 * resolution:g} ms; an even clock of 200 Hz" in findings[0].text
 

@@ -8,7 +8,7 @@ import xarray as xr
 
 from colonnade.campaign.settings import MeasurementSettings
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.ensembles.ensemble import LEVELS, Ensemble
+from colonnade.dynamics.ensembles.outcome import LEVELS, Ensemble
 from colonnade.dynamics.ensembles.uncertainty import INPUTS
 from colonnade.dynamics.motion import Motion
 from colonnade.identification.response.rank import FEWEST

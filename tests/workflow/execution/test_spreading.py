@@ -194,7 +194,8 @@ def test_a_run_whose_scheduler_ends_says_so_and_nobody_writes_after_it(untouched
         left = untouched.files()
         assert untouched.contents().items() <= undisturbed.contents().items()
         time.sleep(2.0)
-        assert untouched.files().items() <= left.items()
+        # What the cluster's worker was writing then is given up; nothing else changes.
+        assert untouched.files() == {name: seen for name, seen in left.items() if not name.endswith(files.PARTIAL)}
     assert not untouched.run().failed
     assert untouched.contents() == undisturbed.contents()
 

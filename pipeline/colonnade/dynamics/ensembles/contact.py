@@ -14,7 +14,8 @@ from colonnade.dynamics.contact.calibration import free_restitution
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.simulate import plane_block, simulate
-from colonnade.dynamics.ensembles.ensemble import KEPT, LEVELS, Ensemble, stride_of
+from colonnade.dynamics.ensembles.ensemble import stride_of
+from colonnade.dynamics.ensembles.outcome import KEPT, LEVELS, Ensemble
 from colonnade.dynamics.history import capped
 from colonnade.dynamics.motion import Motion, at_rest
 

@@ -33,7 +33,7 @@ class MapColumn:
     overturning_fraction : ndarray, shape (m,)
         Share of the cell around each A, halfway to its neighbours, that overturns.
     lower, upper : float
-        Limits in A; NaN if there is none.
+        Limits in A; NaN if the column has none.
     intervals : ndarray, shape (k, 2)
         Every interval of A that overturns, from and to, with edges to the plan's `edge`.
     """

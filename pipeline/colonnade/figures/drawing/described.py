@@ -15,7 +15,7 @@ from colonnade.errors import CampaignError, UnitError
 from colonnade.figures.drawing.body import words_of_angle
 from colonnade.figures.drawing.parts import Body, Point, Rocking, Transducer
 from colonnade.figures.drawing.setup import Drawn, setup_drawings
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
 from colonnade.store.records.wording import count, listed, quantity
 
 SIGNS = (

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-from colonnade.figures.output import link_to
+from colonnade.figures.files.output import link_to
 from colonnade.figures.style import LIMIT, MEASURED, SOFT, blank_figure, fitting, is_narrow, styled, width
 from colonnade.identification.response.boundaries import Boundaries, Bracket, MapPoint, bracket_boundaries
 

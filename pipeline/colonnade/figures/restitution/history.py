@@ -6,10 +6,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from colonnade.figures.curve import Curve
 from colonnade.figures.histories import draw_angle, largest_of, limit_of, scale_symmetric, time_limits
-from colonnade.figures.long import draw_curve
-from colonnade.figures.panels import legend_above, stacked_panels
+from colonnade.figures.panels.curve import Curve
+from colonnade.figures.panels.layout import legend_above, stacked_panels
+from colonnade.figures.panels.long import draw_curve
 from colonnade.figures.style import FAINT, INK, MEASURED, model_style, styled
 
 ANGLE_HEIGHT, RESIDUAL_HEIGHT = 2.2, 0.9

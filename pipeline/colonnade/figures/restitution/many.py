@@ -13,7 +13,7 @@ from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.figures.panels import legend_above, stacked_panels
+from colonnade.figures.panels.layout import legend_above, stacked_panels
 from colonnade.figures.restitution.impacts import HEIGHT, ImpactSeries, Level, draw_level, draw_rigid
 from colonnade.figures.restitution.peaks import PeakSeries, label_energies
 from colonnade.figures.style import FAINT, MEASURED, styled

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.figures.long import draw_band
-from colonnade.figures.panels import legend_outside
+from colonnade.figures.panels.layout import legend_outside
+from colonnade.figures.panels.long import draw_band
 from colonnade.figures.restitution.marks import draw_marks
 from colonnade.figures.style import FIT, blank_figure, styled
 from colonnade.identification.restitution.arcs.energy import released_energy

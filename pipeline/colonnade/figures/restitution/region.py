@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array
-from colonnade.figures.panels import legend_outside
+from colonnade.figures.panels.layout import legend_outside
 from colonnade.figures.style import FIT, LIMIT, MEASURED, blank_figure, styled
 from colonnade.units import format_percent
 

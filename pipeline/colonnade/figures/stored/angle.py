@@ -6,7 +6,7 @@ from colonnade.campaign import Test
 from colonnade.campaign.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.figures.angle import rocking_angle
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
 from colonnade.figures.stored.curves import measured_ratio, predicted_ratios
 from colonnade.figures.stored.record import seen
 from colonnade.store.records.stored import Stored

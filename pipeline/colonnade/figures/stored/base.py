@@ -12,8 +12,8 @@ from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.spectra.response import response_spectrum
 from colonnade.figures.base_motion import BaseSpectra, base_motion
-from colonnade.figures.curve import Curve
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
+from colonnade.figures.panels.curve import Curve
 from colonnade.signals.named_motion import Laid, Series, laid_on
 from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files
 from colonnade.store.records.stored import Stored

@@ -11,8 +11,8 @@ import xarray as xr
 from colonnade.arrays import Array, Codes, Mask
 from colonnade.campaign import Test
 from colonnade.figures.channels import MOST_SPIKES, Channel, Scale, Spike, channels_as_recorded
-from colonnade.figures.curve import Curve
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
+from colonnade.figures.panels.curve import Curve
 from colonnade.signals.quality import Flag
 from colonnade.signals.spectra import Density, density
 from colonnade.store.records.stored import Stored

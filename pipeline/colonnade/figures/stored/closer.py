@@ -11,8 +11,8 @@ from colonnade.campaign import Test
 from colonnade.campaign.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.figures.closer import Enlarged, Phase, closer_look
-from colonnade.figures.curve import Curve
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored.curves import measured_ratio, predicted_ratios
 from colonnade.store.records.stored import Stored
 

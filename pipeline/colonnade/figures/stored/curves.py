@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from colonnade.dynamics.block import Block
-from colonnade.figures.curve import Curve
 from colonnade.figures.histories import Spread
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.record import Quantity
 from colonnade.store.records.stored import Stored
 from colonnade.units import from_si

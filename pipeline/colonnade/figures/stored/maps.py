@@ -7,10 +7,10 @@ from typing import Any
 
 from colonnade.dynamics.maps.chart import StabilityMap
 from colonnade.dynamics.maps.steady import SteadyResponse
+from colonnade.figures.files.output import Picture
 from colonnade.figures.maps.measured_map import measured_map
 from colonnade.figures.maps.response_orders import response_orders
 from colonnade.figures.maps.stability_map import stability_map
-from colonnade.figures.output import Picture
 from colonnade.identification.response.boundaries import MapPoint
 
 

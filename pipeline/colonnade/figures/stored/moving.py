@@ -5,10 +5,10 @@ from __future__ import annotations
 from colonnade.campaign import Test
 from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block
-from colonnade.figures.curve import Curve
 from colonnade.figures.drawing.described import body_of
+from colonnade.figures.files.output import Movie
 from colonnade.figures.moving import rocking_block
-from colonnade.figures.output import Movie
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored.curves import motion
 from colonnade.store.records.stored import Stored
 

@@ -10,8 +10,8 @@ from colonnade.campaign import Test
 from colonnade.campaign.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.figures.bands import bands_over_time
-from colonnade.figures.curve import Curve
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.record import Peak, whole_record
 from colonnade.figures.spans import SpanPanel, spans_side_by_side
 from colonnade.figures.stored.curves import measured_ratio, misfits, motion, predicted_ratios, quantities, spreads

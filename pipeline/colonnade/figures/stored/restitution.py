@@ -10,8 +10,8 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.campaign import Test
 from colonnade.dynamics.block import Block
-from colonnade.figures.curve import Curve
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
 from colonnade.figures.restitution.history import fitted_history
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution

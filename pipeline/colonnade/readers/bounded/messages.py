@@ -181,10 +181,10 @@ def pixels_of(answer: Answer, arrays: list[Array], largest_side: int) -> NDArray
     Raises
     ------
     BrokenAnswerError
-        If there is none, or it is larger than was asked for.
+        If the answer holds no photo, or one larger than asked for.
     """
     if answer.photo is None or len(arrays) != 1 or max(answer.photo) > largest_side:
-        raise BrokenAnswerError("the answer is no photo")
+        raise BrokenAnswerError("the answer is not a photo")
     height, width = answer.photo
     if arrays[0].size != _packed_size(height, width):
         raise BrokenAnswerError("the photo is not whole")

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from colonnade.figures.output import Picture, to_csv
-from colonnade.figures.table import Table, table_of
+from colonnade.figures.files.output import Picture, to_csv
+from colonnade.figures.files.table import Table, table_of
 from colonnade.report.interactive.panels import Samples, script
 
 LONG = 2000

@@ -12,9 +12,9 @@ import xarray as xr
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
-from colonnade.figures.curve import Curve
+from colonnade.figures.files.output import Picture
 from colonnade.figures.histories import Spread
-from colonnade.figures.output import Picture
+from colonnade.figures.panels.curve import Curve
 from colonnade.figures.stored.curves import measured_ratio, misfits, motion, predicted_ratios, spreads
 from colonnade.figures.stored.record import BASE, MOTIONS, SHADED
 from colonnade.figures.style import model_style

@@ -9,7 +9,7 @@ from colonnade.campaign import Campaign
 from colonnade.dynamics.maps.chart import StabilityMap
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.errors import StoreError
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
 from colonnade.figures.stored import maps
 from colonnade.identification.response.boundaries import (
     Boundaries,
@@ -69,7 +69,7 @@ def charts_of(campaign: Campaign, layout: Layout, specimen: str) -> list[Stabili
 
 
 def _chart(layout: Layout, specimen: str, model: str) -> StabilityMap | None:
-    """Read the map of a model in the plane, which a run keeps up to date; None if there is none."""
+    """Read the map of a model in the plane, which a run keeps up to date; None if it was not made."""
     path = layout.stage(specimen, "map", model)
     if MODELS[model].in_space or not path.is_file():
         return None

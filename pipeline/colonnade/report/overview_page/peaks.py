@@ -7,7 +7,7 @@ from math import inf, log
 from typing import NamedTuple
 
 from colonnade.figures.agreement import PeakPoint, predicted_over_measured
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
 from colonnade.report.rows import TestRow
 from colonnade.store.records.wording import count
 

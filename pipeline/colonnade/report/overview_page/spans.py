@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
 from colonnade.figures.spans import SpanPanel
 from colonnade.figures.stored import record
 from colonnade.report.rows import TestRow

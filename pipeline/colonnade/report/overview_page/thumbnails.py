@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from colonnade.figures.curve import Curve, envelope
+from colonnade.figures.panels.curve import Curve, envelope
 
 WIDTH, HEIGHT = 64, 20
 """Of the picture, in its own units; its full height is ± the critical angle."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import re
 from collections.abc import Iterator
@@ -31,11 +30,6 @@ PIXELS_PER_INCH = 80
 def pdf_of(campaign: Campaign, folder: Path) -> bytes:
     """Return the PDF of a campaign's report, whose pages are in `folder` and up to date."""
     return typeset(document_of(campaign, folder))[0]
-
-
-def template_hash() -> str:
-    """Hash of the template, which is no code."""
-    return hashlib.sha256(_template()).hexdigest()
 
 
 def _template() -> bytes:

@@ -11,7 +11,7 @@ from math import isfinite
 from typing import Any, Literal, NamedTuple
 
 from colonnade.figures.drawing import described
-from colonnade.figures.output import Movie, Picture
+from colonnade.figures.files.output import Movie, Picture
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow
 from colonnade.figures.stored import angle, base, channels, closer, maps, moving, record
 from colonnade.figures.stored import restitution as decays

@@ -13,7 +13,7 @@ from colonnade.arrays import Array
 from colonnade.campaign import Campaign
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.similitude import at_prototype
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
 from colonnade.figures.stored import base
 from colonnade.figures.stored.base import BaseMotion
 from colonnade.report.rows import TestRow

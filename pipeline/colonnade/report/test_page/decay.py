@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
 from colonnade.figures.stored.restitution import STAGE
-from colonnade.report import restitution
 from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import OfTest
-from colonnade.report.restitution import EstimateText
+from colonnade.report.test_page import restitution
 from colonnade.report.test_page.facts import Fact
+from colonnade.report.test_page.restitution import EstimateText
 
 PEAK = ("peak_time", "peak_angle", "peak_angle_standard_error", "fitted_angle", "peak_used")
 """Columns of the table of peaks, by their stored names."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import isnan
 
 from colonnade.dynamics.similitude import at_prototype
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
 from colonnade.figures.stored import record
 from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import OfTest

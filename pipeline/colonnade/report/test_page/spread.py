@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import nan
 
 from colonnade.campaign.summary import PredictionSummary
-from colonnade.figures.output import Picture
+from colonnade.figures.files.output import Picture
 from colonnade.identification.response.rank import FEWEST, is_within
 from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import OfTest

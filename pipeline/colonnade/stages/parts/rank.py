@@ -12,7 +12,8 @@ from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.settings import MeasurementSettings
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.ensembles.ensemble import Ensemble, stride_of
+from colonnade.dynamics.ensembles.ensemble import stride_of
+from colonnade.dynamics.ensembles.outcome import Ensemble
 from colonnade.dynamics.history import amplitude, capped
 from colonnade.identification.response.as_measured import Measurement, as_measured
 from colonnade.identification.response.rank import distances, rank

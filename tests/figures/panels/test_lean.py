@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from colonnade.figures.lean import LeanAxes, add_panel
-from colonnade.figures.output import to_svg
+from colonnade.figures.files.output import to_svg
+from colonnade.figures.panels.lean import LeanAxes, add_panel
 from colonnade.figures.style import styled
 
 WRITTEN = re.compile(r"<text[^>]*?(?:x=\"([-\d.]+)\" y=\"([-\d.]+)\"|translate\(([-\d.]+) ([-\d.]+)\))[^>]*>([^<]*)")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from colonnade.figures import Curve, envelope
-from colonnade.figures.curve import between
+from colonnade.figures.panels.curve import between
 
 
 def noisy(samples: int = 60_000) -> Curve:

@@ -9,7 +9,7 @@ import pytest
 
 from colonnade.errors import StoreError
 from colonnade.store import stamps
-from colonnade.workflow.documents import write_bundle, write_pdf
+from colonnade.workflow.publishing.documents import write_bundle, write_pdf
 
 
 @pytest.fixture(scope="module")

@@ -6,8 +6,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from colonnade.errors import CampaignError
-from colonnade.figures.output import Picture
-from colonnade.figures.saving import save
+from colonnade.figures.files.output import Picture
+from colonnade.figures.files.saving import save
 
 BEGINS = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG", ".csv": b"time (s)"}
 

@@ -10,7 +10,7 @@ from colonnade.errors import CampaignError, nearest
 from colonnade.store.layout import Layout
 
 if TYPE_CHECKING:
-    from colonnade.figures.output import Movie, Picture
+    from colonnade.figures.files.output import Movie, Picture
     from colonnade.report.pictures.registry import Entry
 
 

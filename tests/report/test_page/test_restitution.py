@@ -1,4 +1,4 @@
-from colonnade.report import restitution
+from colonnade.report.test_page import restitution
 
 
 def test_the_recommended_estimator_gives_the_value_with_its_interval(reported):

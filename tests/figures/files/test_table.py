@@ -13,13 +13,13 @@ from hypothesis.extra import numpy as arrays
 from matplotlib.figure import Figure
 
 from colonnade.figures import Curve, Quantity, whole_record
+from colonnade.figures.files.output import to_csv
+from colonnade.figures.files.table import table_of
 from colonnade.figures.histories import Spread
-from colonnade.figures.long import draw_band, draw_curve
-from colonnade.figures.output import to_csv
+from colonnade.figures.panels.long import draw_band, draw_curve
 from colonnade.figures.record import Peak
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
-from colonnade.figures.table import table_of
 
 TIME = np.linspace(0.0, 20.0, 20_001)
 NUMBERS = st.floats(-1e6, 1e6, width=32)

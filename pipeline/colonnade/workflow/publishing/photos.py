@@ -22,7 +22,7 @@ from colonnade.workflow.catalogue import Catalogue
 QUALITY = 85
 """Of the JPEG files that are written."""
 
-MADE_BY = ("colonnade.readers.photo", "colonnade.workflow.photos")
+MADE_BY = ("colonnade.readers.photo", "colonnade.workflow.publishing.photos")
 """What the photos of the report are made by."""
 
 

@@ -9,9 +9,9 @@ from PIL import Image
 
 from colonnade.campaign import load
 from colonnade.store.layout import Layout
-from colonnade.workflow import photos
 from colonnade.workflow.catalogue import Catalogue
-from colonnade.workflow.photos import unshown_photos, with_photos
+from colonnade.workflow.publishing import photos
+from colonnade.workflow.publishing.photos import unshown_photos, with_photos
 
 CAMPAIGN = """
 schema = 1

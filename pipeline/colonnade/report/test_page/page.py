@@ -5,16 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from colonnade.campaign import Campaign
-from colonnade.figures.output import Picture
-from colonnade.report import channels, drawings, who_and_when
-from colonnade.report.channels import ChannelRow
+from colonnade.figures.files.output import Picture
+from colonnade.report import drawings, who_and_when
 from colonnade.report.drawings import Drawing
 from colonnade.report.photos import Photos
 from colonnade.report.pictures.registry import picture
 from colonnade.report.pictures.subjects import OfTest
 from colonnade.report.rows import TestRow
-from colonnade.report.test_page import base, decay, done, found, spread
+from colonnade.report.test_page import base, channels, decay, done, found, spread
 from colonnade.report.test_page.base import Table
+from colonnade.report.test_page.channels import ChannelRow
 from colonnade.report.test_page.decay import Decay
 from colonnade.report.test_page.done import Done
 from colonnade.report.test_page.found import Found

@@ -9,7 +9,7 @@ from matplotlib.collections import Collection
 from matplotlib.figure import Figure
 
 from colonnade.errors import CampaignError, quoted
-from colonnade.figures.output import MARK, Movie, Picture, to_csv, to_gif, to_pdf, to_png
+from colonnade.figures.files.output import MARK, Movie, Picture, to_csv, to_gif, to_pdf, to_png
 from colonnade.store import files
 
 PICTURES = (".svg", ".pdf", ".png")

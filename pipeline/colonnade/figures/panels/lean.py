@@ -7,6 +7,7 @@ than half of the time. Here an axis draws its grid as one path, its marks as ano
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from typing import Any, Literal
 
 import numpy as np
@@ -28,7 +29,7 @@ ABOVE = 3.0
 """Distance of an axis's power of ten from its end, points."""
 
 
-class _Lean(Axis):
+class _Lean(Axis, ABC):
     """Draws the scale of one axis; locator, formatter, limits and label are those of any axis."""
 
     def reset_ticks(self) -> None:
@@ -77,19 +78,23 @@ class _Lean(Axis):
         """Return the side at which marks and labels are; matplotlib would ask a tick."""
         return self.side
 
+    @abstractmethod
     def _places(self, ticks: Array) -> Array:
-        raise NotImplementedError
+        """Return the display coordinates of ticks along the axis."""
 
+    @abstractmethod
     def _grid(self, places: Array) -> tuple[Array, Array]:
-        raise NotImplementedError
+        """Return where the grid lines at these places start and end, display coordinates."""
 
+    @abstractmethod
     def _marks(self, places: Array, size: float) -> tuple[Array, Array]:
-        raise NotImplementedError
+        """Return where the marks of this length (pixels) at these places start and end, display coordinates."""
 
+    @abstractmethod
     def _draw_labels(
         self, renderer: RendererBase, places: Array, texts: list[str], style: ScaleStyle, size: float, pixels: float
     ) -> None:
-        raise NotImplementedError
+        """Write the numbers at these places, and place the axis's label."""
 
 
 class LeanXAxis(_Lean, XAxis):

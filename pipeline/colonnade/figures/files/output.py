@@ -20,8 +20,9 @@ from xml.etree import ElementTree
 from matplotlib.figure import Figure
 from PIL import Image
 
+from colonnade.figures.files.polyline import shorter
+from colonnade.figures.files.table import table_of
 from colonnade.figures.style import styled
-from colonnade.figures.table import table_of
 from colonnade.store.records.table import harmless
 
 NAMESPACE = "http://www.w3.org/2000/svg"
@@ -217,9 +218,10 @@ def _rename(root: ElementTree.Element, identity: str) -> None:
 def _shorten(root: ElementTree.Element) -> None:
     """Write coordinates to 0.01 pt, drop white space between elements, and name fonts that other machines have."""
     for element in root.iter():
-        for name in element.attrib.keys() & {"d", "x", "y", "transform", "points"}:
-            shortened = _BEYOND_HUNDREDTHS.sub("", element.attrib[name])
-            element.set(name, shortened.replace(" \n", "").replace("\n", "") if name == "d" else shortened)
+        for name in element.attrib.keys() & {"x", "y", "transform", "points"}:
+            element.set(name, _BEYOND_HUNDREDTHS.sub("", element.attrib[name]))
+        if "d" in element.attrib:
+            element.set("d", _BEYOND_HUNDREDTHS.sub("", shorter(element.attrib["d"])).replace("\n", ""))
         if "style" in element.attrib:
             element.set(
                 "style", _FONT.sub(lambda found: f"font{found[1] or ''}:{found[2]}{FONTS}", element.attrib["style"])

@@ -1,6 +1,6 @@
 import pytest
 
-from colonnade.report import channels
+from colonnade.report.test_page import channels
 
 
 def rows_of(reported, test):

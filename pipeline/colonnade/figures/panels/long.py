@@ -11,7 +11,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 
 from colonnade.arrays import Array
-from colonnade.figures.curve import Curve, between, envelope
+from colonnade.figures.panels.curve import Curve, between, envelope
 
 INTERVALS_PER_INCH = 104.0
 """Time intervals of an envelope over the width of its panel: finer than a screen or a printer shows."""

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from colonnade.figures.curve import Curve
-from colonnade.figures.long import draw_band, draw_curve
-from colonnade.figures.output import to_png, to_svg
+from colonnade.figures.files.output import to_png, to_svg
+from colonnade.figures.panels.curve import Curve
+from colonnade.figures.panels.long import draw_band, draw_curve
 
 TIME = np.arange(50_000) / 1000
 NOISE = np.random.default_rng(1).normal(size=TIME.size)

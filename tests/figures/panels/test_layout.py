@@ -2,8 +2,8 @@ import re
 
 import pytest
 
-from colonnade.figures.output import to_svg
-from colonnade.figures.panels import COLUMNS, legend_above, side_by_side, stacked_panels
+from colonnade.figures.files.output import to_svg
+from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side, stacked_panels
 
 
 def test_stacked_panels_share_their_time_and_only_the_lowest_has_its_numbers():

@@ -10,7 +10,7 @@ from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
 
 from colonnade.arrays import Array
-from colonnade.figures.lean import LeanXAxis, add_panel, columns, draw_lines
+from colonnade.figures.panels.lean import LeanXAxis, add_panel, columns, draw_lines
 from colonnade.figures.style import fitting, is_narrow, width
 
 LEFT, RIGHT, TOP, BOTTOM, GAP = 0.92, 0.5, 0.34, 0.44, 0.14

@@ -6,7 +6,7 @@ import pytest
 
 import rebuild
 from colonnade.laboratory.ladder import KEPT_AWAY
-from colonnade.report.agreement import agreement
+from colonnade.report.overview_page.agreement import agreement
 
 
 def prediction(outcome="rocking", nrmse=0.1, rank=None):

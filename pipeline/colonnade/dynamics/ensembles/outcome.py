@@ -1,0 +1,111 @@
+"""What an ensemble says: its bands, the share that overturns, and what its peaks depend on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.arrays import Array
+from colonnade.digest import Digested, written
+from colonnade.dynamics.ensembles.rank_correlation import rank_correlations
+from colonnade.dynamics.ensembles.uncertainty import INPUTS
+from colonnade.validation import number, samples
+
+Histories = NDArray[np.float32]
+
+LEVELS = (0.025, 0.25, 0.5, 0.75, 0.975)
+"""Quantiles of the bands: the middle, half of all members, 95 % of them."""
+
+KEPT = 200
+"""Members whose whole histories are kept."""
+
+LARGEST_Z = 1e6
+"""Standard deviations of an interval; beyond it is 0 to 1."""
+
+
+@dataclass(frozen=True, repr=False)
+class Ensemble(Digested):
+    """
+    What all members together say.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s, on the record's clock.
+    central : ndarray, shape (n,)
+        rad, θ with nothing varied.
+    levels : ndarray, shape (q,)
+    bands : ndarray, shape (q, n)
+        rad, quantiles of θ at each time.
+    inputs, peak_ratio, overturning_time : ndarray
+        Of each member, see `ensemble.Part`.
+    histories : ndarray of float32, shape (k, n)
+        rad, θ of the first members, at most `KEPT`, up to ±α: one that overturned stays there.
+    names : tuple of str
+        Of the inputs.
+    """
+
+    time: Array
+    central: Array
+    levels: Array
+    bands: Array
+    inputs: Array
+    peak_ratio: Array
+    overturning_time: Array
+    histories: Histories
+    names: tuple[str, ...] = INPUTS
+
+    def digest(self) -> dict[str, str]:
+        """Return the number of members, the share that overturns, the median peak and the duration."""
+        median = float(self.peak_quantiles([0.5])[0])
+        return {
+            "members": str(self.overturning_time.size),
+            "overturned": written(100 * self.overturning_probability, "%", 3),
+            "median of max |θ|/α": "overturned" if median == inf else written(median),
+            "duration": written(float(self.time[-1] - self.time[0]), "s"),
+        }
+
+    def horizon(self, width: float) -> float:
+        """Return the first time (s) at which the widest band is wider than `width` (rad), else the last one."""
+        wide = self.bands[-1] - self.bands[0] > number("width", width, "a positive angle in rad", above=0.0)
+        return float(self.time[int(np.argmax(wide)) if wide.any() else -1])
+
+    @property
+    def overturning_probability(self) -> float:
+        """Share of the members that overturn."""
+        return float(np.isfinite(self.overturning_time).mean())
+
+    def overturning_interval(self, z: float = 1.959964) -> tuple[float, float]:
+        """Return the interval (Wilson 1927) of the probability that the finite number of members leaves; 95 %."""
+        z = number("z", z, "a positive number of standard deviations", above=0.0, high=LARGEST_Z)
+        members, share = self.overturning_time.size, self.overturning_probability
+        middle = (share + z**2 / (2 * members)) / (1 + z**2 / members)
+        half = z * sqrt(share * (1 - share) / members + z**2 / (4 * members**2)) / (1 + z**2 / members)
+        return max(middle - half, 0.0), min(middle + half, 1.0)
+
+    def peak_quantiles(self, levels: Sequence[float] = LEVELS) -> Array:
+        """Quantiles of max |θ|/α over the members; those that overturn are above all others, inf."""
+        wanted = samples("levels", levels)
+        if not ((wanted >= 0.0) & (wanted <= 1.0)).all():
+            raise ValueError(f"levels go from {wanted.min():g} to {wanted.max():g}; numbers from 0 to 1 were expected")
+        ranked = np.sort(np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio))
+        return np.asarray(ranked[np.rint(wanted * (ranked.size - 1)).astype(np.intp)])
+
+    def sensitivity(self) -> dict[str, float]:
+        """
+        Rank correlation (Spearman 1904) of the peak with each input that varies.
+
+        Members that overturn share the highest rank. Inputs that do not vary are left out; NaN if all peaks are equal.
+        """
+        return self.correlations(np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio))
+
+    def correlations(self, values: Array) -> dict[str, float]:
+        """Rank correlation of the members' values, shape (members,), NaN being highest, with each input that varies."""
+        given = samples("values", values, finite=False)
+        if given.size != len(self.inputs):
+            raise ValueError(f"values has {given.size} numbers; {len(self.inputs)}, one a member, were expected")
+        return rank_correlations(given, dict(zip(self.names, self.inputs.T, strict=True)))

@@ -1,0 +1,1 @@
+"""Figures as files: SVG, PNG, PDF, and CSV of what they show."""

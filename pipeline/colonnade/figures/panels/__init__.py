@@ -1,0 +1,1 @@
+"""What figures are made of: curves, panels and their scales."""

@@ -1,0 +1,76 @@
+"""A report as its readers meet it: pages as text, tags that nest, links, words."""
+
+from __future__ import annotations
+
+from collections import Counter
+from html.parser import HTMLParser
+from pathlib import Path
+
+from colonnade.campaign import Campaign
+from colonnade.report.build import build
+from colonnade.store.layout import Layout
+from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.summary import write_summary
+
+VOID = {"meta", "img", "br", "hr", "input", "link", "col", "wbr"}
+
+
+class Page(HTMLParser):
+    """Tags, ids, references and text of a page; refuses tags that do not nest."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: Counter[str] = Counter()
+        self.ids: list[str] = []
+        self.links: list[str] = []
+        self.scripts: list[str] = []
+        self.attributes: Counter[str] = Counter()
+        self.words = ""
+        self._open: list[str] = []
+        self.feed(text)
+        self.close()
+        assert not self._open, f"not closed: {self._open}"
+
+    def handle_starttag(self, tag, attrs):
+        self.tags[tag] += 1
+        self.words += " " if tag in ("td", "th", "li", "dd", "dt", "br") else ""
+        if tag not in VOID:
+            self._open.append(tag)
+        self._attributes(attrs)
+        self.scripts += [value for name, value in attrs if tag == "script" and name == "src"]
+
+    def handle_startendtag(self, tag, attrs):
+        self.tags[tag] += 1
+        self._attributes(attrs)
+
+    def handle_endtag(self, tag):
+        assert self._open.pop() == tag
+
+    def handle_data(self, data):
+        if self._open and self._open[-1] not in ("style", "script"):
+            self.words += data
+
+    def _attributes(self, attrs):
+        for name, value in attrs:
+            self.attributes[name] += 1
+            if name == "id":
+                self.ids.append(value)
+            if name in ("href", "src"):
+                self.links.append(value)
+
+
+def built(campaign: Campaign, layout: Layout, outdated: set[str] = frozenset(), **options) -> Path:
+    """Write the summary and the report, as a run does."""
+    write_summary(campaign, layout, Catalogue(layout), outdated=outdated)
+    return build(campaign, layout, outdated, **options)
+
+
+def written(layout: Layout) -> dict[str, str]:
+    """Text of every page by its address in the report's folder."""
+    folder = layout.report.parent
+    paths = sorted(folder.rglob("*.html"))
+    return {path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8") for path in paths}
+
+
+def words_of(text: str) -> str:
+    return " ".join(Page(text).words.split())

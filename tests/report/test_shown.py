@@ -1,0 +1,273 @@
+"""What the pages of a whole report show."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections import Counter
+from posixpath import dirname, join, normpath
+
+import pytest
+
+from colonnade.report import addresses
+from colonnade.store.layout import Layout
+from read_pages import Page, built, words_of, written
+
+STRONG = "sine-3hz-too-strong-for-the-block-1"
+LATER = "later"
+
+
+@pytest.fixture(scope="module")
+def texts(filled_campaign, tmp_path_factory) -> dict[str, str]:
+    campaign, layout = filled_campaign[0], Layout(tmp_path_factory.mktemp("texts"))
+    shutil.copytree(filled_campaign[1].processed, layout.processed)
+    built(campaign, layout, {LATER})
+    return written(layout)
+
+
+@pytest.fixture(scope="module")
+def overview(texts) -> str:
+    return texts["index.html"]
+
+
+def test_there_is_a_page_a_test_a_specimen_and_of_each_kind(texts, filled_campaign):
+    campaign = filled_campaign[0]
+    assert set(texts) == {
+        *("index.html", "quality.html", "problems.html", "methods.html"),
+        *(f"tests/{name}.html" for name in campaign.tests),
+        *(f"specimens/{name}.html" for name in campaign.specimens),
+    }
+
+
+def test_each_setup_is_drawn_once_in_a_file_of_its_own(filled_campaign, tmp_path):
+    campaign, layout = filled_campaign[0], Layout(tmp_path)
+    (stale := tmp_path / "report" / "setups" / "gone+frame.svg").parent.mkdir(parents=True)
+    stale.write_text("<svg/>", encoding="utf-8")
+    built(campaign, layout, set(campaign.tests))
+    drawn = {path.relative_to(layout.report.parent).as_posix() for path in stale.parent.iterdir()}
+    assert drawn == {addresses.of_setup(*pair) for pair in campaign.combinations}
+
+
+def test_every_page_stands_alone(texts):
+    for address, text in texts.items():
+        page = Page(text)
+        assert page.tags["script"] == len(page.scripts) + (address == "index.html"), address
+        assert page.tags["img"] == text.count('class="drawing" src="../setups/'), address
+        assert not re.search(r"@import|url\((?!#)|https?://(?!www\.w3\.org)", text), address
+        assert len(text.encode()) < 400_000, address
+
+
+def test_scripts_are_files_of_the_report(texts):
+    for address, text in texts.items():
+        found = [normpath(join(dirname(address), script)) for script in Page(text).scripts]
+        assert found == addresses.scripts_of(address)
+
+
+def test_ids_are_unique_and_every_link_leads_somewhere(texts, filled_campaign):
+    drawn = {addresses.of_setup(*pair) for pair in filled_campaign[0].combinations}
+    ids = {address: Page(text).ids for address, text in texts.items()}
+    for address, text in texts.items():
+        assert [name for name, times in Counter(ids[address]).items() if times > 1] == []
+        assert set(re.findall(r"url\(#([^)]+)\)", text)) <= set(ids[address])
+        page = Page(text)
+        for link in set(page.links) - set(page.scripts):
+            if link == "data:,":
+                continue
+            assert not re.match(r"/|[a-z]+:", link), (address, link)  # a report may be copied elsewhere
+            target, _, anchor = link.partition("#")
+            target = normpath(join(dirname(address), target)) if target else address
+            assert target in (texts.keys() | drawn), (address, link)
+            assert not anchor or anchor in ids[target], (address, link)
+
+
+def test_what_people_wrote_is_shown_as_text_on_every_page(texts):
+    for address, text in texts.items():
+        assert "<script>alert" not in text, address
+        assert not Page(text).attributes["onerror"], address
+        assert "<script>alert('title')</script>" in Page(text).words, address
+    assert '<img src=x onerror="alert(1)"> & 5 < 6' in words_of(texts["tests/span-2.5.html"])
+    assert "flagged as suspect: <img src=x onerror" in words_of(texts["quality.html"])
+    assert "LVDT <1> displacement" in words_of(texts["tests/span-2.0.html"])
+
+
+def test_failures_come_first_with_stage_and_whole_reason(texts, overview):
+    assert overview.index('id="failures"') < overview.index('id="missed"') < overview.index('id="summary"')
+    for text in (overview, texts["tests/sine-dead.html"], texts["problems.html"]):
+        assert "ingest:</span> sine-dead.csv: the file is empty (0 bytes): nothing was recorded" in text
+        assert "Put the recording in its place." in text
+
+
+def test_the_summary_counts_tests_and_gives_each_restitution(overview):
+    words = words_of(overview)
+    assert "9 tests: 7 done, 1 failed, 1 not finished." in words
+    assert "The linear model predicts the outcome of 6 of 7 tests. Its misfit (nrmse) is" in words
+    assert re.search(r"prism 0\.930\d* ± 0\.0000\d+ \(95 % interval\) identified from free vibrations 0\.9485", words)
+    assert "statue 0.9 given in the campaign file" in words
+
+
+@pytest.mark.parametrize(
+    ("test", "expected"),
+    [
+        (
+            "span-2.0",
+            r"prism earthquake done 3 notes 2\.7\d m/s² rocking 0\.\d+( rocking 0\.\d+ 0\.0\d+ within){2}",
+        ),
+        ("span-2.5", r"prism earthquake done reviewed .* rocking .*"),
+        ("span-3.0", r"prism earthquake done .* rocking 0\.\d+ overturned ≠ – 0\.0\d+ .*"),
+        ("sine-dead", r"prism sine failed in ingest( –)+"),
+        ("later", r"prism sine pending( –)+"),
+        ("watched", r"statue earthquake done .* – observed: not-overturned – no-rocking 0 – – .*"),
+    ],
+)
+def test_the_table_gives_each_test_its_row(overview, test, expected):
+    table = overview[overview.index('<section id="tests">') :]
+    start = table.index(f'<a href="tests/{test}.html"')
+    cells = re.sub(r"<[^>]+>", " ", table[start : table.index("</tr>", start)].partition("</a>")[2])
+    assert re.fullmatch(expected, " ".join(cells.split())), cells
+
+
+def test_sine_tests_stand_by_frequency_and_amplitude(texts, overview):
+    for text in (overview, texts["specimens/prism.html"]):
+        ladder = text[text.index('<table class="ladder">') :]
+        assert words_of(ladder[: ladder.index("</table>") + 8]) == (
+            "frequency Ω tests in order of A 3 Hz 3.347 A 3.78 overturned 4 warnings"
+        )
+
+
+def test_one_frequency_gives_boundaries_and_no_map(texts, overview):
+    assert 'id="map-prism"' not in overview
+    assert "3.347 below 3.783 below 3.783 no test without rocking" in words_of(texts["specimens/prism.html"])
+
+
+def test_spans_stand_side_by_side_in_their_order(overview):
+    spans = overview[overview.index('<section id="spans">') :]
+    assert spans.count("<svg") == 1
+    assert spans.index(">Span 2.0</text>") < spans.index(">Span 2.5</text>") < spans.index(">Span 3.0</text>")
+    assert "nonlinear model" in spans
+
+
+def test_a_test_says_what_was_done_and_found(texts):
+    words = words_of(texts["tests/span-2.0.html"])
+    for expected in (
+        "motion El Centro 1940 NS",
+        "time scale 0.224",
+        "raw/span-2.0.csv SHA-256",
+        'clock: column 1, "Time" (in s; rising)',
+    ):
+        assert expected in words, expected
+    assert re.search(r"standard error of θ 0\.05\d mrad", words)
+    assert re.search(r"largest slide 0\.01\d* mm, standard error 0\.002\d mm", words)
+    assert re.search(r"at prototype scale, 1:20 duration 29\.1 s, largest slide 0\.2\d+ mm", words)
+
+
+def test_a_test_compares_each_model(texts):
+    words = words_of(texts["tests/span-2.0.html"])
+    for model in ("linear", "nonlinear"):
+        found = rf"{model} model rocking 0\.\d+ \S+ s \+0\.0\d+ 0\.0\d+ 6\.496 s 3\.9\d+ s \d+ 0\.93 \(identified\)"
+        assert re.search(found, words), model
+    assert re.search(
+        r"Linear model: the measured angle is within its own spread up to 3\.9\d+ s \(\d+ % of the runs", words
+    )
+
+
+def test_the_ratios_of_a_sine_are_given_and_why_it_has_no_order(texts):
+    words = words_of(texts[f"tests/{STRONG}.html"])
+    assert "Ω = ω/p 3.347 A = a/(g tan α) 3.783" in words
+    assert re.search(r"measured overturned – \S+ s – – – – \d+ –", words)
+    assert "order of the response The specimen overturned." in words
+
+
+def test_a_test_shows_how_its_channels_were_treated(texts):
+    words = words_of(texts["tests/span-2.0.html"])
+    assert re.search(
+        r"top LVDT <1> displacement 1625 at 250 Hz 0\.062 % failed spikes on 1 sample, the first at", words
+    )
+    assert re.search(r"top −?0\.0\d+ mm 0 s to 0\.5 s 0\.02\d mm 25 Hz – no redundancy", words)
+    overturned = words_of(texts[f"tests/{STRONG}.html"])
+    assert re.search(r"top .* mm 25 Hz – [\d.]+ × noise, \S+ % of the reading", overturned)
+
+
+def test_each_test_has_its_figure(texts):
+    assert "base" in texts["tests/span-2.0.html"][texts["tests/span-2.0.html"].index("<svg") :]
+    assert ">base" not in texts["tests/free-01.html"]
+    assert texts["tests/free-01.html"].count("<svg") == 9
+    assert texts["tests/free-refused.html"].count("<svg") == 8  # no joint region
+
+
+def test_a_test_without_results_has_no_picture_and_no_empty_table(texts):
+    assert "<svg" not in texts["tests/later.html"]
+    assert "<table" not in texts["tests/later.html"]
+    assert "This test is not finished, so there is nothing to show yet." in words_of(texts["tests/later.html"])
+
+
+def test_what_people_decided_is_told(texts):
+    told = "Reviewed by hand 2013-04-26, N. N.: channel top from 6 s to 6.1 s flagged as suspect:"
+    assert told in words_of(texts["tests/span-2.5.html"])
+    assert "Reviewed by hand" not in texts["tests/span-2.0.html"]
+
+
+def test_tests_lead_to_the_one_before_and_after(texts):
+    assert texts["tests/span-2.5.html"].count('href="../tests/span-2.0.html"') == 2
+    assert texts["tests/span-2.5.html"].count('href="../tests/span-3.0.html"') == 2
+    assert "<span>←" not in texts["tests/free-01.html"]
+
+
+def test_a_specimen_gives_its_properties_at_both_scales(texts):
+    words = words_of(texts["specimens/prism.html"])
+    assert "critical angle α – 0.1864 rad 0.1864 rad 0.1864 rad" in words
+    assert "pole distance R – 232 mm 232 mm 4.64 m" in words
+    assert "frequency parameter p – 5.631 rad/s 5.631 rad/s 1.259 rad/s" in words
+    measured = words_of(texts["specimens/statue.html"])
+    assert "critical angle α 0.21 rad and 0.23 rad – 0.21 rad" in measured
+    assert "prototype" not in measured
+
+
+def test_a_specimen_gives_each_restitution_and_why_one_was_refused(texts):
+    text = texts["specimens/prism.html"]
+    words = words_of(text)
+    assert "e over rigid-body e 0.98" in words
+    assert "free vibration e peaks half-periods impact by impact whole history, linear" in words
+    assert re.search(r"free-01 0\.930\d* ± 0\.0\d+ \(95 % interval\)( 0\.9\d+ ± 0\.0\d+){6}", words)
+    assert re.search(r"free-refused –( –)+ 0\.93\d* ± 0\.01\d e of single impacts scatters by", words)
+    assert words.count("e of single impacts scatters by") == 1
+    assert "scatter between tests 0 (standard deviation of e); standard error within a test" in words
+    assert text.count("<svg") == 3  # estimators, peaks, impacts
+
+
+def test_a_free_vibration_tells_what_was_assumed_and_how_it_departs_from_the_model(texts):
+    words = words_of(texts["tests/free-01.html"])
+    assert "recommended estimator whole history, e of each impact assumptions plane rocking without slide" in words
+    assert "whole history, e of each impact (recommended) 0.93" in words
+    assert "Departures" not in words
+    refused = words_of(texts["tests/free-refused.html"])
+    assert "Departures from plane rocking with one e e of single impacts scatters by" in refused
+    assert "refused e of single impacts scatters by" in refused
+    assert "half-periods –" in refused
+
+
+def test_quality_lists_the_channels_that_are_not_good_and_counts_the_others(texts):
+    words = words_of(texts["quality.html"])
+    assert "13 of 19 channels in 7 tests are good. The others are listed here" in words
+    assert len(re.findall(r"\w+ \w+ 1625 at 250 Hz", words)) == 6
+    assert "free-01" not in words
+    assert "0.062 % failed" in words
+
+
+def test_problems_name_the_tests_with_a_warning_and_those_that_are_not_finished(texts):
+    words = words_of(texts["problems.html"])
+    assert "channel top: spikes on 1 sample" in words
+    assert "In span-2.0" in words
+    assert "Not finished later" in words
+
+
+def test_methods_tell_what_was_really_used_and_where_tests_differ(texts):
+    words = words_of(texts["methods.html"])
+    assert "by more than 8 robust standard deviations" in words
+    assert "was 25 Hz on the specimen (setting: 25 Hz) and 50 Hz on the table (setting: auto)" in words
+    assert f"or start ({STRONG})" in words
+    assert "Where tests differ setting value tests zero auto free-01, free-refused, span-2.0" in words
+    assert "processing.lowpass 25 Hz" in words
+    assert "(changed in the campaign file)" in words
+    assert "Housner, G. W. (1963)" in words
+    assert re.search(r"made with colonnade \d\S*, Python 3\.\d+", words)
+    assert "(free-refused)" not in words  # it has no e, so no method gave one
