@@ -26,8 +26,8 @@ from damage import KINDS, damaged
 
 WITHOUT_LENGTH = ("delimited", "mts", "tdms")
 """Formats in which a file that ends between two rows or segments is whole as far as anyone can tell."""
-CRASHING = ("matlab",)
-"""Formats whose library ends the process at some damaged files: read in the bounded process, as always."""
+CRASHING = ("matlab", "excel")
+"""Formats whose library ends the process at some damaged files: read in the bounded process, as in every command."""
 LIMIT = 20.0
 """Seconds for one read."""
 MEMORY = 4 << 30
