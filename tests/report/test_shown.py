@@ -51,7 +51,7 @@ def test_each_setup_is_drawn_once_in_a_file_of_its_own(filled_campaign, tmp_path
 def test_every_page_stands_alone(texts):
     for address, text in texts.items():
         page = Page(text)
-        assert page.tags["script"] == len(page.scripts) + (address == "index.html"), address
+        assert page.tags["script"] == len(page.scripts), address
         assert page.tags["img"] == text.count('class="drawing" src="../setups/'), address
         assert not re.search(r"@import|url\((?!#)|https?://(?!www\.w3\.org)", text), address
         assert len(text.encode()) < 400_000, address
