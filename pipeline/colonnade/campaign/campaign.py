@@ -11,8 +11,10 @@ from pydantic import Field
 from colonnade.campaign.channel import Channel
 from colonnade.campaign.decision import Review
 from colonnade.campaign.motions import ReferenceMotion
-from colonnade.campaign.settings import Processing
+from colonnade.campaign.naming.watched import Watched
+from colonnade.campaign.settings import NextSettings, Processing
 from colonnade.campaign.setup import Setup
+from colonnade.campaign.shake_table import ShakeTable
 from colonnade.campaign.specimen import AnySpecimen, Specimen
 from colonnade.campaign.syntax.fields import Gravity, Text, schema_version
 from colonnade.campaign.syntax.identifier import Identifier
@@ -46,6 +48,12 @@ class CampaignFile(Table):
     """Reference motions, by the names that tests give them: files that recorded table motions are compared with."""
     processing: Processing = Processing()
     """Settings of the processing, each with a default."""
+    watch: Watched = Watched()
+    """Where raw files appear, and what their names say."""
+    table: ShakeTable = ShakeTable()
+    """What the shake table can do."""
+    next: NextSettings = NextSettings()
+    """Settings of the advice on the next test."""
     tests: tuple[Test, ...] = ()
     """The tests, or the path of the test log (CSV or Excel)."""
 
@@ -67,12 +75,17 @@ class Campaign:
     motions : dict
         Reference motions by name.
     processing : Processing
+    watch : Watched
+    table : ShakeTable
+    next : NextSettings
     path, folder : Path
         The campaign file and its folder, absolute and resolved.
     warnings : tuple of Finding
         Findings on entries that are not used yet or look odd.
     reviews : dict of str to Review
         Decisions in review.toml, for the tests that it names.
+    awaited : dict of str to str
+        The raw file that each planned test still has to get, by test.
     """
 
     schema: int
@@ -84,11 +97,15 @@ class Campaign:
     setups: dict[str, Setup]
     motions: dict[str, ReferenceMotion]
     processing: Processing
+    watch: Watched
+    table: ShakeTable
+    next: NextSettings
     tests: dict[str, Test]
     path: Path
     folder: Path
     warnings: tuple[Finding, ...] = ()
     reviews: dict[str, Review] = field(default_factory=dict)
+    awaited: dict[str, str] = field(default_factory=dict)
 
     def with_relative_paths(self) -> Campaign:
         """Return the campaign with paths relative to its folder, so that a copy elsewhere gives the same."""
@@ -108,6 +125,11 @@ class Campaign:
     def review(self, test: str) -> Review:
         """Decisions of the manual review about a test; empty ones if it has none."""
         return self.reviews.get(test, Review())
+
+    def left_out(self, test: str) -> str:
+        """Why a test is not run: people excluded it, or it is planned and has no raw file; empty if it is run."""
+        awaited = self.awaited.get(test, "")
+        return self.review(test).excluded or (awaited and f"expected: {awaited}")
 
     def block(self, specimen: str) -> Block:
         """Block of a specimen, with the campaign's gravity."""
@@ -132,9 +154,16 @@ class Campaign:
         return tuple(found for found in self.warnings if found.about in tables)
 
 
+def missing_file(test: Test, folder: Path) -> str:
+    """Give the first raw file of a test that is not there, as a path from the campaign's folder; empty if all are."""
+    return next((path.relative_to(folder).as_posix() for path in test.files.values() if not path.exists()), "")
+
+
 def resolved(written: CampaignFile, path: Path, warnings: tuple[Finding, ...]) -> Campaign:
     """Make the campaign of a valid file."""
     fields: dict[str, Any] = {name: getattr(written, name) for name in CampaignFile.model_fields}
     fields["schema"] = fields.pop("version")
     fields["tests"] = {test.id: test for test in written.tests}
-    return Campaign(**fields, path=path, folder=path.parent, warnings=warnings)
+    planned = {test.id: missing_file(test, path.parent) for test in written.tests if test.planned}
+    awaited = {name: file for name, file in planned.items() if file}
+    return Campaign(**fields, path=path, folder=path.parent, warnings=warnings, awaited=awaited)

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from colonnade.campaign.campaign import Campaign, CampaignFile, resolved
+from colonnade.campaign.naming.found import find_tests
 from colonnade.campaign.notices import notices
 from colonnade.campaign.references import dangling
 from colonnade.campaign.review import read_review
@@ -46,12 +47,15 @@ def load(path: Path | str) -> Campaign:
         log = _log(document["tests"], path.parent, source)
         document = document | {"tests": list(log.tests)}
         source = replace(source, log=log.name, rows=log.rows)
+    found = find_tests(document, path.parent)
+    if found.tests:
+        document = document | {"tests": [*document.get("tests", []), *found.tests]}
     written, wrong = validated(CampaignFile, document, path.parent)
     problems = [*((_place(place), message) for place, message in wrong), *dangling(document)]
     paragraphs = [*log.problems, *source.paragraphs(problems, document)]
     if paragraphs or written is None:
         raise refusal(paragraphs)
-    campaign = resolved(written, path, (*log.warnings, *notices(written)))
+    campaign = resolved(written, path, (*log.warnings, *found.findings, *notices(written)))
     return replace(campaign, reviews=read_review(path.parent, campaign.tests, campaign.setups))
 
 

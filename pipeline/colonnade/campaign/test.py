@@ -19,6 +19,7 @@ from colonnade.campaign.syntax.fields import (
     interval,
     one_of,
     or_word,
+    quantity,
     shown,
     text,
 )
@@ -76,6 +77,7 @@ Photos = Annotated[
     BeforeValidator(_photos),
     WithJsonSchema({"type": "array", "items": {"type": "string", "minLength": 1}}),
 ]
+Amplitude = Annotated[float, *quantity("acceleration", above_zero=True)]
 Zero = Annotated[str | tuple[float, float], *or_word((BeforeValidator(interval), INTERVAL_SCHEMA), *ZEROS)]
 
 
@@ -98,6 +100,8 @@ class Test(Table):
     """Where the transducers' zero is taken: "auto", "start", "end", "none" or an interval."""
     frequency: Frequency | None = None
     """Frequency of a sine or pulse, such as "3 Hz"."""
+    amplitude: Amplitude | None = Field(default=None, json_schema_extra={"unit": "m/s^2"})
+    """Amplitude of the table's acceleration in a sine or pulse as it was asked for, such as "0.2 g"."""
     motion: Text | None = None
     """Name of the base motion, such as "El Centro 1940 NS"."""
     span: PositiveNumber | None = None
@@ -114,3 +118,5 @@ class Test(Table):
     """Photos of it, JPEG or PNG, from the folder of the campaign file."""
     notes: Text | None = None
     """Anything worth keeping."""
+    planned: bool = False
+    """Whether it may still have to be run: until its raw file is there it is pending, not failed."""

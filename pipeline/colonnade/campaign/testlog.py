@@ -20,7 +20,7 @@ from colonnade.readers.irregular import irregular
 
 EXCEL_SUFFIXES = (".xlsx", ".xlsm", ".xls", ".ods")
 _NUMBERS = ("span", "time_scale")
-_QUANTITIES = ("frequency", "window", "zero")
+_QUANTITIES = ("frequency", "amplitude", "window", "zero")
 _INTERVALS = ("window", "zero")
 _LISTS = ("photos",)
 _LARGEST_BYTES = 10_000_000

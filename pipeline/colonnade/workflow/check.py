@@ -110,6 +110,8 @@ def check(campaign: Campaign, progress: Callable[[int, int], None] = lambda done
         expect_none()
         if excluded := campaign.review(name).excluded:
             found[name] = Checked(findings=[note("excluded", f"{excluded} (review.toml).")])
+        elif awaited := campaign.left_out(name):
+            found[name] = Checked(findings=[note("planned", f"{awaited}. This planned test has not been run yet.")])
         else:
             found[name] = _checked(campaign, test, reading)
     return CampaignCheck(campaign, found)

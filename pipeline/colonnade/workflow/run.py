@@ -96,7 +96,7 @@ def run(
         if verify:
             notices += remove_altered(layout)
         for test in loaded.tests.values():
-            if loaded.review(test.id).excluded:
+            if loaded.left_out(test.id):
                 remove_later(layout, results_of(loaded, test), order=-1)
         graph = Graph(loaded, layout, catalogue)
         walk = Walk(graph, run_id, raw, start_from, last, workers, scheduler, progress, notices.append)
@@ -124,13 +124,15 @@ def _chosen(campaign: Campaign, only: Sequence[str]) -> list[str]:
             raise CampaignError(f'{campaign.path.name} has no test "{name}".{nearest(name, campaign.tests)}')
         if excluded := campaign.review(name).excluded:
             raise CampaignError(f"{name} is {excluded}. To run it again, delete that [[exclude]] from review.toml.")
-    return [name for name in campaign.tests if (not only or name in only) and not campaign.review(name).excluded]
+        if awaited := campaign.left_out(name):
+            raise CampaignError(f"{name} is planned and has no raw file yet; {awaited}.")
+    return [name for name in campaign.tests if (not only or name in only) and not campaign.left_out(name)]
 
 
 def _digests(campaign: Campaign, raw: dict[str, RawFiles]) -> Digests:
-    """Give the hashes of the raw files of each test that is not excluded."""
+    """Give the hashes of the raw files of each test that is run."""
     return {
         name: {path: None if file.is_empty else file.sha256 for path, file in files.items()}
         for name, files in raw.items()
-        if not campaign.review(name).excluded
+        if not campaign.left_out(name)
     }

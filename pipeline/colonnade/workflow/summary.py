@@ -123,7 +123,7 @@ def _records(
 
 def _recipe(asked: _Asked, layout: Layout, catalogue: Catalogue) -> Recipe:
     campaign, test = asked.campaign, asked.test
-    entry = [repr(test), repr(campaign.specimens[test.specimen]), campaign.gravity, campaign.review(test.id).excluded]
+    entry = [repr(test), repr(campaign.specimens[test.specimen]), campaign.gravity, campaign.left_out(test.id)]
     entry += [repr(campaign.concerning(test.id)), asked.is_outdated, asked.failure]
     upstream = {str(result): catalogue.content(layout.path(result)) for result in results_of(campaign, test)}
     return Recipe("record", catalogue.code(MADE_BY), json.dumps(entry), upstream)

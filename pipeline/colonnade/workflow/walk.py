@@ -93,8 +93,8 @@ class Walk:
 
     @property
     def included(self) -> list[str]:
-        """Ids of the campaign's tests that people have not excluded."""
-        return [name for name in self._campaign.tests if not self._campaign.review(name).excluded]
+        """Ids of the tests that are run: not excluded, and not planned and still without a raw file."""
+        return [name for name in self._campaign.tests if not self._campaign.left_out(name)]
 
     def pool(self) -> None:
         """Bring the specimens up to date with the free vibrations that have been identified."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 UNITS = {"frequency": "Hz", "acceleration": "m/s^2", "inertia": "kg m^2", "pressure": "Pa", "mass": "kg"} | {
     "length": "m",
+    "velocity": "m/s",
     "time": "s",
     "angle": "rad",
 }
@@ -15,6 +16,7 @@ BETWEEN = {
     "time": (1e-6, 1e6),
     "frequency": (1e-4, 1e7),
     "angle": (1e-6, 3.2),
+    "velocity": (1e-4, 1e3),
     "acceleration": (1e-2, 1e4),
     "inertia": (1e-12, 1e15),
     "pressure": (1e3, 1e13),

@@ -59,7 +59,7 @@ def record_of_test(campaign: Campaign, test: Test, stored: Stored) -> TestSummar
     scale = campaign.specimens[test.specimen].scale
     return TestSummary(
         status=stored.status,
-        reason=reason or campaign.review(test.id).excluded or (FOREIGN if stored.is_foreign else None),
+        reason=reason or campaign.left_out(test.id) or (FOREIGN if stored.is_foreign else None),
         warnings=tuple(
             Warned.of(found, explained=explained)
             for found, explained in in_order(stored.findings, campaign.concerning(test.id))

@@ -1,0 +1,1 @@
+"""Tests found by the names of their raw files."""
