@@ -14,8 +14,12 @@ from colonnade.cli.map import map_command
 from colonnade.cli.run import identify, ingest, predict, report, run
 from colonnade.cli.schema import schema
 from colonnade.cli.show import show
+from colonnade.cli.watch import watch
 
-COMMANDS = (demo, init, check, run, ingest, identify, predict, report, map_command, calibrate, figure, show, schema)
+COMMANDS = (
+    *(demo, init, check, run, ingest, identify, predict, report, watch),
+    *(map_command, calibrate, figure, show, schema),
+)
 
 
 class InOrder(click.RichGroup):

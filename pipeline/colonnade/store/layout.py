@@ -96,6 +96,26 @@ class Layout:
         """Who holds the lock."""
         return self.processed / ".lock-holder.json"
 
+    @property
+    def watch_lock(self) -> Path:
+        """Locked while somebody watches the raw folder."""
+        return self.processed / ".watch-lock"
+
+    @property
+    def watcher(self) -> Path:
+        """Who watches."""
+        return self.processed / ".watcher.json"
+
+    @property
+    def watch_log(self) -> Path:
+        """What `watch` said and did."""
+        return self.processed / "watch.log"
+
+    @property
+    def state(self) -> Path:
+        """The script by which an open page of the report learns that something changed."""
+        return self.report.with_name("state.js")
+
     def test(self, test_id: str) -> Path:
         """Folder of a test's results."""
         return self.tests / test_id

@@ -12,7 +12,7 @@ from colonnade.campaign.summary import Summary
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.interruption import expect_none
 from colonnade.store.provenance import Origin
-from colonnade.store.results import RUN_STAGES, models_of, results_of
+from colonnade.store.results import RUN_STAGES, ResultId, models_of, results_of
 from colonnade.workflow.chain import Chain, if_up_to_date, remove_later
 from colonnade.workflow.execution.cluster import Tell
 from colonnade.workflow.execution.processes import execute
@@ -21,6 +21,9 @@ from colonnade.workflow.raw_files import RawFiles
 from colonnade.workflow.steps import Graph, Step
 
 Progress = Callable[[StageRun, int, int], None]
+
+Phase = Literal["measuring", "predicting"]
+PHASES: tuple[Phase, ...] = ("measuring", "predicting")
 
 
 @dataclass
@@ -96,12 +99,33 @@ class Walk:
         """Ids of the tests that are run: not excluded, and not planned and still without a raw file."""
         return [name for name in self._campaign.tests if not self._campaign.left_out(name)]
 
-    def pool(self) -> None:
-        """Bring the specimens up to date with the free vibrations that have been identified."""
-        identified: dict[str, dict[str, Path]] = {name: {} for name in self._campaign.specimens}
+    def at_once(self, name: str) -> list[ResultId]:
+        """
+        Bring one test up to date as far as it takes seconds: to the predictions by the models in the plane, with the e
+        that is known so far. Return the results that are there then.
+        """
+        specimen = self._test(name).specimen
+        steps = self._measuring(name)
+        self._walk_tests([steps])
+        self.pool([specimen])
+        if name not in self.failed_tests and specimen not in self.failed_specimens:
+            predicting = [
+                step
+                for step in self._steps("predicting", name)
+                if step.result.stage == "predict" and not MODELS[str(step.result.model)].in_space
+            ]
+            if predicting:
+                self._walk_tests([predicting])
+            steps = [*steps, *predicting]
+        return [step.result for step in steps if step.path.exists()]
+
+    def pool(self, specimens: Sequence[str] | None = None) -> None:
+        """Bring specimens, by default all, up to date with the free vibrations that have been identified."""
+        chosen = self._campaign.specimens if specimens is None else specimens
+        identified: dict[str, dict[str, Path]] = {name: {} for name in chosen}
         for name in self.included:
             path = self.graph.layout.stage(name, "restitution")
-            is_free = self._test(name).kind == "free-vibration"
+            is_free = self._test(name).kind == "free-vibration" and self._test(name).specimen in identified
             if is_free and self.graph.catalogue.attributes(path).get("status") == "done":
                 identified[self._test(name).specimen][name] = path
         steps = [self.graph.pooling(name, paths) for name, paths in identified.items()]
@@ -138,7 +162,7 @@ class Walk:
     def _predicting(self, name: str) -> list[Step]:
         return [step for step in self._steps("predicting", name) if self._asks_for(step.result.stage)]
 
-    def _steps(self, phase: Literal["measuring", "predicting"], name: str) -> list[Step]:
+    def _steps(self, phase: Phase, name: str) -> list[Step]:
         """Return the steps of a test, made once: gathering what they read of the campaign takes time."""
         if (phase, name) not in self._known:
             made_by = self.graph.measuring if phase == "measuring" else self.graph.predicting
@@ -193,10 +217,10 @@ class Walk:
             {} if test is None else self.raw[subject],
         )
 
-    def stale(self) -> set[str]:
-        """Ids of the tests that have a missing or outdated result, of any stage."""
+    def stale(self, *phases: Phase) -> set[str]:
+        """Ids of the tests that have a missing or outdated result, of these phases or of any."""
         look = self.graph.catalogue.attributes
-        steps = ([*self._steps("measuring", name), *self._steps("predicting", name)] for name in self.included)
+        steps = ([step for phase in phases or PHASES for step in self._steps(phase, name)] for name in self.included)
         chains = (self.chain(each, redo=False) for each in steps)
         return {chain.subject for chain in chains if if_up_to_date(chain, look) is None}
 

@@ -18,6 +18,9 @@ from colonnade.campaign.test import KINDS, Test
 from colonnade.errors import nearest, quoted
 from colonnade.findings import Finding, note, serious
 
+WITHOUT_TEST = "raw file without a test"
+"""Kind of the findings about files of which no test was made."""
+
 MOST_FILES = 100_000
 """Files of a folder that are looked at."""
 
@@ -157,7 +160,7 @@ def _test(
         raise ValueError(f'The name gives the id "{name}", which another test has.')
     entry = {**_only_ones(document), **named.entry}
     entry.pop(COUNTER, None)
-    files = {recorder: paths[0] for recorder, paths in named.files.items()}
+    files = {MAIN: main} | {recorder: paths[0] for recorder, paths in named.files.items()}
     entry |= {"id": name, "file": main if len(files) == 1 else files}
     _, wrong = validated(Test, entry, folder)
     for place, message in wrong:
@@ -171,7 +174,7 @@ def _test(
 
 def _refused(reason: str, paths: list[str]) -> Finding:
     return serious(
-        "raw file without a test",
+        WITHOUT_TEST,
         f"{_first(paths)}: no test was made of it. {reason} Rename it, give it an entry in [[tests]], or change "
         "`pattern` in [watch].",
     )
@@ -180,7 +183,7 @@ def _refused(reason: str, paths: list[str]) -> Finding:
 def _strange(paths: list[str]) -> Iterator[Finding]:
     if paths:
         yield note(
-            "raw file without a test",
+            WITHOUT_TEST,
             f"{_first(paths)}: no test names it, and its name fits no pattern of [watch]. It is not read.",
         )
 

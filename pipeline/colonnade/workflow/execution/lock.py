@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import os
 import platform
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from uuid import uuid4
 
@@ -34,38 +35,66 @@ def only_run(layout: Layout) -> Iterator[str]:
     StoreError
         If another run holds it, or the folders of results cannot be written or lead elsewhere through a link.
     """
+    refusal = (
+        f"{layout.folder}: this campaign is already being run, by {{holder}}. Wait for that run to end, or stop it: "
+        "only one run at a time may write results."
+    )
+    with _held(layout, layout.lock, layout.lock_holder, refusal, partial(_sweep, layout)) as run_id:
+        _sweep(layout)
+        yield run_id
+
+
+@contextmanager
+def only_watch(layout: Layout) -> Iterator[None]:
+    """
+    Hold the lock of whoever watches a campaign; runs may go on meanwhile.
+
+    Raises
+    ------
+    StoreError
+        If another process watches it, which is named, or the folders of results cannot be written.
+    """
+    refusal = f"{layout.folder}: this campaign is already being watched, by {{holder}}. One watch is enough."
+    with _held(layout, layout.watch_lock, layout.watcher, refusal):
+        yield
+
+
+@contextmanager
+def _held(
+    layout: Layout, path: Path, holder: Path, refusal: str, after_a_kill: Callable[[], None] = lambda: None
+) -> Iterator[str]:
+    """Hold a lock and say by whom; give the name of this holding. At the end clean up if the last one was killed."""
     for folder in _folders(layout):
         own_files(folder)
     try:
-        if layout.lock.is_symlink():
-            layout.lock.unlink()
+        if path.is_symlink():
+            path.unlink()
         layout.processed.mkdir(parents=True, exist_ok=True)
-        lock = FileLock(layout.lock)
+        lock = FileLock(path)
         lock.acquire(timeout=0)
     except Timeout:
-        raise StoreError(_held(layout)) from None
+        raise StoreError(refusal.format(holder=_named(holder))) from None
     except OSError as error:
         raise StoreError(
             f"{layout.processed}: results cannot be written here ({error.strerror or error}). A writable folder with "
             "free space was expected; free some space, or give another folder with --results."
         ) from error
     run_id = uuid4().hex
-    after_a_kill = layout.lock_holder.exists()
+    was_killed = holder.exists()
     try:
-        _sweep(layout)
-        holder = {
+        who = {
             "run": run_id,
             "process": os.getpid(),
             "host": platform.node(),
             "since": datetime.now().astimezone().isoformat("T", "seconds"),
         }
-        write_text(layout.lock_holder, json.dumps(holder) + "\n")
+        write_text(holder, json.dumps(who) + "\n")
         yield run_id
     finally:
         try:
-            remove(layout.lock_holder)
-            if after_a_kill:  # its workers may have lived on for a moment
-                _sweep(layout)
+            remove(holder)
+            if was_killed:  # its workers may have lived on for a moment
+                after_a_kill()
         finally:
             lock.release()
 
@@ -96,13 +125,9 @@ def _sweep(layout: Layout) -> None:
         sweep(folder)
 
 
-def _held(layout: Layout) -> str:
+def _named(holder: Path) -> str:
     try:
-        holder = json.loads(layout.lock_holder.read_text(encoding="utf-8"))
-        who = f"process {holder['process']} on {holder['host']}, since {holder['since']}"
+        who = json.loads(holder.read_text(encoding="utf-8"))
+        return f"process {who['process']} on {who['host']}, since {who['since']}"
     except (OSError, ValueError, KeyError, TypeError):
-        who = "another process"
-    return (
-        f"{layout.folder}: this campaign is already being run, by {who}. Wait for that run to end, or stop it: "
-        "only one run at a time may write results."
-    )
+        return "another process"

@@ -1,0 +1,74 @@
+"""`colonnade watch`: a line on each test seconds after its file is finished."""
+
+from __future__ import annotations
+
+import json
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import rich_click as click
+
+from colonnade.cli.console import complain, say
+from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, results_option, workers_option
+
+if TYPE_CHECKING:
+    from colonnade.workflow.watching.line import Line
+
+
+@click.command(
+    epilog='Example: colonnade watch --from /media/recorder --notify "notify-send colonnade"',
+    help=f"""
+    Watch the raw folder: a line on each test as soon as its file is finished.
+
+    {CAMPAIGN} The line says what happened, what the models predict, and what is wrong. Ensembles, the contact
+    model, earlier tests and the report follow at lower priority. An open page of the report keeps itself up to date.
+
+    Tests come from [[tests]], the test log, or the `pattern` in [watch]. Ctrl-C ends the watch; nothing is lost.
+    """,
+)
+@campaign_argument
+@click.option(
+    "--from",
+    "share",
+    type=click.Path(exists=True, file_okay=False, path_type=Path),
+    metavar="DIR",
+    help="Copy finished files from this folder, such as a recorder's share. No file is ever overwritten.",
+)
+@click.option(
+    "--notify",
+    metavar="COMMAND",
+    help="After each test run this command, without a shell, with the line as JSON on its stdin.",
+)
+@click.option("--once", is_flag=True, help="Handle what is there, then end with the exit code of `run`.")
+@workers_option
+@results_option
+@json_option
+def watch(
+    campaign: Path,
+    *,
+    share: Path | None,
+    notify: str | None,
+    once: bool,
+    workers: int | None,
+    results: Path | None,
+    as_json: bool,
+) -> int:
+    """Watch a campaign; return the exit code."""
+    from colonnade.workflow.watching.notify import command_of
+    from colonnade.workflow.watching.watch import watch as watch_campaign
+
+    return watch_campaign(
+        campaign,
+        share=share,
+        command=command_of(notify) if notify is not None else (),
+        once=once,
+        workers=workers,
+        results=results,
+        show=partial(_show, as_json=as_json),
+        say=complain,
+    )
+
+
+def _show(line: Line, *, as_json: bool) -> None:
+    say(json.dumps(line.as_json(), ensure_ascii=False) if as_json else line.text())

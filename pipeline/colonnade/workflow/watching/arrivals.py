@@ -1,0 +1,70 @@
+"""Which files have been finished by whoever writes them: those whose size and time stay the same for a while."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from colonnade.workflow.catalogue import Mark, mark_of
+
+
+def marks_of(paths: Iterable[Path]) -> dict[Path, Mark]:
+    """Return the present mark of each file that is there."""
+    marks = {}
+    for path in paths:
+        try:
+            marks[path] = mark_of(path)
+        except OSError:
+            continue
+    return marks
+
+
+@dataclass
+class Arrivals:
+    """
+    What is known of the files that are watched.
+
+    Attributes
+    ----------
+    settle : float
+        A file is finished when its mark has not changed for this long, s.
+
+    Examples
+    --------
+    >>> arrivals, file = Arrivals(settle=1.0), Path("free-01.csv")
+    >>> arrivals.look({file: (10, 0, 1)}, now=0.0), arrivals.look({file: (20, 1, 1)}, now=1.5)
+    (set(), set())
+    >>> arrivals.look({file: (20, 1, 1)}, now=2.5) == {file}, arrivals.look({file: (20, 1, 1)}, now=9.0)
+    (True, set())
+    """
+
+    settle: float
+    _since: dict[Path, tuple[Mark, float]] = field(default_factory=dict)
+    _taken: dict[Path, Mark] = field(default_factory=dict)
+
+    def know(self, marks: Mapping[Path, Mark]) -> None:
+        """Take files as they are for finished: their tests are up to date."""
+        self._taken |= marks
+
+    def look(self, marks: Mapping[Path, Mark], now: float) -> set[Path]:
+        """Return the files that have been finished since the last look, given their marks and the time, s."""
+        self._taken = {path: mark for path, mark in self._taken.items() if path in marks}
+        self._since = {
+            path: known if (known := self._since.get(path)) is not None and known[0] == mark else (mark, now)
+            for path, mark in marks.items()
+            if self._taken.get(path) != mark
+        }
+        finished = {path for path, (_, since) in self._since.items() if now - since >= self.settle}
+        self._taken |= {path: self._since.pop(path)[0] for path in finished}
+        return finished
+
+    def again(self, paths: Collection[Path]) -> None:
+        """Take files for new: their tests could not be worked on."""
+        for path in paths:
+            self._taken.pop(path, None)
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether a file is there that has not settled."""
+        return bool(self._since)

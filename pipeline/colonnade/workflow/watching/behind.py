@@ -1,0 +1,107 @@
+"""The rest of the work, in a process of its own at lower priority, which gives way to the next file."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO
+
+NICENESS = 10
+"""How far its priority is below that of the watch."""
+
+PATIENCE = 3.0
+"""Seconds in which it has to give way; then it is killed, which loses nothing but the steps in progress."""
+
+
+@dataclass
+class Behind:
+    """
+    A run of the campaign behind the watch.
+
+    Attributes
+    ----------
+    campaign_file : Path
+    results : Path or None
+        As for `run`.
+    workers : int or None
+        As for `run`.
+    """
+
+    campaign_file: Path
+    results: Path | None
+    workers: int | None
+    _process: subprocess.Popen[bytes] | None = None
+    _output: IO[bytes] | None = field(default=None, repr=False)
+
+    def start(self) -> None:
+        """Begin a run."""
+        self._output = tempfile.TemporaryFile()  # noqa: SIM115 — closed by `_end`
+        command = [sys.executable, "-m", "colonnade", "run", str(self.campaign_file), "--json"]
+        command += [] if self.results is None else ["--results", str(self.results)]
+        command += [] if self.workers is None else ["--workers", str(self.workers)]
+        options = {"process_group": 0} if os.name == "posix" else {"creationflags": _windows_flags()}
+        self._process = subprocess.Popen(  # type: ignore[call-overload]
+            command, stdin=subprocess.DEVNULL, stdout=self._output, stderr=subprocess.DEVNULL, **options
+        )
+        if os.name == "posix":
+            with contextlib.suppress(OSError):
+                os.setpriority(os.PRIO_PGRP, self._process.pid, NICENESS)
+
+    @property
+    def is_running(self) -> bool:
+        """Whether it has been started and not ended."""
+        return self._process is not None and self._process.poll() is None
+
+    def ended(self) -> tuple[int, list[str]] | None:
+        """Return the exit code and the failures of a run that has ended by itself, once; else None."""
+        if self._process is None or self._process.poll() is None:
+            return None
+        return self._end()
+
+    def give_way(self) -> None:
+        """Stop it: what it finished is kept, the rest is done by the next."""
+        if self._process is None:
+            return
+        self._process.terminate()
+        until = time.monotonic() + PATIENCE
+        while self._process.poll() is None and time.monotonic() < until:
+            time.sleep(0.02)
+        if self._process.poll() is None:
+            _kill(self._process)
+        self._end()
+
+    def _end(self) -> tuple[int, list[str]]:
+        assert self._process is not None
+        assert self._output is not None
+        code = self._process.wait()
+        self._output.seek(0)
+        try:
+            stages = json.loads(self._output.read() or b"{}").get("stages", [])
+        except (ValueError, RecursionError):
+            stages = []
+        self._output.close()
+        self._process = self._output = None
+        return code, [f"{each['subject']}: {each['reason']}" for each in stages if each["action"] == "failed"]
+
+
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    """End a run and its workers at once."""
+    with contextlib.suppress(ProcessLookupError, PermissionError):
+        if os.name == "posix":
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
+
+
+def _windows_flags() -> int:
+    return int(getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)) | int(
+        getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)
+    )

@@ -1,0 +1,256 @@
+"""Watch: a line on each test seconds after its file is finished, and all other work behind it."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from logging.handlers import RotatingFileHandler
+from pathlib import Path
+
+from colonnade.campaign import Campaign, load
+from colonnade.campaign.campaign import missing_file
+from colonnade.campaign.naming.found import WITHOUT_TEST, files_in
+from colonnade.errors import CampaignError, StoreError
+from colonnade.interruption import expect_none
+from colonnade.store.layout import Layout
+from colonnade.workflow.execution.lock import only_watch
+from colonnade.workflow.watching.arrivals import Arrivals, marks_of
+from colonnade.workflow.watching.behind import Behind
+from colonnade.workflow.watching.folders import Bell, listening
+from colonnade.workflow.watching.line import Line
+from colonnade.workflow.watching.measure import measure, measured
+from colonnade.workflow.watching.notify import notify
+from colonnade.workflow.watching.share import Share
+from colonnade.workflow.watching.state import EVERY, shown_now, write_state
+
+TEXTS = ("review.toml", "tests.csv", "tests.xlsx")
+"""Files next to the campaign file that people change while it is watched."""
+
+AGAIN = 2.0
+"""Seconds after which a test is tried again if another run held the campaign."""
+
+GRACE = 10.0
+"""Seconds without a change after which a file that cannot be used is called a failure."""
+
+BUSY = 0.2
+"""Seconds between two looks while something goes on."""
+
+LARGEST_LOG = 2_000_000
+"""Bytes of the log; then a new one is begun, and one old one is kept."""
+
+Say = Callable[[str], None]
+Show = Callable[[Line], None]
+
+
+def watch(
+    campaign: Path | str,
+    *,
+    share: Path | None = None,
+    command: Sequence[str] = (),
+    once: bool = False,
+    workers: int | None = None,
+    results: Path | str | None = None,
+    show: Show,
+    say: Say,
+) -> int:
+    """
+    Watch a campaign until it is interrupted.
+
+    Parameters
+    ----------
+    campaign : Path or str
+        A campaign.toml or its folder.
+    share : Path, optional
+        A recorder's folder; its finished files are copied into the watched folder.
+    command : sequence of str, optional
+        Program and arguments that get each line, see `notify`.
+    once : bool, optional
+        Handle what is there and all that follows from it, then end.
+    workers, results : optional
+        As for `run`.
+    show : callable
+        Called with the line on each test.
+    say : callable
+        Called with a sentence on anything else.
+
+    Returns
+    -------
+    code : int
+        With `once`, the exit code of the run: 0, or 1 if a test failed.
+
+    Raises
+    ------
+    CampaignError
+        If the campaign file is not usable at the start.
+    StoreError
+        If another process watches the campaign, or results cannot be written.
+    """
+    loaded = load(Path(campaign))
+    layout = Layout.of(loaded.folder, results)
+    with only_watch(layout), _logged(layout, say) as log, listening(loaded.folder / loaded.watch.folder) as bell:
+        behind = Behind(loaded.path, layout.results, workers)
+        watching = _Watching(loaded, layout, bell, behind, command, show, log)
+        if share is not None:
+            watching.share = Share(share, loaded.folder / loaded.watch.folder, Arrivals(loaded.watch.settle))
+        try:
+            return watching.until_done() if once else watching.for_ever()
+        finally:
+            behind.give_way()
+            write_state(layout, is_watched=False, shown=shown_now(layout))
+
+
+@contextmanager
+def _logged(layout: Layout, say: Say) -> Iterator[logging.Logger]:
+    """Give a logger whose warnings are said too; all goes into the campaign's log file."""
+    log = logging.Logger("colonnade.watch", logging.INFO)
+    file = RotatingFileHandler(layout.watch_log, maxBytes=LARGEST_LOG, backupCount=1, encoding="utf-8", delay=True)
+    file.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
+    said = _Said(say)
+    log.addHandler(file)
+    log.addHandler(said)
+    try:
+        yield log
+    finally:
+        file.close()
+
+
+class _Said(logging.Handler):
+    """Says warnings to whoever runs the watch."""
+
+    def __init__(self, say: Say) -> None:
+        super().__init__(logging.WARNING)
+        self._say = say
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self._say(record.getMessage())
+
+
+@dataclass
+class _Watching:
+    """A watch in progress."""
+
+    campaign: Campaign
+    layout: Layout
+    bell: Bell
+    behind: Behind
+    command: Sequence[str]
+    show: Show
+    log: logging.Logger
+    share: Share | None = None
+    _arrivals: Arrivals = field(init=False)
+    _texts: object = None
+    _due: dict[str, float] = field(default_factory=dict)
+    _is_outdated: bool = True
+    _code: int = 0
+    _said: str = ""
+    _alive: float = 0.0
+    _line: str = ""
+
+    def __post_init__(self) -> None:
+        """Take the files of tests that are measured already for known."""
+        self._arrivals = Arrivals(self.campaign.watch.settle)
+        self._texts = self._marks_of_texts()
+        known = measured(self.campaign, self.layout)
+        self._arrivals.know(marks_of(path for name in known for path in self._files(name)))
+
+    def for_ever(self) -> int:
+        """Watch until a signal ends it."""
+        while True:
+            self._look()
+            is_busy = self._arrivals.is_waiting or self._due or self.behind.is_running
+            self.bell.wait(BUSY if is_busy else None)
+
+    def until_done(self) -> int:
+        """Watch until nothing is left to do."""
+        while True:
+            self._look()
+            if not (self._arrivals.is_waiting or self._due or self.behind.is_running or self._is_outdated):
+                return self._code
+            self.bell.wait(BUSY)
+
+    def _look(self) -> None:
+        """Look once at what arrived, and go on with what is to be done."""
+        expect_none()
+        now = time.monotonic()
+        for problem in () if self.share is None else self.share.copy_finished(now):
+            self.log.warning(problem)
+        finished = self._arrivals.look(marks_of(self._watched()), now)
+        texts = self._marks_of_texts()
+        if finished or texts != self._texts:
+            self._is_outdated |= texts != self._texts
+            self._texts = texts
+            self._reload()
+            self._due |= {name: now for name in self.campaign.tests if finished & {*self._files(name)}}
+        for name in [name for name, due in self._due.items() if due <= now]:
+            self._measure(name, now)
+        self._go_on(now)
+
+    def _measure(self, name: str, now: float) -> None:
+        """Bring a test up to its line, unless it is left out or a file of it is still to come."""
+        del self._due[name]
+        self._is_outdated = True
+        files = [*marks_of(self._files(name)).values()] if name in self.campaign.tests else []
+        if not files or self.campaign.left_out(name) or missing_file(self.campaign.tests[name], self.campaign.folder):
+            return
+        self.behind.give_way()
+        finished = max(time_ns for _, time_ns, _ in files) / 1e9
+        try:
+            line = measure(self.campaign, self.layout, name, finished)
+        except StoreError as error:
+            self._due[name] = now + AGAIN
+            self._say_once(str(error))
+            return
+        if line.record.status == "failed" and line.seconds < GRACE:
+            # Its writer may only pause: it is called a failure when nothing more comes.
+            self._due[name] = now + GRACE
+            return
+        self._line = line.text()
+        self.log.info(self._line)
+        self.show(line)
+        if self.command and (problem := notify(self.command, line.as_json())):
+            self.log.warning(f"--notify: {problem}")
+
+    def _go_on(self, now: float) -> None:
+        """Start, or take note of, the run behind; give a sign of life to open pages."""
+        ended = self.behind.ended()
+        if ended is not None:
+            self._code, failures = ended
+            for failure in failures:
+                self._say_once(failure)
+        if self._is_outdated and not (self._due or self._arrivals.is_waiting or self.behind.is_running):
+            self._is_outdated = False
+            self.behind.start()
+        if ended is not None or now - self._alive >= EVERY:
+            self._alive = now
+            write_state(self.layout, is_watched=True, shown=shown_now(self.layout), line=self._line)
+
+    def _reload(self) -> None:
+        """Read the campaign again; if it cannot be used now, the last one that could is kept."""
+        try:
+            self.campaign = load(self.campaign.path)
+        except CampaignError as error:
+            self._say_once(f"{error}\nThe campaign as it was before is used until this is corrected.")
+            return
+        for found in self.campaign.warnings:
+            if found.kind == WITHOUT_TEST:
+                self._say_once(str(found))
+
+    def _say_once(self, sentence: str) -> None:
+        if sentence != self._said:
+            self._said = sentence
+            self.log.warning(sentence)
+
+    def _files(self, name: str) -> list[Path]:
+        return [*self.campaign.tests[name].files.values()]
+
+    def _watched(self) -> list[Path]:
+        folder = self.campaign.folder / self.campaign.watch.folder
+        listed = (path for name in self.campaign.tests for path in self._files(name))
+        return [*{*(folder / name for name in files_in(folder)), *listed}]
+
+    def _marks_of_texts(self) -> dict[Path, object]:
+        folder = self.campaign.folder
+        return dict(marks_of([self.campaign.path, *(folder / name for name in TEXTS)]))
