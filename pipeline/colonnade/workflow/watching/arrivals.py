@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -18,6 +18,11 @@ def marks_of(paths: Iterable[Path]) -> dict[Path, Mark]:
         except OSError:
             continue
     return marks
+
+
+def last_change(paths: Iterable[Path]) -> int:
+    """Return when the last of some files was changed, ns since 1970; 0 if none is there."""
+    return max((nanoseconds for _, nanoseconds, _ in marks_of(paths).values()), default=0)
 
 
 @dataclass
@@ -58,11 +63,6 @@ class Arrivals:
         finished = {path for path, (_, since) in self._since.items() if now - since >= self.settle}
         self._taken |= {path: self._since.pop(path)[0] for path in finished}
         return finished
-
-    def again(self, paths: Collection[Path]) -> None:
-        """Take files for new: their tests could not be worked on."""
-        for path in paths:
-            self._taken.pop(path, None)
 
     @property
     def is_waiting(self) -> bool:

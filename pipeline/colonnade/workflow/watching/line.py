@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from colonnade.campaign.summary import RestitutionSummary, TestSummary
-from colonnade.findings import Severity
+from colonnade.campaign.summary import RestitutionSummary, TestSummary, Warned
+from colonnade.findings import Finding, Severity, as_record
 from colonnade.store.records.wording import interval, listed, number
 
 
@@ -26,6 +26,8 @@ class Line:
         The e of its specimen that is known so far.
     limits : mapping of str to float
         A of the limits of the specimen's map at the test's Ω: `no_rocking`, `lower`, `upper`; empty without a map.
+    changed : tuple of Finding
+        What is other than in the last test with the same set-up.
     seconds : float
         From the last change of its files to this line.
     """
@@ -34,6 +36,7 @@ class Line:
     record: TestSummary
     restitution: RestitutionSummary
     limits: Mapping[str, float]
+    changed: tuple[Finding, ...]
     seconds: float
 
     def text(self) -> str:
@@ -49,6 +52,7 @@ class Line:
             **self.record.model_dump(mode="json"),
             "specimen_restitution": self.restitution.model_dump(mode="json"),
             "map_limits": dict(self.limits),
+            "changed": [as_record(each) for each in self.changed],
         }
 
     def _measured(self) -> str:
@@ -84,6 +88,7 @@ class Line:
         return f"{this}{why}; {self.record.specimen} so far e {so_far} of {len(found.tests)}"
 
     def _warnings(self) -> list[str]:
-        worst = [each for each in self.record.warnings if each.severity is not Severity.NOTE and not each.explained]
+        worst: list[Finding | Warned] = [*self.changed]
+        worst += [each for each in self.record.warnings if each.severity is not Severity.NOTE and not each.explained]
         shown = [f"{each.severity}: {each.text}" for each in worst[:2]]
         return [*shown, f"and {listed([each.kind for each in worst[2:]])}"] if len(worst) > 2 else shown

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,6 +11,8 @@ import numpy as np
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.summary import TestSummary
 from colonnade.errors import StoreError
+from colonnade.findings import Finding
+from colonnade.identification.plausibility.since_last import ChannelState, changes
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.specimen import record_of_specimen
@@ -23,6 +26,7 @@ from colonnade.workflow.pooling import restitution_taken
 from colonnade.workflow.raw_files import raw_files
 from colonnade.workflow.steps import Graph
 from colonnade.workflow.walk import Walk
+from colonnade.workflow.watching.arrivals import last_change
 from colonnade.workflow.watching.line import Line
 
 if TYPE_CHECKING:
@@ -66,7 +70,8 @@ def measure(campaign: Campaign, layout: Layout, name: str, finished: float) -> L
     record = record_of_test(campaign, test, stored)
     pooled = restitution_taken(campaign, layout, test.specimen)
     known = record_of_specimen(campaign, test.specimen, pooled).restitution
-    return Line(name, record, known, _limits(layout, test.specimen, record), time.time() - finished)
+    changed = () if walk.failed_tests else tuple(_changes(campaign, layout, test))
+    return Line(name, record, known, _limits(layout, test.specimen, record), changed, time.time() - finished)
 
 
 def measured(campaign: Campaign, layout: Layout) -> set[str]:
@@ -85,6 +90,29 @@ def _compare(campaign: Campaign, test: Test, stored: Stored) -> None:
     if ("rocking", None) in stored.datasets:
         measured = stored.datasets["rocking", None]
         stored.datasets["compare", None] = compare(measured, predicted, CompareInputs.of(campaign, test))
+
+
+def _changes(campaign: Campaign, layout: Layout, test: Test) -> Iterator[Finding]:
+    """Compare the channels with those of the test with the same set-up that was recorded last before this one."""
+    alike = [each for each in campaign.tests.values() if each.setup == test.setup]
+    recorded = {each.id: last_change(each.files.values()) for each in alike}
+    before = [name for name in recorded if 0 < recorded[name] < recorded[test.id]]
+    done = [name for name in before if layout.stage(name, "condition").exists()]
+    if done:
+        last = max(done, key=recorded.__getitem__)
+        yield from changes(_states(layout, test.id), _states(layout, last), last)
+
+
+def _states(layout: Layout, name: str) -> dict[str, ChannelState]:
+    try:
+        conditioned = files.read(layout.stage(name, "condition"))
+    except StoreError:
+        return {}
+    return {
+        str(variable): ChannelState(float(values.attrs["zero"]), float(values.attrs["noise"]), motion)
+        for variable, values in conditioned.data_vars.items()
+        if {"zero", "noise"} <= values.attrs.keys() and np.isfinite(motion := float(np.abs(values).max()))
+    }
 
 
 def _limits(layout: Layout, specimen: str, record: TestSummary) -> dict[str, float]:

@@ -17,7 +17,7 @@ from colonnade.errors import CampaignError, StoreError
 from colonnade.interruption import expect_none
 from colonnade.store.layout import Layout
 from colonnade.workflow.execution.lock import only_watch
-from colonnade.workflow.watching.arrivals import Arrivals, marks_of
+from colonnade.workflow.watching.arrivals import Arrivals, last_change, marks_of
 from colonnade.workflow.watching.behind import Behind
 from colonnade.workflow.watching.folders import Bell, listening
 from colonnade.workflow.watching.line import Line
@@ -192,11 +192,11 @@ class _Watching:
         """Bring a test up to its line, unless it is left out or a file of it is still to come."""
         del self._due[name]
         self._is_outdated = True
-        files = [*marks_of(self._files(name)).values()] if name in self.campaign.tests else []
-        if not files or self.campaign.left_out(name) or missing_file(self.campaign.tests[name], self.campaign.folder):
+        test = self.campaign.tests.get(name)
+        if test is None or self.campaign.left_out(name) or missing_file(test, self.campaign.folder):
             return
         self.behind.give_way()
-        finished = max(time_ns for _, time_ns, _ in files) / 1e9
+        finished = last_change(test.files.values()) / 1e9
         try:
             line = measure(self.campaign, self.layout, name, finished)
         except StoreError as error:
