@@ -114,14 +114,20 @@ def test_on_a_telephone_what_is_wider_says_that_it_scrolls(visit):
     assert all(wider == said for wider, said in boxes)
 
 
-def test_a_thousand_rows_are_all_there_again_after_a_filter_and_after_a_sort(visit, report_folder, tmp_path):
+@pytest.fixture
+def thousand(visit, report_folder, tmp_path):
+    """The overview with each of its nine rows 112 times."""
     folder = Path(shutil.copytree(report_folder, tmp_path / "report"))
     page = folder / "index.html"
     text = page.read_text(encoding="utf-8")
     start = text.index("<tbody>", text.index('id="tests-table"')) + len("<tbody>")
     end = text.index("</tbody>", start)
     page.write_text(text[:start] + 112 * text[start:end] + text[end:], encoding="utf-8")
-    page = visit("index.html", folder=folder)
+    return visit("index.html", folder=folder)
+
+
+def test_a_thousand_rows_are_all_there_again_after_a_filter_and_after_a_sort(thousand):
+    page = thousand
     choose(page, "kind", "earthquake")
     assert page.locator("#filter output").inner_text() == "448 of 1008 tests"
     shown = "document.querySelectorAll('#tests-table tbody tr:not([hidden])').length"
@@ -131,3 +137,20 @@ def test_a_thousand_rows_are_all_there_again_after_a_filter_and_after_a_sort(vis
     page.click("#tests-table th[data-column='test'] button")
     page.wait_for_function(f"{shown} === 1008")
     assert page.evaluate(SHOWN) == sorted(page.evaluate(SHOWN))
+
+
+def test_an_answer_waits_for_a_screen_of_rows_and_print_for_all(thousand):
+    counted = "document.querySelectorAll('#tests-table tbody tr').length"
+    at_once, printed = thousand.evaluate(
+        f"""() => {{
+          const form = document.getElementById("filter");
+          form.elements.kind.value = "earthquake";
+          form.dispatchEvent(new Event("input", {{ bubbles: true }}));
+          const counts = [{counted}];
+          window.dispatchEvent(new Event("beforeprint"));
+          return [...counts, {counted}];
+        }}"""
+    )
+    assert 30 <= at_once <= 50
+    assert printed == 448
+    assert set(thousand.evaluate(SHOWN)) == {"span-2.0", "span-2.5", "span-3.0", "watched"}

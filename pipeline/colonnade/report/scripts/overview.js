@@ -20,24 +20,23 @@
     return { row: row, cells: cells, words: cells.join(" ").toLowerCase(), fits: true };
   });
 
-  // Rows that appear at once; of a long table the others follow, so that the answer does not wait for them.
-  const AT_ONCE = 100;
-  let latest = 0;
+  // Rows that appear at once, about a screen of them. The others of a long table follow after a pause, some at a time,
+  // so that no answer waits for them. A row that is not shown is taken out: only a shorter table is laid out faster.
+  const AT_ONCE = 40;
+  const PAUSE = 300; // ms, longer than between two keys
+  let pause = 0;
 
   function show() {
-    const turn = ++latest;
-    const hidden = [];
-    let count = 0;
-    rows.forEach(function (each) {
-      if (each.fits && ++count > AT_ONCE && each.row.hidden) hidden.push(each.row);
-      else if (each.row.hidden === each.fits) each.row.hidden = !each.fits;
-    });
+    clearTimeout(pause);
+    const wanted = rows.filter(function (each) { return each.fits; }).map(function (each) { return each.row; });
+    const isShown = wanted.length === body.rows.length && wanted.every(function (row, index) { return row === body.rows[index]; });
+    if (isShown) return;
+    body.replaceChildren(...wanted.splice(0, AT_ONCE));
     function more() {
-      if (turn !== latest || !hidden.length) return;
-      hidden.splice(0, AT_ONCE).forEach(function (row) { row.hidden = false; });
-      setTimeout(more);
+      body.append(...wanted.splice(0, AT_ONCE));
+      if (wanted.length) pause = setTimeout(more);
     }
-    requestAnimationFrame(function () { setTimeout(more); });
+    if (wanted.length) pause = setTimeout(more, PAUSE);
   }
 
   function fits(cell, wanted, name) {
@@ -80,12 +79,6 @@
       return down ? -order : order;
     });
     rows = keyed.map(function (entry) { return entry.each; });
-    const all = document.createDocumentFragment();
-    rows.forEach(function (each, index) {
-      if (index >= AT_ONCE) each.row.hidden = true;
-      all.append(each.row);
-    });
-    body.append(all);
     show();
   }
 
@@ -114,7 +107,8 @@
   });
   window.addEventListener("pageshow", filter);
   window.addEventListener("beforeprint", function () {
-    rows.forEach(function (each) { each.row.hidden = !each.fits; });
+    clearTimeout(pause);
+    body.append(...rows.filter(function (each) { return each.fits; }).map(function (each) { return each.row; }));
   });
   form.hidden = false;
 })();
