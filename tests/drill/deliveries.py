@@ -1,0 +1,108 @@
+"""Raw files of a small campaign in several formats, and the ways in which recorders put them into a folder."""
+
+from __future__ import annotations
+
+import os
+import random
+import time
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import scipy.io
+from nptdms import ChannelObject, TdmsWriter
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
+
+CAMPAIGN = """\
+schema = 1
+campaign = "watched"
+title = "A watched campaign"
+
+[specimens]
+prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}
+
+[setups.frame.channels]
+top = {column = "top", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
+direction = [1, 0, 0], relative_to = "table"}
+table = {column = "table", quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]}
+
+[watch]
+words = {free = "free-vibration"}
+pattern = ["{kind}-{number}.csv", "{kind}-{number}.txt", "{kind}-{number}.mat", "{kind}-{number}.tdms"]
+"""
+BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+SUFFIXES = ("csv", "txt", "mat", "tdms")
+
+Columns = dict[str, np.ndarray]
+
+
+@cache
+def record(kind: str, number: int, rate: float, duration: float) -> Columns:
+    """One of a few records, with noise."""
+    noise, moment = np.random.default_rng(number), np.arange(0.0, duration, 1 / rate)
+    base, theta0 = np.zeros_like(moment), 0.0
+    if kind == "free":
+        theta0 = (0.3 + 0.05 * number) * BLOCK.critical_angle
+    else:
+        shaken = (moment > 1.0) & (moment < 1.3)
+        base = np.where(shaken, (2.2 + 0.15 * number) * np.sin((moment - 1.0) * 2 * np.pi / 0.3), 0.0)
+    angle = rock(BLOCK, Motion(base, 1 / rate), restitution=0.93, theta0=theta0).angle
+    return {
+        "time": moment,
+        "top": 440 * np.sin(angle) + 0.01 * noise.standard_normal(moment.size),
+        "table": base + 0.002 * noise.standard_normal(moment.size),
+    }
+
+
+def content(columns: Columns, suffix: str, scratch: Path) -> bytes:
+    """Give the bytes of a file of this kind."""
+    path = scratch / f"content.{suffix}"
+    if suffix in ("csv", "txt"):
+        sign = "," if suffix == "csv" else "\t"
+        rows = np.column_stack(list(columns.values()))
+        np.savetxt(path, rows, delimiter=sign, header=sign.join(columns), comments="", fmt="%.6f")
+        if suffix == "txt":
+            path.write_text(path.read_text().replace(".", ","))
+    elif suffix == "mat":
+        scipy.io.savemat(path, columns)
+    else:
+        with TdmsWriter(path) as writer:
+            writer.write_segment([ChannelObject("record", name, values) for name, values in columns.items()])
+    return path.read_bytes()
+
+
+def whole(path: Path, data: bytes, chance: random.Random) -> None:
+    """Write it at once."""
+    path.write_bytes(data)
+
+
+def slowly(path: Path, data: bytes, chance: random.Random) -> None:
+    """Write it in pieces, with pauses shorter than it takes to settle, and now and then one that is longer."""
+    cuts = sorted(chance.sample(range(1, len(data)), 8))
+    with path.open("wb") as stream:
+        for start, stop in zip([0, *cuts], [*cuts, len(data)], strict=True):
+            stream.write(data[start:stop])
+            stream.flush()
+            time.sleep(chance.choice([0.1, 0.3, 0.6, 0.6, 2.5]))
+
+
+def renamed(path: Path, data: bytes, chance: random.Random) -> None:
+    """Write it under another name, then rename it."""
+    partial = path.with_name(path.name + ".part")
+    partial.write_bytes(data)
+    time.sleep(chance.uniform(0.0, 2.0))
+    os.replace(partial, path)
+
+
+def rewritten(path: Path, data: bytes, chance: random.Random) -> None:
+    """Write half of it, as if it were all, and later the whole."""
+    path.write_bytes(data[: len(data) // 2])
+    time.sleep(chance.uniform(2.0, 6.0))
+    path.write_bytes(data)
+
+
+WAYS: tuple[Callable[[Path, bytes, random.Random], None], ...] = (whole, whole, slowly, renamed, rewritten)

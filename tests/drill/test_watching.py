@@ -1,0 +1,220 @@
+"""A watch while files arrive as recorders write them: each gets its line soon, nothing is lost, memory stays."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import signal
+import statistics
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import deliveries
+from colonnade.workflow import run
+
+pytestmark = [
+    pytest.mark.drill,
+    pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="memory is looked at in Linux's /proc"),
+]
+
+FILES = int(os.environ.get("DRILL_FILES", "60"))
+MANY = int(os.environ.get("DRILL_MANY", "1000"))
+KILLS = int(os.environ.get("DRILL_WATCH_KILLS", "50"))
+SEED = 11
+BROKEN = b"\x00\xff not a recording, whatever its name says"
+PATIENCE = 180.0
+
+
+class Watch:
+    """A watch in a process of its own, and the lines that it gives."""
+
+    def __init__(self, folder: Path, *, polled: bool = False) -> None:
+        self.lines: list[tuple[float, dict[str, Any]]] = []
+        self.process = subprocess.Popen(
+            [sys.executable, str(Path(__file__).with_name("watcher.py")), str(folder), str(int(polled))],
+            stdout=subprocess.PIPE,
+            stderr=(folder / "complaints.txt").open("w"),
+            text=True,
+        )
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _read(self) -> None:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            self.lines.append((time.time(), json.loads(line)))
+
+    @property
+    def last(self) -> dict[str, dict[str, Any]]:
+        """The last line of each test."""
+        return {line["test"]: line for _, line in self.lines}
+
+    @property
+    def memory(self) -> float:
+        """MB that the process holds."""
+        for line in Path(f"/proc/{self.process.pid}/status").read_text().splitlines():
+            if line.startswith("VmRSS"):
+                return int(line.split()[1]) / 1024
+        return float("nan")
+
+    @property
+    def processor_time(self) -> float:
+        """Seconds of processor time of the process."""
+        parts = Path(f"/proc/{self.process.pid}/stat").read_text().rpartition(")")[2].split()
+        return (int(parts[11]) + int(parts[12])) / os.sysconf("SC_CLK_TCK")
+
+    def wait_for(self, tests: set[str]) -> None:
+        until = time.monotonic() + PATIENCE
+        while not tests <= self.last.keys():
+            assert time.monotonic() < until, f"no line on {sorted(tests - self.last.keys())[:5]}"
+            time.sleep(0.1)
+
+
+@contextmanager
+def watching(folder: Path, *, polled: bool = False) -> Iterator[Watch]:
+    watch = Watch(folder, polled=polled)
+    try:
+        yield watch
+    finally:
+        watch.process.send_signal(signal.SIGINT)
+        try:
+            watch.process.wait(30)
+        except subprocess.TimeoutExpired:
+            watch.process.kill()
+            raise
+
+
+def begun(folder: Path) -> Path:
+    """A campaign with two tests that have been run; its folder."""
+    (folder / "raw").mkdir(parents=True)
+    (folder / "campaign.toml").write_text(deliveries.CAMPAIGN, encoding="utf-8")
+    for kind in ("free", "pulse"):
+        data = deliveries.content(deliveries.record(kind, 0, 1000.0, 30.0), "csv", folder)
+        (folder / "raw" / f"{kind}-900.csv").write_bytes(data)
+    assert not run(folder, workers=2).failed
+    return folder
+
+
+def deliver(folder: Path, count: int, chance: random.Random) -> tuple[dict[str, float], set[str]]:
+    """Put files into the raw folder in various ways; when each was closed for the last time, and which are broken."""
+    closed: dict[str, float] = {}
+    broken: set[str] = set()
+    threads = []
+    for number in range(count):
+        kind, suffix = chance.choice(["free", "pulse"]), deliveries.SUFFIXES[number % 4]
+        path, name = folder / "raw" / f"{kind}-{number:03d}.{suffix}", f"{kind}-{number:03d}"
+        data = deliveries.content(deliveries.record(kind, number % 6, 1000.0, 30.0), suffix, folder)
+        way = chance.choice(deliveries.WAYS)
+        if number % 12 == 7:
+            data, way = BROKEN, deliveries.whole
+            broken.add(name)
+
+        def one(path: Path = path, data: bytes = data, way: Any = way, name: str = name, seed: int = number) -> None:
+            way(path, data, random.Random(seed))
+            closed[name] = time.time()
+
+        threads.append(threading.Thread(target=one))
+        threads[-1].start()
+        if number % 10 != 3:  # else two at once
+            time.sleep(chance.expovariate(1 / 4.0))
+    for thread in threads:
+        thread.join()
+    return closed, broken
+
+
+@pytest.mark.parametrize("polled", [False, True], ids=["events", "polled"])
+def test_files_that_arrive_in_all_ways_get_their_lines(
+    polled: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder, chance = begun(tmp_path / "campaign"), random.Random(SEED)
+    with watching(folder, polled=polled) as watch:
+        time.sleep(10)
+        before = watch.processor_time
+        time.sleep(20)
+        idle = (watch.processor_time - before) / 20
+        closed, broken = deliver(folder, FILES, chance)
+        watch.wait_for(set(closed))
+        until = time.monotonic() + PATIENCE
+        while any((watch.last[name]["status"] == "failed") != (name in broken) for name in closed):
+            assert time.monotonic() < until
+            time.sleep(0.2)
+        first_after = {
+            name: next(at for at, line in watch.lines if line["test"] == name and at >= closed[name]) for name in closed
+        }
+        seconds = sorted(first_after[name] - closed[name] for name in closed if name not in broken)
+        # What is not done yet is done by the run behind; then nothing is left for another one.
+        state, until = folder / "report" / "state.js", time.monotonic() + 20 * PATIENCE
+        while not is_all_done(folder, closed, broken):
+            assert time.monotonic() < until
+            time.sleep(2.0)
+        memory = watch.memory
+    assert '"watched": false' in state.read_text(encoding="utf-8")
+    failures = [line["test"] for _, line in watch.lines if line["status"] == "failed" and line["test"] not in broken]
+    ended = run(folder, workers=2)
+    assert all(stage.action != "done" for stage in ended.stages)
+    with capsys.disabled():
+        print(
+            f"\n{FILES} files ({'polled' if polled else 'events'}), from close to line: median "
+            f"{statistics.median(seconds):.1f} s, worst {seconds[-1]:.1f} s; {len(broken)} broken, {len(failures)} "
+            f"called failed too early; idle {100 * idle:.2f} % of a core; {memory:.0f} MB"
+        )
+    assert not failures
+    assert idle < 0.01
+
+
+def is_all_done(folder: Path, closed: dict[str, float], broken: set[str]) -> bool:
+    try:
+        summary = json.loads((folder / "processed" / "summary.json").read_text(encoding="utf-8"))
+    except OSError:
+        return False
+    states = {name: each["status"] for name, each in summary["tests"].items()}
+    return all(states.get(name) == ("failed" if name in broken else "done") for name in closed)
+
+
+def test_memory_is_steady_over_many_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = begun(tmp_path / "campaign")
+    data = deliveries.content(deliveries.record("pulse", 2, 200.0, 4.0), "csv", folder)
+    with watching(folder) as watch:
+        memory = []
+        for number in range(MANY):
+            (folder / "raw" / f"pulse-{number:04d}.csv").write_bytes(data + b"\n" * (number % 7))
+            if number % (MANY // 10) == MANY // 10 - 1:
+                watch.wait_for({f"pulse-{each:04d}" for each in range(number + 1)})
+                memory.append(watch.memory)
+    with capsys.disabled():
+        print(f"\nmemory over {MANY} files, MB: {', '.join(f'{each:.0f}' for each in memory)}")
+    assert memory[-1] < memory[1] + 60
+
+
+def test_nothing_is_lost_when_the_watch_is_killed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder, chance = begun(tmp_path / "campaign"), random.Random(SEED)
+    data = {
+        kind: deliveries.content(deliveries.record(kind, 1, 200.0, 6.0), "csv", folder) for kind in ("free", "pulse")
+    }
+    names = []
+    for number in range(KILLS):
+        watch = Watch(folder)
+        kind = chance.choice(["free", "pulse"])
+        names.append(f"{kind}-{number:03d}")
+        time.sleep(chance.uniform(0.0, 6.0))
+        (folder / "raw" / f"{names[-1]}.csv").write_bytes(data[kind])
+        time.sleep(chance.uniform(0.0, 6.0))
+        watch.process.kill()
+        watch.process.wait()
+    with watching(folder) as watch:
+        until = time.monotonic() + 20 * PATIENCE
+        while not is_all_done(folder, dict.fromkeys(names, 0.0), set()):
+            assert time.monotonic() < until
+            time.sleep(1.0)
+    assert all(stage.action != "done" for stage in run(folder, workers=2).stages)
+    assert not list(folder.rglob("*.partial"))
+    with capsys.disabled():
+        print(f"\n{KILLS} kills of a watch: all of {len(names)} tests are done")
