@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import random
 import time
 from collections.abc import Callable
@@ -95,7 +94,7 @@ def renamed(path: Path, data: bytes, chance: random.Random) -> None:
     partial = path.with_name(path.name + ".part")
     partial.write_bytes(data)
     time.sleep(chance.uniform(0.0, 2.0))
-    os.replace(partial, path)
+    partial.replace(path)
 
 
 def rewritten(path: Path, data: bytes, chance: random.Random) -> None:

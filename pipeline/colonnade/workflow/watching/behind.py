@@ -21,6 +21,26 @@ PATIENCE = 3.0
 """Seconds in which it has to give way; then it is killed, which loses nothing but the steps in progress."""
 
 
+@dataclass(frozen=True)
+class Ended:
+    """
+    A run that has ended.
+
+    Attributes
+    ----------
+    code : int
+        Its exit code.
+    failures : tuple of str
+        A sentence on each test or specimen that failed.
+    was_refused : bool
+        Whether it did nothing, as when another run held the campaign.
+    """
+
+    code: int
+    failures: tuple[str, ...]
+    was_refused: bool
+
+
 @dataclass
 class Behind:
     """
@@ -60,8 +80,8 @@ class Behind:
         """Whether it has been started and not ended."""
         return self._process is not None and self._process.poll() is None
 
-    def ended(self) -> tuple[int, list[str]] | None:
-        """Return the exit code and the failures of a run that has ended by itself, once; else None."""
+    def ended(self) -> Ended | None:
+        """Return how a run has ended by itself, once; else None."""
         if self._process is None or self._process.poll() is None:
             return None
         return self._end()
@@ -78,18 +98,19 @@ class Behind:
             _kill(self._process)
         self._end()
 
-    def _end(self) -> tuple[int, list[str]]:
+    def _end(self) -> Ended:
         assert self._process is not None
         assert self._output is not None
         code = self._process.wait()
         self._output.seek(0)
         try:
-            stages = json.loads(self._output.read() or b"{}").get("stages", [])
+            stages = json.loads(self._output.read() or b"{}").get("stages")
         except (ValueError, RecursionError):
-            stages = []
+            stages = None
         self._output.close()
         self._process = self._output = None
-        return code, [f"{each['subject']}: {each['reason']}" for each in stages if each["action"] == "failed"]
+        failed = [each for each in stages or () if each["action"] == "failed"]
+        return Ended(code, tuple(f"{each['subject']}: {each['reason']}" for each in failed), stages is None)
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:

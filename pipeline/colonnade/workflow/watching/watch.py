@@ -147,6 +147,7 @@ class _Watching:
     _code: int = 0
     _said: str = ""
     _alive: float = 0.0
+    _behind_from: float = 0.0
     _line: str = ""
 
     def __post_init__(self) -> None:
@@ -217,10 +218,13 @@ class _Watching:
         """Start, or take note of, the run behind; give a sign of life to open pages."""
         ended = self.behind.ended()
         if ended is not None:
-            self._code, failures = ended
-            for failure in failures:
+            self._code = ended.code
+            for failure in ended.failures:
                 self._say_once(failure)
-        if self._is_outdated and not (self._due or self._arrivals.is_waiting or self.behind.is_running):
+            if ended.was_refused:
+                self._is_outdated, self._behind_from = True, now + AGAIN
+        is_free = not (self._due or self._arrivals.is_waiting or self.behind.is_running)
+        if self._is_outdated and is_free and now >= self._behind_from:
             self._is_outdated = False
             self.behind.start()
         if ended is not None or now - self._alive >= EVERY:
