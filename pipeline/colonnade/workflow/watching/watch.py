@@ -145,7 +145,7 @@ class _Watching:
     _due: dict[str, float] = field(default_factory=dict)
     _is_outdated: bool = True
     _code: int = 0
-    _said: str = ""
+    _said: set[str] = field(default_factory=set)
     _alive: float = 0.0
     _behind_from: float = 0.0
     _line: str = ""
@@ -243,8 +243,8 @@ class _Watching:
                 self._say_once(str(found))
 
     def _say_once(self, sentence: str) -> None:
-        if sentence != self._said:
-            self._said = sentence
+        if sentence not in self._said:
+            self._said.add(sentence)
             self.log.warning(sentence)
 
     def _files(self, name: str) -> list[Path]:
