@@ -117,6 +117,11 @@ class Campaign:
         """Decisions of the manual review about a test; empty ones if it has none."""
         return self.reviews.get(test, Review())
 
+    def awaiting(self) -> Campaign:
+        """Return the campaign with every test that lacks a raw file planned."""
+        missing = {name: missing_file(test, self.folder) for name, test in self.tests.items()}
+        return replace(self, awaited={name: file for name, file in missing.items() if file})
+
     def left_out(self, test: str) -> str:
         """Why a test is not run: people excluded it, or it is planned and has no raw file; empty if it is run."""
         awaited = self.awaited.get(test, "")

@@ -97,6 +97,12 @@ def work_options(command: Command) -> Command:
             is_flag=True,
             help="Read raw files, results and pages even if size and time are unchanged; recompute what was altered.",
         ),
+        click.option(
+            "--await",
+            "awaiting",
+            is_flag=True,
+            help="Take a test without its raw file for planned: pending, not failed.",
+        ),
         results_option,
         scheduler_option,
         workers_option,

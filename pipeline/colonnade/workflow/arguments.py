@@ -19,6 +19,7 @@ def check_run(
     workers: Any,
     scheduler: Any,
     verify: Any,
+    awaiting: Any,
     results: Any,
     progress: Any,
 ) -> None:
@@ -42,7 +43,8 @@ def check_run(
         raise ValueError(f"only is {described(only)}; the id of a test, or a list of ids, was expected")
     if workers is not None:
         whole("workers", workers, 1, MOST_WORKERS)
-    if not isinstance(verify, bool):
-        raise ValueError(f"verify is {described(verify)}; True or False was expected")
+    for name, value in {"verify": verify, "awaiting": awaiting}.items():
+        if not isinstance(value, bool):
+            raise ValueError(f"{name} is {described(value)}; True or False was expected")
     if progress is not None and not callable(progress):
         raise ValueError(f"progress is {described(progress)}; a function was expected")

@@ -32,6 +32,7 @@ def run(
     workers: int | None = None,
     scheduler: str | None = None,
     verify: bool = False,
+    awaiting: bool = False,
     results: Path | str | None = None,
     progress: Progress | None = None,
 ) -> RunResult:
@@ -52,6 +53,8 @@ def run(
         Address of a running Dask scheduler, whose workers are used instead. They share the campaign's folder.
     verify : bool, optional
         Read every raw file, result and page again, whatever its size and time; what was altered is recomputed.
+    awaiting : bool, optional
+        Take every test without its raw file for planned: it is pending, not failed.
     results : Path or str, optional
         Folder that holds `processed` and `report`, such as one on another disk; default that of the campaign file.
     progress : callable, optional
@@ -78,10 +81,11 @@ def run(
         workers=workers,
         scheduler=scheduler,
         verify=verify,
+        awaiting=awaiting,
         results=results,
         progress=progress,
     )
-    loaded = load(Path(campaign))
+    loaded = load(Path(campaign)).awaiting() if awaiting else load(Path(campaign))
     _expect_stage("start_from", start_from)
     _expect_stage("until", until)
     last = until or "report"

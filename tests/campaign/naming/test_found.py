@@ -152,3 +152,11 @@ def test_a_planned_test_is_awaited_until_its_file_is_there(with_files: Campaigns
     )
     assert with_files(text=entry).left_out("t") == "expected: raw/t.csv"
     assert with_files("t.csv", text=entry).left_out("t") == ""
+
+
+def test_a_watch_awaits_every_file_that_is_missing(with_files: Campaigns) -> None:
+    entry = '[[tests]]\nid = "t"\nkind = "other"\nspecimen = "cone"\nsetup = "frame"\nfile = "raw/t.csv"\n'
+    campaign = with_files("prism-free-1.csv", text=WATCH + entry)
+    assert campaign.left_out("t") == ""
+    assert campaign.awaiting().left_out("t") == "expected: raw/t.csv"
+    assert campaign.awaiting().left_out("prism-free-1") == ""

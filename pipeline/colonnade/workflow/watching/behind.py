@@ -64,7 +64,7 @@ class Behind:
     def start(self) -> None:
         """Begin a run."""
         self._output = tempfile.TemporaryFile()  # noqa: SIM115 — closed by `_end`
-        command = [sys.executable, "-m", "colonnade", "run", str(self.campaign_file), "--json"]
+        command = [sys.executable, "-m", "colonnade", "run", str(self.campaign_file), "--await", "--json"]
         command += [] if self.results is None else ["--results", str(self.results)]
         command += [] if self.workers is None else ["--workers", str(self.workers)]
         options = {"process_group": 0} if os.name == "posix" else {"creationflags": _windows_flags()}

@@ -88,7 +88,7 @@ def watch(
     StoreError
         If another process watches the campaign, or results cannot be written.
     """
-    loaded = load(Path(campaign))
+    loaded = load(Path(campaign)).awaiting()
     layout = Layout.of(loaded.folder, results)
     with only_watch(layout), _logged(layout, say) as log, listening(loaded.folder / loaded.watch.folder) as bell:
         behind = Behind(loaded.path, layout.results, workers)
@@ -234,7 +234,7 @@ class _Watching:
     def _reload(self) -> None:
         """Read the campaign again; if it cannot be used now, the last one that could is kept."""
         try:
-            self.campaign = load(self.campaign.path)
+            self.campaign = load(self.campaign.path).awaiting()
         except CampaignError as error:
             self._say_once(f"{error}\nThe campaign as it was before is used until this is corrected.")
             return
