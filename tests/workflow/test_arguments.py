@@ -15,6 +15,7 @@ SOUND = {
     "workers": None,
     "scheduler": None,
     "verify": False,
+    "awaiting": False,
     "results": None,
     "progress": None,
 }
@@ -42,6 +43,7 @@ def test_what_a_run_takes_passes(given):
         ({"only": [1]}, "only is an array of shape .*; the id of a test, or a list of ids"),
         ({"workers": 0}, "workers is 0; a whole number from 1 to 10000"),
         ({"verify": 1}, "verify is 1; True or False"),
+        ({"awaiting": "yes"}, "awaiting is the text 'yes'; True or False"),
         ({"progress": "bar"}, "progress is the text 'bar'; a function"),
     ],
 )
