@@ -5,6 +5,7 @@ from __future__ import annotations
 import posixpath
 
 from colonnade.campaign import Campaign
+from colonnade.store.layout import STATE
 
 WHOLE = {
     "quality": "quality.html",
@@ -35,7 +36,7 @@ def of_data(page: str) -> str:
 
 def scripts_of(page: str) -> list[str]:
     """Addresses of the scripts of a page, in the order in which it loads them."""
-    return [*(LIBRARY if page.startswith("tests/") else ()), OWN, of_data(page)]
+    return [*(LIBRARY if page.startswith("tests/") else ()), OWN, STATE, of_data(page)]
 
 
 def of_specimen(specimen: str) -> str:

@@ -20,6 +20,7 @@ from colonnade.report import addresses, drawings, methods, pages, problems, spec
 from colonnade.report.asked import Asked, asked_of
 from colonnade.report.interactive import tables
 from colonnade.report.interactive.scripts import scripts
+from colonnade.report.interactive.state import UNWATCHED
 from colonnade.report.kept import ALTERED, from_text, to_text
 from colonnade.report.methods import Used
 from colonnade.report.overview_page import groups, maps, peaks, spans
@@ -81,7 +82,8 @@ def build(
     -------
     overview : Path
         ``report/index.html``; the others are next to it. The same results give the same bytes, and an unchanged page is
-        not written again. Pages of tests and specimens that have left the campaign are removed.
+        not written again. Pages of tests and specimens that have left the campaign are removed. The state script is
+        written only if it is missing: it may be that of a watch in progress.
 
     Raises
     ------
@@ -90,6 +92,8 @@ def build(
     """
     folder = layout.report.parent
     there = set()
+    if not layout.state.is_file():
+        files.write_text(layout.state, UNWATCHED)
     for address, text, made_from in render(campaign, layout, outdated, code=code, kept=kept, spread=spread):
         expect_none()
         if text is not None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import IO
 
@@ -18,7 +18,9 @@ READABLE = 0o100644 << 16
 """A plain file that everybody may read, as zip files say it."""
 
 
-def write_bundle(folder: Path, target: Path, *, without: Collection[Path] = ()) -> None:
+def write_bundle(
+    folder: Path, target: Path, *, without: Collection[Path] = (), instead: Mapping[str, str] | None = None
+) -> None:
     """
     Put all files of a folder into a zip file.
 
@@ -30,6 +32,8 @@ def write_bundle(folder: Path, target: Path, *, without: Collection[Path] = ()) 
         The zip file, outside the folder; written whole or not at all.
     without : collection of Path, optional
         Files of the folder that are left out.
+    instead : dict of str to str, optional
+        Texts by name in the folder; each replaces the file there.
 
     Raises
     ------
@@ -44,12 +48,16 @@ def write_bundle(folder: Path, target: Path, *, without: Collection[Path] = ()) 
         raise StoreError(f"{target}: this is a folder. Name the file that the bundle is written to.")
     found = [path for path in own_files(folder) if not path.is_symlink() and path not in without]
     names = {path.relative_to(folder).as_posix(): path for path in found if not path.name.startswith(".")}
+    texts = instead or {}
 
     def write_to(stream: IO[bytes]) -> None:
         with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
-            for name in sorted(names):
+            for name in sorted({*names, *texts}):
                 entry = zipfile.ZipInfo(f"{folder.name}/{name}", FIRST_DAY)
                 entry.external_attr, entry.compress_type = READABLE, zipfile.ZIP_DEFLATED
+                if name in texts:
+                    archive.writestr(entry, texts[name])
+                    continue
                 with names[name].open("rb") as source, archive.open(entry, "w") as packed:
                     while piece := source.read(1 << 20):
                         packed.write(piece)

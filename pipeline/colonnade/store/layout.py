@@ -9,6 +9,9 @@ from pathlib import Path
 from colonnade.errors import StoreError
 from colonnade.store.results import STAGES, ResultId
 
+STATE = "state.js"
+"""Name of the state script in the report's folder."""
+
 
 @dataclass(frozen=True)
 class Layout:
@@ -114,7 +117,7 @@ class Layout:
     @property
     def state(self) -> Path:
         """The script by which an open page of the report learns that something changed."""
-        return self.report.with_name("state.js")
+        return self.report.with_name(STATE)
 
     def test(self, test_id: str) -> Path:
         """Folder of a test's results."""

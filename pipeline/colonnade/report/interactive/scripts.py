@@ -8,7 +8,7 @@ from pathlib import Path
 from colonnade.errors import StoreError
 from colonnade.report.addresses import LIBRARY, OWN
 
-PARTS = ("samples", "panel", "moving", "downloads", "page", "overview")
+PARTS = ("samples", "kept", "panel", "moving", "downloads", "page", "overview", "watched")
 """Our scripts in the order in which they are joined: what a later one uses is in an earlier one."""
 
 FOLDER = Path(__file__).parents[1] / "scripts"

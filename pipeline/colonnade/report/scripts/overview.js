@@ -105,6 +105,19 @@
     document.getElementById("tests").scrollIntoView();
     (form.querySelector("select") || form.elements.words).focus({ preventScroll: true });
   });
+  colonnade.keep("tests", function () {
+    const sorted = heads.find(function (head) { return head.hasAttribute("aria-sort"); });
+    const wanted = Array.from(form.querySelectorAll("select, input"), function (field) { return [field.name, field.value]; });
+    return { wanted: wanted, column: sorted && sorted.dataset.column, order: sorted && sorted.getAttribute("aria-sort") };
+  }, function (kept) {
+    kept.wanted.forEach(function (pair) { if (form.elements[pair[0]]) form.elements[pair[0]].value = pair[1]; });
+    const head = heads.find(function (one) { return one.dataset.column === kept.column; });
+    if (head) {
+      sort(head);
+      if (head.getAttribute("aria-sort") !== kept.order) sort(head);
+    }
+    filter();
+  });
   window.addEventListener("pageshow", filter);
   window.addEventListener("beforeprint", function () {
     clearTimeout(pause);

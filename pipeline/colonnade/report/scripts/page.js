@@ -11,10 +11,13 @@ colonnade.show = (given) => Object.assign(colonnade, { given });
 document.addEventListener("DOMContentLoaded", async () => {
   const place = document.querySelector("[data-interactive]");
   const { groups, tables } = colonnade.given || {}; // a page that was moved without its data has its pictures alone
+  colonnade.keepPlace();
   try {
     if (place && groups && groups.length) await new colonnade.Page(colonnade.given, place).make();
   } finally {
     colonnade.addDownloads(tables || {});
+    colonnade.keepChoices();
+    colonnade.keepPlace(); // again, now that the page has its height
     colonnade.is_ready = true;
   }
 });
@@ -22,6 +25,7 @@ document.addEventListener("DOMContentLoaded", async () => {
 colonnade.Page = class {
   constructor(given, place) {
     Object.assign(this, { given, place, critical: given.critical, panels: [], frame: 0, fingers: new Map() });
+    Object.assign(this, { opened: {}, hidden: {} }); // groups and curves that the person turned on or off
   }
 
   async make() {
@@ -34,6 +38,7 @@ colonnade.Page = class {
     this.view = { ...this.whole };
     this.cursor = this.peak();
     this.addBar();
+    this.keepChoices();
     if (this.given.moving) {
       this.block = new colonnade.MovingBlock(this.given.moving, this);
       this.root.append(this.block.root);
@@ -48,6 +53,19 @@ colonnade.Page = class {
     this.move(this.cursor);
     new ResizeObserver(() => this.redraw()).observe(this.root);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.repaint());
+  }
+
+  keepChoices() {
+    const give = () => {
+      const { view, whole, cursor, opened, hidden } = this;
+      const isWhole = view.from === whole.from && view.to === whole.to; // a longer record is shown whole again
+      return { view: isWhole ? null : view, cursor, opened, hidden, speed: this.speed.value };
+    };
+    colonnade.keep("histories", give, ({ view, speed, ...others }) => {
+      Object.assign(this, others);
+      this.speed.value = speed;
+      if (view) this.look(view.from, view.to);
+    });
   }
 
   // The table of contents is written without the sections that need scripts.
@@ -88,8 +106,11 @@ colonnade.Page = class {
     const inside = colonnade.element("div");
     const box = colonnade.element("details", { class: "group-of-panels" }, colonnade.element("summary", {}, group.title), inside);
     if (group.note) box.append(colonnade.element("p", { class: "soft" }, group.note));
-    box.open = group.is_open;
-    box.addEventListener("toggle", () => box.open && this.fill(box));
+    box.open = this.opened[group.title] ?? group.is_open;
+    box.addEventListener("toggle", () => {
+      this.opened[group.title] = box.open;
+      if (box.open) this.fill(box);
+    });
     Object.assign(box, { group, inside });
     this.root.append(box);
     return box;

@@ -44,13 +44,14 @@ colonnade.Panel = class {
     this.chosen = colonnade.element("div", { class: "chosen", hidden: "" });
     this.box = colonnade.element("div", { class: "plotted" }, this.plot, this.line, this.chosen);
     this.root = colonnade.element("section", { class: "panel" }, colonnade.element("h3", {}, given.title + unit), this.keys, this.box);
-    for (const shown of [...this.curves, ...this.bands]) this.addKey(shown);
+    for (const shown of [...this.curves, ...this.bands]) this.addKey(shown, `${group.title}, ${given.title}, ${shown.name}`);
     for (const mark of given.marks || []) this.keys.append(colonnade.element("span", { class: "mark" }, `┊ ${mark.name}: ${mark.time.toFixed(2)} s`));
     if (given.flags && given.flags.length) this.keys.append(this.flagKey(given.flags));
   }
 
   // A button that turns a curve on and off, with its look and its value.
-  addKey(shown) {
+  addKey(shown, name) {
+    shown.is_hidden = this.page.hidden[name] ?? shown.is_hidden;
     const colour = shown.colour;
     const sample = colonnade.element("span", { class: shown.is === "band" ? "sample band" : "sample" });
     sample.style.setProperty("--colour", ["ink", "soft"].includes(colour) ? `var(--${colour})` : colour);
@@ -61,7 +62,7 @@ colonnade.Panel = class {
     shown.value.style.minWidth = `${shown.is === "band" ? 16 : isAngle ? 21 : (second ? 21 : 10) + (unit || "").length}ch`;
     const button = colonnade.element("button", { type: "button", "aria-pressed": String(!shown.is_hidden) }, sample, shown.name, " ", shown.value);
     button.addEventListener("click", () => {
-      shown.is_hidden = !shown.is_hidden;
+      this.page.hidden[name] = shown.is_hidden = !shown.is_hidden;
       button.setAttribute("aria-pressed", String(!shown.is_hidden));
       this.draw();
     });

@@ -9,9 +9,10 @@ from pathlib import Path
 from colonnade.campaign import Campaign, load
 from colonnade.errors import StoreError
 from colonnade.report import addresses, who_and_when
+from colonnade.report.interactive.state import UNWATCHED
 from colonnade.store import bundle, files, stamps
 from colonnade.store.freshness import Recipe
-from colonnade.store.layout import Layout
+from colonnade.store.layout import STATE, Layout
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.execution.lock import only_run
 
@@ -60,7 +61,7 @@ def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | st
     """
     Put the whole report of a campaign into one zip file; `campaign`, `results` and errors as for `write_pdf`.
 
-    A PDF of older pages is left out.
+    A PDF of older pages is left out. The pages in it are those of a report that nobody watches.
 
     Parameters
     ----------
@@ -76,7 +77,8 @@ def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | st
     with only_run(layout):
         folder = _there(layout)
         is_current = stamps.key_of(layout.pdf) == _recipe(loaded, layout, folder).key
-        bundle.write_bundle(folder, Path(target), without=() if is_current else (layout.pdf,))
+        without = () if is_current else (layout.pdf,)
+        bundle.write_bundle(folder, Path(target), without=without, instead={STATE: UNWATCHED})
     return Path(target)
 
 

@@ -56,7 +56,7 @@ def update_report(
     )
     folder = layout.report.parent
     tests, others = addresses(campaign)
-    is_whole = all(catalogue.stamp(folder / page) for page in tests)
+    is_whole = layout.state.is_file() and all(catalogue.stamp(folder / page) for page in tests)
     recipes = _recipes(campaign, layout, catalogue, outdated, recipe.code)
     kept = _kept(folder, catalogue, recipes)
     if not (is_whole and all(catalogue.stamp(folder / page) == recipe.key for page in others)):

@@ -15,6 +15,7 @@ from colonnade.campaign.campaign import missing_file
 from colonnade.campaign.naming.found import WITHOUT_TEST, files_in
 from colonnade.errors import CampaignError, StoreError
 from colonnade.interruption import expect_none
+from colonnade.report.interactive.state import EVERY
 from colonnade.store.layout import Layout
 from colonnade.workflow.execution.lock import only_watch
 from colonnade.workflow.watching.arrivals import Arrivals, last_change, marks_of
@@ -24,7 +25,7 @@ from colonnade.workflow.watching.line import Line
 from colonnade.workflow.watching.measure import measure, measured
 from colonnade.workflow.watching.notify import notify
 from colonnade.workflow.watching.share import Share
-from colonnade.workflow.watching.state import EVERY, shown_now, write_state
+from colonnade.workflow.watching.state import shown_now, write_state
 
 TEXTS = ("review.toml", "tests.csv", "tests.xlsx")
 """Files next to the campaign file that people change while it is watched."""
@@ -99,7 +100,7 @@ def watch(
             return watching.until_done() if once else watching.for_ever()
         finally:
             behind.give_way()
-            write_state(layout, is_watched=False, shown=shown_now(layout))
+            watching.tell_pages(is_watched=False)
 
 
 @contextmanager
@@ -149,6 +150,7 @@ class _Watching:
     _alive: float = 0.0
     _behind_from: float = 0.0
     _line: str = ""
+    _line_written: float = 0.0
 
     def __post_init__(self) -> None:
         """Take the files of tests that are measured already for known."""
@@ -171,6 +173,12 @@ class _Watching:
             if not (self._arrivals.is_waiting or self._due or self.behind.is_running or self._is_outdated):
                 return self._code
             self.bell.wait(BUSY)
+
+    def tell_pages(self, *, is_watched: bool = True) -> None:
+        """Give a sign of life to open pages."""
+        self._alive = time.monotonic()
+        shown, line, line_written = shown_now(self.layout), self._line, self._line_written
+        write_state(self.layout, is_watched=is_watched, shown=shown, line=line, line_written=line_written)
 
     def _look(self) -> None:
         """Look once at what arrived, and go on with what is to be done."""
@@ -208,9 +216,10 @@ class _Watching:
             # Its writer may only pause: it is called a failure when nothing more comes.
             self._due[name] = now + GRACE
             return
-        self._line = line.text()
+        self._line, self._line_written = line.text(), time.time()
         self.log.info(self._line)
         self.show(line)
+        self.tell_pages()
         if self.command and (problem := notify(self.command, line.as_json())):
             self.log.warning(f"--notify: {problem}")
 
@@ -228,8 +237,7 @@ class _Watching:
             self._is_outdated = False
             self.behind.start()
         if ended is not None or now - self._alive >= EVERY:
-            self._alive = now
-            write_state(self.layout, is_watched=True, shown=shown_now(self.layout), line=self._line)
+            self.tell_pages()
 
     def _reload(self) -> None:
         """Read the campaign again; if it cannot be used now, the last one that could is kept."""
