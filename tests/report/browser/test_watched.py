@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from time import monotonic, sleep
 
 import pytest
 
 from colonnade.report.interactive.state import state_script
+from colonnade.workflow import run
 
 READY = "typeof colonnade !== 'undefined' && colonnade.is_ready"
 CHANGED = "document.getElementById('changed')"
@@ -145,3 +153,53 @@ def test_it_is_not_printed(visit, folder, tell):
     assert page.locator(".watched").is_visible()
     page.emulate_media(media="print")
     assert page.locator(".watched").is_hidden()
+
+
+@contextmanager
+def watching(folder: Path) -> Iterator[None]:
+    """Run `colonnade watch` in a process of its own from its first sign of life on, and end it as Ctrl-C does."""
+    state = folder / "report" / "state.js"
+    process = subprocess.Popen([sys.executable, "-m", "colonnade", "watch", str(folder), "--workers", "1"])
+    try:
+        until = monotonic() + 60
+        while '"watched": true' not in state.read_text(encoding="utf-8"):
+            assert monotonic() < until, "no sign of life"
+            sleep(0.1)
+        yield
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait(60)
+
+
+def small_campaign(folder: Path) -> Path:
+    """Write two tests of the small campaign on which runs are tested."""
+    spec = spec_from_file_location("workflow_conftest", Path(__file__).parents[2] / "workflow" / "conftest.py")
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.write_campaign(folder, {"free-01": "free-vibration", "pulse-01": "pulse"})
+
+
+@pytest.mark.slow
+def test_an_open_page_follows_a_real_watch(visit, tmp_path):
+    folder = small_campaign(tmp_path / "small")
+    run(folder, workers=1)
+    with watching(folder):
+        page = visit("tests/pulse-01.html", folder=folder / "report")
+        page.wait_for_function("document.documentElement.classList.contains('scripted')")
+        page.locator(".panels").press("+")
+        page.evaluate("document.querySelector('.panels').blur()")
+        before = page.evaluate(CHOSEN)
+        measured = page.evaluate("[...colonnade.page.series[0]]")
+        page.evaluate("window.is_first = true")
+        raw = folder / "raw" / "pulse-01.csv"
+        lines = raw.read_text(encoding="utf-8").splitlines()
+        halved = [
+            f"{time},{float(top) / 2:.6f},{table}" for time, top, table in (line.split(",") for line in lines[1:])
+        ]
+        raw.write_text("\n".join([lines[0], *halved]) + "\n", encoding="utf-8")
+        page.wait_for_function("document.querySelector('.watched').textContent.includes('pulse-01: ')", timeout=60_000)
+        page.wait_for_function("!window.is_first", timeout=120_000)
+        page.wait_for_function(READY)
+        assert page.evaluate(CHOSEN)["view"] == pytest.approx(before["view"])
+        assert page.evaluate("[...colonnade.page.series[0]]") != measured
+    says(page, "The watch has ended. Last: ")
