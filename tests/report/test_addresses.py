@@ -23,5 +23,5 @@ def test_data_of_pages_of_one_name_are_apart():
 
 
 def test_a_page_loads_its_data_last_and_the_plots_only_if_it_has_any():
-    assert scripts_of("methods.html") == ["scripts/colonnade.js", "data/pages/methods.js"]
-    assert scripts_of("tests/a.html")[-2:] == ["scripts/colonnade.js", "data/a.js"]
+    assert scripts_of("methods.html") == ["scripts/colonnade.js", "state.js", "data/pages/methods.js"]
+    assert scripts_of("tests/a.html")[-3:] == ["scripts/colonnade.js", "state.js", "data/a.js"]

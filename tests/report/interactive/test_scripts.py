@@ -10,8 +10,8 @@ from colonnade.report.interactive import scripts as module
 from colonnade.report.interactive.scripts import FOLDER, PARTS, scripts
 
 
-def test_a_page_of_a_test_loads_every_script_and_then_its_data():
-    assert addresses.scripts_of("tests/a.html") == [*scripts(), "data/a.js"]
+def test_a_page_of_a_test_loads_every_script_and_then_the_state_and_its_data():
+    assert addresses.scripts_of("tests/a.html") == [*scripts(), "state.js", "data/a.js"]
 
 
 def test_ours_is_all_of_the_folder():

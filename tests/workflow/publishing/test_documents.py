@@ -8,6 +8,7 @@ import zipfile
 import pytest
 
 from colonnade.errors import StoreError
+from colonnade.report.interactive.state import state_script
 from colonnade.store import stamps
 from colonnade.workflow.publishing.documents import write_bundle, write_pdf
 
@@ -64,6 +65,15 @@ def test_the_bundle_holds_the_whole_report(folder, pdf, tmp_path):
     pages = {path for path in (folder / "report").rglob("*") if path.is_file()}
     assert names == {path.relative_to(folder).as_posix() for path in pages}
     assert {"report/index.html", "report/report.pdf"} <= names
+
+
+def test_nobody_watches_a_bundle(folder, tmp_path):
+    state = folder / "report" / "state.js"
+    before = state.read_bytes()
+    state.write_text(state_script(is_watched=True, written=1.7e9, shown="1", line="free-01: rocking"), encoding="utf-8")
+    with zipfile.ZipFile(write_bundle(folder, tmp_path / "all.zip")) as archive:
+        assert archive.read("report/state.js") == before
+    state.write_bytes(before)
 
 
 @pytest.mark.parametrize("write", [write_pdf, lambda folder: write_bundle(folder, folder / "all.zip")])

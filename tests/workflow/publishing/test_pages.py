@@ -46,6 +46,20 @@ def test_a_page_that_is_gone_or_altered_is_drawn_again(small, read_again):
     assert pages(small) == before
 
 
+def test_a_state_that_is_gone_comes_back_and_that_of_a_watch_stays(small, read_again):
+    state = small.layout.state
+    text = state.read_text(encoding="utf-8")
+    assert '"watched": false' in text
+    state.unlink()
+    small.run(until="report")
+    assert state.read_text(encoding="utf-8") == text
+    assert read_again == []
+    state.write_text(watched := text.replace("false", "true"), encoding="utf-8")
+    small.change_a_sample("pulse-01")
+    small.run(until="report")
+    assert state.read_text(encoding="utf-8") == watched
+
+
 def test_what_is_kept_outlasts_a_run_without_any_change(small, read_again):
     small.run(until="report")
     assert read_again == []

@@ -39,6 +39,11 @@
     if (wanted.length) pause = setTimeout(more, PAUSE);
   }
 
+  function showAllAtOnce() {
+    clearTimeout(pause);
+    body.append(...rows.filter(function (each) { return each.fits; }).map(function (each) { return each.row; }));
+  }
+
   function fits(cell, wanted, name) {
     if (name === "outcome") return cell.replace(/^– observed: /, "").split(" ")[0] === wanted;
     if (name === "status") return cell.includes(wanted);
@@ -117,11 +122,9 @@
       if (head.getAttribute("aria-sort") !== kept.order) sort(head);
     }
     filter();
+    showAllAtOnce(); // the page is scrolled to where it was
   });
   window.addEventListener("pageshow", filter);
-  window.addEventListener("beforeprint", function () {
-    clearTimeout(pause);
-    body.append(...rows.filter(function (each) { return each.fits; }).map(function (each) { return each.row; }));
-  });
+  window.addEventListener("beforeprint", showAllAtOnce);
   form.hidden = false;
 })();
