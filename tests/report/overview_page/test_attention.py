@@ -3,6 +3,7 @@ from dataclasses import replace
 from colonnade.campaign.summary import Warned
 from colonnade.report.overview_page.attention import attention
 from colonnade.report.overview_page.confusion import confusions
+from colonnade.report.pages import renderer_of
 from colonnade.report.problems import warning_groups
 
 MODELS = ("linear",)
@@ -45,3 +46,10 @@ def test_a_note_needs_no_look(row_of):
 def test_an_excluded_test_has_not_failed(row_of):
     row = replace(row_of("a", None, status="pending"), excluded="left out by N. N.")
     assert not looked_at([row]).is_needed
+
+
+def test_of_many_missed_tests_a_few_are_named_and_the_table_has_all(row_of, filled_campaign):
+    found = looked_at([row_of(f"a{number:02d}", "overturned", linear=("rocking", 0.2)) for number in range(30)])
+    page = renderer_of(filled_campaign[0]).page("overview/attention", "index.html", attention=found, specimens=[])
+    assert page.count('href="tests/a') == 20
+    assert 'data-filter="outcome=overturned&amp;linear=rocking">10 more in the table</a>' in page

@@ -46,7 +46,9 @@ def by_specimen(campaign: Campaign, tests: Sequence[TestRow]) -> list[SpecimenGr
         own = [row for row in tests if row.test.specimen == specimen]
         sines = [row for row in own if row.frequency is not None and row.record.amplitude_ratio is not None]
         if own:
-            groups.append(SpecimenGroup(specimen, _kinds([row for row in own if row not in sines]), _ladder(sines)))
+            in_ladder = {row.id for row in sines}
+            others = [row for row in own if row.id not in in_ladder]
+            groups.append(SpecimenGroup(specimen, _kinds(others), _ladder(sines)))
     return groups
 
 

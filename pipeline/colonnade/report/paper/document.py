@@ -118,9 +118,11 @@ class _Gathered:
 
     below_title: list[Block]
     sections: Mapping[str, list[Block]]
+    settle: Callable[[list[Block]], list[Block]]
 
     def parts(self, is_wanted: Callable[[str], bool]) -> list[Block]:
-        return [block for name, blocks in self.sections.items() if is_wanted(name) for block in blocks]
+        """Blocks of the sections that are wanted; the pictures of the others are no part of the document."""
+        return self.settle([block for name, blocks in self.sections.items() if is_wanted(name) for block in blocks])
 
 
 class _Gatherer:
@@ -131,10 +133,12 @@ class _Gatherer:
 
     def page(self, address: str) -> _Gathered:
         page = Page((self._folder / address).read_text(encoding="utf-8"))
-        sections = page.sections()
-        for blocks in (page_head := page.below_title(), *sections.values()):
+
+        def settle(blocks: list[Block]) -> list[Block]:
             self._settle(blocks, page, address)
-        return _Gathered(page_head, sections)
+            return blocks
+
+        return _Gathered(settle(page.below_title()), page.sections(), settle)
 
     def _settle(self, node: Any, page: Page, address: str) -> None:
         """Give pictures the names of their files, and links the places that they lead to."""
