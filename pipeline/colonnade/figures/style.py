@@ -39,6 +39,9 @@ SMALL_TEXT: Any = {
 
 _column: ContextVar[str] = ContextVar("column", default="")
 
+_applied: ContextVar[bool | None] = ContextVar("applied", default=None)
+"""Whether the style sheet that is applied is the narrow one; None if none is."""
+
 
 class LineStyle(TypedDict):
     """Keywords of a line."""
@@ -92,12 +95,23 @@ def is_narrow() -> bool:
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """Apply the style sheet over matplotlib's own defaults: a user's matplotlibrc changes no figure."""
+    """
+    Apply the style sheet over matplotlib's own defaults: a user's matplotlibrc changes no figure.
+
+    Within this context it is applied already, which saves some milliseconds a figure.
+    """
+    if _applied.get() is is_narrow():
+        yield
+        return
     with matplotlib.rc_context():
         matplotlib.rcParams.update(_settings())
         if is_narrow():
             matplotlib.rcParams.update(SMALL_TEXT)
-        yield
+        before = _applied.set(is_narrow())
+        try:
+            yield
+        finally:
+            _applied.reset(before)
 
 
 @cache

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
+from jinja2 import BytecodeCache, Environment, PackageLoader, StrictUndefined
+from jinja2.bccache import Bucket
 from markupsafe import Markup
 
 from colonnade import __version__
@@ -34,6 +35,24 @@ _MARK = re.compile(f'href="{link_to("")}([^"]+)"')
 """Link of a mark in a figure to a test."""
 
 
+class _Compiled(BytecodeCache):
+    """Templates that were compiled in this process: the environments of all renderers share their code."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[str, str], Any] = {}
+
+    def load_bytecode(self, bucket: Bucket) -> None:
+        """Give a template its code if it was compiled before."""
+        bucket.code = self._known.get((bucket.key, bucket.checksum))
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        """Keep the code of a template."""
+        self._known[bucket.key, bucket.checksum] = bucket.code
+
+
+_COMPILED = _Compiled()
+
+
 class Renderer:
     """
     Renders templates; text of users is escaped.
@@ -55,6 +74,7 @@ class Renderer:
             loader=PackageLoader("colonnade.report"),
             autoescape=True,
             undefined=StrictUndefined,
+            bytecode_cache=_COMPILED,
             trim_blocks=True,
             lstrip_blocks=True,
             keep_trailing_newline=True,

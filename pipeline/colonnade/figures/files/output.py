@@ -20,8 +20,9 @@ from xml.etree import ElementTree
 from matplotlib.figure import Figure
 from PIL import Image
 
+from colonnade.figures.files.canvas import BACKEND
 from colonnade.figures.files.polyline import shorter
-from colonnade.figures.files.table import table_of
+from colonnade.figures.files.table import Columns, columns_of
 from colonnade.figures.style import styled
 from colonnade.store.records.table import harmless
 
@@ -138,7 +139,11 @@ def to_csv(figure: Figure) -> str:
 
     Columns end where they have no more values; what is not known is empty.
     """
-    table = table_of(figure)
+    return as_csv(columns_of(figure))
+
+
+def as_csv(table: Columns) -> str:
+    """Return a table as CSV text, as `to_csv`."""
     written = StringIO()
     writer = csv.writer(written, lineterminator="\n")
     writer.writerow(map(harmless, table))
@@ -177,7 +182,7 @@ def to_svg(figure: Figure, *, identity: str, title: str, description: str) -> st
     if not _IDENTITY.fullmatch(identity):
         raise ValueError(f"{identity!r} cannot be an id; a letter, then letters, digits, '.', '_' or '-' were expected")
     nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
-    root = ElementTree.fromstring(_written(figure, "svg", metadata=nothing))
+    root = ElementTree.fromstring(_written(figure, "svg", metadata=nothing, backend=BACKEND))
     _drop(root, {f"{{{NAMESPACE}}}metadata", f"{{{NAMESPACE}}}style"})
     _rename(root, identity)
     _shorten(root)
@@ -221,7 +226,7 @@ def _shorten(root: ElementTree.Element) -> None:
         for name in element.attrib.keys() & {"x", "y", "transform", "points"}:
             element.set(name, _BEYOND_HUNDREDTHS.sub("", element.attrib[name]))
         if "d" in element.attrib:
-            element.set("d", _BEYOND_HUNDREDTHS.sub("", shorter(element.attrib["d"])).replace("\n", ""))
+            element.set("d", _shorter(element.attrib["d"]))
         if "style" in element.attrib:
             element.set(
                 "style", _FONT.sub(lambda found: f"font{found[1] or ''}:{found[2]}{FONTS}", element.attrib["style"])
@@ -229,6 +234,11 @@ def _shorten(root: ElementTree.Element) -> None:
         if element.text is not None and not element.text.strip():
             element.text = None
         element.tail = None
+
+
+def _shorter(path: str) -> str:
+    straight = shorter(path)
+    return _BEYOND_HUNDREDTHS.sub("", path).replace("\n", "") if straight is path else straight
 
 
 def _name_links(root: ElementTree.Element) -> bool:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
 
-_STRAIGHT = re.compile(r"\s*(?:M[\s\d.eE+L-]*z?\s*)+")
+_NUMBERS_ONLY = str.maketrans("MLz", "   ")
 
 
 def shorter(path: str) -> str:
@@ -31,9 +31,11 @@ def shorter(path: str) -> str:
     >>> shorter("M 72 50.404 L 72.5 49.1 L 73 60 z")
     'M72 50.4l.5-1.3 .5 10.9z'
     """
-    if not _STRAIGHT.fullmatch(path):
+    try:
+        numbers = np.array(path.translate(_NUMBERS_ONLY).split(), dtype=np.float64)
+    except ValueError:  # another letter than M, L and z
         return path
-    return "".join(map(_line, path.split("M")[1:]))
+    return _steps(path.split("M")[1:], np.rint(100 * numbers).astype(np.int64))
 
 
 class _Steps(dict[int, str]):
@@ -48,12 +50,23 @@ class _Steps(dict[int, str]):
 _STEPS = _Steps()
 
 
-def _line(text: str) -> str:
-    numbers = np.fromstring(text.replace("L", " ").replace("z", " "), sep=" ")
-    points = np.rint(100 * numbers).astype(np.int64).reshape(-1, 2)
-    start, steps = _written(points[:1]), _written(np.diff(points, axis=0))
-    return f"M{start}{'l' if steps else ''}{steps}{'z' if 'z' in text else ''}"
+def _steps(lines: list[str], numbers: NDArray[np.int64]) -> str:
+    """Write lines, as given behind each M, with all their coordinates in hundredths."""
+    steps = numbers.copy()
+    steps[2:] -= numbers[:-2]
+    texts = [_STEPS[step] for step in steps.tolist()]
+    written: list[str] = []
+    start = 0
+    for line in lines:
+        end = start + 2 + 2 * line.count("L")
+        written += "M", _joined(_STEPS[number] for number in numbers[start : start + 2].tolist())
+        if end > start + 2:
+            written += "l", _joined(texts[start + 2 : end])
+        if "z" in line:
+            written.append("z")
+        start = end
+    return "".join(written)
 
 
-def _written(hundredths: NDArray[np.int64]) -> str:
-    return "".join(map(_STEPS.__getitem__, hundredths.ravel().tolist())).lstrip()
+def _joined(texts: Iterable[str]) -> str:
+    return "".join(texts).lstrip()

@@ -25,6 +25,9 @@ from colonnade.figures.panels.long import LongBand
 Table = dict[str, Sequence[float] | Sequence[str]]
 """Columns by their headings; they need not have one length."""
 
+Columns = dict[str, Array | list[str]]
+"""The same with numbers as arrays."""
+
 LOW, HIGH = "low", "high"
 """Endings of the headings of the ends of bars and bands."""
 
@@ -75,7 +78,13 @@ def table_of(figure: Figure) -> Table:
     >>> table_of(figure)
     {'time (s)': [0.0, 1.0], 'slide (mm), measured': [2.0, 3.0]}
     """
-    table: Table = {}
+    columns = columns_of(figure)
+    return {heading: each if isinstance(each, list) else each.tolist() for heading, each in columns.items()}
+
+
+def columns_of(figure: Figure) -> Columns:
+    """Read from a figure what it shows, as `table_of`, with numbers as arrays."""
+    table: Columns = {}
     titles = {_title(axes) for axes in figure.axes}
     for axes in figure.axes:
         labels, found = _labels(axes), list(_series_of(axes))
@@ -90,27 +99,27 @@ def table_of(figure: Figure) -> Table:
     return table
 
 
-def _add(table: Table, labels: _Labels, series: _Series) -> None:
+def _add(table: Columns, labels: _Labels, series: _Series) -> None:
     if labels.across is not None:
         for ending, values in series.across.items():
             heading = _joined(labels.across, "" if series.up else series.name, ending)
             if heading not in table:
-                table[heading] = values.tolist()
+                table[heading] = values
             elif not np.array_equal(np.asarray(table[heading]), values, equal_nan=True):
-                table[_free(table, _joined(heading, labels.title, series.name))] = values.tolist()
+                table[_free(table, _joined(heading, labels.title, series.name))] = values
     if labels.up is not None:
         for ending, values in series.up.items():
-            table[_free(table, _joined(labels.title, labels.up, series.name, ending))] = values.tolist()
+            table[_free(table, _joined(labels.title, labels.up, series.name, ending))] = values
     for heading, values in series.others.items():
-        table[_free(table, _joined(labels.title, heading))] = values.tolist()
+        table[_free(table, _joined(labels.title, heading))] = values
 
 
-def _add_rows(table: Table, labels: _Labels, single: Sequence[_Series]) -> None:
+def _add_rows(table: Columns, labels: _Labels, single: Sequence[_Series]) -> None:
     """Add series of one point each, a row each."""
     rows = [_row(labels, each) for each in single]
     table[_free(table, _joined(labels.title, "series"))] = [each.name for each in single]
     for heading in dict.fromkeys(heading for row in rows for heading in row):
-        table[_free(table, heading)] = [row.get(heading, np.nan) for row in rows]
+        table[_free(table, heading)] = np.array([row.get(heading, np.nan) for row in rows])
 
 
 def _row(labels: _Labels, series: _Series) -> dict[str, float]:
@@ -127,7 +136,7 @@ def _joined(*parts: str) -> str:
     return ", ".join(filter(None, parts))
 
 
-def _free(table: Table, heading: str) -> str:
+def _free(table: Columns, heading: str) -> str:
     """Return a heading that is not in the table yet."""
     wanted, count = heading, 1
     while wanted in table:

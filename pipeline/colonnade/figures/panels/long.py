@@ -73,7 +73,7 @@ def draw_curve(axes: Axes, curve: Curve, **look: Any) -> LongLine:
     """Draw a curve of any length into a panel; `look` is that of a line, with its `label`."""
     line = LongLine(curve.time, curve.values, **look)
     axes.add_line(line)
-    axes.autoscale_view()
+    _scale_later(axes)
     return line
 
 
@@ -81,8 +81,13 @@ def draw_band(axes: Axes, time: Array, below: Array, above: Array, **look: Any) 
     """Shade between two curves of any length; `look` is that of a `PolyCollection`, with its `label`."""
     band = LongBand(time, below, above, **{"linewidth": 0, **look})
     axes.add_collection(band)
-    axes.autoscale_view()
+    _scale_later(axes)
     return band
+
+
+def _scale_later(axes: Axes) -> None:
+    """Have the axes that scale themselves do so once, before they are drawn, instead of after each curve."""
+    axes.autoscale(None)  # type: ignore[arg-type]  # None is documented: it changes no switch
 
 
 def _intervals(axes: Axes) -> int:

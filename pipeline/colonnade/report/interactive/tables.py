@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from functools import partial
 from typing import Any
 
 import numpy as np
 
-from colonnade.figures.files.output import Picture, to_csv
-from colonnade.figures.files.table import Table, table_of
+from colonnade.arrays import Array
+from colonnade.figures.files.output import Picture, as_csv
+from colonnade.figures.files.table import Columns, columns_of
 from colonnade.report.interactive.panels import Samples, script
 
 LONG = 2000
@@ -25,9 +26,9 @@ def tables_of(pictures: Iterable[Picture], samples: Samples) -> tuple[Samples, d
     """
     found: dict[str, Any] = {}
     for picture in pictures:
-        table = table_of(picture.figure)
+        table = columns_of(picture.figure)
         if sum(map(len, table.values())) <= LONG:
-            found[picture.identity] = to_csv(picture.figure)
+            found[picture.identity] = as_csv(table)
         else:
             samples, columns = samples.with_more(partial(_columns, table))
             if columns is not None:
@@ -41,14 +42,14 @@ def of_page(address: str, pictures: Iterable[Picture]) -> str:
     return script(address, samples, tables=tables)
 
 
-def _columns(table: Table, samples: Samples) -> list[Any]:
+def _columns(table: Columns, samples: Samples) -> list[Any]:
     return [_column(column, samples) for column in table.values()]
 
 
-def _column(column: Sequence[float] | Sequence[str], samples: Samples) -> Any:
-    if len(column) and isinstance(column[0], str):
-        return list(column)
-    values = np.asarray(column, dtype=np.float64)
-    if values.size > 1 and (np.diff(values) > 0).all():
-        return {"clock": samples.clock(values)}
-    return {"series": samples.add(values)}
+def _column(column: Array | list[str], samples: Samples) -> Any:
+    if isinstance(column, list):
+        return column
+    column = np.asarray(column, dtype=np.float64)
+    if column.size > 1 and (column[1:] > column[:-1]).all():
+        return {"clock": samples.clock(column)}
+    return {"series": samples.add(column)}
