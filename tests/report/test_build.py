@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from colonnade.campaign import Campaign
 from colonnade.figures.stored import record
+from colonnade.report import addresses
+from colonnade.report.pages import Renderer
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from read_pages import Page, built, words_of, written
@@ -51,6 +54,41 @@ def test_a_page_is_drawn_again_only_where_its_test_or_the_program_changed(two_te
     files.write(compared.drop_attrs(deep=False), path, attributes={"stage": "compare"})
     assert drawn_now("one") == ["span-2.0"]
     assert drawn_now("two") == ["span-2.0", "span-2.5"]
+
+
+def test_the_page_of_a_specimen_is_drawn_again_only_if_what_it_shows_changed(two_tests, monkeypatch):
+    campaign, layout = two_tests
+    drawn: list[str] = []
+    page = Renderer.page
+    monkeypatch.setattr(
+        Renderer,
+        "page",
+        lambda self, template, address, **given: drawn.append(address) or page(self, template, address, **given),
+    )
+
+    def drawn_now(campaign: Campaign = campaign, code: str = "one") -> list[str]:
+        drawn.clear()
+        built(campaign, layout, code=code)
+        return [address for address in drawn if address.startswith("specimens/")]
+
+    both = ["specimens/prism.html", "specimens/statue.html"]
+    assert drawn_now() == both
+    texts = written(layout)
+    assert drawn_now() == []
+    assert written(layout) == texts
+    path = layout.stage("span-2.0", "compare")
+    compared = files.read(path)
+    compared["nrmse"] = compared["nrmse"] * 2
+    files.write(compared.drop_attrs(deep=False), path, attributes={"stage": "compare"})
+    assert drawn_now() == both[:1]
+    files.write_failed(layout.stage("statue", "map", "linear"), "no map", attributes={"stage": "map", "key": "1"})
+    assert drawn_now() == both[1:]
+    files.write_failed(layout.stage("prism", "specimen"), "no e", attributes={"stage": "specimen"})
+    assert drawn_now() == both[:1]
+    (layout.report.parent / addresses.of_data(both[1])).unlink()
+    assert drawn_now() == both[1:]
+    assert drawn_now(replace(campaign, title="Another")) == both
+    assert drawn_now(code="two") == both
 
 
 def test_outdated_results_are_pending_and_not_shown(two_tests):

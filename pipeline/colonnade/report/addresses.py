@@ -50,8 +50,8 @@ def of_setup(specimen: str, setup: str) -> str:
 
 
 def addresses(campaign: Campaign) -> tuple[list[str], list[str]]:
-    """Addresses of what shows one test or setup each, and of what shows several tests, with the data of each."""
-    tests = [of_test(test) for test in campaign.tests]
-    others = [*map(of_specimen, campaign.specimens), *WHOLE.values()]
+    """Addresses of what shows one test, specimen or setup each, and of what shows the campaign; with their data."""
+    single = [*map(of_test, campaign.tests), *map(of_specimen, campaign.specimens)]
     setups = [of_setup(*pair) for pair in campaign.combinations]
-    return [*tests, *map(of_data, tests), *setups], [*LIBRARY, OWN, *map(of_data, others), *others]
+    whole = WHOLE.values()
+    return [*single, *map(of_data, single), *setups], [*LIBRARY, OWN, *map(of_data, whole), *whole]

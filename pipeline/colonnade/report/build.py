@@ -27,11 +27,12 @@ from colonnade.report.overview_page import groups, maps, peaks, spans
 from colonnade.report.overview_page.agreement import agreement
 from colonnade.report.overview_page.attention import attention
 from colonnade.report.overview_page.confusion import confusions
-from colonnade.report.parts import Part, parts_of
+from colonnade.report.parts import Part, is_drawn, parts_of
 from colonnade.report.references import REFERENCES
 from colonnade.report.rows import TestRow
 from colonnade.report.specimens_page import SpecimenPage
 from colonnade.store import files, stamps
+from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_specimen
 from colonnade.units import format_percent
@@ -69,9 +70,9 @@ def build(
     outdated : collection of str, optional
         Tests whose stored results are out of date: they are pending, and not shown.
     code : str, optional
-        Hash of the code. With it, pages of tests that would come out the same are not drawn again.
+        Hash of the code. With it, pages of tests and specimens that would come out the same are not drawn again.
     key : str, optional
-        Hash of all that the report is made from, for the stamp of the pages that show several tests.
+        Hash of all that the report is made from, for the stamp of the pages about the whole campaign.
     kept : dict of str to str, optional
         Parts of tests as text, by test (`report.kept`): of tests that are here neither the results are read nor the
         page is drawn; the others are added.
@@ -121,9 +122,9 @@ def render(
     address : str
         Within the report's folder.
     text : str or None
-        None if the page of a test or a drawing is up to date.
+        None if the page of a test or specimen, or a drawing, is up to date.
     made_from : str
-        Of the page of a test and of a drawing: hash of what it shows.
+        Of the page of a test or specimen and of a drawing: hash of what it shows.
     """
     renderer = pages.renderer_of(campaign)
     yield from drawings.files(campaign, layout.report.parent, code)
@@ -151,14 +152,19 @@ def render(
     for name in campaign.specimens:
         pooled = read_specimen(campaign, layout, name)
         used.versions |= pooled.versions
-        free = [part.free_vibration for part in tests if part.row.test.specimen == name and part.free_vibration]
+        own = [part for part in tests if part.row.test.specimen == name]
+        free = [part.free_vibration for part in own if part.free_vibration]
         specimens.append(specimens_page.of_specimen(campaign, name, pooled, free))
+        address, made_from = addresses.of_specimen(name), _made_from(campaign, layout, code, specimens[-1], own)
+        if is_drawn(layout, address, made_from):
+            yield from ((made, None, made_from) for made in (addresses.of_data(address), address))
+            continue
         shown = {
             "specimen": specimens[-1],
             "groups": [group for group in grouped if group.specimen == name],
             "maps": [drawn for drawn in mapped if drawn.specimen == name],
         }
-        yield from _page(renderer, "specimen", addresses.of_specimen(name), shown)
+        yield from _page(renderer, "specimen", address, shown, made_from)
     for address, text in scripts().items():
         yield address, text, ""
     shown = _shown(campaign, tests, specimens, used) | {"groups": grouped, "maps": mapped}
@@ -166,13 +172,23 @@ def render(
         yield from _page(renderer, template, address, shown)
 
 
+def _made_from(campaign: Campaign, layout: Layout, code: str, page: SpecimenPage, own: Iterable[Part]) -> str:
+    """Hash all that the page of a specimen shows: its results and maps, and what its tests' pages are made from."""
+    if not code:
+        return ""
+    around = (campaign.title, campaign.gravity, tuple(campaign.specimens), campaign.processing.predict.models)
+    tests = {f"test {part.row.id}": part.made_from for part in own}
+    results = page.subject.pooled.keys | maps.keys_of(campaign, layout, page.id)
+    return Recipe("page", code, repr((around, page)), tests | results).key
+
+
 def _page(
-    renderer: pages.Renderer, template: str, address: str, shown: dict[str, Any]
+    renderer: pages.Renderer, template: str, address: str, shown: dict[str, Any], made_from: str = ""
 ) -> Iterator[tuple[str, str | None, str]]:
     """Render a page that shows several tests, and its data."""
     text = renderer.page(template, address, **shown)
-    yield addresses.of_data(address), tables.of_page(address, renderer.pictures), ""
-    yield address, text, ""
+    yield addresses.of_data(address), tables.of_page(address, renderer.pictures), made_from
+    yield address, text, made_from
 
 
 def _shown(campaign: Campaign, tests: list[Part], specimens: list[SpecimenPage], used: Used) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from colonnade.campaign import Campaign
 from colonnade.figures.stored.curves import measured_ratio
+from colonnade.figures.style import styled
 from colonnade.report import addresses, pages, specimens_page
 from colonnade.report.asked import Asked, shows
 from colonnade.report.interactive import test_data
@@ -75,8 +76,14 @@ def parts_of(campaign: Campaign, layout: Layout, code: str, block: Sequence[Aske
     block : sequence of Asked
     """
     renderer = pages.renderer_of(campaign)
-    with _seldom_collected():
+    with _seldom_collected(), styled():
         return [_part(renderer, campaign, layout, code, asked) for asked in block]
+
+
+def is_drawn(layout: Layout, address: str, made_from: str) -> bool:
+    """Return whether a page and its data are there and were made from what this hash stands for; never from ""."""
+    written = [layout.report.parent / made for made in (address, addresses.of_data(address))]
+    return bool(made_from) and all(made_from == stamps.key_of(path) for path in written)
 
 
 @contextmanager
@@ -113,8 +120,7 @@ def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: st
     made_from = ""
     if code:
         made_from = Recipe("page", code, repr((shows(campaign, asked), row.failures)), stored.keys).key
-    written = [layout.report.parent / made for made in (address, addresses.of_data(address))]
-    if not made_from or any(made_from != stamps.key_of(path) for path in written):
+    if not is_drawn(layout, address, made_from):
         shown = page.of_test(campaign, row, stored, asked.photos)
         text = renderer.page("test", address, test=shown, before=asked.before, after=asked.after)
         samples = (stored.datasets.get((stage, None)) for stage in WITHOUT_SAMPLES)

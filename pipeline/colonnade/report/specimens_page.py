@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from math import isfinite, tan
 from typing import NamedTuple
 
@@ -75,6 +76,7 @@ class SpecimenPage:
     What the page of a specimen shows; text, tables and pictures.
 
     `e` is the value that predictions use, with its interval; `contact` the law of the contact model, name and value.
+    Pictures are made of `subject` when somebody asks for them: a page that is up to date needs none.
     """
 
     id: str
@@ -94,7 +96,12 @@ class SpecimenPage:
     warnings: list[Warned]
     failures: list[Failure]
     free_vibrations: Sequence[FreeVibration]
-    pictures: dict[str, Picture | None]
+    subject: OfSpecimen = field(repr=False)
+
+    @cached_property
+    def pictures(self) -> dict[str, Picture | None]:
+        """Each by its name; None where there is nothing to draw."""
+        return {name: picture(name, self.subject) for name in ("estimators", "peaks", "impacts")}
 
 
 def free_vibration(subject: OfTest) -> FreeVibration:
@@ -117,7 +124,6 @@ def of_specimen(
     specimen, block = campaign.specimens[name], campaign.block(name)
     value, low, high, level = (pooled.value("specimen", each) for each in ("restitution", *BOUNDS))
     unknown = "failed" if pooled.failures else "not yet known"
-    subject = OfSpecimen(campaign, name, pooled, [each.drawn for each in free_vibrations])
     return SpecimenPage(
         id=name,
         shape=specimen.shape,
@@ -136,7 +142,7 @@ def of_specimen(
         warnings=[Warned.of(found, explained=explained) for found, explained in in_order(pooled.findings)],
         failures=pooled.failures,
         free_vibrations=free_vibrations,
-        pictures={figure: picture(figure, subject) for figure in ("estimators", "peaks", "impacts")},
+        subject=OfSpecimen(campaign, name, pooled, [each.drawn for each in free_vibrations]),
     )
 
 

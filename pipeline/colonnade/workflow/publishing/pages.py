@@ -55,18 +55,18 @@ def update_report(
         {path.relative_to(layout.processed).as_posix(): catalogue.content(path) for path in layout.results_there()},
     )
     folder = layout.report.parent
-    tests, others = addresses(campaign)
-    is_whole = layout.state.is_file() and all(catalogue.stamp(folder / page) for page in tests)
+    single, whole = addresses(campaign)
+    are_there = layout.state.is_file() and all(catalogue.stamp(folder / page) for page in single)
     recipes = _recipes(campaign, layout, catalogue, outdated, recipe.code)
     kept = _kept(folder, catalogue, recipes)
-    if not (is_whole and all(catalogue.stamp(folder / page) == recipe.key for page in others)):
+    if not (are_there and all(catalogue.stamp(folder / page) == recipe.key for page in whole)):
         from colonnade.report.build import build
 
         spread_out = partial(spread, workers=workers)
         build(campaign, layout, outdated, code=recipe.code, key=recipe.key, kept=kept, spread=spread_out)
         for test, text in kept.items():
             catalogue.remember(_PART.format(test), recipes[test], text)
-        for page in (*tests, *others):
+        for page in (*single, *whole):
             catalogue.stamp(folder / page)
     return layout.report
 
