@@ -1,0 +1,1 @@
+"""Study of forecasts whose truth is known: campaigns, their tests, scores and page."""
