@@ -6,6 +6,7 @@
 # make reports  rebuilds the reference reports in reports/ and the picture of the README
 # make restitution-study  5000 records with known truth: reports/restitution-study.md, ten minutes and more
 # make verdict-study  1000 tests with known truth judged by their spread: reports/verdict-study.md, a quarter of an hour
+# make forecast-study  480 tests with known truth, forecast and scored: reports/forecast-study.md, five minutes and more
 # make contact-study  measures the contact model again: reports/contact-study.md, half an hour
 # make clean    removes what the other targets made
 #
@@ -23,7 +24,7 @@ SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope
 # Each command and worker starts several seconds sooner if Python keeps the bytecode of what it has imported.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test study drill format reports restitution-study verdict-study contact-study clean
+.PHONY: demo test study drill format reports restitution-study verdict-study forecast-study contact-study clean
 
 demo: $(DEMO_INSTALLED)
 	@$(BIN)/colonnade demo demo
@@ -56,6 +57,9 @@ restitution-study: $(INSTALLED)
 
 verdict-study: $(INSTALLED)
 	$(BIN)/python reports/verdict_study.py
+
+forecast-study: $(INSTALLED)
+	$(BIN)/python reports/forecast_study.py
 
 contact-study: $(INSTALLED)
 	$(BIN)/python reports/contact_study.py

@@ -16,10 +16,10 @@ TEXT = """# Study of forecasts whose truth is known
 Made by `make forecast-study` (`python reports/forecast_study.py --campaigns {campaigns} --seed {seed}`).
 
 {campaigns} virtual campaigns with {each} tests each: prisms of {heights} m with a true e of {lowest} to {highest}.
-In each test e differs from that by {scatter} (standard deviation). Each campaign identifies e from three free vibrations
+In each test e differs from it by {scatter} (standard deviation). Each campaign identifies e from three free vibrations
 of its own, with an interval. Its tests are synthetic earthquakes, El Centro 1940 and sines, at levels that its own
 forecasts leave undecided if there are any (some of {pilots} pilot runs overturn, some stand); one test in five is about
-the level of uplift. α, p, gain of the accelerometer, clock and noise differ from the known ones by the default settings.
+the level of uplift. α, p, gain of the accelerometer, clock and noise are wrong by errors of the default settings.
 The truth is the {model} model with all of it. A forecast has {members} members.
 
 {count} tests: {standing} do not rock, {rocking} rock, {overturned} overturn; of {undecided} the forecast is undecided.
