@@ -30,7 +30,7 @@ The main score, chosen before any result, is the CRPS of min(max |θ|, α)/α. T
 
 {scores}
 
-**Main score, e wrong by {wrong:g}: worse by {high_found} (too high) and by {low_found} (too low)**, 95 % intervals by
+**Main score, e wrong by {wrong:g}: {high_found} if too high, {low_found} if too low**, with 95 % intervals by
 resampling of whole campaigns; above zero, the wrong e is found.
 
 Difference from the forecasts with the identified e, per test, with 95 % intervals:

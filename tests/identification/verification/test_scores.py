@@ -50,7 +50,7 @@ def test_crps_is_the_area_between_the_distributions_but_for_the_size_of_the_ense
 
 
 def test_crps_of_few_members_has_the_mean_of_the_whole_normal_distribution():
-    """Gneiting and Raftery (2007), eq. 22: of a normal forecast, z (2Φ − 1) + 2φ − 1/√π."""
+    """Gneiting and Raftery (2007), section 4.2: of a normal forecast, z (2Φ − 1) + 2φ − 1/√π."""
     z = 0.7
     whole = z * (2 * stats.norm.cdf(z) - 1) + 2 * stats.norm.pdf(z) - 1 / np.sqrt(np.pi)
     draws = np.random.default_rng(0).standard_normal((5000, 4))

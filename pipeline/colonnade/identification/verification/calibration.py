@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
+from colonnade.dynamics.ensembles.ensemble import LARGEST_SEED
 from colonnade.identification.verification.responses import Forecast, Response
-from colonnade.identification.verification.surrogates import LARGEST_SEED, RESAMPLES, surrogate_members
+from colonnade.identification.verification.surrogates import RESAMPLES, surrogate_members
 from colonnade.validation import samples, whole
 
 BANDS = (0.5, 0.8, 0.95)
@@ -61,7 +62,7 @@ def randomised_pit(forecasts: Sequence[Forecast], observed: Sequence[Response], 
     Notes
     -----
     (b + v (t + 1)) / (m + 1) with b members below, t equal to the observed amplitude, and v even between 0 and 1:
-    Czado, Gneiting and Held (2009, eq. 1) for an ensemble of m. If the observed amplitude is drawn as the members are,
+    Czado, Gneiting and Held (2009) for an ensemble of m. If the observed amplitude is drawn as the members are,
     it is exactly even, whatever m and whatever share does not rock (amplitude 0) or overturns (1).
     """
     random = np.random.default_rng(whole("seed", seed, 0, LARGEST_SEED)).random(len(forecasts))

@@ -10,7 +10,9 @@ import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
+from colonnade.dynamics.ensembles.ensemble import LARGEST_SEED
 from colonnade.identification.verification.responses import Forecast, Response
+from colonnade.identification.verification.surrogates import MOST_RESAMPLES
 from colonnade.validation import number, samples, whole
 
 FEWEST_CAMPAIGNS = 6
@@ -113,8 +115,8 @@ def score_difference(
 
     Notes
     -----
-    Bootstrap of whole campaigns (Efron and Tibshirani 1993, section 8.6). Quantiles of few campaigns are too close:
-    they are taken as far out as Student's t of the normal distribution (Hesterberg 2015, section 5.3).
+    Bootstrap of whole campaigns (Efron and Tibshirani 1993). Quantiles of few campaigns are too close:
+    they are taken as far out as Student's t is for that number of campaigns (Hesterberg 2015).
     """
     own, other = _paired(scores, reference)
     groups = np.asarray(campaigns)
@@ -125,8 +127,8 @@ def score_difference(
     if names.size < FEWEST_CAMPAIGNS:
         raise ValueError(f"there are {names.size} campaigns; at least {FEWEST_CAMPAIGNS} were expected for an interval")
     totals, tests = np.bincount(place, weights=own - other), np.bincount(place)
-    drawn = np.random.default_rng(whole("seed", seed, 0, 2**63 - 1)).integers(
-        names.size, size=(whole("resamples", resamples, 1, 10**6), names.size)
+    drawn = np.random.default_rng(whole("seed", seed, 0, LARGEST_SEED)).integers(
+        names.size, size=(whole("resamples", resamples, 1, MOST_RESAMPLES), names.size)
     )
     means = totals[drawn].sum(axis=1) / tests[drawn].sum(axis=1)
     reach = np.sqrt(names.size / (names.size - 1)) * scipy.stats.t.ppf((1 + level) / 2, names.size - 1)

@@ -72,8 +72,8 @@ def crps(members: ArrayLike, observed: float) -> float:
 
     Notes
     -----
-    mean |x − y| − Σᵢ<ⱼ |xᵢ − xⱼ| / (m (m − 1)): the kernel form of Gneiting and Raftery (2007, eq. 21) with m (m − 1)
-    for m² (Ferro 2014, section 3), so that ensembles of different sizes compare.
+    mean |x − y| − Σᵢ<ⱼ |xᵢ − xⱼ| / (m (m − 1)): the kernel form of Gneiting and Raftery (2007) with m (m − 1)
+    for m² (Ferro 2014), so that ensembles of different sizes compare.
 
     Examples
     --------
@@ -104,7 +104,7 @@ def brier_score(count: int, members: int, *, happened: bool) -> float:
     Returns
     -------
     score : float
-        (k/m − y)² − k (m − k) / (m² (m − 1)), Ferro (2014, eq. 5): its mean is that of an ensemble without end, and it
+        (k/m − y)² − k (m − k) / (m² (m − 1)), Ferro (2014): its mean is that of an ensemble without end, and it
         can be slightly negative. No second term for a single member.
     """
     share = count / members

@@ -12,12 +12,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from colonnade.dynamics.ensembles.ensemble import LARGEST_SEED
 from colonnade.identification.verification.responses import Forecast
 from colonnade.validation import described, whole
 
-RESAMPLES = 1000
-
-LARGEST_SEED = 2**63 - 1
+RESAMPLES, MOST_RESAMPLES = 1000, 100_000
 
 
 def surrogate_members(
@@ -55,5 +54,5 @@ def surrogate_members(
         raise ValueError("a forecast has a single member; at least two were expected, to hold one against the others")
     names, place = np.unique(groups, return_inverse=True)
     random = np.random.default_rng(whole("seed", seed, 0, LARGEST_SEED))
-    drawn = random.random((whole("resamples", resamples, 1, 10**6), names.size))
+    drawn = random.random((whole("resamples", resamples, 1, MOST_RESAMPLES), names.size))
     return np.asarray(drawn[:, place] * sizes, dtype=np.intp)
