@@ -56,12 +56,12 @@ def test_its_first_tests_come_out_as_stored(found):
 
 
 def test_a_small_study_finds_skill_over_the_base_rate_and_writes_its_page(tmp_path):
-    found = forecast_study.study(6, 7, 1, tests=3, members=10)
-    assert found["judged"]["tests"]["count"] == sum(found["judged"]["tests"]["outcomes"]) == 18
+    found = forecast_study.study(6, 7, 1, tests=2, members=10)
+    assert found["judged"]["tests"]["count"] == sum(found["judged"]["tests"]["outcomes"]) == 12
     assert found["judged"]["skill"]["base rate"][MAIN] > 0.3
     forecast_study.write(found, tmp_path)
-    assert "18 tests:" in (tmp_path / "forecast-study.md").read_text(encoding="utf-8")
-    assert "6 virtual campaigns with 3 tests each" in (tmp_path / "forecast-study.md").read_text(encoding="utf-8")
+    assert "12 tests:" in (tmp_path / "forecast-study.md").read_text(encoding="utf-8")
+    assert "6 virtual campaigns with 2 tests each" in (tmp_path / "forecast-study.md").read_text(encoding="utf-8")
 
 
 def test_e_is_identified_to_its_own_interval_of_the_truth():

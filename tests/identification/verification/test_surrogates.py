@@ -3,6 +3,10 @@
 import numpy as np
 import pytest
 
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.ensembles.ensemble import ensemble
+from colonnade.dynamics.ensembles.uncertainty import Uncertainty
+from colonnade.dynamics.motion import Motion
 from colonnade.identification.verification.responses import Forecast
 from colonnade.identification.verification.surrogates import surrogate_members
 
@@ -16,6 +20,16 @@ def test_tests_of_one_campaign_have_the_same_member_and_others_their_own():
     assert (drawn[:, 0] == drawn[:, 1]).all()
     assert (drawn[:, 2:4] == drawn[:, 4:]).all()
     assert abs(np.corrcoef(drawn[:, 0], drawn[:, 2])[0, 1]) < 0.1
+
+
+def test_a_member_of_an_ensemble_has_the_same_errors_in_all_tests():
+    """That is why one member can be the observation of a whole campaign."""
+    block = Block.prism(width=0.1, depth=0.1, height=0.6, mass=100.0)
+    known = Uncertainty(restitution=0.002, critical_angle=0.005, p=0.005, gain=0.005, clock=1e-5, noise=0.01)
+    motions = [Motion(2.0 * np.sin(np.arange(size) * 0.1), 0.005) for size in (100, 150)]
+    one, other = (ensemble(block, motion, uncertainty=known, count=4) for motion in motions)
+    np.testing.assert_array_equal(one.inputs, other.inputs)
+    assert np.unique(one.inputs[:, 0]).size == 4
 
 
 def test_each_member_is_drawn_as_often():
