@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import json
 import os
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -106,6 +107,22 @@ def empty_campaign(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, Any]:
     folder = tmp_path_factory.mktemp("empty") / "campaign"
     _small_campaign().write_small_campaign(folder)
     return load(folder), Layout(folder)
+
+
+@pytest.fixture(scope="session")
+def foreseen(filled_campaign: tuple[Any, Any], tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Any]:
+    """A copy of the filled campaign with two forecasts of a planned test; look only."""
+    from foreseeing import foresee_a_planned_test
+
+    folder = tmp_path_factory.mktemp("foreseen") / "campaign"
+    return folder, foresee_a_planned_test(filled_campaign[0].folder, folder)
+
+
+@pytest.fixture
+def foreseen_copy(foreseen: tuple[Path, Any], tmp_path: Path) -> Path:
+    """The same, to change."""
+    shutil.copytree(foreseen[0], tmp_path / "campaign")
+    return tmp_path / "campaign"
 
 
 def _small_campaign() -> Any:

@@ -31,7 +31,7 @@ CONTRACT = json.loads(
 )
 
 
-@pytest.mark.parametrize("name", ["campaign", "summary", "review"])
+@pytest.mark.parametrize("name", ["campaign", "summary", "review", "forecast"])
 def test_schema_file_is_what_the_models_say(name):
     written = (RAW_SCHEMA / f"{name}.schema.json").read_text(encoding="utf-8")
     assert json.loads(written) == json_schema(name), (

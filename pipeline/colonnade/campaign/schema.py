@@ -1,4 +1,4 @@
-"""JSON Schemas of campaign.toml, review.toml and summary.json, made from the models that read and write them."""
+"""JSON Schemas of the contract's files, made from the models that read and write them."""
 
 from __future__ import annotations
 
@@ -6,12 +6,13 @@ import json
 from typing import Any
 
 from colonnade.campaign.campaign import CampaignFile
+from colonnade.campaign.forecast import ForecastFile
 from colonnade.campaign.review import ReviewFile
 from colonnade.campaign.summary import Summary
 from colonnade.errors import CampaignError, nearest
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
-NAMES = ("campaign", "summary", "review")
+NAMES = ("campaign", "summary", "review", "forecast")
 
 
 def json_schema(name: str) -> dict[str, Any]:
@@ -20,8 +21,9 @@ def json_schema(name: str) -> dict[str, Any]:
 
     Parameters
     ----------
-    name : {"campaign", "summary", "review"}
-        Of campaign.toml as written, where quantities are text with a unit; of processed/summary.json; of review.toml.
+    name : {"campaign", "summary", "review", "forecast"}
+        Of campaign.toml as written, where quantities are text with a unit; of processed/summary.json; of review.toml;
+        of a file in forecasts/.
 
     Returns
     -------
@@ -37,6 +39,15 @@ def json_schema(name: str) -> dict[str, Any]:
         return _campaign()
     if name == "summary":
         return {"$schema": DIALECT} | Summary.model_json_schema(by_alias=True, mode="serialization")
+    if name == "forecast":
+        written = ForecastFile.model_json_schema(by_alias=True, mode="serialization")
+        written["properties"]["sha256"] = {
+            "type": "string",
+            "pattern": "^[0-9a-f]{64}$",
+            "description": "Of all the rest, written as JSON with sorted keys, without spaces, in UTF-8.",
+        }
+        written["required"] = [*written["required"], "sha256"]
+        return {"$schema": DIALECT} | written
     if name == "review":
         schema: dict[str, Any] = _tidied(ReviewFile.model_json_schema(by_alias=True, mode="validation"))
         for kind in ("exclude", "trim", "flag", "correct"):

@@ -21,13 +21,15 @@ Known = Annotated[float | None, BeforeValidator(_known)]
 """A number, or null if it is not known; NaN becomes null, as JSON has no NaN."""
 
 
-class _Record(BaseModel):
+class Record(BaseModel):
+    """Base of all records that are written as JSON: no unknown field, no NaN."""
+
     model_config = ConfigDict(
         frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True, use_attribute_docstrings=True
     )
 
 
-class RestitutionSummary(_Record):
+class RestitutionSummary(Record):
     """The coefficient of restitution that predictions use."""
 
     value: float | tuple[float, float] | None
@@ -48,7 +50,7 @@ class RestitutionSummary(_Record):
     """Free vibrations it was identified from."""
 
 
-class SpecimenPrototype(_Record):
+class SpecimenPrototype(Record):
     """The specimen at prototype scale: length × s, time × √s, same density."""
 
     scale: float
@@ -65,7 +67,7 @@ class SpecimenPrototype(_Record):
     """Outer dimensions by their keys in the campaign file, m."""
 
 
-class SpecimenSummary(_Record):
+class SpecimenSummary(Record):
     """A specimen; of one that is not symmetric the side with the smaller critical angle."""
 
     critical_angle: float
@@ -82,7 +84,7 @@ class SpecimenSummary(_Record):
     """At prototype scale, where the campaign file gives the specimen's scale."""
 
 
-class PredictionSummary(_Record):
+class PredictionSummary(Record):
     """What a model gives on the recorded base motion; empty if it has not run."""
 
     outcome: Outcome | None = None
@@ -109,7 +111,7 @@ class PredictionSummary(_Record):
     """Share of the model's runs that overturn."""
 
 
-class HistorySummary(_Record):
+class HistorySummary(Record):
     """e of a free vibration from its whole history, by one model."""
 
     value: Known = None
@@ -122,7 +124,7 @@ class HistorySummary(_Record):
     """RMS of measured − simulated angle, rad."""
 
 
-class IdentifiedSummary(_Record):
+class IdentifiedSummary(Record):
     """e of one free vibration."""
 
     value: Known = None
@@ -137,7 +139,7 @@ class IdentifiedSummary(_Record):
     """Beside it that of the whole history, by model."""
 
 
-class TestPrototype(_Record):
+class TestPrototype(Record):
     """A test at prototype scale; accelerations and angles are those of the model."""
 
     duration: float
@@ -150,7 +152,7 @@ class TestPrototype(_Record):
     """Largest slide, m."""
 
 
-class Warned(_Record):
+class Warned(Record):
     """A finding of a stage."""
 
     severity: Severity
@@ -176,7 +178,7 @@ class Warned(_Record):
         )
 
 
-class TestSummary(_Record):
+class TestSummary(Record):
     """A test."""
 
     status: Literal["done", "failed", "pending"]
@@ -233,7 +235,7 @@ class TestSummary(_Record):
     """By model."""
 
 
-class Summary(_Record):
+class Summary(Record):
     """One record for each specimen and test, rebuilt from the result files."""
 
     version: Literal[1] = Field(default=1, alias="schema")

@@ -9,6 +9,7 @@ from colonnade.cli.calibrate import calibrate
 from colonnade.cli.check import check
 from colonnade.cli.demo import demo
 from colonnade.cli.figure import figure
+from colonnade.cli.foresee import foresee
 from colonnade.cli.init import init
 from colonnade.cli.map import map_command
 from colonnade.cli.run import identify, ingest, predict, report, run
@@ -18,7 +19,7 @@ from colonnade.cli.watch import watch
 
 COMMANDS = (
     *(demo, init, check, run, ingest, identify, predict, report, watch),
-    *(map_command, calibrate, figure, show, schema),
+    *(foresee, map_command, calibrate, figure, show, schema),
 )
 
 

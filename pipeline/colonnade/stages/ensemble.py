@@ -112,6 +112,13 @@ def ensemble(
     )
 
 
+def restitution_deviation(specimen: xr.Dataset, settings: PlaneEnsembleSettings) -> float:
+    """Return the standard deviation of e: that of its interval, else the setting."""
+    half = (float(specimen["restitution_high"]) - float(specimen["restitution_low"])) / 2
+    identified = half / NormalDist().inv_cdf(0.5 + float(specimen["level"]) / 2)
+    return identified if np.isfinite(identified) else settings.restitution
+
+
 def _uncertainty(
     conditioned: xr.Dataset,
     specimen: xr.Dataset,
@@ -120,11 +127,9 @@ def _uncertainty(
     *,
     is_driven: bool,
 ) -> Uncertainty:
-    half = (float(specimen["restitution_high"]) - float(specimen["restitution_low"])) / 2
-    identified = half / NormalDist().inv_cdf(0.5 + float(specimen["level"]) / 2)
     noise, cutoff = _base_noise(conditioned, inputs.table) if is_driven else (0.0, None)
     return Uncertainty(
-        restitution=identified if np.isfinite(identified) else inputs.settings.restitution,
+        restitution=restitution_deviation(specimen, inputs.settings),
         critical_angle=inputs.settings.critical_angle,
         p=inputs.settings.p,
         gain=inputs.settings.gain if is_driven else 0.0,

@@ -75,6 +75,11 @@ class Layout:
         return self.report.with_name("report.pdf")
 
     @property
+    def forecasts(self) -> Path:
+        """Folder of the forecasts, which are no results: nothing removes or replaces them."""
+        return self.home / "forecasts"
+
+    @property
     def summary_json(self) -> Path:
         """A record a test, for machines."""
         return self.processed / "summary.json"

@@ -1,0 +1,43 @@
+"""A forecast in words: what the table has to do, probabilities and bands."""
+
+from __future__ import annotations
+
+from colonnade.campaign.forecast import ForecastBand, ForecastTable, ModelForecast
+from colonnade.signals.intensity import LARGEST_DRIFT
+from colonnade.store.records.wording import number, quantity
+from colonnade.units import format_percent
+
+
+def shown_table(table: ForecastTable) -> tuple[str, str, str]:
+    """Write peak acceleration, velocity and displacement of the table; of an integral that drifts, its drift."""
+    drifts = f"drifts by {format_percent(table.drift)}, above {format_percent(LARGEST_DRIFT)}"
+    velocity, displacement = table.peak_velocity, table.peak_displacement
+    return (
+        quantity(table.peak_acceleration, "g"),
+        drifts if velocity is None else quantity(velocity, "mm/s"),
+        "–" if velocity is None else drifts if displacement is None else quantity(displacement, "mm"),
+    )
+
+
+def shown_shares(model: ModelForecast) -> tuple[str, str, str]:
+    """Write the probabilities of no rocking, rocking and overturning."""
+    return format_percent(model.no_rocking), format_percent(model.rocking), format_percent(model.overturned)
+
+
+def shown_band(band: ForecastBand) -> str:
+    """
+    Write a band of the peak; 1 is overturned.
+
+    Examples
+    --------
+    >>> shown_band(ForecastBand(probability=0.8, low=0.213, high=1.0))
+    '0.213 to overturned'
+    """
+    low, high = ("overturned" if end == 1.0 else number(end) for end in (band.low, band.high))
+    return low if low == high else f"{low} to {high}"
+
+
+def shown_model(model: ModelForecast) -> tuple[str, ...]:
+    """Write what a model foresees: probabilities, bands of the peak, friction needed."""
+    friction = "lifts off" if model.required_friction is None else number(model.required_friction, 2)
+    return (*shown_shares(model), *map(shown_band, model.bands), friction)

@@ -1,0 +1,1 @@
+"""Forecasts of tests: made before a test, kept as they were made, scored after it."""

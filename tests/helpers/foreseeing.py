@@ -1,0 +1,28 @@
+"""A campaign with forecasts of a test that is planned."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from colonnade.workflow.forecasting.foresee import Foreseen, foresee
+
+TEST, LATER = "span-2.0", "span-9"
+ENTRY = f"""
+[[tests]]
+id = "{LATER}"
+kind = "earthquake"
+specimen = "prism"
+setup = "frame"
+file = "raw/{LATER}.csv"
+span = 9
+planned = true
+"""
+
+
+def foresee_a_planned_test(filled: Path, folder: Path) -> list[Foreseen]:
+    """Copy the filled campaign, plan a test, and make two forecasts of it: one too weak to rock, one that overturns."""
+    shutil.copytree(filled, folder)
+    with (folder / "campaign.toml").open("a", encoding="utf-8") as campaign_file:
+        campaign_file.write(ENTRY)
+    return foresee(folder, motion=TEST, levels=["0.01 g", "9x"], test=LATER)
