@@ -12,8 +12,9 @@ from colonnade.campaign.channel import Channel
 from colonnade.campaign.decision import Review
 from colonnade.campaign.motions import ReferenceMotion
 from colonnade.campaign.naming.watched import Watched
-from colonnade.campaign.settings import Processing
+from colonnade.campaign.settings import NextSettings, Processing
 from colonnade.campaign.setup import Setup
+from colonnade.campaign.shake_table import ShakeTable
 from colonnade.campaign.specimen import AnySpecimen, Specimen
 from colonnade.campaign.syntax.fields import Gravity, Text, schema_version
 from colonnade.campaign.syntax.identifier import Identifier
@@ -49,6 +50,10 @@ class CampaignFile(Table):
     """Settings of the processing, each with a default."""
     watch: Watched = Watched()
     """Where raw files appear, and what their names say."""
+    table: ShakeTable = ShakeTable()
+    """What the shake table can do."""
+    next: NextSettings = NextSettings()
+    """Settings of the advice on the next test."""
     tests: tuple[Test, ...] = ()
     """The tests, or the path of the test log (CSV or Excel)."""
 
@@ -71,6 +76,8 @@ class Campaign:
         Reference motions by name.
     processing : Processing
     watch : Watched
+    table : ShakeTable
+    next : NextSettings
     path, folder : Path
         The campaign file and its folder, absolute and resolved.
     warnings : tuple of Finding
@@ -91,6 +98,8 @@ class Campaign:
     motions: dict[str, ReferenceMotion]
     processing: Processing
     watch: Watched
+    table: ShakeTable
+    next: NextSettings
     tests: dict[str, Test]
     path: Path
     folder: Path

@@ -189,6 +189,19 @@ class PredictSettings(Table):
         return self.ensemble.contact.members if model_of(model).in_space else self.ensemble.members
 
 
+class NextSettings(Table):
+    """Settings of the advice on which test tells most."""
+
+    largest_risk: Annotated[float, *number_between(0.0, 1.0, exclusive=True)] = _setting(0.6)
+    """Largest probability of overturning of a test that is advised."""
+    boundary_width: Annotated[float, *number_between(0.02, 1.0)] = _setting(0.05, "of the amplitude")
+    """Wanted width of the 90 % interval of the amplitude at which the specimen overturns half the time."""
+    discrepancy: Annotated[float, *number_between(0.005, 1.0)] = _setting(0.15, "of the amplitude")
+    """Standard deviation of that amplitude about the one that the models predict."""
+    restitution_width: Annotated[float, *number_between(1e-5, 0.5)] = _setting(0.005)
+    """Wanted width of the interval of e."""
+
+
 class Processing(QualitySettings, ConditionSettings):
     """Settings of all stages; SI."""
 

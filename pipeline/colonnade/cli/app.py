@@ -12,13 +12,14 @@ from colonnade.cli.figure import figure
 from colonnade.cli.foresee import foresee
 from colonnade.cli.init import init
 from colonnade.cli.map import map_command
+from colonnade.cli.next import next_command
 from colonnade.cli.run import identify, ingest, predict, report, run
 from colonnade.cli.schema import schema
 from colonnade.cli.show import show
 from colonnade.cli.watch import watch
 
 COMMANDS = (
-    *(demo, init, check, run, ingest, identify, predict, report, watch),
+    *(demo, init, check, run, ingest, identify, predict, report, watch, next_command),
     *(foresee, map_command, calibrate, figure, show, schema),
 )
 

@@ -13,6 +13,7 @@ from colonnade.cli.console import complain, say
 from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, results_option, workers_option
 
 if TYPE_CHECKING:
+    from colonnade.workflow.advising.advice import Advice
     from colonnade.workflow.watching.line import Line
 
 
@@ -70,5 +71,5 @@ def watch(
     )
 
 
-def _show(line: Line, *, as_json: bool) -> None:
-    say(json.dumps(line.as_json(), ensure_ascii=False) if as_json else line.text())
+def _show(line: Line | Advice, *, as_json: bool) -> None:
+    say(json.dumps(line.as_json(), ensure_ascii=False, allow_nan=False) if as_json else line.text())

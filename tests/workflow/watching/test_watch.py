@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from colonnade.errors import StoreError
+from colonnade.workflow.advising.advice import Advice
 from colonnade.workflow.execution.lock import only_watch
 from colonnade.workflow.watching import watch as module
 from colonnade.workflow.watching.line import Line
@@ -32,10 +33,10 @@ def test_arriving_files_become_lines_and_the_rest_follows(
         '[[tests]]\nid = "pulse-03"\nkind = "pulse"\nspecimen = "prism"\nsetup = "frame"\nfile = "raw/pulse-03.csv"\n'
     )
     text.write_text(f"{text.read_text(encoding='utf-8')}\n{entry}planned = true\n", encoding="utf-8")
-    lines: list[Line] = []
+    shown: list[Line | Advice] = []
     said: list[str] = []
-    code = watch(small.folder, share=share, once=True, workers=1, show=lines.append, say=said.append)
-    found = {line.test: line for line in lines}
+    code = watch(small.folder, share=share, once=True, workers=1, show=shown.append, say=said.append)
+    found = {line.test: line for line in shown if isinstance(line, Line)}
     assert set(found) == {"pulse-02", "free-02", "pulse-03"}
     assert found["pulse-03"].record.status == "failed"
     assert code == 1
@@ -43,13 +44,14 @@ def test_arriving_files_become_lines_and_the_rest_follows(
     assert found["pulse-02"].record.predicted["nonlinear"].outcome == "overturned"
     assert found["free-02"].restitution.tests == ("free-01", "free-02")
     assert "e 0.930" in found["free-02"].text()
+    assert [each.kind for each in shown if isinstance(each, Advice)] == ["free-vibration"]
     assert small.summary()["tests"]["pulse-02"]["status"] == "done"
     assert any(sentence.startswith("pulse-03") for sentence in said)
     assert (small.folder / "report" / "tests" / "free-02.html").exists()
     assert "free-02" in small.layout.watch_log.read_text(encoding="utf-8")
     assert '"watched": false' in small.layout.state.read_text(encoding="utf-8")
     before = small.contents()
-    assert watch(small.folder, once=True, workers=1, show=lines.append, say=said.append) == 1
+    assert watch(small.folder, once=True, workers=1, show=shown.append, say=said.append) == 1
     assert small.contents() == before
 
 

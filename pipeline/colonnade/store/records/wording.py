@@ -111,6 +111,20 @@ def share(part: int, whole: int) -> str:
     return "< 0.01 %" if percent < 0.01 else f"{percent:.2g} %"
 
 
+def probability(value: float) -> str:
+    """
+    Write a probability in per cent; what is not certain is never rounded to certainty.
+
+    Examples
+    --------
+    >>> probability(0.432), probability(5e-17), probability(0.998), probability(1.0)
+    ('43 %', '< 1 %', '> 99 %', '100 %')
+    """
+    if value in (0.0, 1.0):
+        return f"{100 * value:.0f} %"
+    return "< 1 %" if value < 0.01 else "> 99 %" if value > 0.99 else f"{100 * value:.0f} %"
+
+
 def listed(names: Sequence[str], longest: int = 8) -> str:
     """
     List names, the first few of them where they are many.

@@ -17,6 +17,8 @@ from colonnade.errors import CampaignError, StoreError
 from colonnade.interruption import expect_none
 from colonnade.report.interactive.state import EVERY
 from colonnade.store.layout import Layout
+from colonnade.workflow.advising.advice import Advice
+from colonnade.workflow.advising.next import advise_after
 from colonnade.workflow.execution.lock import only_watch
 from colonnade.workflow.watching.arrivals import Arrivals, last_change, marks_of
 from colonnade.workflow.watching.behind import Behind
@@ -43,7 +45,7 @@ LARGEST_LOG = 2_000_000
 """Bytes of the log; then a new one is begun, and one old one is kept."""
 
 Say = Callable[[str], None]
-Show = Callable[[Line], None]
+Show = Callable[[Line | Advice], None]
 
 
 def watch(
@@ -73,7 +75,7 @@ def watch(
     workers, results : optional
         As for `run`.
     show : callable
-        Called with the line on each test.
+        Called with the line on each test, and then with the advice on the next test like it.
     say : callable
         Called with a sentence on anything else.
 
@@ -222,6 +224,10 @@ class _Watching:
         self.tell_pages()
         if self.command and (problem := notify(self.command, line.as_json())):
             self.log.warning(f"--notify: {problem}")
+        if line.record.status == "done":
+            for advice in advise_after(self.campaign, self.layout, name, line.record):
+                self.log.info(advice.text())
+                self.show(advice)
 
     def _go_on(self, now: float) -> None:
         """Start, or take note of, the run behind; give a sign of life to open pages."""

@@ -1,0 +1,54 @@
+"""`colonnade next`: which test tells most."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import rich_click as click
+
+from colonnade.cli.console import say, show_json, show_table
+from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, results_option, specimen_option
+from colonnade.store.records.wording import probability
+
+HEADS = ("specimen", "next", "risk", "tests left", "why")
+
+
+@click.command(
+    "next",
+    epilog="Example: colonnade next demo --specimen prism",
+    help=f"""
+    Say which test tells most: of each specimen the next sine test, free vibration and Span.
+
+    {CAMPAIGN} It uses the results of the last run. Each advice has its reason, its risk of overturning and what the
+    table must do; "enough" means that no test of this kind is needed. The settings are in [next], the limits of the
+    table in [table]. Nothing is written.
+    """,
+)
+@campaign_argument
+@specimen_option
+@results_option
+@json_option
+def next_command(campaign: Path, specimen: tuple[str, ...], results: Path | None, as_json: bool) -> int:
+    """Show the advice; return the exit code."""
+    from colonnade.workflow.advising.next import advise
+
+    found = advise(campaign, specimens=specimen, results=results)
+    if as_json:
+        show_json({"advice": [vars(each) for each in found.advice], "awaited": found.awaited})
+        return 0
+    rows = [
+        (
+            each.specimen,
+            f"{each.kind}: {'enough' if each.is_enough else each.test}",
+            "" if each.risk is None or each.is_enough else probability(each.risk),
+            "" if each.left is None else str(each.left),
+            "; ".join((each.reason, *each.beyond)),
+        )
+        for each in found.advice
+    ]
+    show_table(HEADS, rows)
+    for test, file in found.awaited.items():
+        say(f"{test}: expected: {file}")
+    if not rows:
+        say("Nothing to advise: no free vibration, sine test or earthquake has been run.")
+    return 0

@@ -1,0 +1,98 @@
+"""Next: the test that tells most of each specimen and kind, and the tests that are still to come."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from colonnade.campaign import Campaign, load
+from colonnade.campaign.summary import TestSummary
+from colonnade.errors import CampaignError, StoreError, nearest
+from colonnade.identification.response.boundaries import SAME_FREQUENCY
+from colonnade.stages.predict import sides
+from colonnade.store.layout import Layout
+from colonnade.store.records.summary import map_points, read_summary, records_of_tests
+from colonnade.workflow.advising.advice import Advice
+from colonnade.workflow.advising.earthquake import advise_earthquakes, deviation_of
+from colonnade.workflow.advising.free import advise_free
+from colonnade.workflow.advising.sine import Known, advise_sines
+from colonnade.workflow.pooling import restitution_taken
+
+
+@dataclass(frozen=True)
+class Next:
+    """
+    What a campaign should do next.
+
+    Attributes
+    ----------
+    advice : tuple of Advice
+        By specimen, in the order of the campaign file: free vibrations, sines, earthquakes.
+    awaited : dict of str to str
+        Tests that have no raw file yet, and the file that is expected.
+    """
+
+    advice: tuple[Advice, ...]
+    awaited: dict[str, str]
+
+
+def advise(campaign: Path | str, *, specimens: Sequence[str] = (), results: Path | str | None = None) -> Next:
+    """
+    Advise the next tests of a campaign, by the results of its last run.
+
+    Parameters
+    ----------
+    campaign : Path or str
+        A campaign.toml or its folder.
+    specimens : sequence of str, optional
+        Ids; default all.
+    results : Path or str, optional
+        As for `run`.
+
+    Raises
+    ------
+    CampaignError
+        If the campaign file or a specimen is not usable.
+    StoreError
+        If the campaign has never been run.
+    """
+    loaded = load(Path(campaign)).awaiting()
+    for name in specimens:
+        if name not in loaded.specimens:
+            raise CampaignError(f'{loaded.path.name} has no specimen "{name}".{nearest(name, loaded.specimens)}')
+    layout = Layout.of(loaded.folder, results)
+    summary = read_summary(layout)
+    if summary is None:
+        raise StoreError(f"{loaded.folder}: this campaign has no results yet. Run `colonnade run` first.")
+    tests = records_of_tests(loaded, summary)
+    advice = [
+        each
+        for name in specimens or loaded.specimens
+        for kind in ("free-vibration", "sine", "earthquake")
+        for each in _of_kind(loaded, layout, name, kind, tests)
+    ]
+    return Next(tuple(advice), loaded.awaited)
+
+
+def advise_after(campaign: Campaign, layout: Layout, name: str, record: TestSummary) -> list[Advice]:
+    """Advise the next test like one that was just measured: of its specimen and kind, and of its frequency."""
+    tests = records_of_tests(campaign, read_summary(layout)) | {name: record}
+    found = _of_kind(campaign, layout, record.specimen, record.kind, tests)
+    if record.frequency_ratio is None:
+        return found
+    ratio = record.frequency_ratio
+    return [each for each in found if abs(each.values.get("frequency_ratio", 0.0) / ratio - 1) < SAME_FREQUENCY]
+
+
+def _of_kind(
+    campaign: Campaign, layout: Layout, specimen: str, kind: str, tests: dict[str, TestSummary]
+) -> list[Advice]:
+    pooled = restitution_taken(campaign, layout, specimen)
+    if kind == "free-vibration":
+        free = advise_free(campaign, specimen, pooled, tests)
+        return [] if free is None else [free]
+    if kind == "sine":
+        known = Known(sides(pooled), deviation_of(campaign, pooled), tuple(map_points(tests, specimen)))
+        return advise_sines(campaign, specimen, known)
+    return advise_earthquakes(campaign, layout, specimen, pooled, tests) if kind == "earthquake" else []

@@ -1,0 +1,159 @@
+"""Advice on the sine tests of a specimen: its frequencies, their predicted limits, the tests so far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import isfinite, pi, tan
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.campaign import Campaign
+from colonnade.dynamics.block import Block, pair
+from colonnade.dynamics.maps.chart import stability_map
+from colonnade.dynamics.models.registry import MODELS
+from colonnade.identification.advice.posterior import SineTests
+from colonnade.identification.advice.prior import BoundaryPrior
+from colonnade.identification.advice.sine import SineAdvice, advise_sine_tests
+from colonnade.identification.response.boundaries import SAME_FREQUENCY, MapPoint
+from colonnade.store.records.wording import number, quantity
+from colonnade.workflow.advising.advice import Advice, beyond, demand_of_sine
+
+AMPLITUDES = np.linspace(0.5, 8.0, 151)
+"""A that are scanned for a predicted limit."""
+
+
+@dataclass(frozen=True)
+class Known:
+    """What is known of a specimen: e of both sides, its standard deviation, and its sine tests."""
+
+    restitution: tuple[float, float]
+    deviation: float
+    points: tuple[MapPoint, ...]
+
+
+def advise_sines(campaign: Campaign, specimen: str, known: Known) -> list[Advice]:
+    """
+    Advise the next sine test of a specimen at each frequency that was tested or is planned.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    specimen : str
+        Its id.
+    known : Known
+
+    Returns
+    -------
+    advice : list of Advice
+        By rising frequency; empty without any sine test.
+    """
+    block = campaign.block(specimen)
+    ratios = np.array(_frequency_ratios(campaign, specimen, block, known))
+    models = [model for model in campaign.processing.predict.models if not MODELS[model].in_space]
+    if not ratios.size or not models:
+        return []
+    limits = _limits(block, known.restitution, ratios, models[-1])
+    sensitivity = _sensitivity(block, known, ratios, models[-1])
+    found = [place for place in range(ratios.size) if isfinite(limits[place])]
+    tests = [_tests_at(ratios[place], limits[place], sensitivity[place], known) for place in found]
+    settings = campaign.next
+    advised = advise_sine_tests(
+        tests,
+        wanted_width=settings.boundary_width,
+        largest_risk=settings.largest_risk,
+        prior=replace(BoundaryPrior(), common=settings.discrepancy),
+    )
+    with_limit = {
+        place: _advice(campaign, specimen, float(ratios[place]), block, each, models[-1])
+        for place, each in zip(found, advised, strict=True)
+    }
+    return [
+        with_limit.get(place) or _without_limit(specimen, float(ratio) * block.p / (2 * pi), models[-1])
+        for place, ratio in enumerate(ratios)
+    ]
+
+
+def _frequency_ratios(campaign: Campaign, specimen: str, block: Block, known: Known) -> list[float]:
+    """Give Ω of the tests, and of planned ones; those that were meant to be the same once."""
+    planned = [
+        2 * pi * test.frequency / block.p
+        for test in campaign.tests.values()
+        if test.specimen == specimen and test.kind == "sine" and test.frequency and campaign.awaited.get(test.id)
+    ]
+    groups: list[list[float]] = []
+    for ratio in sorted([*(point.frequency_ratio for point in known.points), *planned]):
+        if groups and ratio / groups[-1][0] - 1 < SAME_FREQUENCY:
+            groups[-1].append(ratio)
+        else:
+            groups.append([ratio])
+    return [float(np.mean(group)) for group in groups]
+
+
+def _limits(block: Block, restitution: tuple[float, float], ratios: Array, model: str) -> Array:
+    chart = stability_map(
+        block, restitution=restitution, frequency_ratio=ratios, amplitude_ratio=AMPLITUDES, model=model
+    )
+    return chart.lower
+
+
+def _sensitivity(block: Block, known: Known, ratios: Array, model: str) -> Array:
+    """Change of ln A of each limit by one standard deviation of e; 0 where that is not known."""
+    if not known.deviation > 0.0:
+        return np.zeros(ratios.size)
+    ends = []
+    for sign in (-1.0, 1.0):
+        negative, positive = (float(np.clip(e + sign * known.deviation, 0.01, 1.0)) for e in pair(known.restitution))
+        ends.append(_limits(block, (negative, positive), ratios, model))
+    return np.clip(np.nan_to_num(np.log(ends[1] / ends[0]) / 2), -1.0, 1.0)
+
+
+def _tests_at(ratio: float, limit: float, sensitivity: float, known: Known) -> SineTests:
+    at = [point for point in known.points if abs(point.frequency_ratio / ratio - 1) < SAME_FREQUENCY]
+    amplitudes = [point.amplitude_ratio for point in at]
+    return SineTests.of(limit, amplitudes, [point.outcome == "overturned" for point in at], float(sensitivity))
+
+
+def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advised: SineAdvice, model: str) -> Advice:
+    frequency = ratio * block.p / (2 * pi)
+    acceleration = advised.amplitude_ratio * block.gravity * tan(block.critical_angle)
+    demand = demand_of_sine(acceleration, frequency)
+    low, high = advised.boundary.interval
+    known = (
+        f"overturning begins at A {number(advised.boundary.median)}, from {number(low)} to {number(high)} with 90 % "
+        f"probability ({model} model: {number(advised.boundary.predicted)})"
+    )
+    says = f"this test is expected to say {number(advised.information, 2)} bit"
+    again = f", the test number {advised.repeats + 1} at this amplitude" if advised.repeats else ""
+    return Advice(
+        specimen=specimen,
+        kind="sine",
+        test=f"{number(frequency)} Hz at {quantity(acceleration, 'g')} (A {number(advised.amplitude_ratio)})",
+        is_enough=advised.is_enough,
+        reason=f"{known}; {'as narrow as wanted' if advised.is_enough else says + again}",
+        risk=advised.risk,
+        left=0 if advised.is_enough else advised.left.median,
+        demand=demand,
+        beyond=beyond(campaign.table, demand),
+        values={
+            "frequency": frequency,
+            "frequency_ratio": ratio,
+            "amplitude_ratio": advised.amplitude_ratio,
+            "boundary": advised.boundary.median,
+            "boundary_low": low,
+            "boundary_high": high,
+            "predicted_boundary": advised.boundary.predicted,
+            "bits": advised.information,
+        },
+    )
+
+
+def _without_limit(specimen: str, frequency: float, model: str) -> Advice:
+    return Advice(
+        specimen=specimen,
+        kind="sine",
+        test=f"{number(frequency)} Hz",
+        is_enough=False,
+        reason=f"the {model} model does not overturn up to A {AMPLITUDES[-1]:g}, so there is no boundary to look for",
+        values={"frequency": frequency},
+    )

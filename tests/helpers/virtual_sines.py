@@ -1,0 +1,137 @@
+"""Virtual sine tests of a prism whose truth differs from the model that predicts its limits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+
+import numpy as np
+
+from colonnade.dynamics.block import Block, Side
+from colonnade.dynamics.ensembles.uncertainty import member_block, member_restitution
+from colonnade.dynamics.maps.chart import stability_map
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
+
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+RESTITUTION = 0.976
+"""The paper's prism, as the predicting model knows it."""
+
+FREQUENCIES = (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0)
+"""Hz, the paper's."""
+
+WRONG_RESTITUTION = 0.01
+"""By how much e of the truth differs, up or down."""
+
+WRONG_BLOCK, WRONG_GAIN = 0.005, 0.02
+"""Standard deviations, relative: of α and p of the truth from those measured, and of the table's calibration."""
+
+PHASE, RESTITUTION_SCATTER, TILT, GAIN = np.deg2rad(3.0), 0.002, 0.002, 0.005
+"""
+Standard deviations from test to test: of the start phase, rad (1 ms at 7 Hz, 8 ms at 1 Hz); of e, as free vibrations
+scatter; of the tilt at rest over α (0.4 mrad, 0.03 mm across the base: dust, roughness); of the true A over that
+achieved, relative, as accelerometers and controllers go.
+"""
+
+DRAWS = 60
+"""Tests that are drawn at each A for the true boundary."""
+
+SAMPLES_A_CYCLE = 100
+
+
+@dataclass(frozen=True)
+class Sine:
+    """How long a sine lasts at full amplitude, and each of its ramps, in cycles."""
+
+    cycles: float = 1.0
+    ramp: float = 0.0
+
+
+@dataclass(frozen=True)
+class Truth:
+    """A true prism on a true table: e, factors of α, p and of the amplitude, and how the table moves."""
+
+    restitution: float
+    critical_angle: float
+    p: float
+    gain: float
+    sine: Sine
+
+    @classmethod
+    def drawn(cls, seed: int, sine: Sine) -> Truth:
+        """Draw the truth of a seed; e is wrong upwards for even seeds and downwards for odd ones."""
+        rng = np.random.default_rng([seed, 1])
+        angle, p = np.exp(WRONG_BLOCK * rng.standard_normal(2))
+        sign = 1 if seed % 2 == 0 else -1
+        return cls(
+            RESTITUTION + sign * WRONG_RESTITUTION, angle, p, float(np.exp(WRONG_GAIN * rng.standard_normal())), sine
+        )
+
+    @cached_property
+    def block(self) -> Block:
+        return member_block(PRISM, self.critical_angle, self.p)
+
+    def overturns(self, frequency: float, amplitude_ratio: float, rng: np.random.Generator) -> bool:
+        """Run one test by the nonlinear model."""
+        return self._run(frequency, amplitude_ratio, rng.standard_normal(4))
+
+    def _run(self, frequency: float, amplitude_ratio: float, drawn) -> bool:
+        phase, restitution, tilt, gain = drawn * (PHASE, RESTITUTION_SCATTER, TILT, GAIN)
+        dt = 1 / (frequency * SAMPLES_A_CYCLE)
+        rise, end = self.sine.ramp / frequency, (self.sine.cycles + 2 * self.sine.ramp) / frequency
+        time = np.arange(round(end / dt) + 1) * dt
+        level = np.ones_like(time) if rise == 0 else np.minimum(1.0, np.minimum(time, end - time) / rise)
+        acceleration = level * np.sin(2 * pi * frequency * time + phase)
+        factor = amplitude_ratio * self.gain * np.exp(gain) * PRISM.uplift_acceleration
+        motion = Motion(np.append(factor * acceleration, 0.0), dt)
+        history = rock(
+            _tilted(self.block, tilt),
+            motion,
+            restitution=member_restitution(self.restitution, restitution),
+            model="nonlinear",
+        )
+        return history.outcome == "overturned"
+
+    def surface(self, frequency: float, amplitudes, draws: int):
+        """Share of tests that overturn at each A, the same draws at all of them."""
+        drawn = np.random.default_rng(12345).standard_normal((draws, 4))
+        return np.array([np.mean([self._run(frequency, a, d) for d in drawn]) for a in amplitudes])
+
+    def boundary(self, frequency: float, near: float, draws: int = DRAWS) -> float:
+        """A at which half of the tests overturn, for the first time going up over at least 1 %; NaN if never."""
+        coarse = near * np.exp(np.arange(-0.16, 0.2, 0.02))
+        share = self.surface(frequency, coarse, draws // 3)
+        if not (share >= 0.5).any():
+            return float("nan")
+        first = int(np.argmax(share >= 0.5))
+        fine = coarse[first] * np.exp(np.arange(-0.06, 0.04, 0.004))
+        share = self.surface(frequency, fine, draws)
+        lasting = (share[:-3] >= 0.5) & (share[1:-2] >= 0.5) & (share[2:-1] >= 0.5) & (share[3:] >= 0.5)
+        at = int(np.argmax(lasting))
+        if at == 0:
+            return float("nan")
+        return float(np.interp(0.5, share[at - 1 : at + 1], fine[at - 1 : at + 1]))
+
+
+def _tilted(block: Block, tilt: float) -> Block:
+    """The block at rest on a base that leans by a fraction of α: sooner over to one side, later to the other."""
+    sides = (
+        Side(side.critical_angle * (1 + sign * tilt), side.pole_distance, side.inertia)
+        for side, sign in zip(block.sides, (1, -1), strict=True)
+    )
+    return Block(block.mass, block.gravity, *sides, block.solid)
+
+
+def predicted_limits(sine: Sine, restitution: float = RESTITUTION, frequencies=FREQUENCIES):
+    """`lower` of the linear model's map at the frequencies of the tests."""
+    chart = stability_map(
+        PRISM,
+        frequency_ratio=2 * pi * np.array(frequencies) / PRISM.p,
+        amplitude_ratio=[0.9, 9.0],
+        restitution=restitution,
+        cycles=sine.cycles,
+        ramp=sine.ramp,
+        model="linear",
+    )
+    return chart.lower

@@ -1,0 +1,44 @@
+"""The advice of a campaign: by its last run, for its own specimens, with the tests that are still to come."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from colonnade.errors import CampaignError, StoreError
+from colonnade.workflow.advising.next import advise, advise_after
+
+
+def test_free_vibrations_are_advised_from_the_pooled_restitution(undisturbed: Any) -> None:
+    found = advise(undisturbed.folder)
+    (free,) = found.advice
+    assert (free.specimen, free.kind) == ("prism", "free-vibration")
+    assert free.values["restitution"] == pytest.approx(0.930, abs=2e-3)
+    assert free.values["half_width_after"] < free.values["half_width"]
+    assert free.left is None or free.left >= 1
+    assert not found.awaited
+
+
+def test_a_test_without_its_raw_file_is_expected(small: Any) -> None:
+    small.raw("pulse-02").unlink()
+    assert advise(small.folder).awaited == {"pulse-02": "raw/pulse-02.csv"}
+
+
+def test_what_cannot_be_advised_is_refused(small: Any) -> None:
+    with pytest.raises(CampaignError, match='no specimen "prsm"'):
+        advise(small.folder, specimens=["prsm"])
+    small.layout.summary_json.unlink()
+    with pytest.raises(StoreError, match="Run `colonnade run` first"):
+        advise(small.folder)
+
+
+def test_after_a_test_only_its_own_kind_is_advised(undisturbed: Any) -> None:
+    from colonnade.campaign import load
+    from colonnade.store.records.summary import read_summary
+
+    campaign, summary = load(undisturbed.folder), read_summary(undisturbed.layout)
+    assert summary is not None
+    (free,) = advise_after(campaign, undisturbed.layout, "free-01", summary.tests["free-01"])
+    assert free.kind == "free-vibration"
+    assert advise_after(campaign, undisturbed.layout, "pulse-01", summary.tests["pulse-01"]) == []

@@ -1,0 +1,72 @@
+"""Advice on sine tests: between the outcomes, within the risk, for tested and for planned frequencies."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import pi, tan
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from colonnade.campaign import Campaign, load
+from colonnade.identification.response.boundaries import MapPoint
+from colonnade.workflow.advising.sine import Known, advise_sines
+
+OMEGA = 5.0
+
+
+@pytest.fixture(scope="module")
+def campaign(undisturbed: Any) -> Campaign:
+    return load(undisturbed.folder)
+
+
+def known(*outcomes: tuple[float, str], deviation: float = 0.002) -> Known:
+    points = (MapPoint(f"sine-{place}", OMEGA, ratio, outcome) for place, (ratio, outcome) in enumerate(outcomes))
+    return Known((0.93, 0.93), deviation, tuple(points))
+
+
+def test_the_advised_amplitude_is_between_the_outcomes(campaign: Campaign) -> None:
+    (first,) = advise_sines(campaign, "prism", known((1.5, "rocking")))
+    predicted = first.values["predicted_boundary"]
+    low, high = 0.9 * predicted, 1.2 * predicted
+    (advice,) = advise_sines(campaign, "prism", known((low, "rocking"), (high, "overturned")))
+    assert low < advice.values["amplitude_ratio"] < high
+    assert low < advice.values["boundary"] < high
+    assert 0.3 < advice.risk < 0.7
+    assert advice.left is None or advice.left > 0
+    block = campaign.block("prism")
+    assert advice.demand["acceleration"] == pytest.approx(
+        advice.values["amplitude_ratio"] * block.gravity * tan(block.critical_angle)
+    )
+    assert advice.values["frequency"] == pytest.approx(OMEGA * block.p / (2 * pi))
+
+
+def test_a_smaller_risk_gives_a_smaller_amplitude(campaign: Campaign) -> None:
+    careful = replace(campaign, next=campaign.next.model_copy(update={"largest_risk": 0.1}))
+    (usual,) = advise_sines(campaign, "prism", known((1.5, "rocking")))
+    (advice,) = advise_sines(careful, "prism", known((1.5, "rocking")))
+    assert advice.risk <= 0.1
+    assert advice.values["amplitude_ratio"] < usual.values["amplitude_ratio"]
+
+
+def test_a_narrow_bracket_is_enough(campaign: Campaign) -> None:
+    (first,) = advise_sines(campaign, "prism", known((1.5, "rocking")))
+    at = first.values["predicted_boundary"]
+    near = [(at * (1 + step), "overturned" if step > 0 else "rocking") for step in (-0.012, -0.008, 0.008, 0.012)]
+    (advice,) = advise_sines(campaign, "prism", known(*near, *near, *near))
+    assert advice.is_enough
+    assert advice.left == 0
+
+
+def test_without_sine_tests_nothing_is_advised(campaign: Campaign) -> None:
+    assert advise_sines(campaign, "prism", known()) == []
+
+
+def test_a_planned_frequency_is_advised_too(undisturbed: Any, tmp_path: Path) -> None:
+    text = (undisturbed.folder / "campaign.toml").read_text(encoding="utf-8")
+    entry = '[[tests]]\nid = "s"\nkind = "sine"\nfrequency = "4 Hz"\nspecimen = "prism"\nsetup = "frame"\n'
+    (tmp_path / "campaign.toml").write_text(f'{text}{entry}file = "raw/s.csv"\nplanned = true\n', encoding="utf-8")
+    (advice,) = advise_sines(load(tmp_path), "prism", known())
+    assert advice.values["frequency"] == pytest.approx(4.0)
+    assert advice.test.startswith("4 Hz at ")
