@@ -90,5 +90,5 @@ class Line:
     def _warnings(self) -> list[str]:
         worst: list[Finding | Warned] = [*self.changed]
         worst += [each for each in self.record.warnings if each.severity is not Severity.NOTE and not each.explained]
-        shown = [f"{each.severity}: {each.text}" for each in worst[:2]]
+        shown = [f"{each.severity}: {each.text.rstrip('.')}" for each in worst[:2]]
         return [*shown, f"and {listed([each.kind for each in worst[2:]])}"] if len(worst) > 2 else shown
