@@ -13,6 +13,7 @@ from colonnade import campaign
 from colonnade.dynamics.block import Block
 from colonnade.errors import CampaignError, StoreError
 from colonnade.laboratory import write_campaign
+from colonnade.laboratory.campaign_file import OPERATOR
 from colonnade.laboratory.experiment import Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import GERMAN
 from colonnade.laboratory.instruments import Transducer
@@ -100,6 +101,9 @@ def test_the_prisms_outcomes_are_those_of_the_programme(prism: WrittenCampaign) 
 def test_its_campaign_file_loads_with_the_block_that_was_simulated(prism: WrittenCampaign) -> None:
     loaded = campaign.load(prism.path)
     assert list(loaded.tests) == list(prism.truth["tests"])
+    assert "virtual" in loaded.facility
+    assert {test.operator for test in loaded.tests.values()} == {OPERATOR}
+    assert {test.date.isoformat() for test in loaded.tests.values()} == {"2013-05-14"}
     block = loaded.specimens["prism"].block(loaded.gravity)
     assert block.critical_angle == pytest.approx(prism.truth["specimens"]["prism"]["critical_angle"], rel=1e-12)
     assert block.p == pytest.approx(prism.truth["specimens"]["prism"]["p"], rel=1e-12)

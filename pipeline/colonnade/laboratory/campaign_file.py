@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
+from datetime import date
 from pathlib import Path
 
 from colonnade import units
@@ -13,16 +14,20 @@ from colonnade.errors import CampaignError
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Trial, raw_path
 from colonnade.laboratory.files import FileFormat
 from colonnade.laboratory.instruments import VOLTS, Transducer
+from colonnade.laboratory.schedule import begun
 from colonnade.readers.irregular import irregular
 
 FILE_NAME = "campaign.toml"
 MARK = "# Written by colonnade's virtual laboratory"
 """First words of every campaign file that may be overwritten by another one of the laboratory."""
 
+FACILITY = "virtual shake table (simulated: no real specimen was shaken)"
+OPERATOR = "virtual laboratory"
+
 _HEAD = (
     MARK
     + """: no real specimen was shaken.
-# Its truth is in truth/, which no stage of the processing reads.
+# Its truth is in truth/, which no stage of the processing reads. Facility, days and operator are made up.
 # Every quantity is text with its unit; paths are relative to this file.
 """
 )
@@ -45,6 +50,7 @@ _TESTS = """
 def campaign_text(plan: Plan) -> str:
     """Write out the campaign file of a plan."""
     lines = [_HEAD, "schema = 1", f"campaign = {_value(plan.campaign)}", f"title = {_value(plan.title)}"]
+    lines.append(f"facility = {_value(FACILITY)}")
     gravity = next(iter(plan.specimens.values())).block.gravity
     if gravity != STANDARD_GRAVITY:
         lines.append(f'gravity = "{gravity} m/s^2"')
@@ -53,8 +59,8 @@ def campaign_text(plan: Plan) -> str:
     for number, (name, setup) in enumerate(plan.setups.items()):
         lines += _setup(name, setup, explained=number == 0)
     lines.append(_TESTS.rstrip())
-    for trial in plan.trials:
-        lines += _trial(plan, trial)
+    for position, trial in enumerate(plan.trials):
+        lines += _trial(plan, trial, position)
     return "\n".join([*lines, ""])
 
 
@@ -130,12 +136,13 @@ def _channel(transducer: Transducer, recorder: str) -> dict[str, object]:
     return entry
 
 
-def _trial(plan: Plan, trial: Trial) -> list[str]:
+def _trial(plan: Plan, trial: Trial, position: int) -> list[str]:
     recorders = plan.setups[trial.setup].recorders
     paths = {name: raw_path(trial, name, recorder) for name, recorder in recorders.items()}
     entry: dict[str, object] = {"id": trial.name, "kind": trial.kind, "specimen": plan.specimen_of(trial)}
     entry["setup"] = trial.setup
     entry["file"] = paths[MAIN] if len(paths) == 1 else paths
+    entry |= {"date": begun(position).date(), "operator": OPERATOR}
     return ["", "[[tests]]", *(f"{key} = {_value(value)}" for key, value in (entry | dict(trial.entry)).items())]
 
 
@@ -148,6 +155,8 @@ def _value(value: object) -> str:
         return _inline(value)
     if isinstance(value, list):
         return "[" + ", ".join(_value(each) for each in value) + "]"
+    if isinstance(value, date):
+        return value.isoformat()
     # JSON's strings are TOML's basic strings.
     return json.dumps(value, ensure_ascii=False)
 

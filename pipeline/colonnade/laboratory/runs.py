@@ -15,14 +15,11 @@ from colonnade.arrays import Array
 from colonnade.laboratory.experiment import MAIN, Plan, Setup, Trial, raw_path
 from colonnade.laboratory.files import Sheet, put
 from colonnade.laboratory.instruments import measure
+from colonnade.laboratory.schedule import begun
 from colonnade.laboratory.truth import Truth, simulate
 
 START_SCATTER = 1e-3
 """A recorder that starts late does so within ± this, s: no two starts are alike."""
-
-FIRST_TEST = np.datetime64("2013-05-14T09:00:00", "us")
-"""When the campaign began, by the recorders whose files say so."""
-BETWEEN_TESTS = np.timedelta64(6, "m")
 
 
 def run_tests(plan: Plan, folder: Path, seed: int, workers: int | None) -> dict[str, dict[str, Any]]:
@@ -118,7 +115,7 @@ def _record(
     """Write what each recorder saw, each on its own clock; return the errors of its channels."""
     setup = plan.setups[trial.setup]
     spikes = _draw_spikes(trial, setup, clocks, generator)
-    begun = FIRST_TEST + plan.trials.index(trial) * BETWEEN_TESTS
+    start = np.datetime64(begun(plan.trials.index(trial)), "us")
     errors = {}
     for name, recorder in setup.recorders.items():
         angle = truth.angle[np.searchsorted(truth.time, clocks[name])]
@@ -133,7 +130,7 @@ def _record(
                 "drift_volts": drawn.drift,
                 "spikes": list(drawn.spikes),
             }
-        sheet = Sheet(clocks[name] - starts[name], recorder.sampling_rate_hz, columns, begun)
+        sheet = Sheet(clocks[name] - starts[name], recorder.sampling_rate_hz, columns, start)
         put(folder / raw_path(trial, name, recorder), recorder.flavour.content(sheet))
     return errors
 
