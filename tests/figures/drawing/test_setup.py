@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from colonnade.dynamics.block import Block
 from colonnade.figures.drawing.parts import Body, Rocking, Transducer
@@ -111,3 +112,18 @@ def test_several_setups_are_below_each_other_and_none_is_refused():
     assert len(figure.axes) == 9
     with pytest.raises(ValueError, match="no specimen"):
         setup_drawings([])
+
+
+def test_no_dimension_crosses_the_edge_of_the_table_or_of_the_body():
+    round_one = Body("circle", (0.097, 0.0755), (0.097, 0.0755), 0.48, True, Rocking.of(BLOCK))
+    for body, depths in ((PRISM, {"60 mm"}), (round_one, set())):
+        _, side, plan = views(TOP, body=body)
+        renderer = FigureCanvasAgg(side.get_figure(root=True)).get_renderer()
+        for view in (side, plan):
+            edges = [patch.get_window_extent(renderer) for patch in view.patches]
+            written = [text for text in view.texts if text.get_text()]
+            for text in written:
+                box = text.get_window_extent(renderer)
+                crossed = [edge for edge in edges if edge.overlaps(box) and not edge.contains(box.x0, box.y0)]
+                assert not crossed, text.get_text()
+        assert {text.get_text() for text in side.texts if "mm" in text.get_text()} == depths

@@ -57,25 +57,27 @@ def _seen_from_above(body: Body, end: int) -> list[Spot]:
 
 
 def draw_dimensions(view: View, body: Body) -> None:
-    """Give width and height in the elevation, depth in the side view, of a cone both diameters."""
-    inch, sizes = view.inch, body.width if view.across == 0 else body.depth
+    """Give width and height in the elevation, of a cone both diameters; in the side view the depth, above the body."""
+    inch, is_elevation = view.inch, view.across == 0
+    sizes = body.width if is_elevation else body.depth
     sign = "⌀ " if body.base == "circle" else ""
+    is_drawn = body.is_known or body.rocking is None
 
-    def written(size: float) -> str:
-        return f"{sign}{_millimetres(size)}" if body.is_known else "?"
+    def across(size: float, height: float, beside: Spot) -> None:
+        written = f"{sign}{_millimetres(size)}" if body.is_known else "?"
+        view.dimension((-size / 2, height), (size / 2, height), written, beside=beside)
 
-    below = -0.13 * inch
-    if body.is_known or body.rocking is None:
-        # From the side what is fixed to the middle of the table is below: the text stands beside its line.
-        beside = (0.0, -0.1) if view.across == 0 else (sizes[0] / 2 / inch + 0.24, 0.0)
-        view.dimension((-sizes[0] / 2, below), (sizes[0] / 2, below), written(sizes[0]), beside=beside)
-    if sizes[1] != sizes[0]:
-        above = body.height + 0.09 * inch
-        view.dimension((-sizes[1] / 2, above), (sizes[1] / 2, above), written(sizes[1]), beside=(0.0, 0.1))
-    if view.across == 0 and (body.is_known or body.rocking is None):
+    above = body.height + 0.09 * inch
+    if is_elevation and sizes[1] != sizes[0]:
+        across(sizes[1], above, (0.0, 0.1))
+    if is_elevation and is_drawn:
+        across(sizes[0], -0.13 * inch, (0.0, -0.1))
         left = -max(sizes) / 2 - 0.14 * inch
         height = _millimetres(body.height) if body.is_known else "?"
         view.dimension((left, 0.0), (left, body.height), height, beside=(-0.09, 0.0))
+    # The narrow table has no room for it next to what is fixed to its middle. A round body is as deep as it is wide.
+    if not is_elevation and is_drawn and body.base == "rectangle":
+        across(sizes[1], above, (0.0, 0.1))
 
 
 def draw_rocking(view: View, rocking: Rocking) -> None:

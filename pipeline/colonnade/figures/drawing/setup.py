@@ -90,9 +90,9 @@ def _draw(parent: FigureBase, drawn: Drawn) -> None:
     half = max(*body.width, *body.depth) / 2 + 0.44 * inch
     elevation = View.within(parent, (0.0, 0.0, 3.9, HEIGHT - 0.2), size, ELEVATION, inch, (1.95, BASE))
     side = View.within(parent, (3.9, 0.0, 1.4, HEIGHT - 0.2), size, SIDE, inch, (0.7, BASE))
-    plan = View.within(parent, (5.3, HEIGHT - 2.2, 1.9, 2.0), size, PLAN, inch, (0.95, 1.2))
+    plan = View.within(parent, (5.3, HEIGHT - 2.35, 1.9, 2.15), size, PLAN, inch, (0.95, 1.35))
     places = places_of(transducers, body, half, inch)
-    for view, corner in ((elevation, (-0.2, -BASE + 0.14)), (side, (-0.2, -BASE + 0.14)), (plan, (-0.6, -1.08))):
+    for view, corner in ((elevation, (-0.2, -BASE + 0.14)), (side, (-0.2, -BASE + 0.14)), (plan, (-0.6, -1.23))):
         draw_table(view, min(half, (0.5 if view is side else 0.9) * inch))
         draw_body(view, body)
         if view is not plan:
@@ -111,7 +111,7 @@ def _draw(parent: FigureBase, drawn: Drawn) -> None:
     ):
         parent.text(left / WIDTH, 1 - 0.05 / HEIGHT, name, va="top", fontsize=points, color=colour)
     lines = "\n".join(line for word in body.words for line in wrap(word, LETTERS) or [""])
-    parent.text(5.5 / WIDTH, (HEIGHT - 2.35) / HEIGHT, lines, va="top", fontsize=FINE, color=INK, linespacing=1.4)
+    parent.text(5.5 / WIDTH, (HEIGHT - 2.5) / HEIGHT, lines, va="top", fontsize=FINE, color=INK, linespacing=1.4)
 
 
 def _inch(drawn: Drawn, high: float) -> float:
