@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -46,3 +48,10 @@ def test_a_half_width_below_the_trusted_one_gives_no_more_digits_than_that(value
 def test_quantity_is_written_in_its_unit():
     assert units.format_quantity(0.086, "mm") == "86 mm"
     assert units.format_quantity(9.80665, "g", digits=4) == "1 g"
+
+
+def test_percentages_are_written_in_one_form_that_no_line_breaks():
+    package = Path(units.__file__).parents[1]
+    sources, templates = ([path.read_text("utf-8") for path in package.rglob(f"*.{kind}")] for kind in ("py", "jinja"))
+    assert not [found for text in sources for found in re.findall(r".*(?::[-+.,\w]*%\}|\} %[\w ]).*", text)]
+    assert not [found for text in templates for found in re.findall(r".*\d %(?!\}).*", text)]

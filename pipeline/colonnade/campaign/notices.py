@@ -13,6 +13,7 @@ from colonnade.campaign.specimen import AnySpecimen
 from colonnade.dynamics import density
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.findings import Finding, note, serious, warning
+from colonnade.units import format_percent
 
 OFF_SIDE = 0.02
 """Fraction of its radius by which the point of a line of sight may lie off the side of a round specimen."""
@@ -188,6 +189,7 @@ def _range(place: str, channel: Channel, name: str, specimen: AnySpecimen) -> It
     elif reach < NARROWEST_RANGE * rocking:
         yield warning(
             "gain",
-            f"{place}: with its gain and range it reads up to {1e3 * reach:.3g} mm, {reach / rocking:.1%} of the "
-            f"{1e3 * rocking:.3g} mm that this point of {name} moves until it overturns. Check gain and unit.",
+            f"{place}: with its gain and range it reads up to {1e3 * reach:.3g} mm, "
+            f"{format_percent(reach / rocking, 1)} of the {1e3 * rocking:.3g} mm that this point of {name} moves "
+            "until it overturns. Check gain and unit.",
         )

@@ -23,6 +23,7 @@ from colonnade.campaign.syntax.fields import (
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
 from colonnade.dynamics.density import UnlikelyBlockWarning, cone_volume, prism_volume
+from colonnade.units import format_percent
 
 # The notices report it for a campaign's specimens.
 warnings.filterwarnings("ignore", category=UnlikelyBlockWarning, module=r"colonnade\.campaign\.specimen")
@@ -151,8 +152,9 @@ class Specimen(Table):
                 slip, meaning = slips.get(name, (0.0, ""))
                 hint = f" It agrees with {meaning}." if abs(value - slip) < SLIP_TOLERANCE * expected else ""
                 sentences.append(
-                    f"{name} is given as {value * factor:.4g} {unit}, {100 * (value / expected - 1):+.1f} % from the "
-                    f"{expected * factor:.4g} {unit} that the dimensions give; the given value is used.{hint}"
+                    f"{name} is given as {value * factor:.4g} {unit}, "
+                    f"{format_percent(value / expected - 1, 1, signed=True)} from the {expected * factor:.4g} "
+                    f"{unit} that the dimensions give; the given value is used.{hint}"
                 )
         return sentences
 

@@ -10,12 +10,14 @@ at 1.80 is one.
 
 from __future__ import annotations
 
+from colonnade.units import format_percent
+
 MARGIN = 0.01
 """Relative change of A within which the true outcome of every step stays the same."""
 
 KEPT_AWAY = (
-    f"The amplitudes of the virtual sine tests keep at least {MARGIN:.0%} away from the boundaries between outcomes, "
-    "so that outcomes are easier to get right here than in a laboratory."
+    f"The amplitudes of the virtual sine tests keep at least {format_percent(MARGIN)} away from the boundaries between "
+    "outcomes, so that outcomes are easier to get right here than in a laboratory."
 )
 """What is said with every number of right outcomes."""
 

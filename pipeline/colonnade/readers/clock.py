@@ -10,6 +10,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
+from colonnade.units import format_percent
 
 TIME_NAME = re.compile(
     r"(?:t|time|zeit|messzeit|laufzeit|time\W?stamp|date\W?time|elapsed(?:\W?time)?|temps|tiempo|tempo|tid|χρόνοσ|χρονοσ"
@@ -102,7 +103,7 @@ def find_clocks(channels: tuple[RecordedChannel, ...], kinds: tuple[str, ...]) -
         rising = rising_share(channel.values)
         if rising < RISING_SHARE:
             warnings.append(
-                f'"{channel.heading}" looks like a clock, but only {rising:.0%} of its steps go forward: '
+                f'"{channel.heading}" looks like a clock, but only {format_percent(rising)} of its steps go forward: '
                 "it is not used as one"
             )
             continue

@@ -25,6 +25,7 @@ from colonnade.report.test_page import restitution
 from colonnade.report.test_page.restitution import EstimateText
 from colonnade.store.records.stored import Failure, Stored
 from colonnade.store.records.wording import NOTHING, interval, number, quantity
+from colonnade.units import PERCENT
 
 BOUNDS = ("restitution_low", "restitution_high", "level")
 
@@ -178,7 +179,10 @@ def _contact(pooled: Stored) -> list[tuple[str, str]]:
         ),
         ("mean velocity ratio of the same impacts", number(value("contact_velocity_ratio"), 4)),
         ("step", quantity(value("contact_step"), "µs")),
-        ("largest gap in the energy balance", f"{number(100 * value('energy_residual'), 2)} % of the largest energy"),
+        (
+            "largest gap in the energy balance",
+            f"{number(100 * value('energy_residual'), 2)}{PERCENT} of the largest energy",
+        ),
     ]
 
 

@@ -13,11 +13,12 @@ from colonnade.units.conversion import (
     to_si,
 )
 from colonnade.units.dimensions import DIMENSIONS, QUANTITY_DIMENSIONS
-from colonnade.units.writing import format_percent, format_quantity, format_uncertain, with_minus
+from colonnade.units.writing import PERCENT, format_percent, format_quantity, format_uncertain, with_minus
 
 __all__ = [
     "DIMENSIONS",
     "NUMBER_PATTERN",
+    "PERCENT",
     "QUANTITY_DIMENSIONS",
     "factor_to_si",
     "format_percent",

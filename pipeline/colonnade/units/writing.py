@@ -10,6 +10,9 @@ from colonnade.units.conversion import from_si
 MINUS = "−"
 """U+2212: as wide as a digit, and never broken off its number."""
 
+PERCENT = "\u00a0%"
+"""After a number: no line ends between the two."""
+
 _EXPONENT = re.compile(r"e([+-]\d+)")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -26,16 +29,16 @@ def format_quantity(value: float, unit: str, digits: int = 3) -> str:
     return f"{from_si(value, unit):.{digits}g} {unit}".rstrip()
 
 
-def format_percent(share: float, decimals: int = 0) -> str:
-    """
-    Write a share in per cent.
+def format_percent(share: float, decimals: int = 0, *, signed: bool = False) -> str:
+    r"""
+    Write a share in per cent, with its sign if asked.
 
     Examples
     --------
-    >>> format_percent(0.9), format_percent(0.0012, 1), format_percent(-0.25)
-    ('90 %', '0.1 %', '−25 %')
+    >>> format_percent(0.9), format_percent(0.0012, 1), format_percent(-0.25), format_percent(0.1, signed=True)
+    ('90\xa0%', '0.1\xa0%', '−25\xa0%', '+10\xa0%')
     """
-    return with_minus(f"{100 * share:.{decimals}f} %")
+    return with_minus(f"{100 * share:{'+' if signed else ''}.{decimals}f}{PERCENT}")
 
 
 def with_minus(number: str) -> str:

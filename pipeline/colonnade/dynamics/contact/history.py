@@ -12,6 +12,7 @@ from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.history import NO_ROCKING_RATIO, History
 from colonnade.dynamics.models.contact import CONTACT
+from colonnade.units import PERCENT
 
 LARGEST_RESIDUAL = 0.01
 """Of the energy balance, over its largest part; beyond it the run says that the balance does not close."""
@@ -159,8 +160,9 @@ class ContactHistory(History):
         if self.energies.closes or np.abs(self.energies.residual).max() <= least:
             return ()
         return (
-            f"The energy balance does not close: {100 * self.energies.relative_residual:.2g} % of the largest energy "
-            f"is missing, {100 * LARGEST_RESIDUAL:g} % is allowed. Try a step shorter than {self.step:.3g} s.",
+            f"The energy balance does not close: {100 * self.energies.relative_residual:.2g}{PERCENT} of the largest "
+            f"energy is missing, {100 * LARGEST_RESIDUAL:g}{PERCENT} is allowed. "
+            f"Try a step shorter than {self.step:.3g} s.",
         )
 
 

@@ -18,6 +18,7 @@ from colonnade.figures.restitution.impacts import HEIGHT, ImpactSeries, Level, d
 from colonnade.figures.restitution.peaks import PeakSeries, label_energies
 from colonnade.figures.style import FAINT, MEASURED, styled
 from colonnade.identification.restitution.arcs.energy import released_energy
+from colonnade.units import format_percent
 
 LINES = 40
 """Records that have a line of their own, spread evenly over all."""
@@ -27,6 +28,8 @@ BINS = 24
 
 MIDDLE = (0.05, 0.5, 0.95)
 """Quantiles: the median, and the ends of the middle 90 %."""
+
+MIDDLE_SHARE = format_percent(MIDDLE[-1] - MIDDLE[0])
 
 FEWEST = 3
 """Values below which a class has no median."""
@@ -179,7 +182,13 @@ def _draw_middle(axes: Axes, middle: Middle, *, joined: bool = True) -> None:
     colour = MEASURED["color"]
     if joined:
         axes.fill_between(
-            middle.place, middle.low, middle.high, color=colour, alpha=0.15, linewidth=0, label="middle 90 % of all"
+            middle.place,
+            middle.low,
+            middle.high,
+            color=colour,
+            alpha=0.15,
+            linewidth=0,
+            label=f"middle {MIDDLE_SHARE} of all",
         )
         axes.plot(middle.place, middle.median, color=colour, linewidth=1.2, label="median of all")
         return
@@ -192,5 +201,5 @@ def _draw_middle(axes: Axes, middle: Middle, *, joined: bool = True) -> None:
         color=colour,
         ecolor=FAINT,
         elinewidth=0.8,
-        label="median of a class of speed, and its middle 90 %",
+        label=f"median of a class of speed, and its middle {MIDDLE_SHARE}",
     )

@@ -18,6 +18,7 @@ from colonnade.figures.panels.long import draw_band
 from colonnade.figures.restitution.marks import draw_marks
 from colonnade.figures.style import FIT, blank_figure, styled
 from colonnade.identification.restitution.arcs.energy import released_energy
+from colonnade.units import PERCENT
 
 COLUMNS = 3
 
@@ -119,7 +120,15 @@ def _draw_peaks(axes: Axes, peaks: PeakSeries, block: Block) -> None:
         axes.plot(number[fitted], line, label="fit", zorder=3, **FIT)
         if peaks.band is not None and np.isfinite(peaks.band[fitted]).any():
             wide = np.exp(peaks.band[fitted])
-            draw_band(axes, number[fitted], line / wide, line * wide, color=FIT["color"], alpha=0.18, label="95 % band")
+            draw_band(
+                axes,
+                number[fitted],
+                line / wide,
+                line * wide,
+                color=FIT["color"],
+                alpha=0.18,
+                label=f"95{PERCENT} band",
+            )
     axes.set_yscale("log")
     axes.set_xlim(0, max(peaks.angle.size + 1, axes.get_xlim()[1]))
     axes.set_title(peaks.title)

@@ -10,7 +10,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.spectra.response import response_spectrum
+from colonnade.dynamics.spectra.response import DAMPING, response_spectrum
 from colonnade.figures.base_motion import BaseSpectra, base_motion
 from colonnade.figures.files.output import Picture
 from colonnade.figures.panels.curve import Curve
@@ -18,6 +18,7 @@ from colonnade.signals.named_motion import Laid, Series, laid_on
 from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.wording import number, quantity
+from colonnade.units import format_percent
 
 SHORTEST, LONGEST = 0.02, 4.0
 """Periods of the spectra, s; no shorter than `FEWEST` samples, no longer than a quarter of the record."""
@@ -76,7 +77,7 @@ def picture(test: Test, base: BaseMotion | None, block: Block) -> Picture | None
             uplift=block.uplift_acceleration,
         ),
         f"base-{test.id}",
-        f"{test.id}: acceleration of the table and its response spectrum of 5 % damping",
+        f"{test.id}: acceleration of the table and its response spectrum of {format_percent(DAMPING)} damping",
         " ".join(said),
     )
 

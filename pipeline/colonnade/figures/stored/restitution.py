@@ -15,7 +15,7 @@ from colonnade.figures.panels.curve import Curve
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
 from colonnade.figures.restitution.history import fitted_history
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
-from colonnade.figures.restitution.many import MIDDLE, impacts_of_many, peaks_of_many
+from colonnade.figures.restitution.many import MIDDLE, MIDDLE_SHARE, impacts_of_many, peaks_of_many
 from colonnade.figures.restitution.peaks import PeakSeries, peak_decay
 from colonnade.figures.restitution.region import Region, joint_region
 from colonnade.figures.stored.curves import measured_ratio
@@ -120,7 +120,10 @@ def estimators(identity: str, groups: Sequence[EstimateGroup], rigid: float) -> 
         return None
     note = ""
     if len(shown) > MOST_SIDE_BY_SIDE:
-        note = f"{SUMMARISED} Each row is the median of an estimator over the records, with the middle 90 % of them."
+        note = (
+            f"{SUMMARISED} Each row is the median of an estimator over the records, with the middle {MIDDLE_SHARE} of "
+            "them."
+        )
         shown = _summarised(shown)
     said = [f"{group.title}: {row.name} {number(row.value, 5)}." for group in shown for row in group.rows]
     title = "Estimates of e side by side, with their intervals"

@@ -13,6 +13,7 @@ from colonnade.identification.restitution.estimators.history import UNLIKELY, No
 from colonnade.identification.restitution.estimators.history_scatter import ScatteredHistory
 from colonnade.identification.restitution.estimators.peaks import PeakDecay
 from colonnade.identification.restitution.result import Estimate, Restitution
+from colonnade.units import format_percent
 
 LARGEST_ERROR = 0.003
 """Standard error of e above which no value is given."""
@@ -29,7 +30,7 @@ MISFIT = 0.02
 RULE = (
     "The whole history with an e of its own at each impact is recommended if noise and scatter alone explain its "
     f"residual (arc by arc, probability at least {UNLIKELY:g}); else the peaks, which do not need p, unless the "
-    f"whole history with {MISFIT:.0%} of the loss 1 − e added to its error agrees with them and says more. "
+    f"whole history with {format_percent(MISFIT)} of the loss 1 − e added to its error agrees with them and says more. "
     f"No value is given if its standard error is over {LARGEST_ERROR:g}, if its interval reaches 1, or if a departure "
     "from plane rocking with one e leaves too little."
 )

@@ -9,6 +9,7 @@ import numpy as np
 
 from colonnade.arrays import Array, Mask
 from colonnade.digest import Digested, written
+from colonnade.units import format_percent
 
 
 def _none() -> Array:
@@ -191,6 +192,6 @@ class Restitution(Digested):
             return {"e": written(None), "reason": self.reason}
         e = written(self.value, digits=5)
         if self.low is not None and self.high is not None:
-            e += f" ({self.low:.5g} to {self.high:.5g}, {self.level:.0%})"
+            e += f" ({self.low:.5g} to {self.high:.5g}, {format_percent(self.level)})"
         seen = f"{int(self.peaks.used.sum())} of {self.peaks.used.size}"
         return {"e": e, "method": self.recommended or self.method, "peaks used": seen}

@@ -13,6 +13,7 @@ from colonnade.readers.binary.vectors import Column
 from colonnade.readers.clock import RISING_SHARE, TIME_NAME, Clocks, even_times, may_be_clock, rising_share
 from colonnade.readers.format import Options
 from colonnade.readers.recording import TIME_UNITS, TimeUnit
+from colonnade.units import format_percent
 
 PLAIN_NAME = re.compile(r"t|time", re.IGNORECASE)
 OTHER_NAME = re.compile(
@@ -88,7 +89,7 @@ def _by_name(columns: list[Column], warnings: list[str]) -> list[int]:
                 chosen[key] = number
             elif pattern is PLAIN_NAME:
                 warnings.append(
-                    f"{column.path} looks like a clock, but only {rising:.0%} of its steps go forward: "
+                    f"{column.path} looks like a clock, but only {format_percent(rising)} of its steps go forward: "
                     "it is not used as one"
                 )
     return sorted(chosen.values())

@@ -23,6 +23,7 @@ from colonnade.signals.intensity import LARGEST_DRIFT, arias_intensity, peak_dis
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import largest_motion
 from colonnade.store.records.wording import NOTHING, number, quantity
+from colonnade.units import PERCENT
 
 FASTEST = 25.0
 """Hz, below which a measured displacement is differentiated: above it its noise is larger than its motion."""
@@ -79,7 +80,9 @@ def _measures(motion: BaseMotion, stored: Stored, gravity: float, scale: float |
     if derived:
         velocity[0] = _from_displacement(stored, motion.interval)
     displacement = each(lambda values: peak_displacement(values, motion.interval).peak)
-    drifts = f"not given: the integral of the acceleration drifts by more than {100 * LARGEST_DRIFT:g} % of its peak"
+    drifts = (
+        f"not given: the integral of the acceleration drifts by more than {100 * LARGEST_DRIFT:g}{PERCENT} of its peak"
+    )
     integrated = "integral of the acceleration, less a line through its ends"
     return [
         row("peak acceleration (PGA)", "m/s²", "acceleration", each(lambda values: float(np.abs(values).max())), ""),
@@ -133,7 +136,7 @@ def _sine(row: TestRow, stored: Stored) -> list[Fact]:
     return [
         ("frequency", quantity(frequency, "Hz", 4) + (f"; asked for: {quantity(asked, 'Hz', 4)}" if asked else "")),
         ("amplitude", f"{quantity(amplitude, 'm/s²')} ± {quantity(spread, 'm/s²', 2)} from period to period"),
-        ("distortion", f"{number(100 * distortion, 2)} % (RMS of what is not the sine, over that of the sine)"),
+        ("distortion", f"{number(100 * distortion, 2)}{PERCENT} (RMS of what is not the sine, over that of the sine)"),
         ("steady from", f"{quantity(start, 's', 4)} to {quantity(stop, 's', 4)}"),
     ]
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from colonnade.store.records.stored import Samples, Stored
 from colonnade.store.records.wording import CHANNEL_UNITS, NOTHING, number, quantity, share
-from colonnade.units import with_minus
+from colonnade.units import PERCENT, with_minus
 
 _NOTHING_LEFT = 1e-6
 """Residuals smaller than this, over the noise, mean that there are no more transducers than motions."""
@@ -97,7 +97,7 @@ def _residual(to_noise: float | None, to_reading: float | None) -> str:
     text = f"{number(to_noise, 2)} × noise"
     if to_reading is None or not isfinite(to_reading):
         return text
-    return f"{text}, {number(100 * to_reading, 2)} % of the reading"
+    return f"{text}, {number(100 * to_reading, 2)}{PERCENT} of the reading"
 
 
 def _clock(given: Mapping[str, Any]) -> str:

@@ -8,6 +8,7 @@ import xarray as xr
 from colonnade.arrays import Array
 from colonnade.errors import StageError
 from colonnade.findings import MEASUREMENT, Finding, serious, warning
+from colonnade.units import format_percent
 
 LARGEST_TRANSVERSE = 0.1
 """Of the peak along x: what the base may move across without a word, though a plane model leaves it out."""
@@ -105,6 +106,6 @@ def left_out(rocking: xr.Dataset, base: Array) -> list[Finding]:
     along = float(np.abs(base).max(initial=0.0))
     if peak <= LARGEST_TRANSVERSE * along:
         return []
-    share = f"{peak / along:.0%} of that along x" if along > 0.0 else "and none along x"
+    share = f"{format_percent(peak / along)} of that along x" if along > 0.0 else "and none along x"
     text = f"The base also moved along y, by up to {peak:.3g} m/s², {share}: the plane models ignore it."
     return [warning("motion across", text, follows=MEASUREMENT)]

@@ -15,6 +15,7 @@ from colonnade.identification.fusion.inertial import Accelerometer
 from colonnade.identification.fusion.readings import Readings
 from colonnade.signals.filters import second_derivative
 from colonnade.stages.parts.transducers import Transducers
+from colonnade.units import format_percent
 
 Kind = TypeVar("Kind")
 
@@ -74,11 +75,11 @@ def _several(what: str, names: list[str], values: Array, mean: Array) -> Finding
     off = np.sqrt(np.nanmean((values - mean) ** 2, axis=1))
     share = float(off.max()) / max(float(np.sqrt(np.nanmean(mean**2))), 1e-300)
     if share <= LARGEST_DIFFERENCE:
-        return note("several table channels", f"{text}; they agree to {share:.1%}.")
+        return note("several table channels", f"{text}; they agree to {format_percent(share, 1)}.")
     odd = names[int(off.argmax())]
     return warning(
         "several table channels",
-        f"{text}, but they differ: {odd} by {share:.0%} of it (RMS). If one of them is wrong or "
+        f"{text}, but they differ: {odd} by {format_percent(share)} of it (RMS). If one of them is wrong or "
         'is not fixed to the table, change its `on`, or set quantity = "other".',
         follows=MEASUREMENT,
     )

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import isfinite
 
 from colonnade.campaign.summary import Order
-from colonnade.units import format_percent, format_quantity, format_uncertain, from_si, with_minus
+from colonnade.units import PERCENT, format_percent, format_quantity, format_uncertain, from_si, with_minus
 
 NOTHING = "–"
 
@@ -79,13 +79,13 @@ def acceleration(value: float | None) -> str:
 
 
 def interval(value: float | None, low: float | None, high: float | None, level: float | None) -> str:
-    """
+    r"""
     Write a coefficient of restitution with the half-width of its interval.
 
     Examples
     --------
     >>> interval(0.97608, 0.97528, 0.97688, 0.95)
-    '0.9761 ± 0.0008 (95 % interval)'
+    '0.9761 ± 0.0008 (95\xa0% interval)'
     >>> interval(0.976, float("nan"), float("nan"), 0.95)
     '0.976'
     """
@@ -97,18 +97,18 @@ def interval(value: float | None, low: float | None, high: float | None, level: 
 
 
 def share(part: int, whole: int) -> str:
-    """
+    r"""
     Write a part of a whole in per cent; what is there is never rounded to nothing.
 
     Examples
     --------
     >>> share(3, 40), share(3, 60000), share(0, 10)
-    ('7.5 %', '< 0.01 %', '0 %')
+    ('7.5\xa0%', '< 0.01\xa0%', '0\xa0%')
     """
     if part == 0:
-        return "0 %"
+        return f"0{PERCENT}"
     percent = 100 * part / whole
-    return "< 0.01 %" if percent < 0.01 else f"{percent:.2g} %"
+    return f"< 0.01{PERCENT}" if percent < 0.01 else f"{percent:.2g}{PERCENT}"
 
 
 def probability(value: float) -> str:

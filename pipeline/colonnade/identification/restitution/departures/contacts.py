@@ -9,6 +9,7 @@ from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs.arcs import noise_level
 from colonnade.identification.restitution.arcs.series import ArcSeries
 from colonnade.identification.restitution.departures.departure import Departure
+from colonnade.units import format_percent
 
 NOISE_MARGIN = 5.0
 """Standard errors from which on a slide, an uplift or a pause is one."""
@@ -73,7 +74,7 @@ def find_sliding(time: Array, angle: Array, slide: Array, block: Block, series: 
         "m",
         f"The block slides at {int(large.sum())} of {jumps.size} impacts, by {1e3 * total:.3g} ± "
         f"{1e3 * total_error:.1g} mm in all ({1e3 * float(jumps[large].sum()):+.3g} mm with its sign): with a friction "
-        f"of {FRICTION:g} this is {work:.0%} of the energy lost" + end,
+        f"of {FRICTION:g} this is {format_percent(work)} of the energy lost" + end,
         refuses=refuses,
     )
 

@@ -10,6 +10,7 @@ from colonnade.identification.restitution.arcs.series import ArcSeries
 from colonnade.identification.restitution.departures.departure import Departure
 from colonnade.identification.restitution.departures.two_sides import sides_problem
 from colonnade.identification.restitution.fitting.random_walk_fit import RandomWalkFit
+from colonnade.units import format_percent
 
 NAME = "three-dimensional rocking"
 
@@ -73,8 +74,8 @@ def out_of_plane_share(time: Array, out_of_plane: Array, series: ArcSeries) -> D
         last + 1,
         size,
         error,
-        f"The block turns out of its plane by up to {size:.0%} of the rocking angle (± {error:.1%}, measured); more "
-        f"than {LARGEST_SHARE:.0%}",
+        f"The block turns out of its plane by up to {format_percent(size)} of the rocking angle "
+        f"(± {format_percent(error, 1)}, measured); more than {format_percent(LARGEST_SHARE)}",
     )
 
 
@@ -140,7 +141,8 @@ def _other_durations(series: ArcSeries, fit: RandomWalkFit, count: int) -> Depar
         count,
         size,
         error,
-        f"The first {count} arcs last {abs(size):.1%} ± {error:.1%} {'longer' if size > 0 else 'shorter'} than later "
+        f"The first {count} arcs last {format_percent(abs(size), 1)} ± {format_percent(error, 1)} "
+        f"{'longer' if size > 0 else 'shorter'} than later "
         "ones do at their peaks, as large cycles that turn out of the plane do",
     )
 

@@ -8,6 +8,7 @@ from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs.arcs import Arcs
 from colonnade.identification.restitution.arcs.rocking_arc import half_duration_of
+from colonnade.units import format_percent
 
 PERIOD_TOLERANCE = 0.15
 """Largest median departure of the arcs' durations from those of this block."""
@@ -58,8 +59,8 @@ def objection(arcs: Arcs, usable: Mask, block: Block) -> str:
     excess = float(np.median(ratio)) - 1
     if abs(excess) > PERIOD_TOLERANCE:
         return (
-            f"Times between impacts differ by {excess:+.0%} from those of this block in free rocking at these "
-            "amplitudes: this is not free rocking of this specimen, or its dimensions are wrong."
+            f"Times between impacts differ by {format_percent(excess, signed=True)} from those of this block in "
+            "free rocking at these amplitudes: this is not free rocking of this specimen, or its dimensions are wrong."
         )
     moved = half_duration_of(np.minimum(1.001 * peak, 0.5 * (peak + critical)), critical, False)
     slope = np.log(2 * moved / p / expected) / (np.minimum(1.001 * peak, 0.5 * (peak + critical)) - peak)
@@ -79,7 +80,8 @@ def objection(arcs: Arcs, usable: Mask, block: Block) -> str:
     if abs(median) > SHAPE_TOLERANCE + SURE * scatter:
         return (
             "Between impacts the angle is not the arc of a rocking block: judged by its middle part, an arc would "
-            f"last {median:+.0%} longer than it does; less than {SHAPE_TOLERANCE:.0%} was expected. This is not free "
+            f"last {format_percent(median, signed=True)} longer than it does; "
+            f"less than {format_percent(SHAPE_TOLERANCE)} was expected. This is not free "
             "rocking."
         )
     return ""
