@@ -102,6 +102,13 @@ def shown(value: object) -> str:
     return str(value)
 
 
+def shown_ratio(value: float | None) -> str:
+    """Write an angle over the critical angle for people: nothing for None."""
+    from colonnade.store.records.wording import ratio
+
+    return "" if value is None else ratio(value, 4)
+
+
 def close_output() -> None:
     """Flush stdout, so that a closed pipe is handled here and not in a traceback at exit."""
     try:

@@ -7,7 +7,7 @@ from typing import Any
 
 import rich_click as click
 
-from colonnade.cli.console import complain, say, show_json, show_table, shown
+from colonnade.cli.console import complain, say, show_json, show_table, shown, shown_ratio
 from colonnade.cli.options import json_option, workers_option
 from colonnade.cli.run import failed_rows, run_with_progress
 
@@ -79,11 +79,11 @@ def _show(comparison: dict[str, Any]) -> None:
     for name, test in comparison["tests"].items():
         right = "right" if test["outcome"] == test["true_outcome"] else "wrong"
         predicted = "; ".join(
-            f"{model}: {result['outcome']} {shown(result['peak_ratio'])}".rstrip()
+            f"{model}: {result['outcome']} {shown_ratio(result['peak_ratio'])}".rstrip()
             for model, result in test["predicted"].items()
             if result.get("outcome")
         )
-        ratios = (shown(test["peak_ratio"]), shown(test["true_peak_ratio"]))
+        ratios = (shown_ratio(test["peak_ratio"]), shown_ratio(test["true_peak_ratio"]))
         rows.append((name, shown(test["outcome"]), test["true_outcome"], right, *ratios, predicted))
     show_table(("test", "outcome", "true", "", "|θ|/α", "true", "predicted"), rows)
     say(f"{sum(row[3] == 'right' for row in rows)} of {len(rows)} measured outcomes are right")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.console import show_fields, show_json, show_table, shown
+from colonnade.cli.console import show_fields, show_json, show_table, shown, shown_ratio
 from colonnade.cli.findings import line_of
 from colonnade.cli.options import campaign_and_id, campaign_and_id_argument, json_option, results_option
 
@@ -146,7 +146,7 @@ def _show_records(
 def _test_cells(record: Record) -> tuple[str, ...]:
     outcome = record["outcome"] or (f"{record['observed_outcome']} (seen)" if record["observed_outcome"] else "")
     predicted = [
-        f"{model}: {' '.join(filter(None, (result['outcome'], shown(result['peak_ratio']), _until(result))))}"
+        f"{model}: {' '.join(filter(None, (result['outcome'], shown_ratio(result['peak_ratio']), _until(result))))}"
         for model, result in record["predicted"].items()
         if result.get("outcome")
     ]
@@ -155,7 +155,7 @@ def _test_cells(record: Record) -> tuple[str, ...]:
         record["specimen"],
         record["status"],
         outcome,
-        shown(record["peak_ratio"]),
+        shown_ratio(record["peak_ratio"]),
         ", ".join(predicted),
         record["reason"] or "; ".join(map(line_of, record["warnings"])),
     )

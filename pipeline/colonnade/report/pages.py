@@ -95,7 +95,8 @@ class Renderer:
             "quantity": wording.quantity,
             "acceleration": wording.acceleration,
             "order": wording.order,
-            "signed": wording.signed,
+            "ratio": wording.ratio,
+            "signed_ratio": wording.signed_ratio,
             "drawn": self._drawn,
         }
 

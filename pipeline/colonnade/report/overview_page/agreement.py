@@ -8,7 +8,7 @@ from statistics import median
 from typing import Any
 
 from colonnade.identification.response.rank import is_within
-from colonnade.store.records.wording import agree, count, number
+from colonnade.store.records.wording import agree, count, ratio
 
 
 def agreement(tests: Mapping[str, Mapping[str, Any]]) -> list[str]:
@@ -54,7 +54,7 @@ def _said(model: str, tests: Mapping[str, Mapping[str, Any]]) -> str:
     if misfits:
         middle, (largest, test) = median(misfit for misfit, _ in misfits), misfits[-1]
         parts.append(
-            f"Its misfit (nrmse) is {number(middle, 2)} at the median and {number(largest, 2)} at most, in {test}."
+            f"Its misfit (nrmse) is {ratio(middle, 2)} at the median and {ratio(largest, 2)} at most, in {test}."
         )
     ranks = (each["within_spread"] for each in predicted.values())
     judged = [within for rank in ranks if (within := is_within(nan if rank is None else rank)) is not None]

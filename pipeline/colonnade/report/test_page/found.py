@@ -14,7 +14,7 @@ from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import driven_by, largest_motion, predicted_peak_time
-from colonnade.store.records.wording import NOTHING, acceleration, number, order, quantity
+from colonnade.store.records.wording import NOTHING, acceleration, order, quantity, ratio
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ def _facts(row: TestRow, stored: Stored, scale: float | None) -> list[Fact]:
             if row.record.outcome == "overturned"
             else quantity(abs(stored.value("rocking", "peak_angle")), "mrad", 4),
         ),
-        ("released at |θ|/α", number(row.record.release_ratio)),
+        ("released at |θ|/α", ratio(row.record.release_ratio)),
         ("predictions use", driven_by(stored) if is_free else ""),
         ("overturned at", quantity(stored.value("rocking", "overturning_time"), "s", 4)),
         ("peak base acceleration", acceleration(row.record.pga)),

@@ -9,7 +9,7 @@ from colonnade.campaign.summary import IdentifiedSummary
 from colonnade.figures.restitution.estimators import trusted_half_width
 from colonnade.figures.stored.restitution import STAGE, estimate_rows
 from colonnade.store.records.stored import Stored
-from colonnade.store.records.wording import NOTHING, interval, number, quantity, signed
+from colonnade.store.records.wording import NOTHING, interval, number, quantity
 from colonnade.units import format_uncertain
 
 
@@ -63,7 +63,7 @@ def facts_of(stored: Stored, found: IdentifiedSummary | None) -> list[tuple[str,
         ("method", stored.text(STAGE, "method")),
         (
             "change of e with the speed of impact",
-            f"{signed(slope)} ± {number(error, 1)} per rad/s" if error > 0 else "",
+            f"{format_uncertain(slope, error)} per rad/s" if error > 0 else "",
         ),
         ("rest angle subtracted", quantity(stored.value(STAGE, "zero_offset"), "mrad", 2)),
     )

@@ -10,6 +10,9 @@ from colonnade.units import PERCENT, format_percent, format_quantity, format_unc
 
 NOTHING = "–"
 
+LEAST_RATIO = 1e-3
+"""Angles below this share of the critical angle are noise: a tenth of a millimetre at the top of a block of half a metre."""
+
 CHANNEL_UNITS = {
     "displacement": "mm",
     "velocity": "mm/s",
@@ -36,16 +39,30 @@ def number(value: float | None, digits: int = 3) -> str:
     return with_minus(text if "e" not in text or abs(value) < 1e-4 else f"{float(text):.0f}")
 
 
-def signed(value: float) -> str:
+def ratio(value: float | None, digits: int = 3) -> str:
     """
-    Write a difference with its sign.
+    Write an angle or a misfit over the critical angle; of less than `LEAST_RATIO` nothing more is said.
 
     Examples
     --------
-    >>> signed(0.0123), signed(-0.5), signed(float("nan"))
-    ('+0.012', '−0.5', '–')
+    >>> ratio(0.41234), ratio(4e-6), ratio(0.0), ratio(None)
+    ('0.412', '< 0.001', '0', '–')
     """
-    return with_minus(f"{value:+.2g}") if isfinite(value) else NOTHING
+    return f"< {LEAST_RATIO:g}" if value and abs(value) < LEAST_RATIO else number(value, digits)
+
+
+def signed_ratio(value: float) -> str:
+    """
+    Write a difference of angles over the critical angle, with its sign; of less than `LEAST_RATIO` nothing more is said.
+
+    Examples
+    --------
+    >>> signed_ratio(0.0123), signed_ratio(-0.5), signed_ratio(-4e-6), signed_ratio(float("nan"))
+    ('+0.012', '−0.5', '< 0.001', '–')
+    """
+    if abs(value) < LEAST_RATIO or not isfinite(value):
+        return ratio(value)
+    return with_minus(f"{value:+.2g}")
 
 
 def quantity(value: float | None, unit: str, digits: int = 3) -> str:
