@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from colonnade.arrays import Array
 from colonnade.figures.histories import ANGLE_LABEL, LARGEST_RATIO, scale_symmetric
@@ -104,6 +105,7 @@ def _draw_portrait(
         name = "separatrix" if sign > 0 else None
         axes.plot(separatrix.ratio, sign * separatrix.velocity, label=name, **SEPARATRIX)
     axes.set_xlim(-1.12 * largest, 1.12 * largest)
+    axes.xaxis.set_major_locator(MaxNLocator(5))  # the panel is narrow, and its numbers may be long
     scale_symmetric(axes, fastest)
     axes.set_xlabel(ANGLE_LABEL)
     axes.set_ylabel("θ′ / (p α)")

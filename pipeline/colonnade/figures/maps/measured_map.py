@@ -11,7 +11,18 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from colonnade.figures.files.output import link_to
-from colonnade.figures.style import LIMIT, MEASURED, SOFT, blank_figure, fitting, is_narrow, styled, width
+from colonnade.figures.style import (
+    FIT,
+    LIMIT,
+    MEASURED,
+    SOFT,
+    LineStyle,
+    blank_figure,
+    fitting,
+    is_narrow,
+    styled,
+    width,
+)
 from colonnade.identification.response.boundaries import Boundaries, Bracket, MapPoint, bracket_boundaries
 
 MARKERS: dict[str, dict[str, Any]] = {
@@ -23,9 +34,9 @@ MARKERS: dict[str, dict[str, Any]] = {
 
 NAMES = {"no-rocking": "no rocking", "rocking": "rocking", "overturned": "overturned"}
 
-BOUNDARIES: tuple[tuple[str, str, str], ...] = (
-    ("rocking", "rocking begins", SOFT),
-    ("overturning", "overturning begins", "#8a3fa8"),
+BOUNDARIES: tuple[tuple[str, str, LineStyle], ...] = (
+    ("rocking", "rocking begins", {"color": SOFT, "linestyle": (0, (4.0, 2.0)), "linewidth": 0.9}),
+    ("overturning", "overturning begins", {**FIT, "linewidth": 0.9}),
 )
 
 LOGARITHMIC = 6.0
@@ -66,8 +77,8 @@ def measured_map(points: Sequence[MapPoint], *, linked: bool = False, axes: Axes
     if axes is None:
         axes = blank_figure(3.6).subplots()
     _draw_scale(axes, points)
-    for name, label, colour in BOUNDARIES:
-        _draw_boundary(axes, bracket_boundaries(points), name, label, colour)
+    for name, label, style in BOUNDARIES:
+        _draw_boundary(axes, bracket_boundaries(points), name, label, style)
     draw_points(axes, points, linked=linked)
     figure = cast(Figure, axes.get_figure(root=True))
     if own:
@@ -137,7 +148,7 @@ def name_axes(axes: Axes) -> None:
     axes.set_ylabel("A = a / (g tan α)")
 
 
-def _draw_boundary(axes: Axes, boundaries: Sequence[Boundaries], name: str, label: str, colour: str) -> None:
+def _draw_boundary(axes: Axes, boundaries: Sequence[Boundaries], name: str, label: str, style: LineStyle) -> None:
     brackets: list[tuple[float, Bracket]] = [(each.frequency_ratio, getattr(each, name)) for each in boundaries]
     found = [(ratio, bracket) for ratio, bracket in brackets if bracket.middle is not None]
     if not found:
@@ -145,12 +156,12 @@ def _draw_boundary(axes: Axes, boundaries: Sequence[Boundaries], name: str, labe
     # Where a frequency has no bracket the line breaks: nothing is known there.
     middles = [np.nan if bracket.middle is None else bracket.middle for _, bracket in brackets]
     ratios = [ratio for ratio, _ in brackets]
-    axes.plot(ratios, middles, color=colour, linestyle=(0, (4.0, 2.0)), linewidth=0.9, label=label, zorder=2)
+    axes.plot(ratios, middles, label=label, zorder=2, **style)
     axes.vlines(
         [ratio for ratio, _ in found],
         [cast(float, bracket.below) for _, bracket in found],
         [cast(float, bracket.above) for _, bracket in found],
-        color=colour,
+        color=style["color"],
         linewidth=4.0,
         alpha=0.45,
         zorder=1,

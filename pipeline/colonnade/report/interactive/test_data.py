@@ -113,14 +113,15 @@ def _angles(stored: Stored, block: Block, samples: Samples) -> list[Panel]:
 
 
 def _bands(model: str, spread: Spread, samples: Samples, *, is_open: bool) -> list[dict[str, Any]]:
-    clock = samples.clock(spread.time)
+    clock, look = samples.clock(spread.time), _look(model)
     return [
         {
             "name": f"{model} model, {format_percent(spread.share(index))} of runs",
             "clock": clock,
             "low": samples.add(spread.bands[index]),
             "high": samples.add(spread.bands[-1 - index]),
-            "colour": model_style(model)["color"],
+            "colour": look["colour"],
+            "dash": look["dash"],
             "is_hidden": not (is_open and index == 0),
         }
         for index in range(spread.levels.size // 2)

@@ -57,10 +57,10 @@ colonnade.MovingBlock = class {
         context.globalAlpha = 1;
       }
       context.stroke();
-      if (time <= body.end) said.unshift(`${body.name} θ = ${colonnade.written(1e3 * angle, 3)} mrad`);
+      if (time <= body.end) said.unshift(`${body.name} θ = ${colonnade.written(1e3 * angle, 3, 100)} mrad`);
     }
     context.setLineDash([]);
-    const base = this.base ? `base at ${colonnade.written(1000 * moved, 3)} mm` : "";
+    const base = this.base ? `base at ${colonnade.written(1000 * moved, 3, 10)} mm` : "";
     this.said.textContent = [`${time.toFixed(2)} s`, ...said, base].filter(Boolean).join(", ") + `. To scale; ${this.given.how}.`;
     this.drawn = { time, moved, said };
   }

@@ -63,7 +63,7 @@
   }
 
   function value(text) {
-    const number = parseFloat(text);
+    const number = parseFloat(text.replace(/^< /, ""));
     return Number.isNaN(number) ? text : number;
   }
 

@@ -23,20 +23,27 @@ colonnade.colour = function (name) {
   return `rgb(${lighter.join(", ")})`;
 };
 
-colonnade.written = function (value, digits = 4) {
+// A number with so many digits, but where it is small beside the largest of its kind, only one decimal more than that.
+colonnade.written = function (value, digits = 4, largest = Math.abs(value)) {
   if (!Number.isFinite(value)) return "–";
-  const size = Math.abs(value);
-  const text = size !== 0 && (size < 1e-3 || size >= 1e5) ? value.toExponential(digits - 1) : value.toPrecision(digits);
-  return text.replace("-", "−");
+  const decimals = (size) => digits - 1 - Math.floor(Math.log10(size || 1));
+  const shown = Math.min(decimals(Math.abs(value)), decimals(largest) + 1);
+  return value.toFixed(Math.min(Math.max(shown, 0), 12)).replace("-", "−");
 };
+
+colonnade.largest = (values) => values.reduce((most, value) => (Math.abs(value) > most ? Math.abs(value) : most), 0);
+
+// The dashes of a curve as it is drawn, px.
+colonnade.dashes = (curve) => (curve.dash || []).map((part) => 1.5 * part);
 
 colonnade.Panel = class {
   constructor(given, group, page) {
     this.given = given;
     this.page = page;
     this.right_border = group.panels.some((panel) => panel.second) ? RIGHT : 12;
-    this.curves = given.curves.map((curve) => ({ ...curve, clockOf: page.clocks[curve.clock], of: page.series[curve.values] }));
-    this.bands = (given.bands || []).map((band) => ({ ...band, clockOf: page.clocks[band.clock], is: "band" }));
+    const of = (shown, values) => ({ ...shown, clockOf: page.clocks[shown.clock], of: values, largest: colonnade.largest(values) });
+    this.curves = given.curves.map((curve) => of(curve, page.series[curve.values]));
+    this.bands = (given.bands || []).map((band) => ({ ...of(band, page.series[band.high]), is: "band" }));
     const unit = given.unit ? ` (${given.unit}${given.second ? `; right: ${given.second.unit}` : ""})` : "";
     this.keys = colonnade.element("div", { class: "curves" });
     this.plot = colonnade.element("div", { class: "plot" });
@@ -55,7 +62,9 @@ colonnade.Panel = class {
     const colour = shown.colour;
     const sample = colonnade.element("span", { class: shown.is === "band" ? "sample band" : "sample" });
     sample.style.setProperty("--colour", ["ink", "soft"].includes(colour) ? `var(--${colour})` : colour);
-    if (shown.dash && shown.dash.length) sample.classList.add("dashed");
+    const ends = colonnade.dashes(shown).reduce((known, part) => [...known, known.at(-1) + part], [0]);
+    const parts = ends.slice(1).map((end, index) => `${index % 2 ? "transparent" : "var(--shown, var(--colour))"} ${ends[index]}px ${end}px`);
+    if (parts.length) sample.style.setProperty("--dashes", `repeating-linear-gradient(90deg, ${parts.join(", ")})`);
     shown.value = colonnade.element("span", { class: "value" });
     // Room for the longest reading, so that nothing below moves while the cursor does.
     const { is_angle: isAngle, second, unit } = this.given;
@@ -107,12 +116,14 @@ colonnade.Panel = class {
     for (const band of this.bands) {
       band.source = new Bokeh.ColumnDataSource({ data: { x: [], low: [], high: [] } });
       this.figure.varea({ field: "x" }, { field: "low" }, { field: "high" }, { source: band.source, fill_color: colonnade.colour(band.colour), fill_alpha: 0.2 });
+      const edge = { source: band.source, line_color: colonnade.colour(band.colour), line_alpha: 0.6, line_width: 0.8, line_dash: colonnade.dashes(band) };
+      for (const field of ["low", "high"]) this.figure.line({ field: "x" }, { field }, edge);
     }
     for (const level of given.levels || []) this.span({ dimension: "width", location: level });
     for (const mark of given.marks || []) this.span({ dimension: "height", location: mark.time, line_color: colonnade.colour(mark.colour) });
     for (const curve of this.curves) {
       curve.source = new Bokeh.ColumnDataSource({ data: { x: [], y: [] } });
-      const look = { line_color: colonnade.colour(curve.colour), line_width: curve.width, line_dash: (curve.dash || []).map((part) => 1.5 * part) };
+      const look = { line_color: colonnade.colour(curve.colour), line_width: curve.width, line_dash: colonnade.dashes(curve) };
       this.figure.line({ field: "x" }, { field: "y" }, { source: curve.source, ...look });
     }
     if (given.flags && given.flags.length) {
@@ -200,7 +211,7 @@ colonnade.Panel = class {
     for (const curve of this.curves) curve.value.textContent = curve.is_hidden ? "" : this.reading(curve, time);
     for (const band of this.bands) {
       const index = band.is_hidden ? -1 : band.clockOf.nearest(time);
-      const ends = [band.low, band.high].map((end) => colonnade.written(this.page.series[end][index], 3));
+      const ends = [band.low, band.high].map((end) => colonnade.written(this.page.series[end][index], 3, band.largest));
       band.value.textContent = index < 0 ? "" : `${ends[0]} to ${ends[1]}`;
     }
   }
@@ -210,9 +221,10 @@ colonnade.Panel = class {
     const value = index < 0 ? NaN : curve.of[index];
     if (!Number.isFinite(value)) return "–";
     const { unit, second, is_angle: isAngle } = this.given;
-    const text = `${colonnade.written(value)}${unit ? ` ${unit}` : ""}`;
-    if (isAngle) return `${text} (${colonnade.written(1e3 * colonnade.angle(value, this.page.critical))} mrad)`;
-    return second ? `${text} = ${colonnade.written(second.factor * value + second.offset)} ${second.unit}` : text;
+    const text = `${colonnade.written(value, 4, curve.largest)}${unit ? ` ${unit}` : ""}`;
+    const also = (of) => colonnade.written(of(value), 4, Math.abs(of(curve.largest)));
+    if (isAngle) return `${text} (${also((ratio) => 1e3 * colonnade.angle(ratio, this.page.critical))} mrad)`;
+    return second ? `${text} = ${also((one) => second.factor * one + second.offset)} ${second.unit}` : text;
   }
 };
 

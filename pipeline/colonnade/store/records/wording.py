@@ -11,7 +11,7 @@ from colonnade.units import PERCENT, format_percent, format_quantity, format_unc
 NOTHING = "–"
 
 LEAST_RATIO = 1e-3
-"""Angles below this share of the critical angle are noise: a tenth of a millimetre at the top of a block of half a metre."""
+"""Angles below this share of the critical angle are noise: 0.1 mm at the top of a block of half a metre."""
 
 CHANNEL_UNITS = {
     "displacement": "mm",
@@ -53,7 +53,7 @@ def ratio(value: float | None, digits: int = 3) -> str:
 
 def signed_ratio(value: float) -> str:
     """
-    Write a difference of angles over the critical angle, with its sign; of less than `LEAST_RATIO` nothing more is said.
+    Write a difference of angles over the critical angle with its sign, as `ratio` does.
 
     Examples
     --------
