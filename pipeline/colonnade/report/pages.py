@@ -29,7 +29,7 @@ KINDS = {
 }
 """Kinds of test in words, in the order in which they stand."""
 
-_SECTION = re.compile(r'<section id="([\w-]+)">\s*<h2>(.*?)</h2>', re.DOTALL)
+_SECTION = re.compile(r'<section id="([\w-]+)"(?: data-paper="no")?>\s*<h2>(.*?)</h2>', re.DOTALL)
 
 _MARK = re.compile(f'href="{link_to("")}([^"]+)"')
 """Link of a mark in a figure to a test."""

@@ -66,11 +66,11 @@ def folder(tmp_path):
     photo = '<section id="photos"><figure><img src="../photos/free-02-1.jpg" alt="it lies"></figure></section>'
     for name in TESTS:
         found = f'<section id="found"><h2>What was found</h2><p>{escape(HOSTILE)}</p><figure>{svg}</figure></section>'
-        channels = f'<section id="channels"><p>not on paper</p><figure>{svg}</figure></section>'
-        inside = found + channels + (photo if name == "free-02" else "")
+        setup = f'<section id="setup" data-paper="no"><p>not on paper</p><figure>{svg}</figure></section>'
+        inside = found + setup + (photo if name == "free-02" else "")
         (folder / "tests" / f"{name}.html").write_text(page(name, inside), encoding="utf-8")
     spans = '<section id="spans"><h2>Spans</h2><h3>El Centro</h3><p>first</p><h3>Kobe</h3><p>second</p></section>'
-    listed = '<section id="tests"><table><tr><td>long</td></tr></table></section>'
+    listed = '<section id="tests" data-paper="no"><table><tr><td>long</td></tr></table></section>'
     told = (
         '<section id="summary"><h2>Summary</h2><p>See <a href="tests/free-01.html">it</a>, <a href="x.html">x</a>.</p>'
     )

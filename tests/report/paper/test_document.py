@@ -23,7 +23,7 @@ def test_the_cover_says_who_where_and_when(campaign, folder):
         ("tested", "2013-04-26 to 2013-04-29"),
         ("operators", "M. Rossi, K. #Papas"),
     ]
-    assert data["photo"] == {"is": "picture", "file": "photos-free-02-1.jpg", "alt": "it lies", "photo": True}
+    assert data["cover"] == {"is": "picture", "file": "photos-free-02-1.jpg", "alt": "it lies", "photo": True}
 
 
 def test_links_lead_to_places_of_the_document_or_nowhere(campaign, folder):
@@ -53,4 +53,23 @@ def test_no_picture_is_taken_from_outside_the_report(campaign, folder, tmp_path)
         page.write_text(f'<main><section id="photos"><img src="{source}" alt=""></section></main>', encoding="utf-8")
         document = document_of(campaign, folder)
         assert document.files == {}
-        assert document.data["photo"] is None
+        assert document.data["cover"] is None
+
+
+def test_without_a_photo_the_cover_has_the_first_drawing_of_a_setup(campaign, folder):
+    (folder / "photos" / "free-02-1.jpg").unlink()
+    (folder / "setups").mkdir()
+    (folder / "setups" / "prism+frame.svg").write_text("<svg/>", encoding="utf-8")
+    drawn = '<section id="setups"><figure><img src="../setups/prism+frame.svg" alt="drawn"></figure></section>'
+    (folder / "specimens" / "prism.html").write_text(f"<main>{drawn}</main>", encoding="utf-8")
+    cover = document_of(campaign, folder).data["cover"]
+    assert cover == {"is": "picture", "file": "setups-prism+frame.svg", "alt": "drawn", "photo": False}
+
+
+def test_every_section_of_a_test_is_printed_unless_it_says_no(campaign, folder):
+    kinds = ("found", "channels", "a-new-one")
+    inside = "".join(f'<section id="{kind}"><p>{kind}</p></section>' for kind in kinds)
+    no = '<section id="setup" data-paper="no"><p>no</p></section><section id="histories" hidden><p>no</p></section>'
+    (folder / "tests" / "free-01.html").write_text(f"<main>{inside}{no}</main>", encoding="utf-8")
+    sheet = document_of(campaign, folder).data["appendix"][0]
+    assert [part["in"] for part in sheet["in"]] == [[kind] for kind in kinds]

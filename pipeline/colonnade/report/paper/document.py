@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -13,11 +13,8 @@ from colonnade.campaign import Campaign
 from colonnade.report import addresses, who_and_when
 from colonnade.report.paper.content import Block, Page
 
-OF_A_TEST = ("", "photos", "done", "found", "spread", "restitution")
-"""Sections of a test's page that its appendix has; the others are for a screen."""
-
-NOT_IN_THE_SUMMARY = ("tests", "maps", "spans")
-"""Sections of the overview that other chapters have."""
+SPANS = "spans"
+"""Section of the overview that has chapters of its own. A section that is not printed says so: `data-paper="no"`."""
 
 PHOTO, DRAWING = ".jpg", ".svg"
 """Endings of the files that pages show as pictures."""
@@ -61,25 +58,23 @@ def document_of(campaign: Campaign, folder: Path) -> Document:
     document = Document({})
     gather = _Gatherer(folder, document, {*tests, *specimens, overview, methods})
     summary = gather.page(overview)
-    chapters = [_chapter("Summary", overview, summary.parts(lambda name: name not in NOT_IN_THE_SUMMARY))]
+    chapters = [_chapter("Summary", overview, summary.parts(without=SPANS))]
     for name, address in zip(campaign.specimens, specimens, strict=True):
-        inside = gather.page(address).parts(lambda section: section != "tests")
-        chapters.append(_chapter(f"Specimen {name}", address, inside))
-    chapters += [
-        _chapter(title, "", inside) for title, inside in _by_title(summary.parts(lambda name: name == "spans"))
-    ]
-    chapters.append(_chapter("Methods", methods, gather.page(methods).parts(lambda name: name != "settings")))
+        chapters.append(_chapter(f"Specimen {name}", address, gather.page(address).parts()))
+    chapters += [_chapter(title, "", inside) for title, inside in _by_title(summary.sections.get(SPANS, []))]
+    chapters.append(_chapter("Methods", methods, gather.page(methods).parts()))
     chapters[-1]["equations"] = True
     appendix = []
     for name, address in zip(campaign.tests, tests, strict=True):
         page = gather.page(address)
-        appendix.append(_chapter(name, address, [*page.below_title, *page.parts(lambda section: section in OF_A_TEST)]))
-    first = next((each for sheet in appendix for each in _pictures(sheet["in"]) if each["photo"]), None)
+        appendix.append(_chapter(name, address, [*page.below_title, *page.parts()]))
+    shown = [each for part in (*chapters, *appendix) for each in _pictures(part["in"])]
+    shown = [each for each in shown if each["file"] in document.files]
     document.data |= {
         "title": campaign.title,
         "campaign": campaign.campaign,
         "facts": who_and_when.of_campaign(campaign),
-        "photo": first,
+        "cover": next((each for each in shown if each["photo"]), next(iter(shown), None)),
         "chapters": chapters,
         "appendix": appendix,
         "version": __version__,
@@ -118,11 +113,9 @@ class _Gathered:
 
     below_title: list[Block]
     sections: Mapping[str, list[Block]]
-    settle: Callable[[list[Block]], list[Block]]
 
-    def parts(self, is_wanted: Callable[[str], bool]) -> list[Block]:
-        """Blocks of the sections that are wanted; the pictures of the others are no part of the document."""
-        return self.settle([block for name, blocks in self.sections.items() if is_wanted(name) for block in blocks])
+    def parts(self, without: str | None = None) -> list[Block]:
+        return [block for name, blocks in self.sections.items() if name != without for block in blocks]
 
 
 class _Gatherer:
@@ -133,12 +126,10 @@ class _Gatherer:
 
     def page(self, address: str) -> _Gathered:
         page = Page((self._folder / address).read_text(encoding="utf-8"))
-
-        def settle(blocks: list[Block]) -> list[Block]:
+        sections = page.sections()
+        for blocks in (page_head := page.below_title(), *sections.values()):
             self._settle(blocks, page, address)
-            return blocks
-
-        return _Gathered(settle(page.below_title()), page.sections(), settle)
+        return _Gathered(page_head, sections)
 
     def _settle(self, node: Any, page: Page, address: str) -> None:
         """Give pictures the names of their files, and links the places that they lead to."""
