@@ -134,7 +134,7 @@ def test_a_point_off_the_specimen_is_told(at, severity, contract, load_text):
         ("1 m/V", "it reads up to 1e.04 mm, 16 times the 625 mm that this point of prism moves until it lies"),
         (
             "10 um/V",
-            "it reads up to 0.1 mm, 0.1% of the 82.4 mm that this point of prism moves until",
+            "it reads up to 0.1 mm, 0.1\u00a0% of the 82.4 mm that this point of prism moves until",
         ),
     ],
 )

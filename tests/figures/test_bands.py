@@ -27,7 +27,7 @@ def shades(axes):
 def test_each_model_has_a_panel_with_its_bands_and_the_measured_angle():
     figure = bands_over_time(Curve(TIME, CENTRE), {"linear": spread(), "nonlinear": spread()})
     said = [axes.texts[-1].get_text() for axes in figure.axes]
-    assert said[0] == "line: measured; bands: 90 % and 50 % of the linear model's runs"
+    assert said[0] == "line: measured; bands: 90\u00a0% and 50\u00a0% of the linear model's runs"
     assert "of the nonlinear model's runs" in said[1]
     for axes in figure.axes:
         assert len(shades(axes)) == 2
@@ -39,7 +39,7 @@ def test_each_model_has_a_panel_with_its_bands_and_the_measured_angle():
 
 def test_the_widest_band_holds_the_inner_one():
     (axes,) = bands_over_time(None, {"linear": spread()}).axes
-    assert [band.get_label() for band in axes.collections] == ["linear 90 % band", "linear 50 % band"]
+    assert [band.get_label() for band in axes.collections] == ["linear 90\u00a0% band", "linear 50\u00a0% band"]
     wide, narrow = (np.ptp(outline[:, 1]) for outline in shades(axes))
     assert wide > narrow
     assert narrow == pytest.approx(0.8 + 0.1, abs=0.02)
@@ -49,7 +49,7 @@ def test_the_probability_of_overturning_is_written_where_there_is_one():
     def texts(probability):
         return [text.get_text() for text in bands_over_time(None, {"linear": spread(probability)}).axes[0].texts]
 
-    assert any("12 % overturn" in text for text in texts(0.12))
+    assert any("12\u00a0% overturn" in text for text in texts(0.12))
     assert not any("overturn" in text for text in texts(0.0))
 
 

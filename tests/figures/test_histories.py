@@ -43,7 +43,7 @@ def test_the_widest_band_of_an_ensemble_is_shaded_below_the_lines():
     spread = Spread(TIME, levels, centre + np.linspace(-0.1, 0.1, 5)[:, None], 0.0, 3.0)
     axes = drawn(swing(0.3), {"nonlinear": swing(0.3)}, spreads={"nonlinear": spread})
     (band,) = axes.collections
-    assert band.get_label() == "nonlinear 90 % band"
+    assert band.get_label() == "nonlinear 90\u00a0% band"
     assert to_hex(band.get_facecolor()[0]) == model_style("nonlinear")["color"]
     assert band.get_zorder() < min(line.get_zorder() for line in axes.lines)
     heights = band.get_paths()[0].vertices[:, 1]

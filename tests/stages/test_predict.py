@@ -231,7 +231,9 @@ def test_without_a_usable_vertical_motion_a_prediction_goes_on_and_says_so(shake
     np.testing.assert_array_equal(predicted["rocking_angle"], without["rocking_angle"])
 
 
-@pytest.mark.parametrize(("share", "told"), [(0.09, []), (0.5, ["50% of that along x"])], ids=["a little", "much"])
+@pytest.mark.parametrize(
+    ("share", "told"), [(0.09, []), (0.5, ["50\u00a0% of that along x"])], ids=["a little", "much"]
+)
 def test_motion_across_is_left_out_and_told_where_it_is_not_small(small_campaign, measured, pooled, share, told):
     base = measured["shake-01"]["base_acceleration"]
     across = measured["shake-01"].assign(transverse_base_acceleration=share * base)

@@ -116,7 +116,7 @@ def test_several_table_accelerometers_are_named_and_held_against_each_other(smal
     other = ready["table_acceleration"]
     read = rocking_stage.RockingInputs.of(small_campaign, small_campaign.tests["shake-01"])
     both = _with_channels(read, accelerations=dict.fromkeys(("table_acceleration", "second"), (1.0, 0.0, 0.0)))
-    for factor, severity, said in ((1.0, "note", "they agree to 0.0%"), (0.5, "warning", "differ: ")):
+    for factor, severity, said in ((1.0, "note", "they agree to 0.0\u00a0%"), (0.5, "warning", "differ: ")):
         two = ready.assign(second=other.copy(data=factor * other.to_numpy()).assign_attrs(channel="second"))
         (told,) = [each for each in rocking(two, both).attrs["warnings"] if each.kind == "several table channels"]
         assert told.severity == severity

@@ -42,7 +42,7 @@ def test_a_rising_column_of_another_name_or_unit_is_no_clock(tmp_path: Path, hea
 def test_a_clock_that_does_not_rise_is_refused_with_a_warning(tmp_path: Path) -> None:
     recording = recorded(tmp_path, "Time;a\n5;1\n1;2\n4;0\n2;1\n")
     assert recording.channel("a").time is None
-    assert "only 33% of its steps go forward" in recording.warnings[0]
+    assert "only 33\u00a0% of its steps go forward" in recording.warnings[0]
 
 
 def test_the_clock_can_be_given(tmp_path: Path) -> None:

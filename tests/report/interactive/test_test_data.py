@@ -48,8 +48,8 @@ def test_the_angle_has_every_model_with_its_bands(shaken):
     panel = panels_of(shaken[0], "Response")["θ/α"]
     assert [curve["name"] for curve in panel["curves"]] == ["measured", "linear model", "nonlinear model"]
     assert [band["name"] for band in panel["bands"]][-2:] == [
-        "nonlinear model, 95 % of runs",
-        "nonlinear model, 50 % of runs",
+        "nonlinear model, 95\u00a0% of runs",
+        "nonlinear model, 50\u00a0% of runs",
     ]
     assert [band["is_hidden"] for band in panel["bands"]] == [True, True, False, True]
 

@@ -10,7 +10,7 @@ def rows_of(reported, test):
 def test_a_channel_has_its_samples_its_flags_and_what_conditioning_did(reported):
     top = rows_of(reported, "span-2.0")["top"]
     assert (top.column, top.recorded, top.cutoff) == ("LVDT <1>", "1625 at 250 Hz", "25 Hz")
-    assert top.flagged == "0.062 % failed"
+    assert top.flagged == "0.062\u00a0% failed"
     assert top.quality.startswith("spikes on 1 sample, the first at")
     assert top.zero_window == "0 s to 0.5 s"
     assert top.noise.endswith(" mm")

@@ -73,7 +73,7 @@ def test_a_sound_vertical_motion_is_used():
 def test_motion_across_is_reported_above_a_tenth_of_that_along_x():
     assert left_out(_rocking(transverse_base_acceleration=0.09 * WAVE), WAVE) == []
     (finding,) = left_out(_rocking(transverse_base_acceleration=0.3 * WAVE), WAVE)
-    assert "30% of that along x: the plane models ignore it" in finding.text
+    assert "30\u00a0% of that along x: the plane models ignore it" in finding.text
 
 
 def test_a_model_in_space_takes_the_motion_across_if_it_is_whole():

@@ -33,7 +33,7 @@ def _table(accelerations=(), displacements=()):
 
 @pytest.mark.parametrize(
     ("factor", "severity", "said"),
-    [(1.02, "note", "they agree to 1.0%"), (2.0, "warning", "but they differ")],
+    [(1.02, "note", "they agree to 1.0\u00a0%"), (2.0, "warning", "but they differ")],
     ids=["alike", "different"],
 )
 def test_several_accelerometers_are_averaged_and_compared(factor, severity, said):

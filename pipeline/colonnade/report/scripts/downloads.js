@@ -36,7 +36,8 @@ colonnade.savePng = function (name, svg) {
 // A cell of CSV: quoted where it has to be; a text is never taken for a formula.
 colonnade.cell = function (value) {
   if (typeof value === "number") return Number.isFinite(value) ? String(Number(value.toPrecision(7))) : "";
-  const harmless = /^[=+\-@\t\r]/.test(value) ? `'${value}` : value;
+  const plain = value.replaceAll("\u00a0", " "); // programs look columns up by their heads
+  const harmless = /^[=+\-@\t\r]/.test(plain) ? `'${plain}` : plain;
   return /[",\r\n]/.test(harmless) ? `"${harmless.replaceAll('"', '""')}"` : harmless;
 };
 
