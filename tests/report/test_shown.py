@@ -120,7 +120,7 @@ def test_the_summary_counts_tests_and_gives_each_restitution(overview):
     ],
 )
 def test_the_table_gives_each_test_its_row(overview, test, expected):
-    table = overview[overview.index('<section id="tests">') :]
+    table = overview[overview.index('<section id="tests"') :]
     start = table.index(f'<a href="tests/{test}.html"')
     cells = re.sub(r"<[^>]+>", " ", table[start : table.index("</tr>", start)].partition("</a>")[2])
     assert re.fullmatch(expected, " ".join(cells.split())), cells

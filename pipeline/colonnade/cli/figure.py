@@ -73,11 +73,15 @@ def figure(
     with journal(width):
         picture = draw(campaign, entry, subject, results)
         written = [save(picture, place) for place in (target, data) if place is not None]
+    note = getattr(picture, "note", "")
     if as_json:
-        show_json({"figure": target, "data": data, "title": picture.title, "description": picture.description})
+        told = {"title": picture.title, "description": picture.description, "note": note}
+        show_json({"figure": target, "data": data, **told})
     else:
         for place in written:
             say(f"{'data' if place.suffix.lower() == TABLE else 'figure'}: {place}")
+        if note:
+            say(note)
     return 0
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 
 import numpy as np
 import pytest
@@ -308,3 +309,26 @@ def test_a_test_without_results_has_no_histories(visit):
     page = visit("tests/sine-dead.html")
     page.wait_for_load_state()
     assert page.locator("#histories").is_hidden()
+
+
+def test_readings_have_no_powers_of_ten_and_no_more_digits_than_the_curve_deserves(page):
+    written = "([value, ...more]) => colonnade.written(value, ...more)"
+    for given, text in (
+        ([4.256e-4, 4, 0.08], "0.000426"),
+        ([-0.3067, 4, 0.31], "−0.3067"),
+        ([1.234e-6], "0.000001234"),
+        ([0, 4, 2.5], "0.000"),
+        ([123456.7], "123457"),
+    ):
+        assert page.evaluate(written, given) == text
+
+
+def test_samples_of_the_models_have_their_own_dashes_in_lines_and_bands(page):
+    looks = page.locator(".curves button").evaluate_all(
+        "keys => keys.map(key => [key.textContent, getComputedStyle(key.firstChild).backgroundImage])"
+    )
+    of = [{look for name, look in looks if name.startswith(f"{model} model")} for model in ("linear", "nonlinear")]
+    assert all(of)
+    dashes = [{tuple(re.findall(r"([\d.]+)px", look)) for look in each} for each in of]
+    assert [len(each) for each in dashes] == [1, 1]
+    assert dashes[0].isdisjoint(dashes[1])

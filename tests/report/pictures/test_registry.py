@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
+
 import pytest
 
 from colonnade.figures.files.output import Movie
@@ -61,3 +64,15 @@ def test_a_page_and_the_command_draw_the_same(read):
     same = picture("fitted", read["free-01"])
     assert same is not None
     assert same.identity == "fitted-free-01"
+
+
+def test_spans_of_one_motion_alone_need_no_note_and_of_several_say_which_is_shown(read):
+    (spans,) = [entry for entry in FIGURES if entry.name == "spans"]
+    of_one = read["prism"]
+    assert spans.draw(of_one).note == ""
+    more = [
+        each._replace(row=replace(each.row, test=each.row.test.model_copy(update={"motion": "Kobe"})))
+        for each in of_one.spans[:2]
+    ]
+    of_two = replace(of_one, spans=[*more, *of_one.spans])
+    assert re.fullmatch(r"Shown: .*, prism.*\. Not shown: Kobe, prism.*\.", spans.draw(of_two).note)

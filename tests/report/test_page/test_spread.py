@@ -13,8 +13,8 @@ def predicted(horizon, rank, peak_rank, overturning):
 def test_a_rank_within_the_limit_is_within_and_one_above_it_outside():
     told = verdict_sentence("linear", predicted(3.42, 0.95, 0.5, 0.0))
     assert told == (
-        "Linear model: the measured angle is within its own spread up to 3.42 s (95\u00a0% of the runs are closer to their "
-        "median; 50\u00a0% stay below the measured peak)."
+        "Linear model: the measured angle is within its own spread up to 3.42 s (95\u00a0% of the runs are closer "
+        "to their median; 50\u00a0% stay below the measured peak)."
     )
     told = verdict_sentence("linear", predicted(3.42, 0.96, 1.0, 0.12))
     assert "is outside its own spread" in told

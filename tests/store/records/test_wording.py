@@ -28,7 +28,7 @@ def test_an_acceleration_is_given_in_both_units():
 
 
 def test_an_interval_has_as_many_digits_as_its_half_width_allows():
-    assert wording.interval(0.97608, 0.97528, 0.97688, 0.95) == "0.9761 ± 0.0008 (95 % interval)"
+    assert wording.interval(0.97608, 0.97528, 0.97688, 0.95) == "0.9761 ± 0.0008 (95\u00a0% interval)"
     assert wording.interval(0.9, nan, nan, 0.95) == "0.9"
     assert wording.interval(nan, nan, nan, 0.95) == "–"
 
@@ -46,3 +46,9 @@ def test_an_interval_has_as_many_digits_as_its_half_width_allows():
 )
 def test_outcomes_are_compared_only_where_both_are_known(measured, predicted, verdict):
     assert wording.agree(measured, predicted) is verdict
+
+
+def test_what_is_below_a_thousandth_of_the_critical_angle_is_written_as_that():
+    assert [wording.ratio(value) for value in (9.99e-4, 1e-3, 0.0)] == ["< 0.001", "0.001", "0"]
+    assert [wording.signed_ratio(value) for value in (-9.99e-4, -0.001, 0.25)] == ["< 0.001", "−0.001", "+0.25"]
+    assert wording.signed_ratio(nan) == "–"

@@ -7,6 +7,7 @@ A new figure is a module in `figures` and an entry here; from then on pages can 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import isfinite
 from typing import Any, Literal, NamedTuple
 
@@ -19,6 +20,7 @@ from colonnade.identification.response.boundaries import makes_map
 from colonnade.report.overview_page import peaks as agreement
 from colonnade.report.overview_page.spans import span_groups
 from colonnade.report.pictures.subjects import OfCampaign, OfSpecimen, OfTest, Subject
+from colonnade.store.records.wording import listed
 
 
 class Entry(NamedTuple):
@@ -132,8 +134,12 @@ def _map(one: OfSpecimen) -> Picture | None:
 
 
 def _spans(one: OfSpecimen) -> Picture | None:
-    groups = span_groups(one.spans)
-    return max(groups, key=lambda group: len(group.tests)).picture if groups else None
+    groups = sorted(span_groups(one.spans), key=lambda group: -len(group.tests))
+    if not groups:
+        return None
+    shown, *others = groups
+    note = f"Shown: {shown.title}. Not shown: {listed([each.title for each in others])}." if others else ""
+    return replace(shown.picture, note=note)
 
 
 def _agreement(one: OfCampaign) -> Picture | None:
@@ -180,7 +186,13 @@ FIGURES: tuple[Entry, ...] = (
     Entry("impacts", "specimen", "e of each impact of every record", _FREE, _impacts),
     Entry("measured-map", "specimen", "sine tests by outcome over Ω and A", _SINES, _measured_map),
     Entry("map", "specimen", "computed stability map with the measured points", f"{_SINES} {_MAP}", _map),
-    Entry("spans", "specimen", "earthquake tests side by side by Span", "It needs two Spans of one motion.", _spans),
+    Entry(
+        "spans",
+        "specimen",
+        "earthquake tests of a motion side by side by Span",
+        "It needs two Spans of one motion.",
+        _spans,
+    ),
     Entry("agreement", "campaign", "predicted over measured peak of each test", "A test must have rocked.", _agreement),
 )
 """Every figure; no two of one subject have the same name."""
