@@ -329,6 +329,6 @@ def test_samples_of_the_models_have_their_own_dashes_in_lines_and_bands(page):
     )
     of = [{look for name, look in looks if name.startswith(f"{model} model")} for model in ("linear", "nonlinear")]
     assert all(of)
-    dashes = [{tuple(re.findall(r"([\d.]+)px", look)) for look in each} for each in of]
+    dashes = [{frozenset(re.findall(r"([\d.]+)px", look)) for look in each} for each in of]
     assert [len(each) for each in dashes] == [1, 1]
     assert dashes[0].isdisjoint(dashes[1])

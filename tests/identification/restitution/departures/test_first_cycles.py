@@ -34,7 +34,7 @@ def test_the_largest_share_is_the_size_and_the_last_spoilt_arc_the_end(arcs):
     assert (departure.name, departure.unit) == (NAME, "1")
     assert departure.size == pytest.approx(0.3, rel=1e-9)
     assert (departure.left_out, departure.refuses) == (5, False)
-    assert "up to 30% of the rocking angle" in departure.sentence
+    assert "up to 30\u00a0% of the rocking angle" in departure.sentence
     assert "the first 5 of 20 arcs" in departure.sentence
 
 
