@@ -83,10 +83,10 @@ def test_an_ensemble_of_the_contact_model_is_compared_and_reported_while_it_is_a
     page = (report / "tests" / "pulse-01.html").read_text(encoding="utf-8")
     assert "Contact model: predicted up to" in page
     methods = (report / "methods.html").read_text(encoding="utf-8")
-    assert "run 3 times with varied friction (± 20 %), damping fraction (± 20 %)" in methods
+    assert "run 3 times with varied friction (± 20\u00a0%), damping fraction (± 20\u00a0%)" in methods
     assert "and the nonlinear and contact models" in methods
     assert "Each model except the contact model was run 5 times" in methods
-    assert "α 0.5 %; p 0.5 %;" in methods
+    assert "α 0.5\u00a0%; p 0.5\u00a0%;" in methods
     assert "here: rigid body" in methods
     assert "time step 90 µs" in methods
     specimen = (report / "specimens" / "prism.html").read_text(encoding="utf-8")
