@@ -59,6 +59,14 @@ class Watch:
         """The last line of each test."""
         return {line["test"]: line for _, line in self.lines}
 
+    def first_after(self, closed: dict[str, float]) -> dict[str, float]:
+        """When the first line came on each file that was closed, if it came."""
+        found: dict[str, float] = {}
+        for at, line in self.lines:
+            if at >= closed.get(line["test"], float("inf")):
+                found.setdefault(line["test"], at)
+        return found
+
     @property
     def memory(self) -> float:
         """MB that the process holds."""
