@@ -25,4 +25,4 @@ def foresee_a_planned_test(filled: Path, folder: Path) -> list[Foreseen]:
     shutil.copytree(filled, folder)
     with (folder / "campaign.toml").open("a", encoding="utf-8") as campaign_file:
         campaign_file.write(ENTRY)
-    return foresee(folder, motion=TEST, levels=["0.01 g", "9x"], test=LATER)
+    return [made for level in ("0.01 g", "9x") for made in foresee(folder, motion=TEST, levels=[level], test=LATER)]

@@ -27,7 +27,8 @@ HEADS = (
 
     {CAMPAIGN} Run it first: a forecast takes the e that is identified so far.
 
-    Writes a file for each level into forecasts/, which is never changed.
+    Writes a file for each level into forecasts/, which is never changed. After the test `run` scores the last one with
+    --test that was made before the raw file of that test was there.
     """,
 )
 @campaign_argument
@@ -42,7 +43,8 @@ HEADS = (
     required=True,
     multiple=True,
     metavar="LEVEL",
-    help='Peak acceleration of the table, "0.3 g", or a factor on a recorded motion, 1.5x. Repeat it for several.',
+    help='Peak acceleration of the table, "0.3 g", or a factor on a recorded motion, 1.5x. Without --test it may be '
+    "repeated.",
 )
 @click.option("--specimen", metavar="ID", help="The specimen; needed if there are several and no test is named.")
 @click.option("--test", metavar="ID", help="The test that the forecast is for, such as one with planned = true.")

@@ -27,7 +27,11 @@ class Asked:
 def asked_of(campaign: Campaign, layout: Layout, outdated: Collection[str] = ()) -> list[Asked]:
     """Ask for the page of each test: with its record and its neighbours."""
     ids = [None, *campaign.tests, None]
-    records = records_of_tests(campaign, read_summary(layout))
+    # Forecasts have a page of their own: one that is added redoes no other.
+    records = {
+        name: record.model_copy(update={"forecast": None})
+        for name, record in records_of_tests(campaign, read_summary(layout)).items()
+    }
     folder = layout.report.parent
     return [
         Asked(test.id, before, after, records[test.id], test.id in outdated, photos_of(campaign, test, folder))

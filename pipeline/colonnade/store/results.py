@@ -28,8 +28,8 @@ class Stage:
     of : str
         Whether its subject is a test or a specimen.
     goes_with : str
-        Stage of `RUN_STAGES` that a run names for this one; empty if it is its own. Maps count with the
-        report, after everything else; a run makes those by the models in the plane, and no steady responses.
+        Stage of `RUN_STAGES` that a run names for this one; empty if it is its own. Scores of forecasts and maps count
+        with the report, after everything else; a run makes the maps by the models in the plane, no steady responses.
     """
 
     file: str
@@ -83,6 +83,12 @@ STAGES = {
         f"{_ON_RECORDED_MOTION}, many times",
     ),
     "compare": Stage("tests/{subject}/compared", "Measured against predicted rocking, in numbers."),
+    "forecast": Stage(
+        "tests/{subject}/forecast",
+        "Scores of a forecast that was made before the test.",
+        "a forecast of a shake-table test, and its recordings, processed",
+        goes_with="report",
+    ),
     "map": Stage(
         "maps/{subject}-{model}",
         "Outcomes of a rocking block over frequency and amplitude of its base motion, and the limits between them.",

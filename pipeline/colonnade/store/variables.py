@@ -74,6 +74,15 @@ VARIABLES: dict[str, Variable] = {
     # clocks
     "elapsed": Variable("time since the recorder's zero", "s", COORDINATE),
     "time": Variable("instant of the recorder's zero", "seconds since 1970-01-01T00:00:00Z", COORDINATE, "time"),
+    # forecasts
+    "basis": Variable("base motion and e of a forecast", None, COORDINATE, dtype="str"),
+    "observed_amplitude": Variable("min(max |θ|, α)/α, 0 if it did not rock", "1", MEASURED),
+    "forecast_overturning_probability": Variable("forecast probability of overturning", "1", MODELLED),
+    "forecast_crps": Variable("continuous ranked probability score of the amplitude, over α", "1", QUALITY),
+    "forecast_ranked_probability": Variable("ranked probability score of the outcome", "1", QUALITY),
+    "forecast_brier": Variable("Brier score of overturning", "1", QUALITY),
+    "forecast_logarithmic": Variable("logarithmic score of overturning, nats", "1", QUALITY),
+    "forecast_pit": Variable("probability integral transform of the amplitude", "1", QUALITY),
     # rocking, predicted
     "rocking_angle": Variable("rocking angle", "rad", MEASURED, comment=_SIGN),
     "rocking_angle_quality": Variable("quality of the rocking angle", None, QUALITY, "quality_flag", "int8"),

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from colonnade.campaign import Campaign, load
 from colonnade.errors import CampaignError, nearest
+from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.results import RUN_STAGES, results_of
 from colonnade.workflow.arguments import check_run
@@ -14,6 +16,8 @@ from colonnade.workflow.catalogue import Catalogue, remove_altered
 from colonnade.workflow.chain import remove_later
 from colonnade.workflow.copies import Digests, with_copies
 from colonnade.workflow.execution.lock import only_run
+from colonnade.workflow.forecasting.choosing import choose
+from colonnade.workflow.forecasting.records import finding_of, foreseen_of
 from colonnade.workflow.outcome import RunResult
 from colonnade.workflow.publishing.pages import update_report
 from colonnade.workflow.publishing.photos import with_photos
@@ -106,7 +110,16 @@ def run(
         walk = Walk(graph, run_id, raw, start_from, last, workers, scheduler, progress, notices.append)
         walk.through(tests)
         outdated = (walk.stale() - walk.failed_tests.keys()) | (loaded.tests.keys() - set(walk.included))
-        summary = write_summary(loaded, layout, catalogue, outdated=outdated, failed=walk.failed_tests, workers=workers)
+        forecasts = read_forecasts(layout)
+        loaded = replace(loaded, warnings=(*loaded.warnings, *map(finding_of, forecasts.refused)))
+        chosen = choose(loaded, forecasts, raw)
+        if last == "report":
+            walk.score(chosen.scored, outdated)
+        left_out = outdated | walk.failed_tests.keys()
+        foreseen = foreseen_of(layout, forecasts, chosen, left_out)
+        summary = write_summary(
+            loaded, layout, catalogue, outdated=outdated, failed=walk.failed_tests, foreseen=foreseen, workers=workers
+        )
         report = None
         if last == "report":
             walk.map(summary)

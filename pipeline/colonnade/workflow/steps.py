@@ -10,7 +10,9 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.forecast import ForecastFile
 from colonnade.dynamics.models.registry import MODELS
+from colonnade.store.forecasts import Known
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId, models_of
 from colonnade.workflow.catalogue import Catalogue
@@ -182,6 +184,21 @@ class Graph:
         )
         return steps
 
+    def scoring(self, test: Test, known: Known) -> Step:
+        """Return the step that scores a forecast by what was measured in its test."""
+        from colonnade.stages import forecast
+
+        result = ResultId(test.id, "forecast")
+        return Step(
+            result,
+            self.layout.path(result),
+            {"rocking": self._of(test.id, "rocking")},
+            forecast.ForecastScoreInputs(file=known.name),
+            partial(_score, known.forecast),
+            self.catalogue.code((forecast.__name__, *_STORED_BY)),
+            {"forecast": known.sha256},
+        )
+
     def _repeating(self, test: Test, model: str) -> Step:
         """Return the step that repeats a model's prediction over what is not known exactly."""
         from colonnade.stages import contact_ensemble, ensemble
@@ -223,6 +240,12 @@ class Graph:
 
 def _by_name(function: Callable[..., xr.Dataset], upstream: Mapping[str, Any], inputs: Any) -> xr.Dataset:
     return function(inputs=inputs, **upstream)
+
+
+def _score(known: ForecastFile, upstream: Mapping[str, Any], inputs: Any) -> xr.Dataset:
+    from colonnade.stages.forecast import score_forecast
+
+    return score_forecast(upstream["rocking"], known, inputs)
 
 
 def _compare(upstream: Mapping[str, Any], inputs: Any) -> xr.Dataset:

@@ -20,6 +20,7 @@ from colonnade.store.records.test import record_of_test
 from colonnade.store.results import results_of
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.execution.spreading import spread
+from colonnade.workflow.forecasting.records import NOTHING_FORESEEN, Foreseen
 from colonnade.workflow.pooling import restitution_taken
 
 MADE_BY = ("colonnade.store", "colonnade.identification", "colonnade.stages.specimen")
@@ -33,6 +34,7 @@ def write_summary(
     *,
     outdated: Collection[str] = (),
     failed: Mapping[str, str] | None = None,
+    foreseen: Foreseen = NOTHING_FORESEEN,
     workers: int | None = 1,
 ) -> Summary:
     """
@@ -48,6 +50,8 @@ def write_summary(
         Tests whose stored results are out of date; they are reported as pending.
     failed : mapping of str to str, optional
         Why tests failed in this run, whether stored or not.
+    foreseen : Foreseen, optional
+        What was forecast.
     workers : int, optional
         Processes in which results are read; None for one a core.
 
@@ -61,11 +65,13 @@ def write_summary(
         If a file cannot be written.
     """
     failures = failed or {}
+    records = _records(campaign, layout, catalogue, outdated, failures, workers)
     summary = Summary(
         campaign=campaign.campaign,
         colonnade=colonnade.__version__,
         specimens={name: _of_specimen(campaign, layout, catalogue, name) for name in campaign.specimens},
-        tests=_records(campaign, layout, catalogue, outdated, failures, workers),
+        tests={name: each.model_copy(update={"forecast": foreseen.tests.get(name)}) for name, each in records.items()},
+        forecasts=foreseen.together,
     )
     files.write_text(layout.summary_json, summary.text())
     files.write_text(layout.summary_csv, as_csv(summary))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
@@ -11,6 +11,8 @@ from colonnade.campaign import Campaign, Test
 from colonnade.campaign.summary import Summary
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.interruption import expect_none
+from colonnade.store import files
+from colonnade.store.forecasts import Known
 from colonnade.store.provenance import Origin
 from colonnade.store.results import RUN_STAGES, ResultId, models_of, results_of
 from colonnade.workflow.chain import Chain, if_up_to_date, remove_later
@@ -158,6 +160,15 @@ class Walk:
 
         known = [name for name in self._campaign.specimens if name not in self.failed_specimens]
         self._walk_specimens(map_steps(self.graph, summary, known), self.workers)
+
+    def score(self, forecasts: Mapping[str, Known], outdated: Collection[str]) -> None:
+        """
+        Bring the scores of forecasts up to date, given the one that counts of each test; tests without one have none.
+        """
+        measured = [name for name in forecasts if name not in outdated and name not in self.failed_tests]
+        for name in self._campaign.tests.keys() - measured:
+            files.remove(self.graph.layout.stage(name, "forecast"))
+        self._walk_tests([self.graph.scoring(self._test(name), forecasts[name])] for name in measured)
 
     def _predicting(self, name: str) -> list[Step]:
         return [step for step in self._steps("predicting", name) if self._asks_for(step.result.stage)]

@@ -91,6 +91,7 @@ def test_a_file_counts_by_its_shape(foreseen_copy):
         ({"levels": ["1e9 g"]}, "was expected"),
         ({"levels": ["0x"]}, "was expected"),
         ({"test": "span-99"}, "planned = true"),
+        ({"test": LATER, "levels": ["1x", "2x"]}, "one level"),
         ({"test": "free-01"}, "free-vibration"),
         ({"test": "watched"}, "is a test of statue"),
         ({"time_scale": 0.0}, "--time-scale"),

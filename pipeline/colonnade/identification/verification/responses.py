@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import get_args
 
@@ -112,3 +113,16 @@ def forecast_of(peak_ratio: ArrayLike, overturning_time: ArrayLike) -> Forecast:
     rocked = overturned | (peaks > NO_ROCKING_RATIO)
     outcomes = rocked.astype(np.int8) + overturned
     return Forecast(outcomes, np.where(overturned, 1.0, np.where(rocked, np.minimum(peaks, 1.0), 0.0)))
+
+
+def forecast_of_peaks(peak_ratio: Sequence[float | None]) -> Forecast:
+    """
+    Take members that are known by max |θ|/α alone, None for one that overturned, as a forecast.
+
+    Examples
+    --------
+    >>> forecast_of_peaks([0.0002, 0.4, None]).amplitudes.tolist()
+    [0.0, 0.4, 1.0]
+    """
+    peaks = np.array([np.nan if peak is None else peak for peak in peak_ratio])
+    return forecast_of(peaks, np.where(np.isnan(peaks), 1.0, np.nan))

@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from colonnade.campaign.summary import Summary, TestSummary
+from colonnade.campaign.summary import ForecastScores, Summary, TestSummary
 
 
 def as_csv(summary: Summary) -> str:
@@ -24,7 +24,11 @@ def as_csv(summary: Summary) -> str:
 
 def _row(name: str, test: TestSummary) -> dict[str, Any]:
     warnings = "; ".join(f"{each.severity}: {each.text}" for each in test.warnings)
-    row = {"test": name} | test.model_dump(exclude={"predicted", "restitution", "prototype"}) | {"warnings": warnings}
+    row = (
+        {"test": name}
+        | test.model_dump(exclude={"predicted", "restitution", "prototype", "forecast"})
+        | {"warnings": warnings}
+    )
     for model, prediction in test.predicted.items():
         row |= _columns(model, prediction)
     if test.restitution is not None:
@@ -33,6 +37,12 @@ def _row(name: str, test: TestSummary) -> dict[str, Any]:
             row |= _columns(f"restitution_history_{model}", history)
     if test.prototype is not None:
         row |= _columns("prototype", test.prototype)
+    if test.forecast is not None:
+        row |= _columns("forecast", test.forecast, without={"models"})
+        for model, foreseen in test.forecast.models.items():
+            row |= _columns(f"forecast_{model}", foreseen, without={"on_target", "on_recorded", "rigid_body"})
+            for basis in ("on_target", "on_recorded"):
+                row |= _columns(f"forecast_{model}_{basis}", getattr(foreseen, basis) or ForecastScores())
     return row
 
 

@@ -77,7 +77,7 @@ def foresee(
     motion : str
         See `motion_asked_for`.
     levels : sequence of str
-        See `level_of`.
+        See `level_of`; of a test one.
     specimen : str, optional
         Default: that of the test, or the only one.
     test : str, optional
@@ -109,6 +109,8 @@ def foresee(
         raise CampaignError(f"--time-scale {time_scale:g}: {expected}")
     asked = motion_asked_for(loaded, layout, motion, own, time_scale)
     wanted = [level_of(text, asked) for text in dict.fromkeys(levels)]
+    if own is not None and len(wanted) > 1:
+        raise CampaignError(f"{len(wanted)} levels were found. A forecast of a test, here of {own.id}, has one level.")
     catalogue = Catalogue(layout)
     setup = own or asked.test
     tilt = (loaded.setups[setup.setup].table_tilt or 0.0) if setup is not None else 0.0

@@ -1,0 +1,82 @@
+"""Forecast: what was foreseen of a test and what was measured in it -> scores, as forecast and of the model alone."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from colonnade.campaign.forecast import ForecastFile
+from colonnade.dynamics.motion import Motion
+from colonnade.errors import StageError
+from colonnade.identification.verification.calibration import randomised_pit
+from colonnade.identification.verification.responses import Response, forecast_of, forecast_of_peaks
+from colonnade.identification.verification.scores import score
+from colonnade.stages.parts.base_motion import base_acceleration
+from colonnade.stages.parts.foreseen import felt, plan_of, run_forecast
+from colonnade.stages.parts.inputs import Inputs
+
+BASES = ("on_target", "on_recorded", "rigid_body")
+"""As it was forecast; its frozen inputs on the recorded base motion; as forecast, with the e of the rigid body."""
+
+SCORES = ("crps", "ranked_probability", "brier", "logarithmic")
+
+
+class ForecastScoreInputs(Inputs):
+    """Name of the forecast's file; its content enters the result's key by its hash."""
+
+    file: str
+
+
+def score_forecast(rocking: xr.Dataset, forecast: ForecastFile, inputs: ForecastScoreInputs) -> xr.Dataset:
+    """
+    Score a forecast by what was measured.
+
+    Parameters
+    ----------
+    rocking : xr.Dataset
+        Result of `rocking`: outcome, peak, base motion.
+    forecast : ForecastFile
+    inputs : ForecastScoreInputs
+
+    Returns
+    -------
+    scores : xr.Dataset
+        By `model` and by `basis` (`BASES`) the scores of `identification.verification`, and the probability integral
+        transform; `observed_amplitude`. Without a measured angle there are none, without a recorded base motion
+        those on it are NaN; the attribute `reason` says so.
+    """
+    attributes = {"file": inputs.file, "reason": "", "warnings": []}
+    if "rocking_angle" not in rocking:
+        return xr.Dataset(attrs=attributes | {"reason": "its rocking angle was not measured"})
+    outcome = str(rocking.attrs["outcome"])
+    observed = Response.observed(outcome, float(rocking["peak_ratio"]) if outcome == "rocking" else None)
+    motion = None
+    try:
+        time = rocking["elapsed"].to_numpy()
+        motion = felt(forecast.inputs, Motion(base_acceleration(rocking), float(time[1] - time[0])))
+    except StageError as error:
+        attributes["reason"] = str(error)
+    names = list(forecast.models)
+    found = np.full((len(SCORES) + 2, len(names), len(BASES)), np.nan)
+    for row, (name, model) in enumerate(forecast.models.items()):
+        ensembles = {
+            "on_target": forecast_of_peaks(model.peak_ratio),
+            "rigid_body": forecast_of_peaks(model.rigid_body_peak_ratio),
+        }
+        if motion is not None:
+            members = run_forecast(plan_of(forecast.inputs, name, motion))
+            ensembles["on_recorded"] = forecast_of(members.peak_ratio, members.overturning_time)
+        for basis, ensemble in ensembles.items():
+            scores = vars(score(ensemble, observed))
+            # A draw of its own for each file, the same in each run.
+            seed = int(forecast.motion.sha256[:8], 16) ^ int(forecast.made.timestamp())
+            pit = float(randomised_pit([ensemble], [observed], seed=seed)[0])
+            values = [*(scores[each] for each in SCORES), pit, ensemble.overturning_probability]
+            found[:, row, BASES.index(basis)] = values
+    variables = [f"forecast_{name}" for name in (*SCORES, "pit", "overturning_probability")]
+    return xr.Dataset(
+        {name: (("model", "basis"), values) for name, values in zip(variables, found, strict=True)}
+        | {"observed_amplitude": ((), observed.amplitude)},
+        coords={"model": np.array(names, dtype=object), "basis": np.array(BASES, dtype=object)},
+        attrs=attributes | {"outcome": outcome},
+    )
