@@ -63,7 +63,8 @@ def demo(folder: Path, seed: int, motion: Path | None, short: bool, workers: int
 def _show(comparison: dict[str, Any]) -> None:
     from colonnade.laboratory.ladder import KEPT_AWAY
     from colonnade.report.overview_page.agreement import agreement
-    from colonnade.units import format_percent, format_uncertain
+    from colonnade.store.records.wording import restitution_text
+    from colonnade.units import format_percent
 
     for specimen, restitution in comparison["restitution"].items():
         true, value, low, high = (restitution[key] for key in ("true", "value", "low", "high"))
@@ -72,7 +73,7 @@ def _show(comparison: dict[str, Any]) -> None:
         else:
             held = "inside" if low <= true <= high else "outside"
             level = format_percent(restitution["level"])
-            found = f"e identified as {format_uncertain(value, (high - low) / 2)} ({level} interval)"
+            found = f"e identified as {restitution_text(value, (high - low) / 2)} ({level} interval)"
             say(f"{specimen}: {found}; true is {true:g}, {held} the interval")
     say()
     rows = []

@@ -168,11 +168,11 @@ def _until(predicted: Record) -> str:
 
 
 def _specimen_cells(record: Record) -> tuple[str, ...]:
-    from colonnade.units import format_uncertain
+    from colonnade.store.records.wording import restitution_text
 
     restitution = record["restitution"]
     value, low, high = restitution["value"], restitution["low"], restitution["high"]
-    e = shown(value) if low is None else format_uncertain(value, (high - low) / 2)
+    e = shown(value) if low is None else restitution_text(value, (high - low) / 2)
     columns = ("critical_angle", "pole_distance", "inertia", "p", "rigid_restitution")
     geometry = [shown(record[column]) for column in columns]
     return (record["shape"], *geometry, e, restitution["source"] or restitution["reason"] or "")

@@ -13,6 +13,9 @@ NOTHING = "–"
 LEAST_RATIO = 1e-3
 """Angles below this share of the critical angle are noise: 0.1 mm at the top of a block of half a metre."""
 
+FINEST_RESTITUTION = 2e-4
+"""Smaller half-widths of e are written as such: from specimen to specimen and from day to day e differs by more."""
+
 CHANNEL_UNITS = {
     "displacement": "mm",
     "velocity": "mm/s",
@@ -95,6 +98,18 @@ def acceleration(value: float | None) -> str:
     return f"{quantity(value, 'm/s²')} ({quantity(value, 'g')})"
 
 
+def restitution_text(value: float, half_width: float) -> str:
+    """
+    Write a coefficient of restitution with the half-width of its interval, and with no more digits than it deserves.
+
+    Examples
+    --------
+    >>> restitution_text(0.97608, 0.0008), restitution_text(0.9760003, 0.0000008)
+    ('0.9761 ± 0.0008', '0.9760 ± < 0.0001')
+    """
+    return format_uncertain(value, half_width, least=FINEST_RESTITUTION)
+
+
 def interval(value: float | None, low: float | None, high: float | None, level: float | None) -> str:
     r"""
     Write a coefficient of restitution with the half-width of its interval.
@@ -110,7 +125,7 @@ def interval(value: float | None, low: float | None, high: float | None, level: 
         return NOTHING
     if low is None or high is None or level is None or not isfinite(high - low):
         return number(value, 4)
-    return f"{format_uncertain(value, (high - low) / 2)} ({format_percent(level)} interval)"
+    return f"{restitution_text(value, (high - low) / 2)} ({format_percent(level)} interval)"
 
 
 def share(part: int, whole: int) -> str:
