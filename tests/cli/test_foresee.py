@@ -7,7 +7,7 @@ from foreseeing import TEST
 def test_a_forecast_is_shown_and_kept(foreseen_copy, capsys):
     asked = ["foresee", str(foreseen_copy), "--motion", TEST, "--specimen", "prism"]
     assert invoke([*asked, "--level", "0.01 g"]) == 0
-    said = capsys.readouterr().out
+    said = capsys.readouterr().out.replace("\xa0", " ")
     assert "100 %" in said
     assert "forecast: " in said
     assert invoke([*asked, "--level", "1x", "--json"]) == 0

@@ -17,7 +17,13 @@ EXACT = dict.fromkeys(("restitution", "critical_angle", "p", "gain", "clock"), 0
 
 def forecast(peaks=(0.2, 0.4, None), rigid=(0.1, 0.1, 0.1)):
     model = {
-        **{"no_rocking": 0.0, "rocking": 0.5, "overturned": 0.5, "bands": [], "required_friction": None},
+        **{
+            "no_rocking": 0.0,
+            "rocking": 0.5,
+            "overturned": 0.5,
+            "bands": 3 * [{"probability": 0.5, "low": 0.0, "high": 1.0}],
+            "required_friction": None,
+        },
         **{"peak_ratio": peaks, "rigid_body_peak_ratio": rigid},
     }
     e = {"value": (0.9, 0.9), "low": None, "high": None, "level": 0.95, "source": "given", "rigid_body": (0.8, 0.8)}

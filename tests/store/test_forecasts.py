@@ -14,7 +14,7 @@ MODEL = {
     "no_rocking": 0.0,
     "rocking": 0.5,
     "overturned": 0.5,
-    "bands": [{"probability": 0.5, "low": 0.4, "high": 1.0}],
+    "bands": 3 * [{"probability": 0.5, "low": 0.4, "high": 1.0}],
     "required_friction": 0.3,
     "peak_ratio": [0.4, None],
     "rigid_body_peak_ratio": [0.3, None],

@@ -169,7 +169,7 @@ class ModelForecast(Record):
     """Share of those that rock and stand."""
     overturned: Probability
     """Share of those that overturn."""
-    bands: tuple[ForecastBand, ...]
+    bands: tuple[ForecastBand, ForecastBand, ForecastBand]
     """Of 50, 80 and 95 %."""
     required_friction: NotNegative | None
     """Largest |H|/N between impacts while the specimen stands, of the run with nothing varied; null if it lifts off."""

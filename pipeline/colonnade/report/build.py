@@ -18,6 +18,7 @@ from colonnade.identification.restitution.estimators.registry import ESTIMATORS
 from colonnade.interruption import expect_none
 from colonnade.report import addresses, drawings, methods, pages, problems, specimens_page
 from colonnade.report.asked import Asked, asked_of
+from colonnade.report.forecasts_page.page import forecasts_page
 from colonnade.report.interactive import tables
 from colonnade.report.interactive.scripts import scripts
 from colonnade.report.interactive.state import UNWATCHED
@@ -35,12 +36,13 @@ from colonnade.store import files, stamps
 from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_specimen
+from colonnade.store.records.summary import read_summary
 from colonnade.units import format_percent
 
 IN_A_BLOCK = 5
 """Tests whose pages are drawn one after the other, so that templates are not read again for each."""
 
-OWN = ("tests/*.html", "specimens/*.html", "data/**/*.js", "scripts/*.js", "setups/*.svg")
+OWN = ("tests/*.html", "specimens/*.html", "data/**/*.js", "scripts/*.js", "setups/*.svg", addresses.FORECASTS)
 """Files of the report's folders; one that nothing of the campaign leads to any more is removed."""
 
 Block = tuple[Campaign, list[Asked]]
@@ -167,7 +169,10 @@ def render(
         yield from _page(renderer, "specimen", address, shown, made_from)
     for address, text in scripts().items():
         yield address, text, ""
-    shown = _shown(campaign, tests, specimens, used) | {"groups": grouped, "maps": mapped}
+    foreseen = forecasts_page(layout, read_summary(layout))
+    shown = _shown(campaign, tests, specimens, used) | {"groups": grouped, "maps": mapped, "forecasts": foreseen}
+    if foreseen is not None:
+        yield from _page(renderer, "forecasts", addresses.FORECASTS, shown)
     for template, address in addresses.WHOLE.items():
         yield from _page(renderer, template, address, shown)
 

@@ -17,6 +17,7 @@ from colonnade.figures.files.output import Picture, link_to
 from colonnade.report import who_and_when
 from colonnade.report.addresses import of_specimen, of_test, scripts_of
 from colonnade.store.records import wording
+from colonnade.units import format_percent
 
 KINDS = {
     "free-vibration": "Free vibrations",
@@ -97,6 +98,7 @@ class Renderer:
             "order": wording.order,
             "ratio": wording.ratio,
             "signed_ratio": wording.signed_ratio,
+            "percent": format_percent,
             "drawn": self._drawn,
         }
 

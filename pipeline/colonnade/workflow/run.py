@@ -124,7 +124,7 @@ def run(
         if last == "report":
             walk.map(summary)
             loaded = with_photos(loaded, layout, catalogue)
-            report = update_report(loaded, layout, catalogue, outdated, workers)
+            report = update_report(loaded, layout, catalogue, outdated, summary.forecasts, workers)
         catalogue.save(is_whole=last == "report")
     concerning = {name: loaded.concerning(name) for name in loaded.tests}
     return RunResult(tuple(walk.stages), layout.summary_json, report, loaded.warnings, concerning, tuple(notices))

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from colonnade.campaign.forecast import ForecastBand, ForecastTable, ModelForecast
-from colonnade.signals.intensity import LARGEST_DRIFT
 from colonnade.store.records.wording import number, quantity
 from colonnade.units import format_percent
 
 
 def shown_table(table: ForecastTable) -> tuple[str, str, str]:
     """Write peak acceleration, velocity and displacement of the table; of an integral that drifts, its drift."""
-    drifts = f"drifts by {format_percent(table.drift)}, above {format_percent(LARGEST_DRIFT)}"
+    drifts = f"not known, drifts by {format_percent(table.drift)}"
     velocity, displacement = table.peak_velocity, table.peak_displacement
     return (
         quantity(table.peak_acceleration, "g"),

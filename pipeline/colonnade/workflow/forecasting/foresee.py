@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import colonnade
+from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test, load
 from colonnade.campaign.forecast import (
     ForecastBand,
@@ -248,17 +249,20 @@ def _by_model(inputs: ForecastInputs, model: str, motion: Motion) -> ModelForeca
     shares = {
         outcome.replace("-", "_"): float(np.mean(expected.outcomes == place)) for place, outcome in enumerate(OUTCOMES)
     }
-    bands = []
-    for band in BANDS:
-        low, high = np.quantile(expected.amplitudes, [(1 - band) / 2, (1 + band) / 2], method="inverted_cdf")
-        bands.append(ForecastBand(probability=band, low=float(low), high=float(high)))
+    half, most, widest = (_band(expected.amplitudes, band) for band in BANDS)
     return ModelForecast(
         **shares,
-        bands=tuple(bands),
+        bands=(half, most, widest),
         required_friction=_friction(plan.central(), shaken),
         peak_ratio=_peaks(members),
         rigid_body_peak_ratio=_peaks(run_forecast(plan_of(inputs, model, shaken, rigid_body=True))),
     )
+
+
+def _band(amplitudes: Array, probability: float) -> ForecastBand:
+    ends = [(1 - probability) / 2, (1 + probability) / 2]
+    low, high = np.quantile(amplitudes, ends, method="inverted_cdf")
+    return ForecastBand(probability=probability, low=float(low), high=float(high))
 
 
 def _friction(history: History, motion: Motion) -> float | None:

@@ -84,7 +84,8 @@ def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | st
 
 def _recipe(campaign: Campaign, layout: Layout, folder: Path) -> Recipe:
     """Give all that the PDF is made from."""
-    pages = {page: stamps.key_of(folder / page) for found in addresses.addresses(campaign) for page in found}
+    every = addresses.addresses(campaign, forecasts=(folder / addresses.FORECASTS).is_file())
+    pages = {page: stamps.key_of(folder / page) for found in every for page in found}
     shown = [campaign.title, campaign.campaign, who_and_when.of_campaign(campaign)]
     pictures = {path.name: _hash(path) for pattern in SHOWN for path in sorted(folder.glob(pattern))}
     return Recipe("pdf", Catalogue(layout).code(MADE_BY), json.dumps(shown), pages | pictures)

@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from colonnade.campaign import Campaign
+from colonnade.campaign.summary import ForecastsSummary
 from colonnade.report.addresses import addresses, of_data, of_test
 from colonnade.report.asked import asked_of, shows
 from colonnade.store.freshness import Recipe
@@ -24,7 +25,12 @@ MADE_BY = ("colonnade.report", "colonnade.store")
 
 
 def update_report(
-    campaign: Campaign, layout: Layout, catalogue: Catalogue, outdated: Collection[str], workers: int | None
+    campaign: Campaign,
+    layout: Layout,
+    catalogue: Catalogue,
+    outdated: Collection[str],
+    forecasts: ForecastsSummary | None,
+    workers: int | None,
 ) -> Path:
     """
     Build the report if it is out of date.
@@ -36,6 +42,8 @@ def update_report(
     catalogue : Catalogue
     outdated : collection of str
         Tests whose stored results are out of date.
+    forecasts : ForecastsSummary or None
+        As in the summary: the hash of each forecast is in it.
     workers : int or None
         Processes in which pages are drawn; None for one a core.
 
@@ -48,14 +56,15 @@ def update_report(
     StoreError
         If a page cannot be written.
     """
+    foreseen = [] if forecasts is None else [forecasts.model_dump_json()]
     recipe = Recipe(
         "report",
         catalogue.code(MADE_BY),
-        json.dumps([repr(campaign.with_relative_paths()), sorted(outdated)]),
+        json.dumps([repr(campaign.with_relative_paths()), sorted(outdated), *foreseen]),
         {path.relative_to(layout.processed).as_posix(): catalogue.content(path) for path in layout.results_there()},
     )
     folder = layout.report.parent
-    single, whole = addresses(campaign)
+    single, whole = addresses(campaign, forecasts=forecasts is not None)
     are_there = layout.state.is_file() and all(catalogue.stamp(folder / page) for page in single)
     recipes = _recipes(campaign, layout, catalogue, outdated, recipe.code)
     kept = _kept(folder, catalogue, recipes)

@@ -1,0 +1,1 @@
+"""The page of forecasts: what was foreseen, what happened, and what the forecasts are worth."""

@@ -1,0 +1,54 @@
+import json
+
+from colonnade.campaign import load
+from colonnade.campaign.summary import Summary
+from colonnade.report.build import build
+from colonnade.report.forecasts_page.page import forecasts_page
+from colonnade.store.forecasts import read_forecasts
+from colonnade.store.layout import Layout
+from colonnade.store.records.summary import read_summary
+from colonnade.workflow.forecasting.choosing import choose
+from colonnade.workflow.forecasting.records import foreseen_of
+from foreseeing import LATER
+
+
+def with_summary(folder):
+    """Write what a run says of forecasts into the summary."""
+    campaign, layout = load(folder), Layout(folder)
+    forecasts = read_forecasts(layout)
+    chosen = choose(campaign, forecasts, {name: {} for name in campaign.tests})
+    foreseen = foreseen_of(layout, forecasts, chosen, set())
+    summary = json.loads(layout.summary_json.read_text(encoding="utf-8"))
+    record = foreseen.tests[LATER].model_dump(mode="json")
+    summary["tests"][LATER] = {"status": "pending", "kind": "earthquake", "specimen": "prism", "forecast": record}
+    summary["forecasts"] = foreseen.together.model_dump(mode="json")
+    layout.summary_json.write_text(json.dumps(summary), encoding="utf-8")
+    return campaign, layout
+
+
+def test_each_forecast_is_listed_with_what_happened(foreseen_copy):
+    (foreseen_copy / "forecasts" / "<b>.json").write_text("{}", encoding="utf-8")
+    campaign, layout = with_summary(foreseen_copy)
+    page = forecasts_page(layout, read_summary(layout))
+    assert [(row.forecast.level, row.entry.blind, row.happened) for row in page.rows] == [
+        ("0.01 g", True, "not yet"),
+        ("9x", True, "not yet"),
+    ]
+    shares = [tuple(text.replace("\xa0", " ") for text in row.models[0].foreseen[:3]) for row in page.rows]
+    assert shares == [("100 %", "0 %", "0 %"), ("0 %", "0 %", "100 %")]
+    assert [entry.file for entry in page.refused] == ["<b>.json"]
+    assert page.calibration is None
+    build(campaign, layout)
+    folder = layout.report.parent
+    text = (folder / "forecasts.html").read_text(encoding="utf-8")
+    assert "0.01 g" in text
+    assert "&lt;b&gt;.json" in text
+    assert "<b>.json" not in text
+    assert 'href="forecasts.html"' in layout.report.read_text(encoding="utf-8")
+
+
+def test_without_a_forecast_there_is_no_page(foreseen_copy):
+    layout = Layout(foreseen_copy)
+    summary = Summary.model_validate_json(layout.summary_json.read_text(encoding="utf-8"))
+    assert forecasts_page(layout, summary) is None
+    assert forecasts_page(layout, None) is None
