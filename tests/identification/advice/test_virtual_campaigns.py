@@ -16,6 +16,11 @@ Both methods go from one frequency to the next, and end one when the 90 % interv
   chance outcome does not lock it in. It ends by the posterior of the same prior from the tests of this frequency;
 - as a stricter peer, the same bisection ended by the posterior of all frequencies together: it has all that the advice
   has but the choice of amplitudes.
+
+Found (tests a campaign, median of 20 seeds; held of 140 intervals, and of 20 at the worst frequency): as predicted,
+advice 28.5 (138, 19), bisection 64.5 (137, 19), with the shared end 41.5 (133, 17); prior wrong by 20 %, advice 31.5
+(135, 17), bisection 64 (135, 18), with the shared end 40 (137, 18). At the first frequency the advice saves one test or
+none; what is found there saves the others.
 """
 
 from __future__ import annotations
@@ -135,11 +140,13 @@ def test_the_advice_needs_three_fifths_of_the_tests_of_bisection_and_holds_the_t
     for prior in ("as predicted", WRONG):
         held, width, tests = result[prior, "advice"]
         assert (width <= WANTED).all()
-        # 18 of 20 seeds, over the seven frequencies.
+        # In 18 of 20 seeds, over the seven frequencies together.
         assert held.mean() >= 18 / 20
         peer = result[prior, "bisection"][2].sum(axis=1)
         assert np.median(tests.sum(axis=1)) <= 0.6 * np.median(peer)
         assert (tests.sum(axis=1) <= peer).all()
+    # With predictions as they are, at every single frequency too.
+    assert (result["as predicted", "advice"][0].sum(axis=0) >= 18).all()
 
 
 def test_two_frequencies_of_one_campaign_are_found_with_fewer_tests_than_by_bisection():
