@@ -26,7 +26,7 @@ LONGEST = (
     "test_readme.py",
     "test_wheel.py",
     "test_processes.py",
-    "test_spreading.py",
+    "test_cluster.py",
     "test_kills.py",
 )
 """Files that take half a minute and more."""
@@ -83,18 +83,30 @@ def as_reported() -> Callable[[Path, str], None]:
 
 
 @pytest.fixture(scope="session")
-def filled_campaign(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, Any]:
-    """A small virtual campaign and its layout after one real run, which all processes of the tests share; look only."""
-    from colonnade.campaign import load
-    from colonnade.store.layout import Layout
-
+def made_once(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, Callable[[Path], object]], Path]:
+    """Have a folder filled by the first process of the tests that needs it; all only look at it."""
     shared = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         shared = shared.parent
-    folder = shared / "small-campaign"
-    with FileLock(shared / "small-campaign.lock"):
-        if not (folder / "processed" / "summary.json").is_file():
-            _small_campaign().run_small_campaign(folder)
+
+    def made(name: str, fill: Callable[[Path], object]) -> Path:
+        folder, done = shared / name, shared / f"{name}.done"
+        with FileLock(shared / f"{name}.lock"):
+            if not done.exists():
+                fill(folder)
+                done.touch()
+        return folder
+
+    return made
+
+
+@pytest.fixture(scope="session")
+def filled_campaign(made_once: Callable[[str, Callable[[Path], object]], Path]) -> tuple[Any, Any]:
+    """A small virtual campaign and its layout after one real run; look only."""
+    from colonnade.campaign import load
+    from colonnade.store.layout import Layout
+
+    folder = made_once("small-campaign", lambda folder: _small_campaign().run_small_campaign(folder))
     return load(folder), Layout(folder)
 
 

@@ -7,9 +7,11 @@ import shutil
 import subprocess
 import sys
 import venv
+from importlib.metadata import Distribution, PathDistribution, distribution
 from pathlib import Path
 
 import pytest
+from packaging.requirements import Requirement
 
 pytestmark = pytest.mark.wheel
 
@@ -22,9 +24,42 @@ def run(*command: str | Path, folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run([str(part) for part in command], cwd=folder, env=clean, capture_output=True, text=True)
 
 
+def required(package: Distribution) -> dict[str, Distribution]:
+    """What a distribution declares that it needs, at any depth: as installed here, in versions that it accepts."""
+    found: dict[str, Distribution] = {}
+    wanted, asked = [(package, "")], set()
+    while wanted:
+        one, extra = wanted.pop()
+        for text in one.requires or ():
+            need = Requirement(text)
+            if need.marker is None or need.marker.evaluate({"extra": extra}):
+                own = found.setdefault(need.name, distribution(need.name))
+                assert need.specifier.contains(own.version, prereleases=True), f"{text} is needed, not {own.version}"
+                more = {(need.name, each) for each in ("", *need.extras)} - asked
+                asked |= more
+                wanted += [(own, each) for _, each in more]
+    return found
+
+
+def provide(package: Distribution, site: Path) -> None:
+    """Put a distribution into another environment by links; a copy where links are not permitted."""
+    for name in {file.parts[0] for file in package.files or () if file.parts[0] not in ("..", "__pycache__")}:
+        source, target = Path(str(package.locate_file(name))), site / name
+        if target.exists():
+            continue
+        try:
+            target.symlink_to(source, target_is_directory=source.is_dir())
+        except OSError:
+            (shutil.copytree if source.is_dir() else shutil.copy2)(source, target)
+
+
 @pytest.fixture(scope="module")
 def commands(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder of the commands of an environment that holds the wheel, made from the sdist, and its dependencies."""
+    """
+    Folder of the commands of an environment that holds the wheel, made from the sdist, and what it declares.
+
+    pip resolved the same list when the project was installed here: it is not asked to download all of it again.
+    """
     folder = tmp_path_factory.mktemp("wheel")
     built = run(sys.executable, "-m", "build", "--outdir", folder, PROJECT, folder=folder)
     assert built.returncode == 0, built.stdout + built.stderr
@@ -33,8 +68,13 @@ def commands(tmp_path_factory: pytest.TempPathFactory) -> Path:
     commands = folder / "fresh" / ("Scripts" if os.name == "nt" else "bin")
     # What is not imported here needs no compiling.
     into = (sys.executable, "-m", "pip", "--python", commands / "python", "install", "--quiet", "--no-compile")
-    installed = run(*into, wheel, folder=folder)
+    installed = run(*into, "--no-deps", wheel, folder=folder)
     assert installed.returncode == 0, installed.stderr
+    where = "import sysconfig; print(sysconfig.get_path('purelib'))"
+    site = Path(run(commands / "python", "-c", where, folder=folder).stdout.strip())
+    own = PathDistribution(next(site.glob("colonnade-*.dist-info")))
+    for package in required(own).values():
+        provide(package, site)
     return commands
 
 

@@ -1,12 +1,19 @@
-"""Rows and results of the small campaign, as the report reads them."""
+"""The small campaign as the report reads it, row by row, and its report."""
 
 from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import pytest
 
 from colonnade.report.rows import TestRow
+from colonnade.store.layout import Layout
 from colonnade.store.records.stored import Stored, read_test
 from colonnade.store.records.summary import read_summary, records_of_tests
+from read_pages import built
 
 
 @pytest.fixture(scope="session")
@@ -19,3 +26,15 @@ def reported(filled_campaign) -> dict[str, tuple[TestRow, Stored]]:
         stored = read_test(campaign, layout, test)
         found[name] = TestRow.of(campaign, test, records[name], stored), stored
     return found
+
+
+@pytest.fixture(scope="session")
+def report_folder(filled_campaign: tuple[Any, Any], made_once: Callable[..., Path]) -> Path:
+    """Folder of the report of the small campaign, of which one test was not run; look only."""
+    campaign, layout = filled_campaign
+
+    def report(folder: Path) -> None:
+        shutil.copytree(layout.processed, Layout(folder).processed)
+        built(campaign, Layout(folder), {"later"})
+
+    return Layout(made_once("reported", report)).report.parent

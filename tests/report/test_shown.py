@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 from collections import Counter
 from posixpath import dirname, join, normpath
 
@@ -14,15 +13,11 @@ from colonnade.store.layout import Layout
 from read_pages import Page, built, words_of, written
 
 STRONG = "sine-3hz-too-strong-for-the-block-1"
-LATER = "later"
 
 
 @pytest.fixture(scope="module")
-def texts(filled_campaign, tmp_path_factory) -> dict[str, str]:
-    campaign, layout = filled_campaign[0], Layout(tmp_path_factory.mktemp("texts"))
-    shutil.copytree(filled_campaign[1].processed, layout.processed)
-    built(campaign, layout, {LATER})
-    return written(layout)
+def texts(report_folder) -> dict[str, str]:
+    return written(Layout(report_folder.parent))
 
 
 @pytest.fixture(scope="module")

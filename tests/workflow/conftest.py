@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+from collections.abc import Callable
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -75,6 +76,10 @@ class Small:
         """Run it up to the comparison, in this process."""
         return run(self.folder, **({"workers": 1, "until": "compare"} | options))
 
+    def complete(self) -> None:
+        """Run all of it, with the report."""
+        assert not self.run(until="report").failed
+
     def redone(self, **options: Any) -> dict[tuple[str, str], str]:
         """Run it; return the reason of each stage that was executed."""
         return {(stage.subject, stage.stage): stage.because for stage in self.run(**options).stages if stage.because}
@@ -118,11 +123,9 @@ class Small:
 
 
 @pytest.fixture(scope="session")
-def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Small:
+def undisturbed(made_once: Callable[[str, Callable[[Path], object]], Path]) -> Small:
     """The campaign as one run in one process leaves it; it is only looked at."""
-    small = Small(write_campaign(tmp_path_factory.mktemp("undisturbed") / "small"))
-    assert not small.run(until="report").failed
-    return small
+    return Small(made_once("undisturbed", lambda folder: Small(write_campaign(folder)).complete()))
 
 
 @pytest.fixture
@@ -136,3 +139,11 @@ def untouched(undisturbed: Small, tmp_path: Path) -> Small:
     """Copy of it that was never run."""
     ignored = shutil.ignore_patterns("processed", "report")
     return Small(Path(shutil.copytree(undisturbed.folder, tmp_path / "small", ignore=ignored)))
+
+
+@pytest.fixture
+def in_space(small: Small) -> Small:
+    """Copy of it that is also predicted by the contact model, whose damping is given."""
+    models = 'models = ["nonlinear", "contact"]\ncontact = {step = "30 us", damping_fraction = 0.3}\n'
+    small.edit("\n[setups.frame.channels]", f"\n[processing.predict]\n{models}\n[setups.frame.channels]")
+    return small

@@ -11,10 +11,9 @@ import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
-from filelock import FileLock
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page, Request
@@ -44,24 +43,6 @@ def browser() -> Iterator[Browser]:
         opened = playwright.chromium.launch(executable_path=CHROMIUM, args=list(QUIET))
         yield opened
         opened.close()
-
-
-@pytest.fixture(scope="session")
-def report_folder(filled_campaign: tuple[Any, Any], tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder of the report of the small campaign, built once for all processes of the tests; look only."""
-    from colonnade.report.build import build
-    from colonnade.store.layout import Layout
-
-    campaign, layout = filled_campaign
-    shared = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        shared = shared.parent
-    browsed = Layout(shared / "browsed")
-    with FileLock(shared / "browsed.lock"):
-        if not browsed.report.is_file():
-            shutil.copytree(layout.processed, browsed.processed)
-            build(campaign, browsed)
-    return browsed.report.parent
 
 
 @pytest.fixture
