@@ -151,7 +151,7 @@ def _result(future: Any, watch: _Watch, distributed: Any) -> Any:
     if future.status not in ("finished", "error"):
         raise watch.gone()
     try:
-        return future.result()
+        return _fetched(future, watch, distributed)
     except distributed.KilledWorker as error:
         raise ColonnadeError(
             f"{watch.scheduler}: its workers were stopped several times over the same work, most often because memory "
@@ -160,6 +160,17 @@ def _result(future: Any, watch: _Watch, distributed: Any) -> Any:
         ) from error
     except distributed.CancelledError as error:
         raise watch.gone() from error
+
+
+def _fetched(future: Any, watch: _Watch, distributed: Any) -> Any:
+    """Fetch a result; if the worker that holds it ended, wait only while there are workers to compute it again."""
+    while True:
+        try:
+            return future.result(timeout=_PATIENCE)
+        except (TimeoutError, distributed.TimeoutError):
+            if future.status == "error":  # the work itself raised it
+                raise
+            watch.look()
 
 
 def _no_scheduler(scheduler: str, found: str) -> str:
