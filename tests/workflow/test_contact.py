@@ -19,19 +19,6 @@ from colonnade.workflow.maps.stability import make_maps
 
 BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 
-SETTINGS = """
-[processing.predict]
-models = ["nonlinear", "contact"]
-contact = {step = "30 us", damping_fraction = 0.3}
-
-[setups.frame.channels]"""
-
-
-@pytest.fixture
-def in_space(small):
-    small.edit("\n[setups.frame.channels]", SETTINGS)
-    return small
-
 
 def test_a_campaign_is_predicted_by_the_contact_model_beside_the_others(in_space):
     redone = in_space.redone()
@@ -105,22 +92,6 @@ def test_a_specimen_without_a_law_fails_its_tests_with_what_to_do(in_space):
     reasons = {stage.reason for stage in stages if stage.action == "failed"}
     assert any("Use a shorter step or a softer contact" in reason for reason in reasons)
     assert in_space.summary()["tests"]["pulse-01"]["status"] == "failed"
-
-
-def test_calibration_shows_other_bodies_and_stores_the_settings_own(in_space):
-    own, coarse = calibrate(in_space.folder, meshes=("rigid", "coarse"), workers=1)
-    assert (own.mesh, own.path, own.reason) == ("rigid", in_space.layout.stage("prism", "contact"), "")
-    assert own.restitution == float(files.read(own.path)["contact_restitution"])
-    assert (coarse.mesh, coarse.path) == ("coarse", None)
-    assert "1224 degrees of freedom" in coarse.body
-    # The same damping at each node damps the meshed body, whose nodes carry little of its mass, less.
-    assert coarse.effective_damping < 0.5 * own.effective_damping
-    assert coarse.restitution > own.restitution
-
-
-def test_calibration_needs_a_restitution(untouched):
-    with pytest.raises(CampaignError, match="Run `colonnade identify` first"):
-        calibrate(untouched.folder)
 
 
 def test_a_map_needs_the_law_and_then_is_made(in_space):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from colonnade.store import files
-from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.maps.plans import Wanted
 from colonnade.workflow.maps.stability import make_maps
 from colonnade.workflow.pooling import restitution_taken
@@ -73,22 +72,3 @@ def test_what_is_stored_is_what_the_rule_gives(small):
     again = restitution_taken(load(small.folder), small.layout, "prism")
     assert again.attrs.items() <= stored.attrs.items()
     assert all(again[name].equals(stored[name].astype(again[name].dtype)) for name in again.variables)
-
-
-def test_a_law_of_contact_is_calibrated_to_the_restitution_of_the_file_as_it_is(small):
-    coarse = '\n[processing.predict]\ncontact = {step = "100 us", damping_fraction = 0.3}\n\n[setups.frame.channels]'
-    small.edit("\n[setups.frame.channels]", coarse)
-    small.edit(BODY, GIVEN)
-    (made,) = calibrate(small.folder, workers=1)
-    assert made.target == 0.93
-    small.edit(GIVEN, BODY)
-    (made,) = calibrate(small.folder, workers=1)
-    assert made.target == pytest.approx(summarised(small)[0], abs=1e-12)
-
-
-def test_a_given_restitution_is_known_without_any_run(untouched):
-    coarse = '\n[processing.predict]\ncontact = {step = "100 us", damping_fraction = 0.3}\n\n[setups.frame.channels]'
-    untouched.edit("\n[setups.frame.channels]", coarse)
-    untouched.edit(BODY, GIVEN)
-    (made,) = calibrate(untouched.folder, workers=1)
-    assert made.target == 0.93

@@ -13,7 +13,6 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.chart import stability_map
-from colonnade.dynamics.maps.steady import steady_response
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError, StoreError
 from colonnade.store import files
@@ -21,7 +20,6 @@ from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId
 from colonnade.workflow import run
 from colonnade.workflow.maps.plans import Wanted, measured_points
-from colonnade.workflow.maps.responses import as_response
 from colonnade.workflow.maps.stability import as_map, make_maps
 
 BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
@@ -117,22 +115,6 @@ def test_the_shape_of_a_ramp_makes_another_map(small):
     smooth = made(small, asking(ramp=1.0, ramp_shape="cosine"))
     assert smooth.action == "done"
     assert as_map(files.read(smooth.path)).options["ramp_shape"] == "cosine"
-
-
-def test_steady_responses_are_those_of_the_library_and_made_once(small):
-    result = made(small, asking(responses=True))
-    stored = as_response(files.read(result.responses))
-    e = tuple(float(value) for value in files.read(small.layout.stage("prism", "specimen"))["side_restitution"])
-    expected = steady_response(BLOCK, restitution=e, frequency_ratio=np.linspace(2.0, 5.0, 6),
-                               amplitude_ratio=np.linspace(0.8, 2.0, 10))  # fmt: skip
-    assert set(np.unique(expected.order)) >= {-2, 0, 1}
-    for name in ("order", "period", "amplitude"):
-        np.testing.assert_array_equal(getattr(stored, name), getattr(expected, name), err_msg=name)
-    assert "every cycle" in result.responses_figure.read_text(encoding="utf-8")
-    assert made(small, asking(responses=True)).action == "up-to-date"
-    assert made(small, asking(responses=True, phase=1.0)).action == "done"
-    result.responses.unlink()
-    assert made(small, asking(responses=True, phase=1.0)).action == "done"
 
 
 def test_the_table_motion_of_a_sine_test_is_stretched_over_a_map(sine_test):

@@ -1,4 +1,4 @@
-"""until, start_from and only: what is run, what is not, and what a slip of the pen is told."""
+"""What a run does of what is asked for: until, start_from and only; what a slip of the pen is answered with."""
 
 from __future__ import annotations
 

@@ -1,0 +1,64 @@
+"""Laws of contact on request: those for the campaign's own settings are stored, others are shown alone."""
+
+from __future__ import annotations
+
+import pytest
+
+from colonnade.errors import CampaignError
+from colonnade.store import files
+from colonnade.workflow.calibration import calibrate
+
+COARSE = '[processing.predict]\ncontact = {step = "100 us", damping_fraction = 0.3}\n\n[setups.frame.channels]'
+BODY = 'mass = "26.10 kg"}'
+GIVEN = 'mass = "26.10 kg", restitution = 0.93}'
+
+
+def test_other_bodies_are_shown_and_the_settings_own_is_stored(in_space):
+    own, coarse = calibrate(in_space.folder, meshes=("rigid", "coarse"), workers=1)
+    assert (own.mesh, own.path, own.reason) == ("rigid", in_space.layout.stage("prism", "contact"), "")
+    assert own.restitution == float(files.read(own.path)["contact_restitution"])
+    assert (coarse.mesh, coarse.path) == ("coarse", None)
+    assert "1224 degrees of freedom" in coarse.body
+    # The same damping at each node damps the meshed body, whose nodes carry little of its mass, less.
+    assert coarse.effective_damping < 0.5 * own.effective_damping
+    assert coarse.restitution > own.restitution
+
+
+def test_a_restitution_is_needed(untouched):
+    with pytest.raises(CampaignError, match="Run `colonnade identify` first"):
+        calibrate(untouched.folder)
+
+
+def test_an_unknown_specimen_is_refused_with_the_nearest(untouched):
+    with pytest.raises(CampaignError, match=r'no specimen "prysm".*Did you mean "prism"'):
+        calibrate(untouched.folder, specimens=("prysm",))
+    assert not untouched.layout.processed.exists()
+
+
+def test_the_target_is_the_restitution_of_the_campaign_file_as_it_is(small):
+    small.edit("[setups.frame.channels]", COARSE)
+    small.edit(BODY, GIVEN)
+    (made,) = calibrate(small.folder, workers=1)
+    assert made.target == 0.93
+    small.edit(GIVEN, BODY)
+    (made,) = calibrate(small.folder, workers=1)
+    assert made.target == pytest.approx(small.summary()["specimens"]["prism"]["restitution"]["value"], abs=1e-12)
+
+
+def test_a_given_restitution_is_known_without_any_run_and_a_stored_law_is_not_found_again(untouched, monkeypatch):
+    untouched.edit("[setups.frame.channels]", COARSE)
+    untouched.edit(BODY, GIVEN)
+    (made,) = calibrate(untouched.folder, workers=1)
+    assert made.target == 0.93
+    monkeypatch.setattr("colonnade.stages.contact.contact", None)
+    (again,) = calibrate(untouched.folder, workers=1)
+    assert (again.path, again.restitution) == (made.path, made.restitution)
+
+
+def test_a_law_that_cannot_be_found_says_why_and_leaves_the_others(untouched):
+    untouched.edit("[setups.frame.channels]", COARSE)
+    untouched.edit(BODY, GIVEN)
+    refused, found = calibrate(untouched.folder, steps=(1e-3, 5e-5), workers=1)
+    assert "Use a shorter step or a softer contact" in refused.reason
+    assert (refused.restitution, refused.source, refused.step, refused.path) == (None, "", 1e-3, None)
+    assert (found.reason, found.target) == ("", 0.93)
