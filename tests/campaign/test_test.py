@@ -1,0 +1,65 @@
+"""A test of a campaign file: its raw files, its zero, its photos; what is wrong is said by its key."""
+
+from __future__ import annotations
+
+import pytest
+from pydantic import ValidationError
+
+from colonnade.campaign import test as one_test
+
+LEAST = {"id": "free-01", "kind": "free-vibration", "specimen": "prism", "setup": "frame", "file": "raw/free-01.csv"}
+
+
+@pytest.fixture
+def made(tmp_path):
+    return lambda **given: one_test.Test.model_validate(LEAST | given, context={"folder": tmp_path})
+
+
+def test_what_is_not_given_is_not_known(made):
+    test = made()
+    assert test.zero == "auto"
+    assert test.photos == ()
+    assert {test.window, test.frequency, test.motion, test.span, test.time_scale, test.date, test.notes} == {None}
+
+
+def test_a_single_file_is_that_of_the_main_recorder_in_the_folder_of_the_campaign(made, tmp_path):
+    assert made().files == {"main": tmp_path / "raw" / "free-01.csv"}
+    several = made(file={"main": "raw/a.csv", "daq2": "raw/b.tdms"}).files
+    assert several == {"main": tmp_path / "raw" / "a.csv", "daq2": tmp_path / "raw" / "b.tdms"}
+
+
+def test_intervals_and_frequencies_are_in_si(made):
+    test = made(kind="sine", window=["200 ms", "14 s"], zero=["0 s", "500 ms"], frequency="3 Hz")
+    assert test.window == pytest.approx((0.2, 14.0))
+    assert test.zero == pytest.approx((0.0, 0.5))
+    assert test.frequency == 3.0
+
+
+@pytest.mark.parametrize("zero", one_test.ZEROS)
+def test_a_zero_may_be_a_word(made, zero):
+    assert made(zero=zero).zero == zero
+
+
+def test_a_photo_is_listed_once_and_not_looked_for(made):
+    assert made(photos=["photos/b.jpg", " photos/a.jpg", "photos/b.jpg"]).photos == ("photos/b.jpg", "photos/a.jpg")
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"kind": "erthquake"}, 'Did you mean "earthquake"'),
+        ({"observed_outcome": "fallen"}, "overturned"),
+        ({"zero": "begin"}, "auto"),
+        ({"span": 0.0}, "span"),
+        ({"file": "/etc/passwd"}, "/etc/passwd"),
+        ({"file": "../elsewhere.csv"}, "elsewhere.csv"),
+        ({"file": {"daq2": "raw/b.csv"}}, "among them `main`"),
+        ({"file": {"main": "raw/a.csv", "daq2": "../b.csv", "daq3": "../c.csv"}}, "daq3"),
+        ({"photos": "photos/a.jpg"}, "A list of paths was expected"),
+    ],
+    ids=["kind", "outcome", "zero", "span", "absolute path", "path out", "no main file", "several files", "photos"],
+)
+def test_what_cannot_be_used_is_refused(made, given, said):
+    with pytest.raises(ValidationError) as caught:
+        made(**given)
+    assert said in str(caught.value)

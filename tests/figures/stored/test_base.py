@@ -1,0 +1,99 @@
+"""The recorded base motion with the motion that it was to follow, and their spectra."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from colonnade.figures.files.table import table_of
+from colonnade.figures.stored import base
+from colonnade.figures.stored.base import BaseMotion, base_of, picture
+from colonnade.signals.named_motion import Laid, Series
+
+STEP = 0.01
+TIME = STEP * np.arange(1000)
+SHAKING = np.sin(2 * np.pi * TIME) * np.exp(-(((TIME - 5.0) / 2.0) ** 2))
+ALONE = BaseMotion(TIME, SHAKING, None)
+
+
+@pytest.fixture
+def based(filled_campaign, known):
+    """Base motion of a test whose stored samples may be replaced."""
+
+    def of(name, acceleration=None, **changes):
+        test, _, stored, _ = known(name)
+        if acceleration is not None:
+            rocking = stored.datasets["rocking", None].copy()
+            rocking["base_acceleration"] = ("elapsed", acceleration(rocking["base_acceleration"].to_numpy().copy()))
+            stored = replace(stored, datasets=stored.datasets | {("rocking", None): rocking})
+        return base_of(filled_campaign[0], test.model_copy(update=changes), stored)
+
+    return of
+
+
+def test_what_was_recorded_is_given_with_its_interval(based, known):
+    found = based("span-2.0")
+    np.testing.assert_array_equal(found.acceleration, known("span-2.0")[2].array("rocking", "base_acceleration"))
+    assert found.interval == pytest.approx(found.time[1] - found.time[0], rel=1e-9)
+    assert found.target is None
+
+
+def test_a_hole_in_it_a_standing_table_and_a_test_that_was_not_run_have_none(based):
+    def broken(values):
+        values[10] = np.nan
+        return values
+
+    assert based("span-2.0", broken) is None
+    assert based("span-2.0", kind="tilt") is None
+    assert based("free-01") is None
+    assert based("later") is None
+
+
+def test_the_target_is_laid_on_the_record_with_its_factor(based, known, monkeypatch):
+    acceleration = known("span-2.0")[2].array("rocking", "base_acceleration")
+    reference = Series(acceleration / 2.5, based("span-2.0").interval)
+    monkeypatch.setattr(base, "_reference", lambda campaign, motion: reference)
+    target = based("span-2.0", time_scale=1.0).target
+    assert (target.factor, target.correlation) == pytest.approx((2.5, 1.0), rel=1e-3)
+    assert based("span-2.0", np.zeros_like).target is None
+
+
+def test_a_motion_is_found_by_its_name_in_any_case(filled_campaign, monkeypatch):
+    monkeypatch.setattr(base, "reference_files", lambda campaign: {"El Centro": "a file"})
+    monkeypatch.setattr(base, "_loaded", lambda source: source)
+    assert base._reference(filled_campaign[0], "EL CENTRO") == "a file"
+    assert base._reference(filled_campaign[0], "Kobe") is None
+    assert base._reference(filled_campaign[0], None) is None
+
+
+def test_a_target_half_as_strong_has_half_the_spectrum(known):
+    test, _, _, block = known("span-2.0")
+    half = Laid(SHAKING / 2, 1.0, 1.0, 1.0)
+    drawn = picture(test, BaseMotion(TIME, SHAKING, half), block)
+    assert "Achieved over target 2 to 2." in drawn.description
+    assert len(drawn.figure.axes) == 3
+    alone = picture(test, ALONE, block)
+    assert "target" not in alone.description
+    assert alone.description.startswith("Largest achieved response")
+    assert table_of(alone.figure)
+
+
+def test_no_period_is_shorter_than_eight_samples_or_longer_than_a_quarter_of_the_record():
+    period = base._spectra(ALONE).period
+    assert (period[0], period[-1]) == pytest.approx((base.FEWEST * STEP, 10.0 / 4))
+    # A stiff oscillator follows the table: its response is the largest acceleration.
+    assert base._spectra(ALONE).achieved[0] == pytest.approx(np.abs(SHAKING).max(), rel=0.05)
+
+
+@pytest.mark.parametrize("kind", base.WITHOUT_SPECTRUM)
+def test_kinds_whose_spectrum_is_nothing_or_one_line_have_no_picture(known, kind):
+    test, _, _, block = known("span-2.0")
+    assert picture(test.model_copy(update={"kind": kind}), ALONE, block) is None
+
+
+def test_a_table_that_stood_has_no_picture(known):
+    test, _, _, block = known("span-2.0")
+    assert picture(test, None, block) is None
+    assert picture(test, BaseMotion(TIME, np.zeros_like(TIME), None), block) is None

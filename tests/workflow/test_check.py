@@ -1,0 +1,114 @@
+"""Check: the problems and findings of each test as a run would have them, with nothing written."""
+
+from __future__ import annotations
+
+import pytest
+
+from colonnade.campaign import load
+from colonnade.findings import note, serious, warning
+from colonnade.readers import registry
+from colonnade.workflow.check import CampaignCheck, Checked, check
+
+EXCLUDE = """
+schema = 1
+
+[[exclude]]
+test = "pulse-01"
+who = "N. N."
+when = 2013-04-26
+why = "touched by hand"
+"""
+
+
+def checked(small, **options):
+    return check(load(small.folder), **options)
+
+
+@pytest.mark.parametrize(
+    ("made", "status"),
+    [
+        (Checked(), "good"),
+        (Checked(findings=[warning("noise", "much"), note("clock", "late")]), "good"),
+        (Checked(findings=[serious("gain", "ten times")]), "doubtful"),
+        (Checked(concerning=(serious("unit", "cm"),)), "doubtful"),
+        (Checked(problems=["no file"], findings=[serious("gain", "ten times")]), "would fail"),
+    ],
+    ids=["nothing found", "warnings", "a serious one", "a serious one of its specimen", "a problem"],
+)
+def test_a_test_is_as_good_as_the_worst_that_was_found(made, status):
+    assert made.status == status
+
+
+@pytest.mark.parametrize(
+    ("made", "fails", "warns"),
+    [
+        (Checked(), False, False),
+        (Checked(findings=[note("clock", "late")]), False, False),
+        (Checked(findings=[warning("noise", "much")]), False, True),
+        (Checked(problems=["no file"]), True, False),
+    ],
+    ids=["nothing", "a note", "a warning", "a problem"],
+)
+def test_a_campaign_fails_by_a_problem_and_warns_above_a_note(untouched, made, fails, warns):
+    whole = CampaignCheck(load(untouched.folder), {"pulse-01": made, "pulse-02": Checked()})
+    assert (whole.fails, whole.has_warnings) == (fails, warns)
+    assert list(whole.findings) == ["campaign file", "pulse-01", "pulse-02"]
+
+
+def test_every_test_is_looked_at_counted_and_nothing_is_written(untouched):
+    counted, before = [], untouched.files()
+    found = checked(untouched, progress=lambda done, total: counted.append((done, total)))
+    assert {name: each.status for name, each in found.tests.items()} == dict.fromkeys(
+        load(untouched.folder).tests, "good"
+    )
+    assert counted == [(0, 4), (1, 4), (2, 4), (3, 4)]
+    assert untouched.files() == before
+
+
+def test_all_files_and_columns_that_are_missing_are_found_at_once(untouched):
+    untouched.raw("free-01").unlink()
+    path = untouched.raw("pulse-01")
+    path.write_text(path.read_text(encoding="utf-8").replace("time,top,table", "time,tip,tables"), encoding="utf-8")
+    found = checked(untouched)
+    (missing,) = found.tests["free-01"].problems
+    assert "free-01.csv: there is no such file" in missing
+    assert [problem.split(":")[0] for problem in found.tests["pulse-01"].problems] == ["channel top", "channel table"]
+    assert found.tests["pulse-02"].status == "good"
+
+
+def test_a_test_that_people_excluded_is_not_read(untouched):
+    (untouched.folder / "review.toml").write_text(EXCLUDE, encoding="utf-8")
+    untouched.raw("pulse-01").unlink()
+    found = checked(untouched).tests["pulse-01"]
+    assert found.problems == []
+    (finding,) = found.findings
+    assert finding.kind == "excluded"
+    assert "touched by hand (review.toml)." in finding.text
+
+
+def test_a_copy_of_a_raw_file_is_a_warning_of_the_campaign(untouched):
+    untouched.raw("pulse-02").write_bytes(untouched.raw("pulse-01").read_bytes())
+    found = checked(untouched)
+    assert found.has_warnings
+    assert not found.fails
+    assert any("pulse-02.csv" in each.text for each, _ in found.findings["campaign file"])
+
+
+def test_a_file_that_tests_share_is_read_once(untouched, monkeypatch):
+    untouched.edit('file = "raw/pulse-02.csv"', 'file = "raw/pulse-01.csv"')
+    seen, real = [], registry.read
+    monkeypatch.setattr(
+        registry, "read", lambda path, *rest, **more: seen.append(path.stem) or real(path, *rest, **more)
+    )
+    checked(untouched)
+    assert seen.count("pulse-01") == 1
+
+
+def test_a_wrong_gain_is_found_as_a_run_finds_it(untouched):
+    untouched.edit('unit = "mm", on = "specimen"', 'unit = "mm", gain = "10 mm/mm", on = "specimen"')
+    found = checked(untouched)
+    assert {name: each.status for name, each in found.tests.items() if name.startswith("free")} == {
+        "free-01": "doubtful",
+        "free-02": "doubtful",
+    }
+    assert "gain" in {each.kind for each in found.tests["free-01"].findings}
