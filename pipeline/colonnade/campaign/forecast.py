@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from colonnade.campaign.summary import Record
+from colonnade.campaign.record import Record
 from colonnade.dynamics.block import Block, Side
 from colonnade.dynamics.ensembles.uncertainty import Uncertainty
 from colonnade.dynamics.models.registry import MODELS

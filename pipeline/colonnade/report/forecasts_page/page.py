@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from colonnade.campaign.forecast import ForecastFile
-from colonnade.campaign.summary import ForecastEntry, ForecastOfModel, ForecastsSummary, Summary, TestSummary
+from colonnade.campaign.foreseen import ForecastEntry, ForecastOfModel, ForecastsSummary
+from colonnade.campaign.summary import Summary, TestSummary
 from colonnade.errors import StoreError
 from colonnade.figures.files.output import Picture
 from colonnade.figures.forecasts import Calibration, reliability_and_pit

@@ -10,7 +10,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.campaign.forecast import ForecastFile
-from colonnade.campaign.summary import ForecastCoverage, ForecastScores, JudgedForecasts
+from colonnade.campaign.foreseen import ForecastCoverage, ForecastScores, JudgedForecasts
 from colonnade.identification.verification.calibration import coverage
 from colonnade.identification.verification.references import base_rates, skill
 from colonnade.identification.verification.responses import Forecast, Response, forecast_of_peaks

@@ -8,7 +8,8 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from colonnade.campaign.summary import ForecastScores, Summary, TestSummary
+from colonnade.campaign.foreseen import ForecastScores
+from colonnade.campaign.summary import Summary, TestSummary
 
 
 def as_csv(summary: Summary) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from colonnade.campaign.forecast import ModelForecast
-from colonnade.campaign.summary import ForecastEntry, ForecastOfModel, ForecastScores, ForecastsSummary, TestForecast
+from colonnade.campaign.foreseen import ForecastEntry, ForecastOfModel, ForecastScores, ForecastsSummary, TestForecast
 from colonnade.errors import StoreError
 from colonnade.findings import Finding, warning
 from colonnade.store import files
