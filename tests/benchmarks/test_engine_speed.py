@@ -85,7 +85,7 @@ def test_the_exact_engine_beside_solve_ivp_and_the_papers_runge_kutta(capsys):
     steps = round(INTERVAL / schemes.PAPERS_STEP)
 
     def papers(base):
-        return schemes.integrate(base, INTERVAL, *SIDES[:3], REST, 0.0, 0.0, steps, schemes.PAPERS_REFINEMENT, False)
+        return schemes.integrate(base, INTERVAL, *map(np.array, SIDES[:3]), REST, 0.0, 0.0, steps, schemes.PAPERS_REFINEMENT, False)
 
     rows = []
     for base in records:

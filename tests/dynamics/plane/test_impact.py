@@ -37,7 +37,7 @@ def test_a_block_that_the_base_lifts_does_not_rest():
 
 
 def test_an_impact_leaves_e_times_its_velocity_or_the_block_at_rest():
-    sides = Sides(np.array([0.2, 0.3]), np.full(2, 5.0), np.array([0.9, 0.8]), np.zeros(1), 1e-6)
+    sides = Sides((0.2, 0.3), (5.0, 5.0), np.array([0.9, 0.8]), np.zeros(1), 1e-6)
     assert rebound(-1.0, 1, 1.0, 0.0, sides, True) == (-0.8, False)
     assert rebound(1.0, 0, 1.0, 0.0, sides, False) == (0.9, False)
     assert rebound(-1e-4, 1, 1.0, 0.0, sides, True) == (0.0, True)

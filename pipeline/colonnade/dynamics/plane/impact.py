@@ -55,11 +55,12 @@ def rebound(
 
     `weight` is 1 + v/g and `pull` a/g of the base at that instant.
     """
+    critical, p, restitution, speeds, rest_angle = sides
     there = 1 - here
-    leaving = restitution_of(sides.restitution, sides.speeds, here, velocity) * velocity
-    holding = holding_moment(sides.critical[there], weight, (2.0 * there - 1.0) * pull, linearised)
-    risen = leaving * leaving / (2.0 * sides.p[there] * sides.p[there])
-    if comes_to_rest(risen, sides.critical[there], holding, sides.rest_angle):
+    leaving = restitution_of(restitution, speeds, here, velocity) * velocity
+    holding = holding_moment(critical[there], weight, (2.0 * there - 1.0) * pull, linearised)
+    risen = leaving * leaving / (2.0 * p[there] * p[there])
+    if comes_to_rest(risen, critical[there], holding, rest_angle):
         return 0.0, True
     return leaving, False
 

@@ -21,8 +21,8 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.kernel import kernel
-from colonnade.dynamics.plane.sides import Sides
-from colonnade.dynamics.plane.step import Step
+from colonnade.dynamics.plane.step import Interval, Step
+from colonnade.dynamics.plane.uplift import Pair
 
 LONGEST_SAMPLE = 0.5
 """In x = p t: the bounds of longer samples exclude too few impacts for whole samples to be tried."""
@@ -144,35 +144,32 @@ def _impact(
 
 @kernel
 def closed_step(
-    base: Array,
-    sample: int,
-    dt: float,
+    interval: Interval,
     elapsed: float,
     angle: float,
     velocity: float,
-    here: int,
-    sides: Sides,
+    side: float,
+    critical: float,
+    p: float,
     largest: float,
 ) -> Step:
     """
-    Follow an arc to its impact or to the end of the sample.
+    Follow an arc to its impact or to the end of an interval.
 
     Parameters
     ----------
-    base : ndarray, shape (n,)
-        a/g at the samples.
-    sample, dt, elapsed : int, float, float
-        Where the step begins: `elapsed` (s) into a sample of the length `dt`.
-    angle, velocity, here : float, float, int
-        θ (rad), ω (rad/s) and the side there.
-    sides : Sides
+    interval : Interval
+        Its weights are not used.
+    elapsed, angle, velocity : float
+        s into the interval; θ (rad) and ω (rad/s) there.
+    side, critical, p : float
+        ±1; α (rad) and p (rad/s) on that side.
     largest : float
         Largest |a/g| of the motion.
     """
-    critical, p, side = sides.critical[here], sides.p[here], 2.0 * here - 1.0
-    change = base[sample + 1] - base[sample]
+    dt, change = interval.length, interval.next_base - interval.base
     end = p * (dt - elapsed)
-    pull = critical * side + (base[sample] + change * (elapsed / dt))
+    pull = critical * side + (interval.base + change * (elapsed / dt))
     slope, scaled = change / (p * dt), velocity / p
     x = _impact(end, side, angle, scaled, pull, slope, critical, largest)
     end_angle, end_scaled = _state(min(x, end), angle, scaled, pull, slope)
@@ -181,7 +178,7 @@ def closed_step(
     # Only what is above α at the end of a sample can have passed for good.
     passed, height = np.nan, side * end_angle
     if height > critical and not side * angle > critical:
-        passed = dt * sample + elapsed + _passing(end, side, angle, scaled, pull, slope, critical) / p
+        passed = interval.begin + elapsed + _passing(end, side, angle, scaled, pull, slope, critical) / p
     never_returns = height > critical + largest and side * end_scaled > 0.0
     return Step(False, dt, end_angle, end_scaled * p, passed, never_returns)
 
@@ -197,30 +194,37 @@ def _passing(end: float, side: float, angle: float, scaled: float, pull: float, 
     return _crossing(low, end, angle, scaled, pull, slope, side * critical)
 
 
-class WholeSamples(NamedTuple):
+class WholeSample(NamedTuple):
     """
-    What it takes to pass over whole samples on either side, shapes (2, 8) and (2, 4).
+    What it takes to pass over whole samples on one side.
 
-    `factors`: coefficients of θ and ω/p over a sample, and of what α and a/g at its start and end take off each;
-    `bounds`: α, and what excludes an impact inside a sample, see `_march`.
+    Attributes
+    ----------
+    side, p, step, critical : float
+        ±1, p (rad/s), p dt and α.
+    factors : tuple of float
+        Coefficients of θ and ω/p over a sample, and of what α and a/g at its start and end take off each.
+    bounds : tuple of float
+        What excludes an impact inside a sample, see `_march`.
     """
 
-    factors: Array
-    bounds: Array
+    side: float
+    p: float
+    step: float
+    critical: float
+    factors: tuple[float, float, float, float, float, float, float, float]
+    bounds: tuple[float, float, float]
 
 
 @kernel
-def whole_samples(sides: Sides, dt: float, largest: float) -> WholeSamples:
-    """Prepare for samples of the length `dt` under a motion of at most `largest` a/g."""
-    factors, bounds = np.empty((2, 8)), np.empty((2, 4))
-    for k in range(2):
-        step, critical = sides.p[k] * dt, sides.critical[k]
-        rise, excess = _growth(step)
-        c, s, mean, mean_rate = 1.0 + rise, step + excess, excess / step, rise / step
-        factors[k] = np.array([c, s, rise * critical, s * critical, rise - mean, s - mean_rate, mean, mean_rate])
-        limit, most = 0.25 * step**2, critical + largest
-        bounds[k] = np.array([critical, limit, limit * most, 0.5 * step * most])
-    return WholeSamples(factors, bounds)
+def whole_sample(side: float, critical: float, p: float, dt: float, largest: float) -> WholeSample:
+    """Prepare one side for samples of the length `dt` under a motion of at most `largest` a/g."""
+    step = p * dt
+    rise, excess = _growth(step)
+    c, s, mean, mean_rate = 1.0 + rise, step + excess, excess / step, rise / step
+    factors = c, s, rise * critical, s * critical, rise - mean, s - mean_rate, mean, mean_rate
+    limit, most = 0.25 * step**2, critical + largest
+    return WholeSample(side, p, step, critical, factors, (limit, limit * most, 0.5 * step * most))
 
 
 @kernel
@@ -229,35 +233,34 @@ def undisturbed(
     velocities: Array,
     base: Array,
     sample: int,
-    here: int,
     is_resting: bool,
-    dt: float,
-    sides: Sides,
-    whole: WholeSamples,
+    thresholds: Pair,
+    whole: WholeSample,
 ) -> int:
-    """Pass over the samples in which nothing happens, filling in their state; return the last that is reached."""
+    """
+    Pass over the samples in which nothing happens, filling in their state; return the last that is reached.
+
+    `thresholds` are those of `level_uplift`, `whole` is that of the side on which the block rocks.
+    """
     if is_resting:
-        return _still(base, sample, sides.critical[0], sides.critical[1])
-    if sides.p[here] * dt < LONGEST_SAMPLE:
-        return _march(
-            angles, velocities, base, sample, 2.0 * here - 1.0, sides.p[here], whole.bounds[here], whole.factors[here]
-        )
-    return sample
+        return _still(base, sample, thresholds)
+    if whole.step >= LONGEST_SAMPLE:
+        return sample
+    return _march(angles, velocities, base, sample, whole)
 
 
 @kernel
-def _march(
-    angles: Array, velocities: Array, base: Array, sample: int, side: float, p: float, bounds: Array, factors: Array
-) -> int:
+def _march(angles: Array, velocities: Array, base: Array, sample: int, whole: WholeSample) -> int:
     """
     Propagate sample by sample for as long as no impact can hide inside one and |θ| ≤ α; return where that ends.
 
     A chord is above a curve by at most x²/8 times its largest second derivative: where both ends are higher than
     that, there is no impact between them; nor where it leaves the one end, or comes to the other, faster than
-    (α + largest) x/2. `factors` and `bounds` are those of `WholeSamples` on this side.
+    (α + largest) x/2.
     """
+    side, p, _step, critical, factors, bounds = whole
     c, s, held, held_rate, now, now_rate, then, then_rate = factors
-    critical, limit, floor, quick = bounds
+    limit, floor, quick = bounds
     height, climb = side * angles[sample], side * velocities[sample] / p
     back = side * p
     while sample < base.size - 1:
@@ -274,13 +277,13 @@ def _march(
 
 
 @kernel
-def _still(base: Array, sample: int, negative: float, positive: float) -> int:
+def _still(base: Array, sample: int, thresholds: Pair) -> int:
     """Last sample up to which a block at rest at `sample` stays so."""
-    if not -positive <= base[sample] <= negative:
-        return sample
-    while sample < base.size - 1 and -positive <= base[sample + 1] <= negative:
-        sample += 1
-    return sample
+    negative, positive = thresholds
+    for following in range(sample, base.size):
+        if not -positive <= base[following] <= negative:
+            return max(sample, following - 1)
+    return int(base.size - 1)
 
 
 @kernel

@@ -20,8 +20,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.kernel import kernel
-from colonnade.dynamics.plane.sides import Sides
-from colonnade.dynamics.plane.step import Step
+from colonnade.dynamics.plane.step import Interval, Step
 
 ORDER = 18
 """Most terms of a series; short steps need fewer."""
@@ -175,21 +174,23 @@ def by_series(vertical: Array, is_linearised: bool) -> BySeries:
 
 @kernel
 def series_step(
-    base: Array,
-    sample: int,
-    dt: float,
+    interval: Interval,
     elapsed: float,
     angle: float,
     velocity: float,
-    here: int,
-    sides: Sides,
+    side: float,
+    critical: float,
+    p: float,
     series: BySeries,
 ) -> Step:
-    """Follow an arc by one series: to its impact, to the end of the sample or as far as the series goes."""
-    critical, p, side = sides.critical[here], sides.p[here], 2.0 * here - 1.0
-    a0, change = base[sample], base[sample + 1] - base[sample]
-    u0, u1 = 1.0 + series.vertical[sample], 1.0 + series.vertical[sample + 1]
-    bound = LARGEST_SINE * max(abs(u0), abs(u1)) + max(abs(a0), abs(base[sample + 1]))
+    """
+    Follow an arc by one series: to its impact, to the end of the interval or as far as the series goes.
+
+    Parameters as for `closed_step`, and `series`.
+    """
+    dt, a0, u0, u1 = interval.length, interval.base, interval.weight, interval.next_weight
+    change = interval.next_base - a0
+    bound = LARGEST_SINE * max(abs(u0), abs(u1)) + max(abs(a0), abs(interval.next_base))
 
     # The series of ψ = α s − θ over a step on which it converges quickly.
     remaining, scaled = p * (dt - elapsed), side * velocity / p
@@ -221,7 +222,7 @@ def series_step(
         return Step(True, elapsed + x / p, 0.0, side * climb * p, np.nan, False)
     passed = np.nan
     if value > critical and not before > critical:
-        passed = dt * sample + elapsed + _passing(height, stop, critical) / p
+        passed = interval.begin + elapsed + _passing(height, stop, critical) / p
     reached = dt if step == remaining else elapsed + step / p
     return Step(False, reached, side * value, side * climb * p, passed, value >= 0.5 * pi)
 

@@ -10,10 +10,11 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.dynamics.kernel import kernel
 from colonnade.dynamics.plane.impact import rebound, survives_free_rocking
-from colonnade.dynamics.plane.linear import closed_step, fall, undisturbed, whole_samples
+from colonnade.dynamics.plane.linear import closed_step, fall, undisturbed, whole_sample
 from colonnade.dynamics.plane.nonlinear import BySeries, series_step
 from colonnade.dynamics.plane.sides import Sides
-from colonnade.dynamics.plane.uplift import level_uplift, sampled_uplift, uplift_threshold
+from colonnade.dynamics.plane.step import Interval
+from colonnade.dynamics.plane.uplift import Pair, level_uplift, sampled_uplift, uplift_threshold
 
 
 class March(NamedTuple):
@@ -29,13 +30,6 @@ class March(NamedTuple):
     is_resting: bool
     passed: float
     is_past: bool
-
-
-class Impacts(NamedTuple):
-    """Time (s) and angular velocity before (rad/s) of the impacts so far, the first `impact_count` of shape (m, 2)."""
-
-    record: Array
-    impact_count: int
 
 
 @kernel
@@ -68,30 +62,50 @@ def propagate(
     """
     angles, velocities = np.zeros(base.size), np.zeros(base.size)
     angles[0], velocities[0] = angle, velocity
-    march, impacts = _start(angle, velocity, sides), Impacts(np.empty((64, 2)), 0)
-    linearised, largest = _is_linearised(series), max(base.max(), -base.min())
-    thresholds = np.array([uplift_threshold(critical, linearised) for critical in sides.critical])
-    whole = whole_samples(sides, dt, largest)
+    march, record, count = _start(angle, velocity, sides), np.empty((64, 2)), 0
+    linearised, largest = _is_linearised(series), _largest(base)
+    (left, right), p = sides.critical, sides.p
+    thresholds = uplift_threshold(left, linearised), uplift_threshold(right, linearised)
+    whole = whole_sample(-1.0, left, p[0], dt, largest), whole_sample(1.0, right, p[1], dt, largest)
     sample = 0
     while sample < base.size - 1 and not march.is_past:
         # In closed form, samples in which nothing happens are passed over at once.
         if series is None:
-            reached = undisturbed(angles, velocities, base, sample, march.here, march.is_resting, dt, sides, whole)
+            reached = undisturbed(angles, velocities, base, sample, march.is_resting, thresholds, whole[march.here])
             if reached > sample:
                 sample = reached
                 march = March(
                     angles[sample], velocities[sample], march.here, march.is_resting, march.passed, march.is_past
                 )
                 continue
-        # Something may happen inside this sample: event by event.
-        march, impacts = _through(march, impacts, base, dt, sample, sides, thresholds, largest, series)
+        # Something may happen before the next one: impact by impact.
+        interval, elapsed = _interval(base, dt, sample, series), 0.0
+        while elapsed < dt and not march.is_past:
+            march, elapsed, has_landed = _to_impact(
+                march, elapsed, interval, sides.critical, sides.p, thresholds, largest, series
+            )
+            if has_landed:
+                if count == record.shape[0]:
+                    record = np.concatenate((record, np.empty_like(record)))
+                record[count, 0], record[count, 1] = interval.begin + elapsed, march.velocity
+                count += 1
+                march = _after_impact(march, elapsed, interval, sides, linearised)
         sample += 1
         angles[sample], velocities[sample] = march.angle, march.velocity
     overturning_time = _overturning_time(march, dt * (base.size - 1), sides, linearised)
     if march.is_past:
         _lay(angles, velocities, march.here, base, dt, sample, sides, series)
-    times, before = impacts.record[: impacts.impact_count].T
+    times, before = record[:count].T
     return angles, velocities, times.copy(), before.copy(), overturning_time
+
+
+@kernel
+def _largest(base: Array) -> float:
+    """Largest magnitude, in one pass."""
+    largest = 0.0
+    for value in base:
+        largest = max(largest, abs(value))
+    return largest
 
 
 @kernel
@@ -110,72 +124,72 @@ def _is_linearised(series: BySeries | None) -> bool:
 
 
 @kernel
-def _through(
+def _interval(base: Array, dt: float, sample: int, series: BySeries | None) -> Interval:
+    """Give the motion from a sample to the next."""
+    if series is None:
+        return Interval(dt * sample, dt, base[sample], base[sample + 1], 1.0, 1.0)
+    lift = series.vertical
+    return Interval(dt * sample, dt, base[sample], base[sample + 1], 1.0 + lift[sample], 1.0 + lift[sample + 1])
+
+
+@kernel
+def _to_impact(
     march: March,
-    impacts: Impacts,
-    base: Array,
-    dt: float,
-    sample: int,
-    sides: Sides,
-    thresholds: Array,
+    elapsed: float,
+    interval: Interval,
+    critical: Pair,
+    p: Pair,
+    thresholds: Pair,
     largest: float,
     series: BySeries | None,
-) -> tuple[March, Impacts]:
-    """Follow the block to the end of a sample, or until it cannot come back."""
+) -> tuple[March, float, bool]:
+    """
+    Follow the block to its next impact, to the end of the interval, or until it cannot come back.
+
+    Returns the state, before the impact if there is one; when in the interval, s; and whether there is an impact.
+    """
     angle, velocity, here, is_resting, passed, is_past = march
-    record, count = impacts
-    elapsed = 0.0
-    while elapsed < dt and not is_past:
+    while elapsed < interval.length and not is_past:
         # At rest, up to the uplift.
         if is_resting:
-            instant, side = _uplift(elapsed, base, dt, sample, thresholds, series)
-            if instant == np.inf:
+            elapsed, side = _uplift(elapsed, interval, thresholds, series)
+            if elapsed == np.inf:
                 break
-            elapsed, here, is_resting = instant, side, False
-            if elapsed >= dt:
+            here, is_resting = side, False
+            if elapsed >= interval.length:
                 break
 
         # One step, as far as the model's own arc goes.
+        side = 2.0 * here - 1.0
         if series is None:
-            step = closed_step(base, sample, dt, elapsed, angle, velocity, here, sides, largest)
+            step = closed_step(interval, elapsed, angle, velocity, side, critical[here], p[here], largest)
         else:
-            step = series_step(base, sample, dt, elapsed, angle, velocity, here, sides, series)
+            step = series_step(interval, elapsed, angle, velocity, side, critical[here], p[here], series)
         has_landed, elapsed, angle, velocity, new_passed, is_past = step
         if not np.isnan(new_passed):
             passed = new_passed
 
-        # The impact: what it leaves, and on which side the block goes on.
         if has_landed:
-            if count == record.shape[0]:
-                record = np.concatenate((record, np.empty_like(record)))
-            record[count, 0], record[count, 1] = dt * sample + elapsed, velocity
-            count += 1
-            share = elapsed / dt
-            pull = base[sample] + (base[sample + 1] - base[sample]) * share
-            weight = _weight(series, sample, share)
-            velocity, is_resting = rebound(velocity, here, weight, pull, sides, _is_linearised(series))
-            here = 1 - here
-    return March(angle, velocity, here, is_resting, passed, is_past), Impacts(record, count)
+            return March(angle, velocity, here, is_resting, passed, is_past), elapsed, True
+    return March(angle, velocity, here, is_resting, passed, is_past), elapsed, False
 
 
 @kernel
-def _weight(series: BySeries | None, sample: int, share: float) -> float:
-    """Return 1 + v/g of the base, a share of a sample on."""
-    if series is None:
-        return 1.0
-    now, then = 1.0 + series.vertical[sample], 1.0 + series.vertical[sample + 1]
-    return float(now + (then - now) * share)
+def _after_impact(march: March, elapsed: float, interval: Interval, sides: Sides, linearised: bool) -> March:
+    """Give what an impact leaves, and on which side the block goes on."""
+    share = elapsed / interval.length
+    pull = interval.base + (interval.next_base - interval.base) * share
+    weight = interval.weight + (interval.next_weight - interval.weight) * share
+    leaving, is_resting = rebound(march.velocity, march.here, weight, pull, sides, linearised)
+    return March(march.angle, leaving, 1 - march.here, is_resting, march.passed, march.is_past)
 
 
 @kernel
-def _uplift(
-    elapsed: float, base: Array, dt: float, sample: int, thresholds: Array, series: BySeries | None
-) -> tuple[float, int]:
-    """Find when after `elapsed` a block at rest uplifts within a sample, and on which side; (inf, 0) where it stays."""
-    now, change = base[sample], base[sample + 1] - base[sample]
+def _uplift(elapsed: float, interval: Interval, thresholds: Pair, series: BySeries | None) -> tuple[float, int]:
+    """Find when after `elapsed` a block at rest uplifts in an interval, and to which side; (inf, 0) if it stays."""
+    _begin, dt, now, then, u0, u1 = interval
     if series is None:
-        return level_uplift(elapsed, dt, now, change / dt, thresholds)
-    then, u0, u1 = now + change, 1.0 + series.vertical[sample], 1.0 + series.vertical[sample + 1]
+        return level_uplift(elapsed, dt, now, (then - now) / dt, thresholds)
     first = (now - thresholds[0] * u0, -now - thresholds[1] * u0)
     last = (then - thresholds[0] * u1, -then - thresholds[1] * u1)
     return sampled_uplift(elapsed, dt, first, last)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.restitution_law import RestitutionLaw, restitution_table
@@ -13,14 +11,14 @@ from colonnade.dynamics.restitution_law import RestitutionLaw, restitution_table
 
 class Sides(NamedTuple):
     """
-    The block on its sides θ < 0 and θ > 0: α (rad) and p (rad/s), shape (2,); e as of `restitution_of`.
+    The block on its sides θ < 0 and θ > 0: α (rad), p (rad/s); e as of `restitution_of`.
 
     After an impact whose next arc, under the base acceleration of that instant, would not rise above `rest_angle` α,
     the block is at rest until the base acceleration uplifts it again.
     """
 
-    critical: Array
-    p: Array
+    critical: tuple[float, float]
+    p: tuple[float, float]
     restitution: Array
     speeds: Array
     rest_angle: float
@@ -29,5 +27,6 @@ class Sides(NamedTuple):
 def sides_of(block: Block, restitution: tuple[float, float] | RestitutionLaw, rest_angle: float) -> Sides:
     """Put a block, its restitution and its rule of rest into the form that the kernels take."""
     speeds, values = restitution_table(restitution)
-    critical = np.array([side.critical_angle for side in block.sides])
-    return Sides(critical, np.array([block.side_p(side) for side in block.sides]), values, speeds, rest_angle)
+    left, right = block.sides
+    critical, p = (left.critical_angle, right.critical_angle), (block.side_p(left), block.side_p(right))
+    return Sides(critical, p, values, speeds, rest_angle)

@@ -6,7 +6,6 @@ from math import asin, pi, sin, tan
 
 import numpy as np
 
-from colonnade.arrays import Array
 from colonnade.dynamics.kernel import kernel
 from colonnade.dynamics.plane.envelope import Piece, level_at
 
@@ -23,7 +22,7 @@ def uplift_threshold(critical: float, linearised: bool) -> float:
 
 
 @kernel
-def level_uplift(start: float, end: float, base: float, rate: float, thresholds: Array) -> tuple[float, int]:
+def level_uplift(start: float, end: float, base: float, rate: float, thresholds: Pair) -> tuple[float, int]:
     """
     Find when in [start, end] a block at rest on a base that moves along x only uplifts, and on which side.
 
