@@ -46,6 +46,10 @@ def kernel(function: Function) -> Function:
     A kernel touches no Python object, so it lets other threads run. Without a writable folder (a read-only installation
     without a home) it is compiled again in each process.
 
+    It still counts references to arrays, which once took a quarter of a run. numba leaves that out of kernels of simple
+    paths: they take apart a tuple with arrays in their first line, leave a loop by `return`, and use `of_side` for what
+    depends on the side. Numbers in place of arrays are best.
+
     numba sees when a kernel's own file changes, but not when a kernel that it calls changes in another file. So the
     machine code is kept in a folder named by the hash of all sources that kernels are made of.
     """

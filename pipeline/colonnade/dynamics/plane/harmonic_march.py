@@ -13,7 +13,7 @@ from colonnade.dynamics.plane.envelope import Piece, level_at, piece_between
 from colonnade.dynamics.plane.harmonic_linear import State, closed_arc
 from colonnade.dynamics.plane.harmonic_nonlinear import Series, series_arc
 from colonnade.dynamics.plane.impact import comes_to_rest, holding_moment, restitution_of, survives_free_rocking
-from colonnade.dynamics.plane.sides import Sides
+from colonnade.dynamics.plane.sides import Pair, Sides, of_side
 from colonnade.dynamics.plane.uplift import harmonic_uplift, uplift_threshold
 
 Triple = tuple[float, float, float]
@@ -148,18 +148,18 @@ def _through(
 
         # One step: as far as the model's own arc goes, to the next sample or to the impact.
         stop = min(part.end, taken * watch.interval) if taken < watch.samples.shape[0] else part.end
-        begun, remaining = now, sides.p[here] * (stop - now)
+        begun, remaining = now, of_side(sides.p, here) * (stop - now)
         is_watched = now >= watch.since and not is_past
         is_top_wanted = is_watched and peak <= watch.floor
         landed, x, top, state = _arc(state, side, sides, forcing, now, part, smooth, remaining, is_top_wanted, work)
         if is_watched:
-            peak = max(peak, top / sides.critical[here])
-        now = stop if x == remaining else now + x / sides.p[here]
+            peak = max(peak, top / of_side(sides.critical, here))
+        now = stop if x == remaining else now + x / of_side(sides.p, here)
 
         # The impact: what it leaves, and on which side the block goes on.
         if landed:
             if count < watch.impacts.shape[0]:
-                watch.impacts[count, 0], watch.impacts[count, 1] = now, side * state[1] * sides.p[here]
+                watch.impacts[count, 0], watch.impacts[count, 1] = now, side * state[1] * of_side(sides.p, here)
             count += 1
             sine = state[2] if linearised else sin(forcing[0] * now + forcing[1])
             pull = level_at(part.piece, now - part.begin)[0] * sine
@@ -169,12 +169,12 @@ def _through(
 
         # Past return, only its samples are left to be followed, until it lies.
         most = level_at(part.piece, begun - part.begin)[0] if part.is_fall else forcing[2]
-        is_past = is_past or _never_returns(state[0] - sides.critical[here], state[1], most, linearised)
+        is_past = is_past or _never_returns(state[0] - of_side(sides.critical, here), state[1], most, linearised)
         has_ended = is_past and (taken >= watch.samples.shape[0] or state[0] >= 0.5 * pi)
         if has_ended:
             watch.samples[taken:, 0] = side * 0.5 * pi
         elif taken < watch.samples.shape[0] and now >= taken * watch.interval:
-            watch.samples[taken, 0], watch.samples[taken, 1] = side * state[0], side * state[1] * sides.p[here]
+            watch.samples[taken, 0], watch.samples[taken, 1] = side * state[0], side * state[1] * of_side(sides.p, here)
             taken += 1
     return March(state[0], state[1], side, is_resting, is_past, has_ended, peak, count, taken)
 
@@ -187,7 +187,7 @@ def _phased(height: float, rate: float, forcing: Triple, now: float) -> State:
 
 
 @kernel
-def _uplift(now: float, part: Part, forcing: Triple, critical: Array, linearised: bool) -> tuple[float, float]:
+def _uplift(now: float, part: Part, forcing: Triple, critical: Pair, linearised: bool) -> tuple[float, float]:
     """Find when a block at rest uplifts before the end of a part, and to which side; (inf, 0) where it stays."""
     negative, positive = uplift_threshold(critical[0], linearised), uplift_threshold(critical[1], linearised)
     return harmonic_uplift(now, part.end, part.begin, forcing[0], forcing[1], part.piece, negative, positive)
@@ -208,7 +208,7 @@ def _arc(
 ) -> tuple[bool, float, float, State]:
     """Follow an arc by the model's own kernel; results as for `closed_arc`."""
     here, since = 1 if side > 0.0 else 0, now - part.begin
-    critical, p, omega = sides.critical[here], sides.p[here], forcing[0]
+    critical, p, omega = of_side(sides.critical, here), of_side(sides.p, here), forcing[0]
     if work is None:
         return closed_arc(state, side, critical, p, omega, part.piece, since, smooth, remaining, is_top_wanted)
     height, rate, sine, cosine = state
@@ -222,11 +222,12 @@ def _arc(
 @kernel
 def _rebound(rate: float, here: int, pull: float, sides: Sides, linearised: bool) -> tuple[float, bool]:
     """Give dh/dx after an impact that ends an arc on side `here`, and whether the block then rests; a/g is `pull`."""
-    critical, p, there = sides.critical, sides.p, 1 - here
-    e = restitution_of(sides.restitution, sides.speeds, here, rate * p[here])
-    leaving = max(0.0, -e * rate * p[here] / p[there])
-    holding = holding_moment(critical[there], 1.0, (2.0 * there - 1.0) * pull, linearised)
-    return leaving, comes_to_rest(0.5 * leaving * leaving, critical[there], holding, sides.rest_angle)
+    there, (_, _, restitution, speeds, rest_angle) = 1 - here, sides
+    critical, p = of_side(sides.critical, there), of_side(sides.p, here)
+    e = restitution_of(restitution, speeds, here, rate * p)
+    leaving = max(0.0, -e * rate * p / of_side(sides.p, there))
+    holding = holding_moment(critical, 1.0, (2.0 * there - 1.0) * pull, linearised)
+    return leaving, comes_to_rest(0.5 * leaving * leaving, critical, holding, rest_angle)
 
 
 @kernel

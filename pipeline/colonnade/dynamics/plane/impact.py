@@ -8,7 +8,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.kernel import kernel
-from colonnade.dynamics.plane.sides import Sides
+from colonnade.dynamics.plane.sides import Sides, of_side
 
 
 @kernel
@@ -55,12 +55,12 @@ def rebound(
 
     `weight` is 1 + v/g and `pull` a/g of the base at that instant.
     """
-    critical, p, restitution, speeds, rest_angle = sides
-    there = 1 - here
+    there, (_, _, restitution, speeds, rest_angle) = 1 - here, sides
+    critical, p = of_side(sides.critical, there), of_side(sides.p, there)
     leaving = restitution_of(restitution, speeds, here, velocity) * velocity
-    holding = holding_moment(critical[there], weight, (2.0 * there - 1.0) * pull, linearised)
-    risen = leaving * leaving / (2.0 * p[there] * p[there])
-    if comes_to_rest(risen, critical[there], holding, rest_angle):
+    holding = holding_moment(critical, weight, (2.0 * there - 1.0) * pull, linearised)
+    risen = leaving * leaving / (2.0 * p * p)
+    if comes_to_rest(risen, critical, holding, rest_angle):
         return 0.0, True
     return leaving, False
 
@@ -79,20 +79,22 @@ def survives_free_rocking(height: float, rate: float, here: int, sides: Sides, l
     `height` is |θ|, `rate` its velocity over p. What is left after one impact decides both sides: every later impact
     only takes energy.
     """
-    there, critical, p = 1 - here, sides.critical, sides.p
+    critical, p, restitution, speeds, _rest_angle = sides
+    alpha, other_alpha = of_side(critical, here), of_side(critical, 1 - here)
+    p_here, p_there = of_side(p, here), of_side(p, 1 - here)
     if linearised:
         # h − α = C eˣ + D e⁻ˣ: outwards for good if C > 0; else the energy gives the velocity of the impact.
-        beyond = height - critical[here]
+        beyond = height - alpha
         if beyond + rate > 0.0:
             return False
-        arriving = p[here] * sqrt(max(rate * rate - beyond * beyond + critical[here] ** 2, 0.0))
-        after = restitution_of(sides.restitution, sides.speeds, here, arriving) * arriving
-        return bool(after <= p[there] * critical[there])
+        arriving = p_here * sqrt(max(rate * rate - beyond * beyond + alpha**2, 0.0))
+        after = restitution_of(restitution, speeds, here, arriving) * arriving
+        return bool(after <= p_there * other_alpha)
     # The energy shows whether the block passes α, outwards, or from beyond it back inwards.
-    energy = 0.5 * rate * rate + _hill(critical[here] - height)
-    passed = height > critical[here]
+    energy = 0.5 * rate * rate + _hill(alpha - height)
+    passed = height > alpha
     if (passed and (rate >= 0.0 or energy <= 0.0)) or (not passed and rate > 0.0 and energy > 0.0):
         return False
-    arriving = p[here] * sqrt(max(2.0 * (energy - _hill(critical[here])), 0.0))
-    after = restitution_of(sides.restitution, sides.speeds, here, arriving) * arriving / p[there]
-    return bool(0.5 * after * after + _hill(critical[there]) <= 0.0)
+    arriving = p_here * sqrt(max(2.0 * (energy - _hill(alpha)), 0.0))
+    after = restitution_of(restitution, speeds, here, arriving) * arriving / p_there
+    return bool(0.5 * after * after + _hill(other_alpha) <= 0.0)

@@ -21,8 +21,8 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.kernel import kernel
+from colonnade.dynamics.plane.sides import Pair
 from colonnade.dynamics.plane.step import Interval, Step
-from colonnade.dynamics.plane.uplift import Pair
 
 LONGEST_SAMPLE = 0.5
 """In x = p t: the bounds of longer samples exclude too few impacts for whole samples to be tried."""

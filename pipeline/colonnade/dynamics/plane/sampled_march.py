@@ -12,9 +12,9 @@ from colonnade.dynamics.kernel import kernel
 from colonnade.dynamics.plane.impact import rebound, survives_free_rocking
 from colonnade.dynamics.plane.linear import closed_step, fall, undisturbed, whole_sample
 from colonnade.dynamics.plane.nonlinear import BySeries, series_step
-from colonnade.dynamics.plane.sides import Sides
+from colonnade.dynamics.plane.sides import Pair, Sides, of_side
 from colonnade.dynamics.plane.step import Interval
-from colonnade.dynamics.plane.uplift import Pair, level_uplift, sampled_uplift, uplift_threshold
+from colonnade.dynamics.plane.uplift import level_uplift, sampled_uplift, uplift_threshold
 
 
 class March(NamedTuple):
@@ -112,7 +112,7 @@ def _largest(base: Array) -> float:
 def _start(angle: float, velocity: float, sides: Sides) -> March:
     """Begin at rest or on the side to which the block leans or moves; it may lean beyond α."""
     here = 1 if angle > 0.0 or (angle == 0.0 and velocity > 0.0) else 0
-    passed = 0.0 if abs(angle) > sides.critical[here] else np.nan
+    passed = 0.0 if abs(angle) > of_side(sides.critical, here) else np.nan
     return March(angle, velocity, here, angle == 0.0 and velocity == 0.0, passed, False)
 
 
@@ -152,19 +152,19 @@ def _to_impact(
     while elapsed < interval.length and not is_past:
         # At rest, up to the uplift.
         if is_resting:
-            elapsed, side = _uplift(elapsed, interval, thresholds, series)
+            elapsed, there = _uplift(elapsed, interval, thresholds, series)
             if elapsed == np.inf:
                 break
-            here, is_resting = side, False
+            here, is_resting = there, False
             if elapsed >= interval.length:
                 break
 
         # One step, as far as the model's own arc goes.
-        side = 2.0 * here - 1.0
+        side, alpha, p_here = 2.0 * here - 1.0, of_side(critical, here), of_side(p, here)
         if series is None:
-            step = closed_step(interval, elapsed, angle, velocity, side, critical[here], p[here], largest)
+            step = closed_step(interval, elapsed, angle, velocity, side, alpha, p_here, largest)
         else:
-            step = series_step(interval, elapsed, angle, velocity, side, critical[here], p[here], series)
+            step = series_step(interval, elapsed, angle, velocity, side, alpha, p_here, series)
         has_landed, elapsed, angle, velocity, new_passed, is_past = step
         if not np.isnan(new_passed):
             passed = new_passed
@@ -199,12 +199,12 @@ def _uplift(elapsed: float, interval: Interval, thresholds: Pair, series: BySeri
 def _overturning_time(march: March, end: float, sides: Sides, linearised: bool) -> float:
     """Give when the block passed α for good, under the motion or left to itself where that ends; NaN if it stands."""
     side = 2.0 * march.here - 1.0
-    height, rate = side * march.angle, side * march.velocity / sides.p[march.here]
+    height, rate = side * march.angle, side * march.velocity / of_side(sides.p, march.here)
     if march.is_past:
         return march.passed
     if survives_free_rocking(height, rate, march.here, sides, linearised):
         return np.nan
-    return march.passed if height > sides.critical[march.here] else end
+    return march.passed if height > of_side(sides.critical, march.here) else end
 
 
 @kernel
@@ -220,6 +220,6 @@ def _lay(
 ) -> None:
     """Fill in the samples of a block past return: in closed form it goes on until it lies, by series it lies."""
     if series is None:
-        sample = fall(angles, velocities, sample, base, dt, here, sides.critical[here], sides.p[here])
+        sample = fall(angles, velocities, sample, base, dt, here, of_side(sides.critical, here), of_side(sides.p, here))
     angles[sample:] = (2.0 * here - 1.0) * 0.5 * pi
     velocities[sample:] = 0.0

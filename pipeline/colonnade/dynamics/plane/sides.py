@@ -6,7 +6,11 @@ from typing import NamedTuple
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
+from colonnade.dynamics.kernel import kernel
 from colonnade.dynamics.restitution_law import RestitutionLaw, restitution_table
+
+Pair = tuple[float, float]
+"""Of the side θ < 0 and of θ > 0."""
 
 
 class Sides(NamedTuple):
@@ -17,14 +21,20 @@ class Sides(NamedTuple):
     the block is at rest until the base acceleration uplifts it again.
     """
 
-    critical: tuple[float, float]
-    p: tuple[float, float]
+    critical: Pair
+    p: Pair
     restitution: Array
     speeds: Array
     rest_angle: float
 
 
-def sides_of(block: Block, restitution: tuple[float, float] | RestitutionLaw, rest_angle: float) -> Sides:
+@kernel
+def of_side(pair: Pair, here: int) -> float:
+    """Choose by side; compiled, an index that is not constant branches and may raise."""
+    return pair[1] if here else pair[0]
+
+
+def sides_of(block: Block, restitution: Pair | RestitutionLaw, rest_angle: float) -> Sides:
     """Put a block, its restitution and its rule of rest into the form that the kernels take."""
     speeds, values = restitution_table(restitution)
     left, right = block.sides

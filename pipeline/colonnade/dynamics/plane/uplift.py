@@ -8,8 +8,7 @@ import numpy as np
 
 from colonnade.dynamics.kernel import kernel
 from colonnade.dynamics.plane.envelope import Piece, level_at
-
-Pair = tuple[float, float]
+from colonnade.dynamics.plane.sides import Pair
 
 HALVINGS = 60
 """Of an interval: down to rounding."""
