@@ -8,7 +8,6 @@ import rich_click as click
 
 from colonnade.cli.console import say, show_json, show_table
 from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, results_option, specimen_option
-from colonnade.store.records.wording import probability
 
 HEADS = ("specimen", "next", "risk", "tests left", "why")
 
@@ -30,6 +29,7 @@ HEADS = ("specimen", "next", "risk", "tests left", "why")
 @json_option
 def next_command(campaign: Path, specimen: tuple[str, ...], results: Path | None, as_json: bool) -> int:
     """Show the advice; return the exit code."""
+    from colonnade.store.records.wording import probability
     from colonnade.workflow.advising.next import advise
 
     found = advise(campaign, specimens=specimen, results=results)
