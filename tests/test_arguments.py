@@ -211,7 +211,7 @@ CALLS = {
         colonnade.run,
         {"campaign": "nowhere"},
         {"campaign": "path", "until": "name", "start_from": "name", "only": "ids", "workers": "whole"}
-        | {"scheduler": "name", "verify": "flag", "results": "path", "progress": "function"},
+        | {"scheduler": "name", "verify": "flag", "awaiting": "flag", "results": "path", "progress": "function"},
     ),
     "stability_map": Call(
         colonnade.stability_map,

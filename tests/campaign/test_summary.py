@@ -44,6 +44,7 @@ def test_the_contracts_example_is_read_and_written_unchanged_but_for_later_addit
     test["predicted"]["nonlinear"] = test["predicted"]["contact"] = {
         "outcome": None, "peak_ratio": None, "nrmse": None,
     }  # fmt: skip
+    expected["forecasts"] = test["forecast"] = None
     expected["specimens"]["prism"] |= dict.fromkeys(LATER["specimen"])
     test |= dict.fromkeys(LATER["test"])
     for prediction in test["predicted"].values():
