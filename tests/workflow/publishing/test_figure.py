@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import shutil
 from dataclasses import replace
 
 import pytest
 
+from colonnade.campaign import load
 from colonnade.errors import CampaignError
 from colonnade.workflow.publishing.figure import chosen, draw
 
@@ -73,6 +75,8 @@ def test_what_a_failed_test_cannot_show_is_said_with_the_reason(campaign):
         draw(campaign, *chosen(campaign, "angle", "sine-dead"), None)
 
 
-def test_before_any_run_it_says_to_run_first(empty_campaign):
+def test_before_any_run_it_says_to_run_first(empty_campaign, tmp_path):
+    fresh = tmp_path / "fresh"
+    shutil.copytree(empty_campaign[1].folder, fresh, ignore=shutil.ignore_patterns("processed", "report"))
     with pytest.raises(CampaignError, match="nothing has been run yet; run `colonnade run` first"):
-        draw(empty_campaign[0], *chosen(empty_campaign[0], "angle", "span-2.0"), None)
+        draw(load(fresh), *chosen(load(fresh), "angle", "span-2.0"), None)
