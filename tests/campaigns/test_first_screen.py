@@ -151,7 +151,7 @@ MISTAKES = {
     ),
 }
 
-SOUND = {"wrapped rows", "wrong component", "copied folder"}
+SOUND = {"wrapped rows", "copied folder"}
 """Their free vibration is sound, so that its e takes its time and adds nothing: whole only in `make study`."""
 
 
