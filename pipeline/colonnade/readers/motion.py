@@ -73,8 +73,8 @@ def read_motion(
     recording = registry.read(path) if layout is None else registry.read(path, "delimited", {"layout": layout})
     channel, step = _column(recording, column)
     if recording.format != "delimited":
-        for warned in recording.warnings:
-            warnings.warn(f"{path.name}: {warned}", stacklevel=2)
+        for told in recording.warnings:
+            warnings.warn(f"{path.name}: {told}", stacklevel=2)
         return _motion(recording, channel.values, unit or channel.unit, dt or step)
     claims = read_header(path, DelimitedOptions()).claims
     return _motion(recording, channel.values, unit or channel.unit or claims.unit, dt or step or claims.step)
@@ -94,9 +94,9 @@ def _motion(recording: Recording, values: Array, unit: str | None, step: float |
             f'Give it in seconds, for example read_motion("{name}", dt=0.02).'
         )
     if not np.isfinite(values).all():
-        warned = "; ".join(recording.warnings) or f"sample {int(np.argmin(np.isfinite(values))) + 1}"
+        told = "; ".join(recording.warnings) or f"sample {int(np.argmin(np.isfinite(values))) + 1}"
         raise ReadError(
-            f"{name}: accelerations are missing ({warned}). A base motion must have no gaps; repair the file."
+            f"{name}: accelerations are missing ({told}). A base motion must have no gaps; repair the file."
         )
     try:
         return Motion(values * units.factor_to_si(unit, "acceleration"), step)

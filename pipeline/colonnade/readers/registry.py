@@ -163,9 +163,9 @@ def check_options(format: Format, options: Mapping[str, Any], where: str) -> Bas
 def _request(
     format: Format, path: Path, options: BaseModel, within: Path | None, window: Window | None = None
 ) -> Request:
-    given = options.model_dump(mode="json", exclude_unset=True)
+    told = options.model_dump(mode="json", exclude_unset=True)
     folder = path.resolve().parent if within is None else within.resolve()
-    return Request("recording", str(path.absolute()), str(folder), format.name, given, window, bounds_of(path))
+    return Request("recording", str(path.absolute()), str(folder), format.name, told, window, bounds_of(path))
 
 
 def _guarded(format: Format, path: Path, options: BaseModel, window: Window | None) -> Recording:

@@ -17,7 +17,7 @@ MOST_POWER = 0.9
 """Share of a motion's power below the frequency up to which it is compared."""
 
 FEWEST_SAMPLES = 8
-"""Of a motion or a record; a shorter one is not judged."""
+"""Of a motion or a record; in less nothing is told."""
 
 OVERSAMPLING = 8.0
 """Samples a period of that frequency, when time scales are tried."""
@@ -47,7 +47,7 @@ OTHERWISE = 0.7
 """Of a stretch's own motion; one that differs by less follows it, if badly."""
 
 LEAST_DIFFERENCE = 0.1
-"""Of the motion's largest acceleration; a smaller one is not reported."""
+"""Of the motion's largest acceleration; a smaller one is not told."""
 
 LEAST_ENERGY = 0.01
 """Of the motion, that has to lie outside of the record before it is said to be cut off."""
@@ -262,14 +262,14 @@ def _differences(record: Series, name: str, motion: Series, found: Match, scale:
     begin = round(found.start / interval)
     inside = slice(max(-begin, 0), min(other.size, one.size - begin))
     energy = np.cumsum(other**2) / float(other @ other)
-    problems = []
+    told = []
     before, after = float(energy[inside.start]) if inside.start else 0.0, 1 - float(energy[inside.stop - 1])
     if before > LEAST_ENERGY:
         missing = f'the first {inside.start * interval:.3g} s of "{name}" are missing from the record'
-        problems.append(warning("cut motion", missing))
+        told.append(warning("cut motion", missing))
     if after > LEAST_ENERGY:
         missing = f'the last {(other.size - inside.stop) * interval:.3g} s of "{name}" are missing from the record'
-        problems.append(warning("cut motion", missing))
+        told.append(warning("cut motion", missing))
     given = other[inside]
     recorded = one[inside.start + begin : inside.stop + begin]
     size = max(int(STRETCH * scale / interval), 4)
@@ -283,14 +283,14 @@ def _differences(record: Series, name: str, motion: Series, found: Match, scale:
     odd &= off > OTHERWISE * due
     if odd.any():
         low, high = ((starts[np.flatnonzero(odd)[end]] + inside.start) * interval / scale for end in (0, -1))
-        problems.append(
+        told.append(
             warning(
                 "cut motion",
                 f'the table did not move as "{name}" from {low:.3g} to {high + STRETCH:.3g} s of its own '
                 "time: a part is missing or differs",
             )
         )
-    return problems
+    return told
 
 
 def _usual_gain(recorded: Array, given: Array, starts: NDArray[np.intp], size: int) -> float:

@@ -180,7 +180,7 @@ def check_spikes(time: Array, values: Array, *, threshold: float) -> Verdict:
         return Verdict.good(values.size)
     every = max(1, (values.size - 2) // ENOUGH)
     usual = 1.4826 * float(np.median(_bend(filled[:-2:every], filled[1:-1:every], filled[2::every])))
-    # A coarse converter gives mostly zeros: its step is then the least difference that it shows.
+    # A coarse converter gives mostly zeros: its step is then the least that can be told.
     typical = max(usual, _smallest_step(filled, usual))
     # A spike bends the line through the two samples before it by more than this; few others do.
     doubtful = _bent(filled, threshold * typical) + 2

@@ -16,7 +16,7 @@ ROUNDING = 0.75
 """Of the last digit; times that lie closer to an even clock than this were rounded (or cut off) from it."""
 
 COARSEST = 0.01
-"""Of a record's length; times of fewer digits do not show its interval."""
+"""Of a record's length; from times of fewer digits its interval cannot be told."""
 
 EXACT = 1e-7
 """Of an interval; times that lie closer than this to an even clock are on it."""

@@ -55,7 +55,7 @@ def test_all_that_a_recording_holds_comes_through() -> None:
     whole = Recording(Path("r"), "odd", channels, start, ("a",), ("b",), hint="c", left_out=(("d", "e"),))
     assert {field.name for field in fields(Recording)} <= {*messages.Answer.model_fields, "path", "channels"}
     with TemporaryFile() as stream:
-        messages.send(stream, *messages.as_answer(whole))
+        messages.send(stream, *messages.told(whole))
         stream.seek(0)
         back = messages.recording_of(Path("r"), *messages.receive(stream, 1000))
     for field in fields(Recording):

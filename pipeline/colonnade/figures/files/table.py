@@ -193,8 +193,8 @@ def _series_of(axes: Axes) -> Iterator[_Series]:
 
 def _name(label: object, artist: Artist) -> str:
     """Return the name of a series, with plain spaces: programs look columns up by it."""
-    text = str(label or "_")
-    return " ".join((str(artist.get_gid() or "") if text.startswith("_") else text).split())
+    told = str(label or "_")
+    return " ".join((str(artist.get_gid() or "") if told.startswith("_") else told).split())
 
 
 def _line(axes: Axes, line: Line2D, name: str) -> Iterator[_Series]:

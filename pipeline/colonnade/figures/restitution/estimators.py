@@ -129,8 +129,8 @@ def _draw_row(axes: Axes, place: float, row: EstimateRow, title: str, least: flo
         beside = axes.get_yaxis_transform()
         axes.plot([edge], [place], mark, color=colour, markersize=size, clip_on=False, transform=beside)
     half = (row.high - row.low) / 2
-    text = format_uncertain(row.value, half, least=least) if np.isfinite(half) else f"{row.value:.4f}"
-    _write(axes, place, text, width() - LEFT - RIGHT + 0.12, weight=weight)
+    told = format_uncertain(row.value, half, least=least) if np.isfinite(half) else f"{row.value:.4f}"
+    _write(axes, place, told, width() - LEFT - RIGHT + 0.12, weight=weight)
 
 
 def _write(
@@ -152,17 +152,17 @@ def _write(
 
 def _draw_rigid(axes: Axes, rigid: float) -> None:
     low, high = axes.get_xlim()
-    text = f"rigid body {rigid:.4f}"
+    told = f"rigid body {rigid:.4f}"
     if rigid <= low:
-        where, text = 0.0, f"← {text}"
+        where, told = 0.0, f"← {told}"
     elif rigid >= high:
-        where, text = 1.0, f"{text} →"
+        where, told = 1.0, f"{told} →"
     else:
         where = (rigid - low) / (high - low)
         axes.axvline(rigid, label="rigid body", **LIMIT)
-        text = f" {text} "
+        told = f" {told} "
     axes.annotate(
-        text,
+        told,
         (where, 0.0),
         xycoords="axes fraction",
         xytext=(0, 3),

@@ -106,8 +106,8 @@ def read(path: Path, options: Options) -> Recording:
     channels: list[RecordedChannel] = []
     warnings: list[str] = []
     for header, stored in zip(numeric, _stored(numeric, content, offset), strict=True):
-        values, warned = values_at(content, stored)
-        warnings += warned + _without_overflows(header.name, values)
+        values, told = values_at(content, stored)
+        warnings += told + _without_overflows(header.name, values)
         channels.append(_on_clock(header, values, channels))
     sizes = ", ".join(sorted({header.precision[-1] for header in numeric}))
     notes = [f"catman version {version}, values of {sizes} bytes"]
@@ -174,8 +174,8 @@ def _without_overflows(name: str, values: Array) -> list[str]:
     over = values == OVERFLOW
     values[over] = np.nan
     count = f"{int(over.sum())} of {values.size}"
-    warned = f'"{name}": {count} values are catman\'s sign of an overflow or an open input; missing'
-    return [warned] if over.any() else []
+    told = f'"{name}": {count} values are catman\'s sign of an overflow or an open input; missing'
+    return [told] if over.any() else []
 
 
 def _on_clock(header: ChannelHeader, values: Array, above: list[RecordedChannel]) -> RecordedChannel:

@@ -129,8 +129,8 @@ def _channels(content: Bytes, file: _File) -> tuple[list[RecordedChannel], list[
         if reason := _refusal(component, file):
             file.warnings.append(f'"{component.title}": {reason}')
             continue
-        values, warned = values_at(content, _stored(component, file))
-        file.warnings += warned
+        values, told = values_at(content, _stored(component, file))
+        file.warnings += told
         if not values.size:
             continue
         time, start = _clock(component, values.size)
@@ -176,55 +176,55 @@ def _blocks(content: Bytes, file: _File) -> Iterator[tuple[int, str, bytes]]:
 
 def _take(file: _File, key: str, block: bytes) -> None:
     """Add what a block says to the data set or the channel that it belongs to."""
-    parameters = _Parameters(block)
+    told = _Parameters(block)
     if key == "CF":
-        file.order = BYTE_ORDERS.get(parameters.text(), "<")
+        file.order = BYTE_ORDERS.get(told.text(), "<")
     elif key == "CG":
-        parameters.skip(1)
+        told.skip(1)
         file.awaits_channel = True
-        file.data_set = file.current = _Component(is_plain=parameters.whole() == 1)
+        file.data_set = file.current = _Component(is_plain=told.whole() == 1)
     elif key == "CC":
         file.awaits_channel = False
         file.current = replace(file.data_set, digital=[])
         file.components.append(file.current)
     else:
-        _describe(file.current, key, parameters)
+        _describe(file.current, key, told)
 
 
-def _describe(component: _Component, key: str, parameters: _Parameters) -> None:
+def _describe(component: _Component, key: str, told: _Parameters) -> None:
     if key == "CD":
-        component.step = parameters.number()
-        parameters.skip(1)
-        component.x_unit = parameters.counted()
+        component.step = told.number()
+        told.skip(1)
+        component.x_unit = told.counted()
     elif key == "NT":
-        day, month, year, hour, minute = (parameters.whole() for _ in range(5))
-        component.noted = datetime(year, month, day, hour, minute) + timedelta(seconds=parameters.number())
+        day, month, year, hour, minute = (told.whole() for _ in range(5))
+        component.noted = datetime(year, month, day, hour, minute) + timedelta(seconds=told.number())
     elif key == "CP":
-        parameters.skip(1)
-        size, kind, bits, mask = (parameters.whole() for _ in range(4))
-        parameters.skip(2)
+        told.skip(1)
+        size, kind, bits, mask = (told.whole() for _ in range(4))
+        told.skip(2)
         number = NUMBERS.get(kind)
         component.number = number if number is not None and int(number[1]) == size else None
-        component.is_packed = parameters.whole() != 0 or mask != 0
+        component.is_packed = told.whole() != 0 or mask != 0
         component.is_partly_used = bits != 8 * size
     elif key == "Cb":
-        parameters.skip(3)
-        component.bytes_index, component.bytes_from = parameters.whole(), parameters.whole()
-        parameters.skip(1)
-        component.bytes_from += parameters.whole()
-        component.bytes_filled = parameters.whole()
-        parameters.skip(1)
-        component.x0, component.added = parameters.number(), parameters.number()
+        told.skip(3)
+        component.bytes_index, component.bytes_from = told.whole(), told.whole()
+        told.skip(1)
+        component.bytes_from += told.whole()
+        component.bytes_filled = told.whole()
+        told.skip(1)
+        component.x0, component.added = told.number(), told.number()
     elif key == "CR":
-        transforms = parameters.whole() == 1
-        factor, offset = parameters.number(), parameters.number()
-        parameters.skip(1)
-        component.unit = parameters.counted()
+        transforms = told.whole() == 1
+        factor, offset = told.number(), told.number()
+        told.skip(1)
+        component.unit = told.counted()
         if transforms:
             component.factor, component.offset = factor, offset
     elif key == "CN":
-        parameters.skip(2)
-        bit, name = parameters.whole(), parameters.counted()
+        told.skip(2)
+        bit, name = told.whole(), told.counted()
         if bit > 0:
             component.digital.append((bit, name))
         else:

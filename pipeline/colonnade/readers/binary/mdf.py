@@ -90,8 +90,8 @@ def _content(path: Path, stream: Any) -> tuple[Recording, list[str]]:
                     )
                 )
         notes = (f"MDF {file.version}, read by asammdf", "clock: each group's own master channel")
-        start, warned = file.start_time, tuple(warnings)
-        return Recording(path, "mdf", tuple(channels), start, notes, warned, left_out=tuple(left_out)), texts
+        start, told = file.start_time, tuple(warnings)
+        return Recording(path, "mdf", tuple(channels), start, notes, told, left_out=tuple(left_out)), texts
 
 
 def _asammdf() -> Any:

@@ -139,8 +139,8 @@ def _function(
     if fields[0] == "58b":
         numbers = _binary(stream, fields, head)
     else:
-        numbers, warned = _text(stream, head)
-        warnings += [f'"{head.name}", the data set at byte {place}: {text}' for text in warned]
+        numbers, told = _text(stream, head)
+        warnings += [f'"{head.name}", the data set at byte {place}: {text}' for text in told]
     wanted = head.points if head.is_even else 2 * head.points
     if numbers.size < wanted:
         warnings.append(f'"{head.name}": the data set should have {wanted} numbers but has {numbers.size}: cut off')

@@ -103,9 +103,9 @@ def _seconds(column: Column, unit: str | None) -> tuple[Array, str, datetime | N
         start = datetime(1, 1, 1) + timedelta(days=float(known[0]) - 367)
         return (values - known[0]) * DAY, "days of MATLAB's calendar, from the first", start
     ending = column.path.rpartition("_")[2]
-    shown = unit or column.unit or (ending if "_" in column.path and ending.casefold() in TIME_UNITS else None)
-    factor = TIME_UNITS.get((shown or "s").casefold(), 1.0)
-    return values * factor, f"in {shown}" if shown else "taken as seconds", None
+    told = unit or column.unit or (ending if "_" in column.path and ending.casefold() in TIME_UNITS else None)
+    factor = TIME_UNITS.get((told or "s").casefold(), 1.0)
+    return values * factor, f"in {told}" if told else "taken as seconds", None
 
 
 def _nearest(column: Column, columns: list[Column], found: dict[int, Array]) -> int | None:
@@ -131,8 +131,8 @@ def _constant_step(scalars: dict[str, float]) -> tuple[float | None, str]:
         return None, ""
     first, step = next(iter(steps.items()))
     if any(abs(other - step) > 1e-6 * step for other in steps.values()):
-        shown = ", ".join(f"{path} says {each:g} s" for path, each in steps.items())
-        return None, f"no clock: the step is not clear ({shown}); give sampling_rate"
+        told = ", ".join(f"{path} says {each:g} s" for path, each in steps.items())
+        return None, f"no clock: the step is not clear ({told}); give sampling_rate"
     return step, f"clock: a constant step of {step:.9g} s, by the number {first}; no vector of times"
 
 

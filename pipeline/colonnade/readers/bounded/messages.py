@@ -140,7 +140,7 @@ def send(stream: IO[bytes], answer: Answer, arrays: list[Array]) -> None:
     stream.flush()
 
 
-def as_answer(recording: Recording) -> tuple[Answer, list[Array]]:
+def told(recording: Recording) -> tuple[Answer, list[Array]]:
     """Take a recording apart; an array that several channels share is sent once."""
     arrays: list[Array] = []
     numbers: dict[int, int] = {}

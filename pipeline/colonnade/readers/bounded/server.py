@@ -98,7 +98,7 @@ def _answer(request: Request) -> tuple[Answer, list[Array]]:
             return messages.pixels_told(photo.decode_here(path))
         if request.wanted == "companions":
             return Answer(companions=companions_here(path, request.format, request.options)), []
-        return messages.as_answer(read_here(path, request.format, request.options, request.window))
+        return messages.told(read_here(path, request.format, request.options, request.window))
     except ReadError as error:
         cause: Any = error.__cause__
         number = cause.errno if isinstance(cause, OSError) else None

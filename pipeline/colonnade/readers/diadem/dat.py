@@ -55,7 +55,7 @@ def _entries(path: Path) -> tuple[dict[int, str], list[dict[int, str]], bool]:
 def _stored(
     name: str, channel: dict[int, str], common: dict[int, str], width: Counter[str], place: Counter[str]
 ) -> StoredNumbers:
-    """Say where a channel's numbers are; ValueError or KeyError if that is not clear."""
+    """Say where a channel's numbers stand; ValueError or KeyError where that cannot be told."""
     unit = channel.get(UNIT, "").strip("[] ")
     count = int(channel[COUNT])
     offset, factor = float(channel.get(BEGIN) or 0), float(channel.get(STEP) or 1)

@@ -45,8 +45,8 @@ def read(path: Path, options: Options) -> Recording:
     channels = []
     longest = _longest(path, described)
     for stored in described:
-        values, warned = read_stored(path, stored, longest=longest)
-        warnings += warned
+        values, told = read_stored(path, stored, longest=longest)
+        warnings += told
         time = even_times(values.size, stored.step, stored.begin) if stored.step else None
         channels.append(RecordedChannel(stored.name, stored.unit or None, values, time))
     notes = ["header .DAT" if is_text else "header .TDM"]

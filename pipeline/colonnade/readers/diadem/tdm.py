@@ -95,7 +95,7 @@ def _stored(
     objects: Objects,
     blocks: dict[str, tuple[str, str, ElementTree.Element]],
 ) -> StoredNumbers:
-    """Say where a channel's numbers are; ValueError or KeyError if that is not clear."""
+    """Say where a channel's numbers stand; ValueError or KeyError where that cannot be told."""
     unit = (channel.findtext("unit_string") or "").strip("[] ")
     column = _referred(channel.findtext("local_columns"), objects, "column")
     kind = (column.findtext("sequence_representation") or "explicit").strip()
@@ -114,11 +114,11 @@ def _stored(
 
 def _scaling(kind: str, parameters: str) -> tuple[float, float]:
     """Offset and factor of values of a kind; ValueError for a kind that is not read."""
-    numbers = [float(number) for number in parameters.split()]
-    if kind == "implicit_constant" and numbers:
-        return numbers[0], 0.0
-    if kind in ("implicit_linear", *SCALED) and len(numbers) > 1:
-        return numbers[0], numbers[1]
+    told = [float(number) for number in parameters.split()]
+    if kind == "implicit_constant" and told:
+        return told[0], 0.0
+    if kind in ("implicit_linear", *SCALED) and len(told) > 1:
+        return told[0], told[1]
     if kind in (*EXPLICIT, *SCALED):
         return 0.0, 1.0
     raise ValueError(f'its values are "{kind}"')

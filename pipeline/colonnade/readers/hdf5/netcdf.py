@@ -98,9 +98,9 @@ def _decoded(variable: Variable) -> Array:
     values = variable.values
     missing = np.zeros(values.shape, dtype=bool)
     for name in ("_FillValue", "missing_value"):
-        written = variable.attributes.get(name)
-        if isinstance(written, (int, float, np.number)):
-            missing |= values == written
+        told = variable.attributes.get(name)
+        if isinstance(told, (int, float, np.number)):
+            missing |= values == told
     decoded = np.array(values, dtype=np.float64)
     decoded[missing] = np.nan
     factor, offset = (variable.attributes.get(name) for name in ("scale_factor", "add_offset"))
@@ -152,16 +152,16 @@ def _coordinates(columns: list[Column], variables: list[Variable]) -> list[int]:
 def _as_times(column: Column, unit: str | None) -> tuple[Array, datetime | None, str] | None:
     """Understand a coordinate as times: `seconds since …`, or a unit of time; None if it is neither."""
     values = np.asarray(column.values, dtype=np.float64)
-    written = unit or column.unit or ""
-    since = SINCE.fullmatch(written)
-    factor = {**TIME_UNITS, **DAYS}.get((since["unit"] if since else written).casefold())
+    told = unit or column.unit or ""
+    since = SINCE.fullmatch(told)
+    factor = {**TIME_UNITS, **DAYS}.get((since["unit"] if since else told).casefold())
     if factor is None or not np.isfinite(values).any():
         return None
     if since is None:
-        return values * factor, None, f"in {written}"
+        return values * factor, None, f"in {told}"
     first = float(values[np.isfinite(values)][0])
     moment = _moment(since["moment"], first * factor)
-    how = f'"{written}", counted from the first' if moment else f'"{written}", whose date is not understood'
+    how = f'"{told}", counted from the first' if moment else f'"{told}", whose date is not understood'
     return (values - first) * factor, moment, how
 
 

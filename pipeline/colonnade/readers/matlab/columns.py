@@ -89,10 +89,10 @@ def _numbers(
         found.scalars[path] = float(numbers.ravel()[0])
         return
     numbers = numbers.squeeze()
-    described = {name.casefold(): text for name, text in beside.items()}
+    told = {name.casefold(): text for name, text in beside.items()}
     is_value = path.rpartition(".")[2].casefold() in VALUE_FIELDS
-    name = _text(described, NAME_FIELDS) if is_value else None
-    unit = _text(described, UNIT_FIELDS) if is_value else None
+    name = _text(told, NAME_FIELDS) if is_value else None
+    unit = _text(told, UNIT_FIELDS) if is_value else None
     if numbers.ndim == 1:
         found.columns.append(Column(path, scope, numbers, name, unit))
         return
@@ -107,20 +107,20 @@ def _numbers(
             f"it is a matrix of {rows} × {columns}, more than the {MOST_COLUMNS} channels that are read"
         )
         return
-    names = _list_of_names(described, numbers.shape[1])
+    names = _list_of_names(told, numbers.shape[1])
     for number in range(numbers.shape[1]):
         own, own_unit = take_apart(names[number]) if names else (f"{name}[{number + 1}]" if name else None, unit)
         found.columns.append(Column(f"{path}[{number + 1}]", scope, numbers[:, number], own, own_unit))
 
 
-def _text(described: dict[str, Node], keys: frozenset[str]) -> str | None:
-    found = (described[key] for key in described if key in keys)
+def _text(told: dict[str, Node], keys: frozenset[str]) -> str | None:
+    found = (told[key] for key in told if key in keys)
     return next((text.strip() for text in found if isinstance(text, str) and text.strip()), None)
 
 
-def _list_of_names(described: dict[str, Node], count: int) -> list[str]:
+def _list_of_names(told: dict[str, Node], count: int) -> list[str]:
     """Names of a matrix's columns, if a cell array or lines of text next to it give as many."""
-    for key, node in described.items():
+    for key, node in told.items():
         names = node.splitlines() if isinstance(node, str) else node
         if key in LIST_FIELDS and isinstance(names, list) and len(names) == count:
             texts = [name.strip() for name in names if isinstance(name, str) and name.strip()]

@@ -89,11 +89,11 @@ def _component(
     reals, _ = read_running(islice(lines.rest(), REAL_ROWS), width=REALS_WIDTH)
     rate = float(reals[RATE]) if reals.size > RATE else float("nan")
     step = 1 / rate if 0 < rate < np.inf else duration / (points - 1)
-    values, warned = read_running(islice(lines.rest(), -(-points // PER_ROW)), width=REALS_WIDTH)
+    values, told = read_running(islice(lines.rest(), -(-points // PER_ROW)), width=REALS_WIDTH)
     values = factor * values[:points]
     by = "the header's rate" if rate > 0 else "from the header's duration"
     notes.append(f'"{name}": {points} points at {1 / step:.6g} Hz, {by} (line {number})')
-    warnings += [*warned, *shortage(f'"{name}": the header', points, values.size)]
+    warnings += [*told, *shortage(f'"{name}": the header', points, values.size)]
     lasts = points * step
     if abs(lasts - duration) > max(2 * step, 0.01 * duration):  # they may differ by a step or two
         warnings.append(

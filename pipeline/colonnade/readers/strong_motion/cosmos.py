@@ -79,7 +79,7 @@ def read(path: Path, options: Options) -> Recording:
     start = min(starts) if len({moment.tzinfo for moment in starts}) == 1 else None
     channels: list[RecordedChannel] = []
     notes: list[str] = []
-    warned = [f"{stray} does not belong to a channel: the file may have been cut off there" for stray in strays[:1]]
+    told = [f"{stray} does not belong to a channel: the file may have been cut off there" for stray in strays[:1]]
     for part in parts:
         name = part.channel.name
         if name in [channel.name for channel in channels]:
@@ -89,7 +89,7 @@ def read(path: Path, options: Options) -> Recording:
             time = time + (part.start - start).total_seconds()
         channels.append(replace(part.channel, name=name, heading=name, time=time))
         notes.append(f'"{name}": {part.note}')
-    return Recording(path, "cosmos", tuple(channels), start, tuple(notes), (*warned, *warnings))
+    return Recording(path, "cosmos", tuple(channels), start, tuple(notes), (*told, *warnings))
 
 
 def _parts(path: Path, lines: NumberedLines, strays: list[str], warnings: list[str]) -> Iterator[Part]:
@@ -137,9 +137,9 @@ def _part(
     if not 0 < step < np.inf:
         raise ReadError(f"{path.name}: the real header values above line {line} give no time step (value {STEP + 1}).")
     rows = -(-points // int(data["count"] or 1))
-    values, warned = read_running(islice(lines.rest(), rows), width=width)
+    values, told = read_running(islice(lines.rest(), rows), width=width)
     values = values[:points]
-    warnings += [*warned, *shortage(f"line {line}", points, values.size)]
+    warnings += [*told, *shortage(f"line {line}", points, values.size)]
     seconds = float(data["seconds"] or "nan")
     if abs(points * step - seconds) > max(1.0, 0.02 * seconds):
         warnings.append(

@@ -166,5 +166,5 @@ def _named_width(lines: list[str], where: HeadingLines, dialect: Dialect, kinds:
 
 def _as_given(options: DelimitedOptions) -> str:
     """Remind of the options that the sniffing had to keep to."""
-    given = [f"{key} = {value!r}" for key, value in options.model_dump(exclude_defaults=True).items()]
-    return f" with {', '.join(given)}" if given else ""
+    told = [f"{key} = {value!r}" for key, value in options.model_dump(exclude_defaults=True).items()]
+    return f" with {', '.join(told)}" if told else ""

@@ -150,8 +150,8 @@ def _by_shape(
     short = 0 < numbers < width and bool(last[:numbers].all()) and bool(above.all())
     total = rows * width - (width - numbers if short else 0)
     if short:
-        reason = f"the last row has {numbers} numbers, the others have {width}"
-        (evidence.running if is_whole and is_free else evidence.weak_running).append(reason)
+        told = f"the last row has {numbers} numbers, the others have {width}"
+        (evidence.running if is_whole and is_free else evidence.weak_running).append(told)
     for count in claims.counts:
         if is_whole and abs(count - rows) <= 1:
             evidence.columns.append(f"the header gives {count} points, and there are {rows} rows")

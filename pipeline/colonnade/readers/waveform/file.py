@@ -58,7 +58,7 @@ def read(path: Path, options: WaveformOptions) -> Recording:
     path.stat()  # ObsPy has no message of its own for a file that is not there
     kind = _kind(path, options)
     companions_of(path, kind)
-    stream, warned = _stream(path, kind)
+    stream, told = _stream(path, kind)
     grouped: dict[str, list[Any]] = {}
     for trace in stream:
         if trace.stats.npts:
@@ -75,14 +75,14 @@ def read(path: Path, options: WaveformOptions) -> Recording:
         if kind in UNITS:
             values = values * calibration
         channels.append(RecordedChannel(name, UNITS.get(kind), values, time))
-        warned += found
+        told += found
         notes += [note] if note else []
         if kind not in UNITS and calibration != 1.0:
             notes.append(f'"{name}": the header gives a calibration of {calibration:g}, which is not applied')
     start = _start(origin)
     if start is None:
         notes.append("the file gives no date: times count from its earliest sample")
-    return Recording(path, "waveform", tuple(channels), start, tuple(dict.fromkeys(notes)), tuple(warned))
+    return Recording(path, "waveform", tuple(channels), start, tuple(dict.fromkeys(notes)), tuple(told))
 
 
 def companions(path: Path, options: WaveformOptions) -> tuple[str, ...]:
@@ -113,8 +113,8 @@ def _stream(path: Path, kind: str) -> tuple[Any, list[str]]:
         warnings.simplefilter("always")
         # Not by obspy.read, which takes a name as a pattern, and would unpack an archive whatever its size.
         stream = reader_of(kind)(str(path.resolve()), **settings)
-    warned = dict.fromkeys(f"ObsPy: {' '.join(str(warning.message).split())}" for warning in caught)
-    return stream, [text for text in warned if "eprecat" not in text]
+    told = dict.fromkeys(f"ObsPy: {' '.join(str(warning.message).split())}" for warning in caught)
+    return stream, [text for text in told if "eprecat" not in text]
 
 
 def _step(traces: Sequence[Any], kind: str) -> tuple[float, str]:
@@ -133,15 +133,15 @@ def _joined(name: str, traces: Sequence[Any], step: float, origin: Any) -> tuple
     """Join the pieces of one channel, on a clock from the recording's first sample on."""
     begins = [float(trace.stats.starttime - origin) for trace in traces]
     pieces = [np.ma.filled(np.ma.asarray(trace.data, dtype=np.float64), np.nan) for trace in traces]
-    warned = []
+    told = []
     places = [round((begin - begins[0]) / step) for begin in begins]
     sizes = [piece.size for piece in pieces]
     total = max(place + size for place, size in zip(places, sizes, strict=True))
     rates_differ = any(abs(trace.stats.delta / traces[0].stats.delta - 1) > ROUNDED for trace in traces)
     if rates_differ or total > (1 + LARGEST_GAP) * sum(sizes):
         time = np.concatenate([even_times(size, step, begin) for begin, size in zip(begins, sizes, strict=True)])
-        warned.append(f'"{name}": its {len(traces)} pieces differ in rate or are far apart; the gaps are not filled')
-        return time, np.concatenate(pieces), warned
+        told.append(f'"{name}": its {len(traces)} pieces differ in rate or are far apart; the gaps are not filled')
+        return time, np.concatenate(pieces), told
     values = np.full(total, np.nan)
     overlaps = 0
     for place, piece in zip(places, pieces, strict=True):
@@ -149,15 +149,15 @@ def _joined(name: str, traces: Sequence[Any], step: float, origin: Any) -> tuple
         overlaps += int(np.isfinite(part).sum())
         part[:] = np.where(np.isfinite(part), part, piece)
     if missing := int(np.isnan(values).sum()):
-        warned.append(
+        told.append(
             f'"{name}": {len(traces)} pieces with gaps of {missing} samples ({missing * step:g} s) in all; missing'
         )
     if overlaps:
-        warned.append(f'"{name}": its pieces overlap by {overlaps} samples; the earlier ones are used')
+        told.append(f'"{name}": its pieces overlap by {overlaps} samples; the earlier ones are used')
     late = max(abs(begin - begins[0] - place * step) for begin, place in zip(begins, places, strict=True))
     if late > 0.1 * step:
-        warned.append(f'"{name}": a piece is {late:g} s off the steps of the first one')
-    return even_times(total, step, begins[0]), values, warned
+        told.append(f'"{name}": a piece is {late:g} s off the steps of the first one')
+    return even_times(total, step, begins[0]), values, told
 
 
 def _start(origin: Any) -> datetime | None:
