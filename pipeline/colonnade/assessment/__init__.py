@@ -1,0 +1,1 @@
+"""Whether the real column will stand: measures of ground motions, fragility, criteria of practice."""
