@@ -185,6 +185,12 @@ CALLS = {
         }
         | {"lowest_amplitude": "deviation"},
     ),
+    "intensity_measures": Call(
+        colonnade.intensity_measures,
+        {"motion": MOTION},
+        {"motion": "object", "block": "object or none", "measures": "names", "drift": "positive"}
+        | {"baseline": "name", "gravity": "positive"},
+    ),
     "reactions": Call(
         colonnade.reactions,
         {"history": HISTORY, "motion": MOTION},
@@ -226,7 +232,7 @@ CALLS = {
 FOR["ranked"] = {name: value for name, value in ARRAYS.items() if name != "infinite"}
 FOR["a coefficient"] = {name: value for name, value in FOR["deviation"].items() if name != "infinite"}
 
-GIVEN_BACK = {"Ensemble", "History", "Reactions", "Restitution", "StabilityMap"}
+GIVEN_BACK = {"Ensemble", "History", "IntensityMeasures", "Reactions", "Restitution", "StabilityMap"}
 """Results: nobody makes them from arguments; what their methods take is checked."""
 
 NOT_CALLED = {"__version__", "ColonnadeError", "animate", "plot"}

@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from colonnade.assessment.intensity.measured import IntensityMeasures, intensity_measures
     from colonnade.dynamics.block import Block
     from colonnade.dynamics.ensembles.ensemble import ensemble
     from colonnade.dynamics.ensembles.outcome import Ensemble
@@ -35,6 +36,7 @@ __all__ = [
     "ColonnadeError",
     "Ensemble",
     "History",
+    "IntensityMeasures",
     "Motion",
     "Reactions",
     "Restitution",
@@ -45,6 +47,7 @@ __all__ = [
     "animate",
     "ensemble",
     "identify_restitution",
+    "intensity_measures",
     "plot",
     "reactions",
     "read_motion",
@@ -59,6 +62,7 @@ _ROOMS = {
     "ColonnadeError": "colonnade.errors",
     "Ensemble": "colonnade.dynamics.ensembles.outcome",
     "History": "colonnade.dynamics.history",
+    "IntensityMeasures": "colonnade.assessment.intensity.measured",
     "Motion": "colonnade.dynamics.motion",
     "Reactions": "colonnade.dynamics.plane.reactions",
     "Restitution": "colonnade.identification.restitution.result",
@@ -68,6 +72,7 @@ _ROOMS = {
     "animate": "colonnade.figures.plot",
     "ensemble": "colonnade.dynamics.ensembles.ensemble",
     "identify_restitution": "colonnade.identification.restitution.identify",
+    "intensity_measures": "colonnade.assessment.intensity.measured",
     "plot": "colonnade.figures.plot",
     "reactions": "colonnade.dynamics.plane.reactions",
     "read_motion": "colonnade.readers.motion",
