@@ -225,12 +225,17 @@ class Setting:
     description: str
 
 
-def settings(processing: Table, prefix: str = "processing") -> Iterator[Setting]:
+def settings(processing: Processing, advice: NextSettings) -> Iterator[Setting]:
     """List every setting of a campaign."""
-    for name, field in type(processing).model_fields.items():
-        value, key = getattr(processing, name), f"{prefix}.{name}"
+    yield from _settings(processing, "processing")
+    yield from _settings(advice, "next")
+
+
+def _settings(table: Table, prefix: str) -> Iterator[Setting]:
+    for name, field in type(table).model_fields.items():
+        value, key = getattr(table, name), f"{prefix}.{name}"
         if isinstance(value, Table):
-            yield from settings(value, key)
+            yield from _settings(value, key)
         else:
             extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
             description = " ".join((field.description or "").split())

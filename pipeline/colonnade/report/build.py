@@ -44,7 +44,7 @@ from colonnade.units import format_percent
 IN_A_BLOCK = 5
 """Tests whose pages are drawn one after the other, so that templates are not read again for each."""
 
-OWN = ("tests/*.html", "specimens/*.html", "data/**/*.js", "scripts/*.js", "setups/*.svg", addresses.FORECASTS)
+OWN = ("tests/*.html", "specimens/*.html", "data/**/*.js", "scripts/*.js", "setups/*.svg", *addresses.OPTIONAL)
 """Files of the report's folders; one that nothing of the campaign leads to any more is removed."""
 
 Block = tuple[Campaign, list[Asked]]
@@ -220,7 +220,7 @@ def _shown(campaign: Campaign, tests: list[Part], specimens: list[SpecimenPage],
         "agreement": agreement({row.id: row.record.model_dump() for row in rows}),
         "channels": {part.row.id: part.channels for part in tests},
         "used": used,
-        "settings": list(settings(campaign.processing)),
+        "settings": list(settings(campaign.processing, campaign.next)),
         "references": REFERENCES,
         "software": methods.software(),
         "rule": RULE,
