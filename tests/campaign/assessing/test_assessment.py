@@ -15,6 +15,7 @@ def test_an_assessment_has_defaults_and_paths_within_the_campaign(load_text, con
     asked = campaign.assessments["site"]
     assert asked.records == tmp_path / "records"
     assert (asked.measure, asked.model, asked.draws, asked.overturned) == ("pgv", "nonlinear", 8, 1.0)
+    assert asked.levels_in_si() is None
     assert campaign.prototype["prism"].restitution == "identified"
     moved = campaign.with_relative_paths().assessments["site"]
     assert (str(moved.records), str(moved.hazard)) == ("records", "records/hazard.csv")
@@ -29,6 +30,10 @@ def test_an_assessment_has_defaults_and_paths_within_the_campaign(load_text, con
         (COLUMN + ASKED.replace('"records"', '"/etc"'), "is an absolute path"),
         (COLUMN + ASKED + "draws = 0\n", "A whole number from 1 to 1000 was expected."),
         (COLUMN + ASKED + 'model = "contact"\n', '"contact" was found.'),
+        (COLUMN + ASKED + 'measure = "pvg"\n', 'Unknown measure of intensity "pvg". Did you mean "pgv"?'),
+        (COLUMN + ASKED + 'measure = "d5_95"\n', "does not grow with a motion"),
+        (COLUMN + ASKED + 'baseline = "liner"\n', 'Unknown baseline correction "liner". Did you mean "linear"?'),
+        (COLUMN + ASKED + 'levels = ["0.2 g"]\n', "A velocity was expected"),
         (COLUMN + ASKED + "levels = []\n", "A list of 1 to 100 texts was expected."),
     ],
 )
