@@ -108,7 +108,8 @@ def read_motions(
     found = _columns(recording, column)
     if not 1 <= len(found) <= MOST_COMPONENTS:
         raise ReadError(
-            f"{path.name}: {len(found)} columns may be accelerations; 1 to {MOST_COMPONENTS} were expected. Say which."
+            f"{path.name}: {len(found)} columns may be accelerations; 1 to {MOST_COMPONENTS} were expected. Name one "
+            'in the column "column" of a list of records.'
         )
     return dict(zip((channel.heading for channel in found), _motions(recording, found, unit, dt), strict=True))
 

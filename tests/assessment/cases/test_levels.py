@@ -36,6 +36,11 @@ def test_levels_are_in_the_unit_of_the_measure():
     )
 
 
+def test_levels_of_the_square_of_a_measure_are_its_squares():
+    levels, squares = default_levels(COLUMN, WAVES, PEAKS), default_levels(COLUMN, WAVES, PEAKS**2, power=2)
+    np.testing.assert_allclose(squares, levels**2, rtol=2e-2)
+
+
 def test_a_column_that_nothing_overturns_has_levels_up_to_the_largest_trial():
     quick = (Motion(0.01 * np.sin(np.pi * np.arange(50)), 1e-4),)
     levels = default_levels(COLUMN, quick, np.array([[quick[0].peak, np.nan]]))

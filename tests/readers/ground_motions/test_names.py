@@ -32,7 +32,16 @@ def test_files(name, record, direction):
 
 @pytest.mark.parametrize(
     ("head", "direction"),
-    [("NS [cm/s^2]", "y"), ("acc x (g)", "x"), ("HNZ", "z"), ("Acceleration", ""), ("U-D", "z"), ("exx", "")],
+    [
+        ("NS [cm/s^2]", "y"),
+        ("acc x (g)", "x"),
+        ("HNZ", "z"),
+        ("Acceleration", ""),
+        ("U-D", "z"),
+        ("T3", "y"),
+        ("V2", "z"),
+        ("exx", ""),
+    ],
 )
 def test_columns(head, direction):
     assert direction_of(head)[0] == direction

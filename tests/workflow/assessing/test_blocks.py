@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import pickle
+import random
+import signal
+import subprocess
+import sys
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -64,3 +70,44 @@ def test_the_hash_of_what_is_given_changes_with_it(changed, what):
     before, after = given(CASES), given(replace(CASES, **changed))
     assert [name for name in before if before[name] != after[name]] == [what]
     assert given(replace(CASES)) == before
+
+
+KILLED = """
+import sys
+from functools import partial
+from pathlib import Path
+import test_blocks as tested
+spread = partial(tested.in_blocks, workers=2, progress=lambda done, total: print(done, total, flush=True))
+tested.outcomes_of(tested.MANY, spread, Path(sys.argv[1]), "key")
+"""
+MANY = replace(CASES, prototype=COLUMN, draws=draw(COLUMN, 400))
+
+
+@pytest.mark.slow
+def test_ten_kills_and_a_resumption_give_the_undisturbed_values(tmp_path):
+    chance, done = random.Random(1), [0]
+    for _ in range(10):
+        process = subprocess.Popen(
+            [sys.executable, "-c", KILLED, str(tmp_path)],
+            cwd=Path(__file__).parent,
+            stdout=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+        found, total = map(int, process.stdout.readline().split())
+        assert found >= done[-1]
+        until = found + chance.randint(0, 8)
+        while found < until:
+            found = int(process.stdout.readline().split()[0])
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        process.stdout.close()
+        done.append(found)
+    assert 10 < done[-1] < total
+    steps = []
+    again = partial(in_blocks, workers=2, progress=lambda *step: steps.append(step))
+    outcomes = outcomes_of(MANY, again, tmp_path, "key")
+    assert steps[0][0] >= done[-1]
+    whole = run_cases(MANY)
+    for name in ("outcome", "peak_ratio", "instant"):
+        np.testing.assert_array_equal(getattr(outcomes, name), getattr(whole, name))

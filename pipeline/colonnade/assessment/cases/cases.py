@@ -17,7 +17,7 @@ from colonnade.dynamics.models.registry import plane_model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.outcomes import OVERTURNS, Ends, ends_of, prepared
 from colonnade.dynamics.plane.run import expect_usable
-from colonnade.validation import number, samples
+from colonnade.validation import number, samples, whole
 
 if TYPE_CHECKING:
     from colonnade.dynamics.plane.sides import Sides
@@ -33,6 +33,9 @@ NOT_RUN, FALLS_AWAY = -1, -2
 Outcomes of a case without a history: its record has no such component, or is not wanted at this level; its base falls
 faster than the column, so that no plane model holds.
 """
+
+MOST_POWER = 4
+"""Of a measure in the strength of a record; Arias intensity has 2."""
 
 
 @dataclass(frozen=True)
@@ -77,6 +80,8 @@ class Cases:
                 f"factors has shape {factors.shape}; ({len(self.motions)} records, levels, {len(COMPONENTS)} "
                 "components) was expected"
             )
+        if factors.size == 0:
+            raise ValueError(f"factors has shape {factors.shape}; at least one record and one level were expected")
         if not (np.isnan(factors) | (factors > 0.0) & (factors < np.inf)).all():
             raise ValueError("a factor on a record is not positive; positive numbers, or NaN, were expected")
         fastest, _ = drawn_column(self.prototype, self.draws, int(self.draws.of("p").argmax()))
@@ -152,23 +157,31 @@ class Outcomes:
         return np.asarray((self.outcome == OVERTURNS) | (self.peak_ratio > limit))
 
 
-def factors_at(levels: Array, intensity: Array) -> Array:
+def factors_at(levels: Array, intensity: Array, power: int = 1) -> Array:
     """
-    Give the factors that bring records to levels of a measure that is proportional to them.
+    Give the factors that bring records to levels of a measure.
 
     Parameters
     ----------
     levels : ndarray, shape (levels,)
     intensity : ndarray, shape (records, components)
         The measure of each as recorded; NaN for a component that is not run.
+    power : int, optional
+        A record n times as strong has n**power times the measure: 2 of Arias intensity.
 
     Returns
     -------
     factors : ndarray, shape (records, levels, components)
         As of `Cases`; NaN also where the measure is 0.
+
+    Raises
+    ------
+    ValueError
+        If the power is not positive: no factor changes such a measure.
     """
+    whole("power", power, 1, MOST_POWER, "a measure that grows with the record")
     measured = np.where(intensity > 0.0, intensity, np.nan)
-    return np.asarray(levels[None, :, None] / measured[:, None, :], dtype=np.float64)
+    return np.asarray((levels[None, :, None] / measured[:, None, :]) ** (1.0 / power), dtype=np.float64)
 
 
 def in_plane(motion: Motion, place: int, factor: float) -> Motion | None:

@@ -16,7 +16,7 @@ LEVELS = 12
 """Levels of an assessment, equally spaced in their logarithm."""
 
 REACH = 50.0
-"""Largest level that is tried, in that from which the first record uplifts the column."""
+"""Largest factor on the records that is tried, in that from which the first of them uplifts the column."""
 
 TRIALS = 24
 """Levels that are tried, equally spaced in their logarithm, with nothing varied."""
@@ -27,6 +27,7 @@ def default_levels(
     motions: Sequence[Motion],
     intensity: Array,
     *,
+    power: int = 1,
     count: int = LEVELS,
     model: str = NONLINEAR.name,
 ) -> Array:
@@ -38,7 +39,9 @@ def default_levels(
     prototype : Prototype
     motions : sequence of Motion
     intensity : ndarray, shape (records, components)
-        The measure of each as recorded, proportional to it; NaN for a component that is not run.
+        The measure of each as recorded; NaN for a component that is not run.
+    power : int, optional
+        As of `factors_at`.
     count : int, optional
     model : str, optional
 
@@ -53,9 +56,9 @@ def default_levels(
     ValueError
         If no record has the component and a positive measure.
     """
-    lowest = _first_uplift(prototype, motions, intensity)
-    trials = np.geomspace(lowest, REACH * lowest, TRIALS)
-    cases = Cases(prototype, draw(prototype, 0), tuple(motions), factors_at(trials, intensity), model)
+    lowest = _first_uplift(prototype, motions, intensity, power)
+    trials = np.geomspace(lowest, REACH**power * lowest, TRIALS)
+    cases = Cases(prototype, draw(prototype, 0), tuple(motions), factors_at(trials, intensity, power), model)
     outcomes = run_cases(cases)
     run, fell = outcomes.is_run, outcomes.exceeds()
     aside = (0, 2, 3, 4)
@@ -67,10 +70,10 @@ def default_levels(
     return np.array([float(f"{level:.3g}") for level in np.geomspace(*ends, count)])
 
 
-def _first_uplift(prototype: Prototype, motions: Sequence[Motion], intensity: Array) -> float:
+def _first_uplift(prototype: Prototype, motions: Sequence[Motion], intensity: Array, power: int) -> float:
     """Give the level from which the first of the records uplifts the column, vertical motion left out."""
     found = [
-        float(intensity[record, place]) * prototype.block.uplift_acceleration / plane.peak
+        float(intensity[record, place]) * (prototype.block.uplift_acceleration / plane.peak) ** power
         for record, motion in enumerate(motions)
         for place in range(len(COMPONENTS))
         if (plane := in_plane(motion, place, 1.0)) is not None and plane.peak > 0.0 and intensity[record, place] > 0.0

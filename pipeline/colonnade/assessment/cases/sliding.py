@@ -65,7 +65,7 @@ def holds(needed: FrictionNeeded, friction: Array) -> Mask:
     ----------
     needed : FrictionNeeded
     friction : ndarray, shape (draws,)
-        Drawn coefficients.
+        Drawn coefficients; not of a column without friction.
 
     Returns
     -------
