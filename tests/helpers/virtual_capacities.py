@@ -1,14 +1,15 @@
-"""Virtual populations of capacities with known truth, as outcomes of records at levels."""
+"""Samples of populations of capacities with known truth."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from colonnade.assessment.fragility.outcomes import gather
+from fragilities import population
+from fragilities.population import MEDIAN, Population
 
-MEDIAN, RECORDS_BETA, PARAMETERS_BETA = 0.4, 0.4, 0.15
-BETA = float(np.hypot(RECORDS_BETA, PARAMETERS_BETA))
-LEVELS = MEDIAN * np.exp(BETA * np.linspace(-2.2, 2.2, 10))
+__all__ = ["BETA", "LEVELS", "MEDIAN", "lognormal", "names", "outcomes_of", "two_kinds"]
+
+BETA, LEVELS = Population().beta, Population().intensity
 
 
 def names(count):
@@ -16,22 +17,13 @@ def names(count):
 
 
 def outcomes_of(capacity, levels=LEVELS):
-    """Outcomes of capacities of shape (records, draws): a level above the capacity overturns."""
-    peak = np.where(
-        levels[None, :, None] > capacity[:, None, :], 2.0, 0.5 * levels[None, :, None] / capacity[:, None, :]
-    )
-    return gather(names(len(capacity)), np.tile(levels, (len(capacity), 1)), peak)
+    """Outcomes of capacities of shape (records, draws)."""
+    return population.outcomes_of(capacity, levels)
 
 
-def lognormal_outcomes(seed, records=30, draws=10, levels=LEVELS):
-    """ln capacity of each record, and of each of its draws, normal."""
-    random = np.random.default_rng(seed)
-    of_records = random.normal(0, RECORDS_BETA, (records, 1))
-    return outcomes_of(MEDIAN * np.exp(of_records + random.normal(0, PARAMETERS_BETA, (records, draws))), levels)
+def lognormal(seed, **chosen):
+    return Population(**chosen).sample(np.random.default_rng(seed))
 
 
-def two_kinds(seed, records=30, draws=10):
-    """Half of the records overturn the block early, half late, nothing between."""
-    random = np.random.default_rng(seed)
-    of_records = np.where(random.random((records, 1)) < 0.5, -0.6, 0.6) + random.normal(0, 0.15, (records, 1))
-    return outcomes_of(MEDIAN * np.exp(of_records + random.normal(0, PARAMETERS_BETA, (records, draws))))
+def two_kinds(seed):
+    return lognormal(seed, two_kinds=True)

@@ -4,17 +4,20 @@ import numpy as np
 import pytest
 
 from colonnade.assessment.fragility.betas import separate_betas
-from virtual_capacities import MEDIAN, PARAMETERS_BETA, RECORDS_BETA, lognormal_outcomes, outcomes_of
+from fragilities.population import Population
+from virtual_capacities import MEDIAN, lognormal, outcomes_of
 
 FINE = MEDIAN * np.exp(np.linspace(-2.5, 2.5, 121))
 
 
 def test_both_are_near_the_truth_and_inside_their_intervals():
-    found = separate_betas(lognormal_outcomes(3, records=150), resamples=500)
+    found = separate_betas(lognormal(3, records=150), resamples=500)
     assert found.reason == ""
-    assert found.records.low < RECORDS_BETA < found.records.high
-    assert found.parameters.low < PARAMETERS_BETA < found.parameters.high
-    assert (found.records.value, found.parameters.value) == pytest.approx((RECORDS_BETA, PARAMETERS_BETA), rel=0.12)
+    assert found.records.low < Population.of_records < found.records.high
+    assert found.parameters.low < Population.of_parameters < found.parameters.high
+    assert (found.records.value, found.parameters.value) == pytest.approx(
+        (Population.of_records, Population.of_parameters), rel=0.12
+    )
 
 
 def test_with_fine_levels_they_are_those_of_an_analysis_of_variance():

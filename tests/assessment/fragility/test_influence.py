@@ -6,7 +6,7 @@ import pytest
 from colonnade.assessment.fragility.hazard import hazard_curve, lognormal_rate
 from colonnade.assessment.fragility.influence import influence
 from colonnade.assessment.fragility.lognormal import fit_lognormal
-from virtual_capacities import MEDIAN, lognormal_outcomes, outcomes_of
+from virtual_capacities import MEDIAN, lognormal, outcomes_of
 
 
 def test_a_record_unlike_the_others_comes_first():
@@ -16,7 +16,7 @@ def test_a_record_unlike_the_others_comes_first():
 
 
 def test_it_is_the_curve_of_all_other_records():
-    outcomes = lognormal_outcomes(2)
+    outcomes = lognormal(2)
     found = influence(outcomes, hazard_curve([0.1, 1.0], [1e-2, 1e-5]))
     place = found.records.index("record 3")
     without = fit_lognormal(outcomes.only(np.arange(30) != 3), resamples=2)

@@ -5,11 +5,11 @@ import pytest
 
 from colonnade.assessment.fragility.isotonic import fit_isotonic
 from colonnade.assessment.fragility.outcomes import gather
-from virtual_capacities import lognormal_outcomes, names
+from virtual_capacities import lognormal, names
 
 
 def test_shares_that_rise_are_kept():
-    outcomes = lognormal_outcomes(1)
+    outcomes = lognormal(1)
     curve = fit_isotonic(outcomes, resamples=50)
     np.testing.assert_allclose(curve.probability.value, outcomes.overturned.mean(axis=(0, 2, 3)))
     np.testing.assert_allclose(curve.intensity, outcomes.intensity[0, :, 0])
@@ -29,14 +29,14 @@ def test_of_n_records_without_an_event_the_limit_is_about_that_of_n_trials():
 
 
 def test_limits_rise_and_hold_the_curve():
-    band = fit_isotonic(lognormal_outcomes(2), resamples=200).probability
+    band = fit_isotonic(lognormal(2), resamples=200).probability
     assert (np.diff(band.low) >= 0).all()
     assert (np.diff(band.high) >= 0).all()
     assert ((band.low <= band.value) & (band.value <= band.high)).all()
 
 
 def test_many_different_intensities_are_binned():
-    outcomes = lognormal_outcomes(3)
+    outcomes = lognormal(3)
     own = outcomes.intensity[:, :, 0] * np.exp(np.random.default_rng(4).normal(0, 0.3, (30, 1)))
     curve = fit_isotonic(gather(outcomes.records, own, outcomes.peak), resamples=50)
     assert (curve.intensity.size, (np.diff(curve.intensity) > 0).all()) == (20, True)

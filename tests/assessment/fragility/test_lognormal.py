@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from colonnade.assessment.fragility.lognormal import fit_lognormal
 from colonnade.assessment.fragility.outcomes import gather
-from virtual_capacities import BETA, MEDIAN, lognormal_outcomes, names, outcomes_of
+from virtual_capacities import BETA, MEDIAN, lognormal, names, outcomes_of
 
 
 def single(peaks, intensity=(1.0, 2.0, 3.0)):
@@ -16,7 +16,7 @@ def single(peaks, intensity=(1.0, 2.0, 3.0)):
 
 
 def test_median_beta_and_probabilities_are_near_the_truth_and_inside_their_intervals():
-    fit = fit_lognormal(lognormal_outcomes(5, records=200), resamples=500)
+    fit = fit_lognormal(lognormal(5, records=200), resamples=500)
     assert (fit.median.low < MEDIAN < fit.median.high, fit.beta.low < BETA < fit.beta.high) == (True, True)
     assert (fit.median.value, fit.beta.value) == pytest.approx((MEDIAN, BETA), rel=0.1)
     at = fit.probability([fit.median.value, MEDIAN * np.exp(BETA)])
@@ -34,7 +34,7 @@ def test_a_record_at_more_levels_or_draws_does_not_narrow_the_interval_as_more_r
 
 
 def test_the_same_seed_gives_the_same_interval():
-    outcomes = lognormal_outcomes(6)
+    outcomes = lognormal(6)
     first, same, other = (fit_lognormal(outcomes, resamples=100, seed=seed).median for seed in (3, 3, 4))
     assert (first == same, first == other) == (True, False)
 
@@ -62,7 +62,7 @@ def test_one_intensity_gives_no_curve():
 @settings(deadline=None, max_examples=10)
 @given(factor=st.floats(1e-6, 1e6))
 def test_the_unit_of_the_intensity_does_not_matter(factor):
-    outcomes = lognormal_outcomes(7)
+    outcomes = lognormal(7)
     scaled = gather(outcomes.records, outcomes.intensity[:, :, 0] * factor, outcomes.peak)
     one, other = (fit_lognormal(each, resamples=50) for each in (outcomes, scaled))
     assert np.array(other.median) == pytest.approx(np.array(one.median) * factor)
@@ -72,7 +72,7 @@ def test_the_unit_of_the_intensity_does_not_matter(factor):
 def test_thousand_resamples_take_well_below_a_second():
     from time import perf_counter
 
-    outcomes = lognormal_outcomes(9, records=40)
+    outcomes = lognormal(9, records=40)
     fit_lognormal(outcomes, resamples=2)
     start = perf_counter()
     fit_lognormal(outcomes, resamples=1000)

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from colonnade.assessment.fragility.measures import compare_measures
-from virtual_capacities import lognormal_outcomes
+from virtual_capacities import lognormal
 
 
 @pytest.fixture(scope="module")
 def outcomes():
-    return lognormal_outcomes(4)
+    return lognormal(4)
 
 
 @pytest.fixture(scope="module")

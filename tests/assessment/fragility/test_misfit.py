@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from colonnade.assessment.fragility.misfit import lognormal_misfit
-from virtual_capacities import lognormal_outcomes, outcomes_of, two_kinds
+from virtual_capacities import lognormal, outcomes_of, two_kinds
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -14,7 +14,7 @@ def test_two_kinds_of_records_are_not_lognormal(seed):
 
 def test_lognormal_outcomes_pass_although_their_deviance_is_large():
     """χ² of 8 degrees of freedom would call many of them misfits: its 95 % limit is 15.5."""
-    found = [lognormal_misfit(lognormal_outcomes(seed), resamples=300) for seed in range(12)]
+    found = [lognormal_misfit(lognormal(seed), resamples=300) for seed in range(12)]
     assert sum(each.p_value < 0.05 for each in found) <= 2
     assert sum(each.deviance > 15.5 for each in found) >= 4
 

@@ -7,12 +7,12 @@ import scipy
 from colonnade.assessment.fragility import probit
 from colonnade.assessment.fragility.outcomes import Cells
 from colonnade.assessment.fragility.parameters import fit_parameters
-from virtual_capacities import lognormal_outcomes
+from virtual_capacities import lognormal
 
 
 @pytest.fixture(scope="module")
 def cells():
-    return lognormal_outcomes(1).cells()
+    return lognormal(1).cells()
 
 
 def independent(cells, weights):
@@ -46,7 +46,7 @@ def test_a_record_of_weight_two_is_that_record_twice(cells):
 
 
 def test_standard_errors_are_those_of_leaving_out_records_in_turn():
-    cells = lognormal_outcomes(1, records=200).cells()
+    cells = lognormal(1, records=200).cells()
     found = fit_parameters(cells, np.vstack((np.ones(200), 1 - np.eye(200))))[0]
     jackknife = [199 / 200 * ((each[1:] - each[1:].mean()) ** 2).sum() for each in (found.log_median, found.log_beta)]
     np.testing.assert_allclose(np.sqrt([found.mm[0], found.bb[0]]), np.sqrt(jackknife), rtol=0.05)

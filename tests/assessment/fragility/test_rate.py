@@ -7,7 +7,7 @@ from colonnade.assessment.fragility.hazard import hazard_curve
 from colonnade.assessment.fragility.isotonic import fit_isotonic
 from colonnade.assessment.fragility.lognormal import fit_lognormal
 from colonnade.assessment.fragility.rate import annual_rate
-from virtual_capacities import BETA, MEDIAN, lognormal_outcomes, outcomes_of
+from virtual_capacities import BETA, MEDIAN, lognormal, outcomes_of
 
 X = np.geomspace(0.02, 5, 12)
 
@@ -18,7 +18,7 @@ def rate_of(outcomes, hazard):
 
 @pytest.fixture(scope="module")
 def found():
-    return rate_of(lognormal_outcomes(4, records=100), hazard_curve(X, 1e-4 * X**-2))
+    return rate_of(lognormal(4, records=100), hazard_curve(X, 1e-4 * X**-2))
 
 
 def test_the_interval_holds_the_true_rate(found):
@@ -42,12 +42,12 @@ def test_without_a_distribution_it_is_about_the_same(found):
 
 def test_a_hazard_curve_that_ends_too_early_is_seen():
     x = np.array([0.05, 0.3])
-    found = rate_of(lognormal_outcomes(4), hazard_curve(x, 1e-4 * x**-2))
+    found = rate_of(lognormal(4), hazard_curve(x, 1e-4 * x**-2))
     assert (found.above_hazard > 0.3, found.is_extrapolated) == (True, True)
 
 
 def test_a_steep_hazard_far_below_the_levels_is_seen():
-    found = rate_of(lognormal_outcomes(4), hazard_curve(X, 1e-4 * X**-6))
+    found = rate_of(lognormal(4), hazard_curve(X, 1e-4 * X**-6))
     assert (found.below_levels > 0.5, found.below_hazard < 0.05, found.is_extrapolated) == (True, True, True)
 
 

@@ -5,11 +5,11 @@ import pytest
 
 from colonnade.assessment.fragility.hazard import hazard_curve
 from colonnade.assessment.fragility.summary import summarise
-from virtual_capacities import MEDIAN, lognormal_outcomes, outcomes_of
+from virtual_capacities import MEDIAN, lognormal, outcomes_of
 
 
 def test_everything_is_of_the_same_outcomes():
-    outcomes = lognormal_outcomes(1)
+    outcomes = lognormal(1)
     found = summarise(
         outcomes,
         threshold=(1.8, 1.9),

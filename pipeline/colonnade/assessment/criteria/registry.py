@@ -135,9 +135,9 @@ CRITERIA = (
         "overturning",
         "Slender blocks (α below about 0.35 rad); motions like white noise, with a constant velocity spectrum.",
         "Equates the energy that an average spectrum gives an undamped oscillator with the one that overturns. A "
-        "rocking block is not an oscillator, and impacts take energy: other shares than 50 % of simulated blocks overturn "
-        "(Yim, Chopra and Penzien 1980), and a response spectrum does not replace a rocking spectrum (Makris and "
-        "Konstantinidis 2003).",
+        "rocking block is not an oscillator, and impacts take energy: other shares than 50 % of simulated blocks "
+        "overturn (Yim, Chopra and Penzien 1980), and a response spectrum does not replace a rocking spectrum "
+        "(Makris and Konstantinidis 2003).",
         _housner,
     ),
 )
