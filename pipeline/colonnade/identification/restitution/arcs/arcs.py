@@ -5,10 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from functools import cached_property
 from itertools import pairwise
+from math import cos, cosh, sinh, sqrt
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from colonnade.arrays import Array
+from colonnade.dynamics.kernel import kernel
 
 CENTRAL_SHARE = 0.6
 """Smallest share of an arc about its middle that enters its fit; the filter blurs its ends, the impacts."""
@@ -18,6 +22,12 @@ BLURRED = 0.08
 
 MOST_LAGS = 200
 """Samples over which correlations are summed at most."""
+
+FEWEST_SAMPLES = 4
+"""With which an arc is fitted, ..."""
+
+SINGULAR = 1e12
+"""... if the condition of its normal equations is below this."""
 
 FEWEST_OWN = 30
 """Samples with which an arc's own scatter is a measure of its errors; with fewer it is that of all arcs."""
@@ -179,54 +189,106 @@ def arcs_between(impacts: Array, time: Array, angle: Array, p: float, *, critica
     the transducers nor the critical angle enters. Standard errors allow for noise that is correlated over some samples:
     the variance of a mean grows by the sum of the correlations, which is that of the residuals of all arcs.
     """
-    pieces = []
-    for start, end in pairwise(impacts):
-        inside = slice(*np.searchsorted(time, (start, end)))
-        pieces.append(_fitted(time[inside], angle[inside], start, end, p, critical))
-    growth = _growth([piece.residual for piece in pieces])
-    scatters = [piece.variance for piece in pieces if np.isfinite(piece.variance)]
-    common = float(np.median(scatters)) if scatters else np.nan
+    bounds = np.searchsorted(time, impacts)
+    sums = _summed(time, angle, impacts, bounds, p, np.nan if critical is None else critical)
+    middle, own_p, count, normal = sums.middle, sums.p, sums.last - sums.first, sums.normal
+    fitted = count >= FEWEST_SAMPLES
+    fitted[fitted] = np.linalg.cond(normal[fitted]) < SINGULAR
+    inverse = np.full(normal.shape, np.nan)
+    inverse[fitted] = np.linalg.inv(normal[fitted])
+    coefficients = (inverse @ sums.right[:, :, None])[:, :, 0]
+    residuals = [
+        _residual(time[each], angle[each], *of_arc) if is_fitted else np.empty(0)
+        for is_fitted, each, *of_arc in zip(
+            fitted.tolist(), map(slice, sums.first, sums.last), middle, own_p, coefficients, strict=True
+        )
+    ]
+    variance = np.array([residual @ residual / max(residual.size - 3, 1) for residual in residuals])
+    variance[~fitted] = np.nan
+    common = float(np.median(variance[fitted])) if fitted.any() else np.nan
+    variance = _growth(residuals) * np.where(fitted & (count < FEWEST_OWN), common, variance)
     rows = [
-        (start, end, *_read_off(piece, growth * (piece.variance if piece.residual.size >= FEWEST_OWN else common)))
-        for (start, end), piece in zip(pairwise(impacts), pieces, strict=True)
+        (*ends, *_read_off(*of_arc))
+        for ends, *of_arc in zip(
+            pairwise(impacts), middle, own_p, coefficients, inverse, variance, sums.highest, strict=True
+        )
     ]
     return Arcs(*(np.array(column, dtype=np.float64) for column in (zip(*rows, strict=True) if rows else [()] * 10)))
 
 
-@dataclass(frozen=True)
-class _Fitted:
-    """Coefficients of 1, cosh x − 1 and sinh x about the middle of an arc, and the residual."""
+class _Sums(NamedTuple):
+    """
+    What is summed over each of n arcs, for the coefficients of 1, cosh x − 1 and sinh x about its middle.
 
-    middle: float
-    p: float
-    coefficients: Array
-    inverse: Array
-    residual: Array
-    variance: float
-    highest: tuple[float, float]
+    Attributes
+    ----------
+    middle, p : ndarray, shape (n,)
+        s; 1/s. NaN if samples are too few or missing.
+    first, last : ndarray of int, shape (n,)
+        Samples away from the impacts, the last excluded; none if samples are too few or missing.
+    normal, right : ndarray, shape (n, 3, 3), (n, 3)
+        Normal equations.
+    highest : ndarray, shape (n, 2)
+        Time (s) and angle (rad) of the highest sample.
+    """
+
+    middle: Array
+    p: Array
+    first: NDArray[np.int64]
+    last: NDArray[np.int64]
+    normal: Array
+    right: Array
+    highest: Array
 
 
-def _fitted(time: Array, angle: Array, start: float, end: float, p: float, critical: float | None) -> _Fitted:
-    missing = _Fitted(np.nan, p, np.full(3, np.nan), np.full((3, 3), np.nan), np.empty(0), np.nan, (np.nan, np.nan))
-    if time.size < 3 or not np.isfinite(angle).all():
-        return missing
-    middle, half = (start + end) / 2, (end - start) / 2
-    if critical is not None:
-        p *= float(np.sqrt(np.cos(max(critical - 2 / 3 * float(np.abs(angle).max()), 0.0))))
-    central = np.abs(time - middle) <= max(CENTRAL_SHARE * half, half - BLURRED / p)
-    if central.sum() < 5:
-        central = np.ones(time.size, dtype=bool)
-    x, values = p * (time[central] - middle), angle[central]
-    design = np.column_stack((np.ones_like(x), np.cosh(x) - 1, np.sinh(x)))
-    highest = int(np.argmax(np.abs(angle)))
-    summit = (float(time[highest]), float(angle[highest]))
-    normal = design.T @ design
-    if values.size < 4 or not np.linalg.cond(normal) < 1e12:
-        return _Fitted(middle, p, np.full(3, np.nan), missing.inverse, np.empty(0), np.nan, summit)
-    inverse = np.linalg.inv(normal)
-    coefficients = inverse @ (design.T @ values)
-    residual = values - design @ coefficients
-    return _Fitted(middle, p, coefficients, inverse, residual, float(residual @ residual) / (values.size - 3), summit)
+@kernel
+def _summed(time: Array, angle: Array, impacts: Array, bounds: NDArray[np.int64], p: float, critical: float) -> _Sums:
+    arcs = max(impacts.size - 1, 0)
+    middle, own_p, highest = np.full(arcs, np.nan), np.full(arcs, p), np.full((arcs, 2), np.nan)
+    firsts, lasts = np.zeros(arcs, dtype=np.int64), np.zeros(arcs, dtype=np.int64)
+    normal, right = np.zeros((arcs, 3, 3)), np.zeros((arcs, 3))
+    for arc in range(arcs):
+        first, last = bounds[arc], bounds[arc + 1]
+        summit, is_whole = first, last - first >= 3
+        for n in range(first, last):
+            is_whole = is_whole and np.isfinite(angle[n])
+            if abs(angle[n]) > abs(angle[summit]):
+                summit = n
+        if not is_whole:
+            continue
+        highest[arc, 0], highest[arc, 1] = time[summit], angle[summit]
+        centre, half = (impacts[arc] + impacts[arc + 1]) / 2, (impacts[arc + 1] - impacts[arc]) / 2
+        rate = p
+        if not np.isnan(critical):
+            rate *= sqrt(cos(max(critical - 2 / 3 * abs(angle[summit]), 0.0)))
+        reach = max(CENTRAL_SHARE * half, half - BLURRED / rate)
+        low, high = first, last
+        while low < high and abs(time[low] - centre) > reach:
+            low += 1
+        while high > low and abs(time[high - 1] - centre) > reach:
+            high -= 1
+        if high - low < 5:
+            low, high = first, last
+        for n in range(low, high):
+            x = rate * (time[n] - centre)
+            even, odd = cosh(x) - 1.0, sinh(x)
+            row = (1.0, even, odd)
+            for i in range(3):
+                right[arc, i] += row[i] * angle[n]
+                for k in range(3):
+                    normal[arc, i, k] += row[i] * row[k]
+        middle[arc], own_p[arc], firsts[arc], lasts[arc] = centre, rate, low, high
+    return _Sums(middle, own_p, firsts, lasts, normal, right, highest)
+
+
+@kernel
+def _residual(time: Array, angle: Array, middle: float, p: float, coefficients: Array) -> Array:
+    """Measured less fitted, rad."""
+    residual = np.empty(time.size)
+    for n in range(time.size):
+        x = p * (time[n] - middle)
+        residual[n] = angle[n] - coefficients[0] - coefficients[1] * (cosh(x) - 1.0) - coefficients[2] * sinh(x)
+    return residual
 
 
 def _growth(residuals: list[Array]) -> float:
@@ -242,26 +304,38 @@ def _growth(residuals: list[Array]) -> float:
     return growth
 
 
-def _read_off(piece: _Fitted, variance: float) -> tuple[float, ...]:
+@kernel
+def _read_off(
+    middle: float, p: float, coefficients: Array, inverse: Array, variance: float, highest: Array
+) -> tuple[float, float, float, float, float, float, float, float]:
     """Peak and both zeros of a fitted arc, with their errors, in the order of `Arcs`."""
-    constant, even, odd = piece.coefficients
-    p = piece.p
-    nothing = (np.nan,) * 5
+    constant, even, odd = coefficients[0], coefficients[1], coefficients[2]
+    nan = np.nan
     if not abs(even) > abs(odd):
-        return (*piece.highest, np.nan, *nothing)
+        return highest[0], highest[1], nan, nan, nan, nan, nan, nan
     summit = -np.arctanh(odd / even)
-    radius = np.sign(even) * np.sqrt(even**2 - odd**2)
-    peak = constant - even + radius
-    gradient = np.array([1.0, np.cosh(summit) - 1, np.sinh(summit)])
-    error = float(np.sqrt(variance * (gradient @ piece.inverse @ gradient)))
-    at_peak = (float(piece.middle + summit / p), float(peak), error)
-    if not (even - constant) / radius > 1:
-        return (*at_peak, *nothing)
-    reach = float(np.arccosh((even - constant) / radius))
-    x = np.array([summit - reach, summit + reach])
-    by_time = p * (even * np.sinh(x) + odd * np.cosh(x))
-    gradients = np.array([np.ones(2), np.cosh(x) - 1, np.sinh(x)]) / by_time
-    covariance = variance * (gradients.T @ piece.inverse @ gradients)
-    rise, fall = (piece.middle + x / p).tolist()
-    errors = np.sqrt(np.diag(covariance)).tolist()
-    return (*at_peak, rise, fall, *errors, float(covariance[0, 1]))
+    radius = np.sign(even) * sqrt(even**2 - odd**2)
+    peak, time = constant - even + radius, middle + summit / p
+    error = sqrt(variance * _spread(inverse, summit, summit))
+    height = (even - constant) / radius
+    if not height > 1:
+        return time, peak, error, nan, nan, nan, nan, nan
+    reach = np.arccosh(height)
+    rise, fall = summit - reach, summit + reach
+    of_rise = p * (even * sinh(rise) + odd * cosh(rise))
+    of_fall = p * (even * sinh(fall) + odd * cosh(fall))
+    rise_error = sqrt(variance * _spread(inverse, rise, rise)) / abs(of_rise)
+    fall_error = sqrt(variance * _spread(inverse, fall, fall)) / abs(of_fall)
+    covariance = variance * _spread(inverse, rise, fall) / (of_rise * of_fall)
+    return time, peak, error, middle + rise / p, middle + fall / p, rise_error, fall_error, covariance
+
+
+@kernel
+def _spread(inverse: Array, one: float, other: float) -> float:
+    """Covariance of the fitted curve at two x, in the variance of a sample."""
+    row, column = (1.0, cosh(one) - 1.0, sinh(one)), (1.0, cosh(other) - 1.0, sinh(other))
+    total = 0.0
+    for i in range(3):
+        for k in range(3):
+            total += row[i] * inverse[i, k] * column[k]
+    return total

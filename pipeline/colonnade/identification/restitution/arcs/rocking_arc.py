@@ -12,7 +12,7 @@ and dn is a row of equal pulses: dn(x, k) = c Σ sech(c (x − 2 n K)), c = π/2
 
 from __future__ import annotations
 
-from math import acosh, asin, cosh, exp, pi, sin, sqrt
+from math import acosh, asin, cosh, exp, log, pi, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,6 +55,23 @@ def _half_sine(scale: float, decay: float, u: float) -> float:
         total += near / (1.0 + near * near) + far / (1.0 + far * far)
         power *= decay * decay
     return 2.0 * scale * total
+
+
+@kernel
+def _changing_half_sine(scale: float, decay: float, by_scale: float, by_decay: float, u: float) -> tuple[float, float]:
+    """Sum as `_half_sine`, and its change where c and ln of the decay change by so much."""
+    growth, grown = exp(scale * abs(u)), by_scale * abs(u)
+    total, change, power, fallen = 0.0, 0.0, decay, by_decay
+    while power * growth > SMALLEST_PULSE:
+        near, far = power * growth, power / growth
+        near_share, far_share = near / (1.0 + near * near), far / (1.0 + far * far)
+        total += near_share + far_share
+        # d [x / (1 + x²)] = x / (1 + x²) · (1 − x²) / (1 + x²) d ln x
+        change += near_share * (1.0 - 2.0 * near * near_share) * (fallen + grown)
+        change += far_share * (1.0 - 2.0 * far * far_share) * (fallen - grown)
+        power *= decay * decay
+        fallen += 2.0 * by_decay
+    return 2.0 * scale * total, 2.0 * (by_scale * total + scale * change)
 
 
 @kernel
@@ -106,6 +123,20 @@ def half_duration_of(peaks: Array, critical: Array, linearised: bool) -> Array:
     for n in range(peaks.size):
         phases[n] = half_duration(peaks[n], critical[n], linearised)
     return phases
+
+
+@kernel
+def peak_of_duration(phase: float, critical: float, lowest: float, highest: float) -> float:
+    """Return |θ| of the peak from which `half_duration` takes a phase p t, or the nearer of two bounds; rad."""
+    low, high = lowest, highest
+    # Until no number is left between the bounds.
+    while low < 0.5 * (low + high) < high:
+        middle = 0.5 * (low + high)
+        if half_duration(middle, critical, False) < phase:
+            low = middle
+        else:
+            high = middle
+    return low
 
 
 @kernel
@@ -181,6 +212,22 @@ def free_arcs(
 
 
 @kernel
+def changes_by_energy(
+    peaks: Array, first_side: int, critical: Array, p: Array, linearised: bool
+) -> tuple[Array, Array]:
+    """Change of each arc's peak (rad), and of half its duration (s), by half of ln of its energy."""
+    by_energy, longer = np.empty(peaks.size), np.empty(peaks.size)
+    for n in range(peaks.size):
+        side, peak = (first_side + n) % 2, peaks[n]
+        alpha, step = critical[side], 1e-6 * peak
+        slope = alpha - peak if linearised else sin(alpha - peak)
+        by_energy[n] = 2.0 * kinetic(peak, alpha, linearised) / slope
+        change = half_duration(peak + step, alpha, linearised) - half_duration(peak - step, alpha, linearised)
+        longer[n] = change / (2.0 * step) / p[side] * by_energy[n]
+    return by_energy, longer
+
+
+@kernel
 def angle_and_sensitivity(
     time: Array,
     peaks: Array,
@@ -222,16 +269,27 @@ def angle_and_sensitivity(
     for n in range(peaks.size):
         side = (first_side + n) % 2
         sign, start = 2.0 * side - 1.0, critical[side] - peaks[n]
-        step = 1e-6 * start
-        scale, decay, other_scale, other_decay = 1.0, 0.0, 1.0, 0.0
+        step, low = 1e-6 * start, sin(0.5 * start)
+        scale, decay, by_scale, by_decay = 1.0, 0.0, 0.0, 0.0
         if not linearised:
-            scale, decay = _pulses(sin(0.5 * start))
-            other_scale, other_decay = _pulses(sin(0.5 * (start + step)))
+            scale, decay = _pulses(low)
+            (more_scale, more_decay), (less_scale, less_decay) = (
+                _pulses(sin(0.5 * (start + step))),
+                _pulses(sin(0.5 * (start - step))),
+            )
+            by_scale, by_decay = (more_scale - less_scale) / (2.0 * step), log(more_decay / less_decay) / (2.0 * step)
         while i < time.size and (n == peaks.size - 1 or not time[i] >= ends[n]):
             u = p[side] * (time[i] - times[n])
-            distance = _distance(start, scale, decay, u, linearised)
-            moved = (_distance(start + step, other_scale, other_decay, u, linearised) - distance) / step
-            speed = _speed(start, distance, linearised) * (1.0 if u >= 0.0 else -1.0)
+            if linearised:
+                distance = _distance(start, scale, decay, u, True)
+                moved, speed = distance / start, _speed(start, distance, True)
+            else:
+                high, change = _changing_half_sine(scale, decay, by_scale, by_decay, u)
+                distance, moved = pi, 0.0
+                if high < 1.0:
+                    distance, moved = 2.0 * asin(high), 2.0 * change / sqrt((1.0 - high) * (1.0 + high))
+                speed = 2.0 * sqrt(max((min(high, 1.0) - low) * (min(high, 1.0) + low), 0.0))
+            speed = speed if u >= 0.0 else -speed
             angle[i] = offset + sign * (critical[side] - distance)
             sensitivity[i, 0] = sign * moved
             sensitivity[i, 1] = sign * speed * p[side]
@@ -272,18 +330,19 @@ def angle_of_arcs(
 
 @kernel
 def normal_equations(sensitivity: Array, residual: Array, arc: NDArray[np.int64], count: int) -> tuple[Array, Array]:
-    """Sum products of sensitivities (m, 5, 5), and with residuals (m, 5), over each arc; NaN ones are passed over."""
-    products, gradients = np.zeros((count, LOCAL, LOCAL)), np.zeros((count, LOCAL))
+    """Sum products of sensitivities (m, l, l), and with residuals (m, l), over each arc; NaN ones are passed over."""
+    local = sensitivity.shape[1]
+    products, gradients = np.zeros((count, local, local)), np.zeros((count, local))
     for i in range(residual.size):
         if np.isnan(residual[i]):
             continue
         n = arc[i]
-        for j in range(LOCAL):
+        for j in range(local):
             gradients[n, j] += sensitivity[i, j] * residual[i]
             for k in range(j + 1):
                 products[n, j, k] += sensitivity[i, j] * sensitivity[i, k]
     for n in range(count):
-        for j in range(LOCAL):
+        for j in range(local):
             for k in range(j):
                 products[n, k, j] = products[n, j, k]
     return products, gradients

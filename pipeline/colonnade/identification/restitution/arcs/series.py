@@ -16,7 +16,7 @@ STEP = 1e-5
 """Of the derivatives of an arc's duration, as a share of the peak and of α."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ArcSeries:
     """
     Arcs in order, with what the nonlinear equation says of each.

@@ -155,6 +155,7 @@ def _lifted(time: Array, uplift: Array, block: Block, series: ArcSeries) -> Depa
 def _paused(time: Array, angle: Array, series: ArcSeries) -> Departure | None:
     noise = noise_level(angle)
     pauses, errors, limits = [], [], []
+    speed, duration = series.speed, series.duration
     for index in range(1, series.number.size):
         if series.number[index] != series.number[index - 1] + 1:
             continue
@@ -166,10 +167,10 @@ def _paused(time: Array, angle: Array, series: ArcSeries) -> Departure | None:
         step = float(np.median(np.diff(time[inside])))
         near = float((np.abs(angle[inside]) < low).sum()) * step
         # Between upright and `low` on either side the speed falls by little; both sides share the mean of the two.
-        expected = sum(_passing(series, one, low) for one in (index - 1, index))
+        expected = sum(_passing(series, float(speed[one]), one, low) for one in (index - 1, index))
         pauses.append(near - expected)
-        errors.append(float(np.hypot(step, 2 * noise / series.speed[index])))
-        limits.append(LONGEST_PAUSE * float(series.duration[index]))
+        errors.append(float(np.hypot(step, 2 * noise / speed[index])))
+        limits.append(LONGEST_PAUSE * float(duration[index]))
     found = np.array(pauses)
     large = (found > np.array(limits)) & (found > NOISE_MARGIN * np.array(errors))
     if not large.any():
@@ -187,8 +188,8 @@ def _paused(time: Array, angle: Array, series: ArcSeries) -> Departure | None:
     )
 
 
-def _passing(series: ArcSeries, index: int, low: float) -> float:
+def _passing(series: ArcSeries, speed: float, index: int, low: float) -> float:
     """Time from upright to an angle `low` (rad) along an arc, s: ω falls as the block rises."""
-    speed, peak, critical = float(series.speed[index]), float(series.peak[index]), float(series.critical[index])
+    peak, critical = float(series.peak[index]), float(series.critical[index])
     lost = np.sin(critical - low / 2) * np.sin(low / 2) / (np.sin(critical - peak / 2) * np.sin(peak / 2))
     return float(2 * low / (speed * (1 + np.sqrt(max(1 - lost, 0.0)))))

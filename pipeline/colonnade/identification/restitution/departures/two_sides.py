@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from colonnade.arrays import Array
@@ -69,6 +71,7 @@ def compare_sides(series: ArcSeries) -> tuple[Departure, ...]:
     return tuple(departure for departure in found if departure is not None)
 
 
+@lru_cache(maxsize=2)  # several questions are asked of the same arcs
 def sides_problem(series: ArcSeries) -> RandomWalkProblem:
     """
     Set up energies, then durations, of all arcs as a linear problem.

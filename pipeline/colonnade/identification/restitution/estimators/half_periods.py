@@ -5,11 +5,10 @@ from __future__ import annotations
 from math import exp, sqrt
 
 import numpy as np
-import scipy
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.identification.restitution.arcs.rocking_arc import half_duration
+from colonnade.identification.restitution.arcs.rocking_arc import peak_of_duration
 from colonnade.identification.restitution.estimators.estimator import Estimator, Fit
 from colonnade.identification.restitution.fitting.free_decay import ALWAYS, Decay, first_values
 from colonnade.identification.restitution.fitting.mixture import Mean, mean_of_student
@@ -17,6 +16,9 @@ from colonnade.identification.restitution.free_vibration import FreeVibration
 
 FEWEST_SPARE = 2
 """Impacts beyond the number of unknowns."""
+
+LOWEST, HIGHEST = 1e-6, 1 - 1e-9
+"""Of α: bounds of the peaks to start from, that are hardly ever reached."""
 
 MOST_STEPS = 30
 LARGEST_ERROR_OF_P = 0.01
@@ -149,22 +151,12 @@ def _first_guess(impacts: Array, first_side: int, block: Block) -> Decay:
     durations = np.diff(impacts)
     along = [block.sides[(first_side + n) % 2] for n in range(durations.size)]
     phases = [duration * block.side_p(side) / 2 for duration, side in zip(durations.tolist(), along, strict=True)]
-    heights = np.array([_height(phase, side.critical_angle) for phase, side in zip(phases, along, strict=True)])
-    peak, time = heights[0] * along[0].critical_angle, impacts[0] + durations[0] / 2
+    critical = np.array([side.critical_angle for side in along])
+    low, high = LOWEST * critical, HIGHEST * critical
+    heights = np.array(list(map(peak_of_duration, phases, critical, low, high))) / critical
+    peak, time = heights[0] * critical[0], impacts[0] + durations[0] / 2
     values = first_values(heights * (2 - heights), heights, peak=float(peak), time=float(time))
     return Decay(values, first_side, durations.size, block, linearised=False)
-
-
-def _height(phase: float, critical: float) -> float:
-    """|θ|/α of the arc that lasts 2 phase / p; the nearest one between two bounds that are hardly ever reached."""
-
-    def excess(height: float) -> float:
-        return float(half_duration(height * critical, critical, False) - phase)
-
-    low, high = 1e-6, 1 - 1e-9
-    if excess(low) >= 0:
-        return low
-    return high if excess(high) <= 0 else float(scipy.optimize.brentq(excess, low, high))
 
 
 def _times(decay: Decay) -> Array:
@@ -181,6 +173,9 @@ def _times(decay: Decay) -> Array:
 def _jacobian(decay: Decay, names: tuple[str, ...]) -> Array:
     columns = []
     for name in names:
+        if name == "time":
+            columns.append(np.ones(decay.count + 1))
+            continue
         step = 1e-6 * (decay.values["peak"] if name in ("peak", "zero_offset") else 1.0)
         columns.append((_times(decay.moved({name: step})) - _times(decay.moved({name: -step}))) / (2 * step))
     return np.column_stack(columns)

@@ -24,19 +24,20 @@ from colonnade.identification.restitution.fitting.forecast import (
     stretch_of,
     without_first,
 )
-from colonnade.identification.restitution.fitting.free_decay import ALWAYS, OPTIONAL
+from colonnade.identification.restitution.fitting.free_decay import ALWAYS, OPTIONAL, Decay
 from colonnade.identification.restitution.fitting.least_squares import Stretch, UnfollowedError
 from colonnade.identification.restitution.fitting.mixture import MeanByScatter, mean_over_scatters
 from colonnade.identification.restitution.fitting.noise import fit_noise
 from colonnade.identification.restitution.fitting.rocking_path import RockingPath, fit_path, fit_path_forward
 from colonnade.identification.restitution.fitting.samples import AngleSamples
-from colonnade.identification.restitution.fitting.scatter_model import (
-    LinearModel,
+from colonnade.identification.restitution.fitting.scatter_likelihood import (
+    Reduction,
     Solution,
-    SpectralModel,
     explained,
+    reduced,
     solve,
 )
+from colonnade.identification.restitution.fitting.scatter_model import LinearModel, SpectralModel
 from colonnade.identification.restitution.free_vibration import FreeVibration
 
 MOST_ROUNDS = 4
@@ -54,6 +55,9 @@ LEAST_NOISE = 1e-6
 RELEASE_UNLIKELY = 1e-3
 """Probability below which the part after the release is not free rocking from rest."""
 
+FEWEST_OF_TREND = 5
+"""Impacts."""
+
 SURE_TREND = 0.003
 """Probability of a change of e with the speed of impact by chance, below which the mean is that at the mean speed."""
 
@@ -68,7 +72,7 @@ class ScatteredFit(HistoryFit):
     scatter : float
         Standard deviation of e from impact to impact.
     change, change_error : float
-        Of e over the speeds of impact seen, and its standard error; NaN with fewer than 5 impacts.
+        Of e over the speeds of impact seen, and its standard error; NaN with fewer than `FEWEST_OF_TREND` impacts.
     restitution : ndarray, shape (m,)
         e of each impact, drawn towards the mean as far as noise allows.
     """
@@ -155,33 +159,37 @@ class ScatteredHistory(Estimator[ScatteredFit]):
             path = fit_path(path, stretch, names, max(scatter, LEAST_SCATTER))
             transformed = SpectralModel(_linear(path, stretch, names))
             # Noise of power 1/f hardly moves the path: it is looked for at the end.
-            parts, best = solve(transformed, white=True)
+            parts, best = solve(reduced([transformed.white()]))
             found = float(np.average(parts.scatter, weights=np.exp(parts.likelihood - parts.likelihood.max())))
             if abs(found - scatter) <= SAME_SCATTER * scatter:
                 break
             scatter = found
-        parts, best = solve(transformed)
-        own = _own_columns(path, stretch)
-        if from_release and explained(transformed, best, own[:, :1]) < RELEASE_UNLIKELY:
+        reduction = reduced(transformed.all_products(), _along_speed(path.decay))
+        parts, best = solve(reduction.of_columns(np.arange(len(names) + 1)))
+        own, of_all = transformed.products_with(_own_columns(path, stretch), best.products.knee)
+        if from_release and explained(best, own[:1, :1], of_all[:1]) < RELEASE_UNLIKELY:
             return self._fitted(record, replace(path, decay=without_first(path.decay)), from_release=False)
+        probability = explained(best, own, of_all)
         # A block that is not as given shows most clearly in its own parameters.
-        others = tuple(name for name in OPTIONAL if name not in names)
-        of_block, _ = path.decay.jacobian(stretch.time, others)
-        of_block[~np.isfinite(path.residual(stretch))] = 0.0
-        probability = min(explained(transformed, best, own), explained(transformed, best, of_block) if others else 1.0)
-        return self._described(record, path, stretch, parts, best, probability)
+        if others := tuple(name for name in OPTIONAL if name not in names):
+            of_block, _ = path.decay.jacobian(stretch.time, others)
+            of_block[~np.isfinite(path.residual(stretch))] = 0.0
+            probability = min(probability, explained(best, *transformed.products_with(of_block, best.products.knee)))
+        trend = _trend(reduction, path.decay.count - 1, len(names) + 1)
+        return self._described(record, path, stretch, trend, parts, best, probability)
 
     def _described(
         self,
         record: FreeVibration,
         path: RockingPath,
         stretch: Stretch,
+        trend: tuple[float, float, MeanByScatter | None],
         parts: MeanByScatter,
         best: Solution,
         probability: float,
     ) -> ScatteredFit:
         names, logarithm = ALWAYS + record.free, path.decay.values["restitution"]
-        change, change_error, at_mean_speed = _trend(path, stretch, names)
+        change, change_error, at_mean_speed = trend
         mean = mean_over_scatters(at_mean_speed or parts, record.level).moved(logarithm)
         residual = path.residual(stretch)
         rms = float(np.sqrt(np.nanmean(residual**2)))
@@ -231,27 +239,26 @@ def _own_columns(path: RockingPath, stretch: Stretch) -> Array:
     return np.asarray(inside * np.gradient(angle, stretch.time)[:, None])
 
 
-def _trend(path: RockingPath, stretch: Stretch, names: tuple[str, ...]) -> tuple[float, float, MeanByScatter | None]:
-    """Change of ln e over the speeds of impact, its error, and if it is sure what the mean is at the mean speed."""
-    impacts = path.decay.count - 1
-    speed = path.decay.landing_speeds()[:-1]
+def _along_speed(decay: Decay) -> Array | None:
+    """Speed of each impact from its mean, over the range of speeds; None if there are too few impacts for a trend."""
+    speed = decay.landing_speeds()[:-1]
     extent = float(np.ptp(speed))
-    if impacts < 5 or not extent > 0:
+    return (speed - speed.mean()) / extent if speed.size >= FEWEST_OF_TREND and extent > 0 else None
+
+
+def _trend(reduction: Reduction, impacts: int, unknowns: int) -> tuple[float, float, MeanByScatter | None]:
+    """Change of ln e over the speeds of impact, its error, and if it is sure what the mean is at the mean speed."""
+    if reduction.lengths.size == unknowns:
         return np.nan, np.nan, None
-    linear = _linear(path, stretch, names)
-    along = linear.by_impact @ ((speed - speed.mean()) / extent)
     # The coefficient that is asked for comes first.
-    parts, _ = solve(SpectralModel(replace(linear, fixed=np.column_stack((along, linear.fixed)))))
+    parts, _ = solve(reduction.of_columns(np.append(unknowns, np.arange(unknowns))))
     top = int(np.argmax(parts.likelihood))
     change, error = float(parts.centre[top]), float(parts.error[top])
-    if _chance(change, error, impacts) >= SURE_TREND:
-        return change, error, None
-    at_mean, _ = solve(SpectralModel(replace(linear, fixed=np.column_stack((linear.fixed, along)))))
-    return change, error, at_mean
+    return change, error, None if _chance(change, error, impacts) >= SURE_TREND else solve(reduction)[0]
 
 
 def _chance(change: float, error: float, impacts: int) -> float:
     """Probability that e of so many impacts changes as much by chance, by Student's t; 1 where that is not known."""
     if not (isfinite(change) and error > 0):
         return 1.0
-    return 2 * float(scipy.stats.t.sf(abs(change) / error, impacts - 2))
+    return 2 * float(scipy.special.stdtr(impacts - 2, -abs(change) / error))

@@ -147,9 +147,15 @@ class _ScatteredMean:
         """Variance τ² with which the weighted sum of squares equals its degrees of freedom; 0 if it never does."""
         count = self.values.size
         spare, widest = count - int(columns.shape[1]), float(np.var(self.values)) * count + 1e-12
+        # In the eigenvectors of the errors' covariance their variance is diagonal, whatever the scatter.
+        variances, vectors = np.linalg.eigh(self.covariance)
+        turned, values = vectors.T @ columns, vectors.T @ self.values
 
         def excess(scatter: float) -> float:
-            return self.fit(columns, scatter)[2] - spare
+            root = np.sqrt(np.maximum(variances, 0.0) + scatter + 1e-18)
+            white, seen = turned / root[:, None], values / root
+            normal = np.linalg.pinv(white.T @ white)
+            return float(((seen - white @ (normal @ (white.T @ seen))) ** 2).sum()) - spare
 
         if spare < 1 or excess(0.0) <= 0 or excess(widest) >= 0:
             return 0.0

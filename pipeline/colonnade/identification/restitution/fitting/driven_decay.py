@@ -18,7 +18,7 @@ from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kernel import kernel
 from colonnade.identification.response.base_motion import table_moves
-from colonnade.identification.restitution.fitting.free_decay import STEPS, Decay
+from colonnade.identification.restitution.fitting.free_decay import STEP, Decay
 from colonnade.identification.restitution.fitting.samples import UNEVEN
 
 LONGEST_STEP = 0.02
@@ -105,8 +105,16 @@ class DrivenDecay(Decay):
 
         fixed = [change(self.moved({name: step}), self.moved({name: -step}), step) for name, step in self._steps(names)]
         pairs = [self._by_impact(impact) for impact in range(self.count - 1)]
-        by_impact = [change(ahead, behind, STEPS["restitution"]) for ahead, behind in pairs]
+        by_impact = [change(ahead, behind, STEP) for ahead, behind in pairs]
         return np.array(fixed).reshape(len(names), time.size).T, np.array(by_impact).reshape(-1, time.size).T
+
+    def normal_equations(
+        self, time: Array, residual: Array, further: Array, names: tuple[str, ...]
+    ) -> tuple[Array, Array]:
+        """Sum products of the derivatives of the angle over the samples counted."""
+        fixed, by_impact = self.jacobian(time, names)
+        columns = np.column_stack((fixed, further, by_impact))[np.isfinite(residual)]
+        return columns.T @ columns, columns.T @ residual[np.isfinite(residual)]
 
     def derivatives(self, names: tuple[str, ...]) -> Array:
         """Derivatives of each arc's peak and time with respect to those named, shape (count, 2, len(names))."""
@@ -122,8 +130,8 @@ class DrivenDecay(Decay):
         by_peak, by_time = np.zeros((self.count, self.count - 1)), np.zeros((self.count, self.count - 1))
         for impact in range(self.count - 1):
             ahead, behind = (each.arcs() for each in self._by_impact(impact))
-            by_peak[:, impact] = (ahead[0] - behind[0]) / (2 * STEPS["restitution"])
-            by_time[:, impact] = (ahead[1] - behind[1]) / (2 * STEPS["restitution"])
+            by_peak[:, impact] = (ahead[0] - behind[0]) / (2 * STEP)
+            by_time[:, impact] = (ahead[1] - behind[1]) / (2 * STEP)
         return by_peak, by_time
 
     def _steps(self, names: tuple[str, ...]) -> list[tuple[str, float]]:
@@ -131,7 +139,7 @@ class DrivenDecay(Decay):
         return [(name, 1e-6 * sizes.get(name, 1.0)) for name in names]
 
     def _by_impact(self, impact: int) -> tuple[Decay, Decay]:
-        step = STEPS["restitution"] * (np.arange(self.count - 1) == impact)
+        step = STEP * (np.arange(self.count - 1) == impact)
         return self.moved_by_impact({}, step), self.moved_by_impact({}, -step)
 
     def _driven(self, time: Array) -> tuple[Array, Array, Array, Array, NDArray[np.int64]]:

@@ -89,7 +89,7 @@ def _longer(followed: DecayFit, samples: AngleSamples, lowest: float) -> Decay |
     further = replace(followed.decay, count=4 * followed.decay.count)
     derivatives = further.derivatives(ALWAYS)[:, 1, :]
     # Residuals of filtered noise are correlated over a few samples: twice the error that white noise would give.
-    error = 2 * np.sqrt(followed.mean_square * np.einsum("nk,kj,nj->n", derivatives, followed.inverse, derivatives))
+    error = 2 * np.sqrt(followed.mean_square * ((derivatives @ followed.inverse) * derivatives).sum(axis=1))
     return extended(followed.decay, further, error, samples, max(lowest, 2 * sqrt(followed.mean_square)))
 
 

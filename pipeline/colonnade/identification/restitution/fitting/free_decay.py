@@ -17,8 +17,9 @@ from colonnade.identification.restitution.arcs.rocking_arc import (
     LOCAL,
     angle_and_sensitivity,
     angle_of_arcs,
+    changes_by_energy,
     free_arcs,
-    half_duration_of,
+    normal_equations,
 )
 
 ALWAYS = ("restitution", "peak", "time", "zero_offset")
@@ -27,8 +28,8 @@ ALWAYS = ("restitution", "peak", "time", "zero_offset")
 OPTIONAL = ("critical_angle", "p")
 """Unknowns that may be freed: the logarithm of the factor on the block's α, and on its p."""
 
-STEPS = {"restitution": 1e-6, "peak": 1e-6, "critical_angle": 1e-6, "p": 1e-6}
-"""Of the differences that give derivatives; that of the peak relative to it."""
+STEP = 1e-6
+"""Of the differences that give derivatives."""
 
 
 def first_values(energy: Array, size: Array, *, peak: float, time: float) -> dict[str, float]:
@@ -140,31 +141,35 @@ class Decay:
         for column, name in enumerate(names):
             if name == "zero_offset":
                 result[:, 2, column] = 1.0
-                continue
-            if name == "time":
+            elif name == "time":
                 result[:, 1, column] = 1.0
-                continue
-            step = STEPS[name] * (self.values["peak"] if name == "peak" else 1.0)
-            (high, late, _), (low, early, _) = (self.moved({name: sign * step}).arcs() for sign in (1, -1))
-            result[:, 0, column] = (high - low) / (2 * step)
-            result[:, 1, column] = (late - early) / (2 * step)
-            if name in OPTIONAL:
+            elif name == "restitution":
+                # Of that of each impact before the arc there is as much as there are impacts.
+                by_energy, longer = self._by_energy
+                impacts = np.arange(self.count)
+                result[:, 0, column] = impacts * by_energy
+                result[:, 1, column] = 2 * np.cumsum(impacts * longer) - impacts * longer
+            elif name == "peak":
+                by_energy, longer = self._by_energy
+                result[:, 0, column] = by_energy / by_energy[0]
+                result[:, 1, column] = (2 * np.cumsum(longer) - longer - longer[0]) / by_energy[0]
+            else:
+                (high, late, _), (low, early, _) = (self.moved({name: step}).arcs() for step in (STEP, -STEP))
+                result[:, 0, column] = (high - low) / (2 * STEP)
+                result[:, 1, column] = (late - early) / (2 * STEP)
                 result[:, 3 + OPTIONAL.index(name), column] = 1.0
         return result
 
+    @cached_property
+    def _by_energy(self) -> tuple[Array, Array]:
+        """Change of each arc's peak (rad), and of half its duration (s), by half of ln of its energy."""
+        return changes_by_energy(self.arcs()[0], self.side, self.critical, self.p, self.linearised)
+
     def derivatives_by_impact(self) -> tuple[Array, Array]:
         """Derivatives of each arc's peak (rad) and of its time (s) by ln e of each impact, shape (count, count − 1)."""
-        peaks, _, _ = self.arcs()
-        critical, p = self.critical[self.sides], self.p[self.sides]
-        if self.linearised:
-            by_energy = 2 * peaks * (critical - peaks / 2) / (critical - peaks)
-        else:
-            by_energy = 2 * lift(peaks, critical) / np.sin(critical - peaks)
-        step = STEPS["peak"] * peaks
-        longer, shorter = (half_duration_of(peaks + sign * step, critical, self.linearised) for sign in (1, -1))
-        by_peak = (longer - shorter) / (2 * step) / p * by_energy
+        by_energy, longer = self._by_energy
         later = np.tri(self.count, self.count - 1, -1)
-        half_longer = later * by_peak[:, None]
+        half_longer = later * longer[:, None]
         return later * by_energy[:, None], 2 * np.cumsum(half_longer, axis=0) - half_longer
 
     def moved_by_impact(self, steps: dict[str, float], deviations: Array) -> Decay:
@@ -187,6 +192,37 @@ class Decay:
         fixed = np.einsum("nl,nlk->nk", sensitivity, self.derivatives(names)[arc])
         return fixed, _by_impact(sensitivity, arc, *self.derivatives_by_impact())
 
+    def normal_equations(
+        self, time: Array, residual: Array, further: Array, names: tuple[str, ...]
+    ) -> tuple[Array, Array]:
+        """
+        Sum products of the derivatives of the angle over the samples counted.
+
+        Parameters
+        ----------
+        time, residual : ndarray, shape (n,)
+            s; rad, NaN where not counted.
+        further : ndarray, shape (n,)
+            A column that comes between the derivatives by the unknowns named and those by ln e of each impact.
+        names : tuple of str
+
+        Returns
+        -------
+        products : ndarray, shape (k + count, k + count)
+        gradient : ndarray, shape (k + count,)
+            Products with the residual.
+        """
+        _, sensitivity, arc = self.angle(time)
+        local = np.column_stack((sensitivity, further))
+        products, gradients = normal_equations(local, residual, arc, self.count)
+        unknowns = len(names)
+        derivatives = np.zeros((self.count, LOCAL + 1, unknowns + self.count))
+        derivatives[:, :LOCAL, :unknowns] = self.derivatives(names)
+        derivatives[:, LOCAL, unknowns] = 1.0
+        derivatives[:, 0, unknowns + 1 :], derivatives[:, 1, unknowns + 1 :] = self.derivatives_by_impact()
+        flat = derivatives.reshape(-1, unknowns + self.count)
+        return flat.T @ (products @ derivatives).reshape(flat.shape), flat.T @ gradients.ravel()
+
     def landing_speeds(self) -> Array:
         """Angular velocity at the end of each arc, before the impact, rad/s, shape (count,)."""
         peaks, _, _ = self.arcs()
@@ -199,8 +235,9 @@ class Decay:
 @kernel
 def _by_impact(sensitivity: Array, arc: NDArray[np.int64], by_peak: Array, by_time: Array) -> Array:
     """Derivatives of the angle by ln e of each impact, shape (n, m), from those of the peak and time of each arc."""
-    derivatives = np.empty((arc.size, by_peak.shape[1]))
-    for n in range(arc.size):
-        for m in range(by_peak.shape[1]):
-            derivatives[n, m] = sensitivity[n, 0] * by_peak[arc[n], m] + sensitivity[n, 1] * by_time[arc[n], m]
-    return derivatives
+    derivatives = np.zeros((by_peak.shape[1], arc.size))
+    for m in range(by_peak.shape[1]):
+        # Only what follows an impact depends on its e.
+        for n in range(np.searchsorted(arc, m + 1), arc.size):
+            derivatives[m, n] = sensitivity[n, 0] * by_peak[arc[n], m] + sensitivity[n, 1] * by_time[arc[n], m]
+    return derivatives.T

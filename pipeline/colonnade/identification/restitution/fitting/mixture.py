@@ -69,7 +69,7 @@ class Mean:
 
 def mean_of_student(value: float, error: float, freedom: float, level: float) -> Mean:
     """Return a mean with a standard error of so many degrees of freedom: its interval is Student's."""
-    half = float(scipy.stats.t.ppf((1 + level) / 2, freedom)) * error
+    half = float(scipy.special.stdtrit(freedom, (1 + level) / 2)) * error
     return Mean(value, value - half, value + half, error, 0.0)
 
 
@@ -109,7 +109,7 @@ def mean_over_scatters(parts: MeanByScatter, level: float) -> Mean:
 
     def quantile(share: float) -> float:
         def excess(value: float) -> float:
-            return float(weight @ scipy.stats.t.cdf((value - centre) / error, parts.freedom) / weight.sum()) - share
+            return float(weight @ scipy.special.stdtr(parts.freedom, (value - centre) / error) / weight.sum()) - share
 
         reach = spread
         while not excess(middle - reach) < 0 < excess(middle + reach):
@@ -118,7 +118,7 @@ def mean_over_scatters(parts: MeanByScatter, level: float) -> Mean:
 
     low, value, high = (quantile(share) for share in ((1 - level) / 2, 0.5, (1 + level) / 2))
     # Of the normal distribution whose interval is as wide.
-    normal = (high - low) / 2 / float(scipy.stats.norm.ppf((1 + level) / 2))
+    normal = (high - low) / 2 / float(scipy.special.ndtri((1 + level) / 2))
     return Mean(value, low, high, normal, float(weight @ parts.scatter[kept] / weight.sum()))
 
 

@@ -202,10 +202,12 @@ def _groups(
     """Middle frequency, level and number of members of groups of a spectrum."""
     pieces = list(pairwise(edges))
     if mean:
-        levels = [power[first:last].mean() for first, last in pieces]
+        levels = np.array([power[first:last].mean() for first, last in pieces])
     else:
-        levels = [_median(power[first:last]) / _median_of_exponentials(last - first) for first, last in pieces]
-    return 0.5 * (frequency[edges[:-1]] + frequency[edges[1:] - 1]), np.array(levels), np.diff(edges).astype(np.float64)
+        levels = np.array(
+            [_median(power[first:last]) / _median_of_exponentials(last - first) for first, last in pieces]
+        )
+    return 0.5 * (frequency[edges[:-1]] + frequency[edges[1:] - 1]), levels, np.diff(edges).astype(np.float64)
 
 
 def _median(values: Array) -> float:

@@ -35,9 +35,9 @@ class RandomWalkFit:
 
     def is_sure(self, index: int, deviations: float) -> bool:
         """Whether a coefficient is not zero, as sure as `deviations` of a normal distribution are; by Student's t."""
-        chance = 2 * float(scipy.stats.norm.sf(deviations))
+        chance = 2 * float(scipy.special.ndtr(-deviations))
         ratio = abs(float(self.coefficients[index])) / max(self.error(index), 1e-300)
-        return bool(2 * float(scipy.stats.t.sf(ratio, self.freedom)) < chance)
+        return bool(2 * float(scipy.special.stdtr(self.freedom, -ratio)) < chance)
 
 
 @dataclass(frozen=True)
@@ -78,8 +78,7 @@ class RandomWalkProblem:
             raise ValueError(f"{count} values for {unknowns} coefficients; more values were expected")
         lengths = _lengths(design)
         turned = self._turned(np.column_stack((self.values, design / lengths)))
-        fits = (_fit(turned[:, 0], turned[:, 1:], 1 + ratio * self._spectrum[1], lengths) for ratio in RATIOS)
-        return min(fits, key=lambda found: found[0])[1]
+        return _likeliest(turned, 1 + np.outer(RATIOS, self._spectrum[1]), lengths)
 
     def gains(self, columns: Array) -> Array:
         """
@@ -90,20 +89,18 @@ class RandomWalkProblem:
         gains : ndarray, shape (m,)
             Of the lowest over all ρ, with and without the column.
         """
-        lowest, without = np.full(columns.shape[1], np.inf), np.inf
         count, split = self.values.size, 1 + columns.shape[1]
         turned = self._turned(np.column_stack((self.values, columns, self.design / _lengths(self.design))))
-        for ratio in RATIOS:
-            variance = 1 + ratio * self._spectrum[1]
-            white = turned / np.sqrt(variance)[:, None]
-            volume = float(np.log(variance).sum())
-            basis, _ = np.linalg.qr(white[:, split:])
-            left = white[:, :split] - basis @ (basis.T @ white[:, :split])
-            power = float(left[:, 0] @ left[:, 0])
-            explained = (left[:, 1:].T @ left[:, 0]) ** 2 / np.maximum((left[:, 1:] ** 2).sum(axis=0), 1e-300)
-            without = min(without, volume + count * float(np.log(power / count)))
-            lowest = np.minimum(lowest, volume + count * np.log(np.maximum(power - explained, 1e-300) / count))
-        return np.asarray(without - lowest)
+        variance = 1 + np.outer(RATIOS, self._spectrum[1])
+        white = turned / np.sqrt(variance)[:, :, None]
+        basis, _ = np.linalg.qr(white[:, :, split:])
+        left = white[:, :, :split] - basis @ (basis.transpose(0, 2, 1) @ white[:, :, :split])
+        along = (left[:, :, :1].transpose(0, 2, 1) @ left)[:, 0]
+        explained = along[:, 1:] ** 2 / np.maximum((left[:, :, 1:] ** 2).sum(axis=1), 1e-300)
+        power, volume = along[:, 0], np.log(variance).sum(axis=1)
+        without = (volume + count * np.log(power / count)).min()
+        lowest = volume[:, None] + count * np.log(np.maximum(power[:, None] - explained, 1e-300) / count)
+        return np.asarray(without - lowest.min(axis=0))
 
     def _turned(self, columns: Array) -> Array:
         """Turn columns so that their variance is diagonal at any ρ: 1 + ρ times the spectrum."""
@@ -126,20 +123,20 @@ def _lengths(design: Array) -> Array:
     return np.asarray(np.sqrt((design**2).sum(axis=0)))
 
 
-def _fit(seen: Array, columns: Array, variance: Array, lengths: Array) -> tuple[float, RandomWalkFit]:
-    """Return the restricted criterion and the fit, with independent values of given variance."""
-    root = np.sqrt(variance)
-    seen, columns = seen / root, columns / root[:, None]
-    normal = columns.T @ columns
+def _likeliest(turned: Array, variance: Array, lengths: Array) -> RandomWalkFit:
+    """Fit values, the first column, by the others with each row of variances; the fit of least restricted criterion."""
+    white = turned / np.sqrt(variance)[:, :, None]
+    seen, columns = white[:, :, :1], white[:, :, 1:]
+    normal = columns.transpose(0, 2, 1) @ columns
     inverse = np.linalg.pinv(normal, hermitian=True)
-    coefficients = inverse @ (columns.T @ seen)
-    left = seen - columns @ coefficients
-    freedom = seen.size - lengths.size
-    scale = max(float(left @ left) / freedom, 1e-12)
-    spread = inverse * max(scale, 1.0) / np.outer(lengths, lengths)
-    volume = float(np.log(variance).sum())
-    restricted = volume + float(np.linalg.slogdet(normal)[1]) + freedom * float(np.log(scale))
-    return restricted, RandomWalkFit(coefficients / lengths, spread, freedom)
+    coefficients = inverse @ (columns.transpose(0, 2, 1) @ seen)
+    left = (seen - columns @ coefficients)[:, :, 0]
+    freedom = left.shape[1] - lengths.size
+    scale = np.maximum((left**2).sum(axis=1) / freedom, 1e-12)
+    restricted = np.log(variance).sum(axis=1) + np.linalg.slogdet(normal)[1] + freedom * np.log(scale)
+    best = int(np.argmin(restricted))
+    spread = inverse[best] * max(float(scale[best]), 1.0) / np.outer(lengths, lengths)
+    return RandomWalkFit(coefficients[best, :, 0] / lengths, spread, freedom)
 
 
 RATIOS = np.concatenate(([0.0], np.geomspace(1e-3, 1e4, 15)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import sqrt
 
 import numpy as np
@@ -97,13 +98,7 @@ def fit_path(path: RockingPath, stretch: Stretch, names: tuple[str, ...], scatte
     -----
     Least squares by Gauss and Newton, with (departure / scatter)² of each impact added; noise as the residuals show.
     """
-    power = _power(path, stretch)
-    for _ in range(3):
-        path = _closest(path, stretch, names, scatter, power)
-        power, before = _power(path, stretch), power
-        if abs(power - before) < SAME_NOISE * before:
-            break
-    return path
+    return _fitted(_Laid(path, stretch, names), scatter).path
 
 
 def fit_path_forward(samples: AngleSamples, path: RockingPath, lowest: float) -> RockingPath:
@@ -111,10 +106,11 @@ def fit_path_forward(samples: AngleSamples, path: RockingPath, lowest: float) ->
     margin, scatter = BLURRED / float(path.decay.p.max()), LIKELY_SCATTER
     while True:
         stretch = stretch_of(samples, path.decay, margin=margin)
-        path = fit_path(path, stretch, ALWAYS, scatter)
+        laid = _fitted(_Laid(path, stretch, ALWAYS), scatter)
+        path = laid.path
         if path.decay.count > 5:
             scatter = float(np.clip(1.5 * np.std(path.decay.by_impact), *SCATTERS))
-        longer = _longer(path, stretch, samples, scatter, lowest)
+        longer = _longer(laid, samples, scatter, lowest)
         if longer is None:
             return path
         path = longer
@@ -126,25 +122,70 @@ def _centred_time(stretch: Stretch) -> Array:
     return np.asarray((stretch.time - start) / max(end - start, 1e-300) - 0.5)
 
 
-def _power(path: RockingPath, stretch: Stretch) -> float:
-    residual = path.residual(stretch)
-    if not np.isfinite(residual).sum() > path.decay.count + len(ALWAYS) + 1:
-        raise UnfollowedError("too few samples")
-    return max(float(np.nanmean(residual**2)), 1e-30)
+@dataclass(frozen=True)
+class _Laid:
+    """A path laid through a stretch, with what is computed of it when it is first asked for."""
 
+    path: RockingPath
+    stretch: Stretch
+    names: tuple[str, ...]
 
-def _closest(path: RockingPath, stretch: Stretch, names: tuple[str, ...], scatter: float, power: float) -> RockingPath:
-    def objective(tried: RockingPath) -> float:
-        if not np.isfinite(tried.decay.arcs()[0]).all():
+    @cached_property
+    def residual(self) -> Array:
+        """Rad; NaN where not counted."""
+        return self.path.residual(self.stretch)
+
+    @cached_property
+    def power(self) -> float:
+        """Mean square of the residual, rad²."""
+        counted = self.residual[np.isfinite(self.residual)]
+        if not counted.size > self.path.decay.count + len(ALWAYS) + 1:
+            raise UnfollowedError("too few samples")
+        return max(float(counted @ counted) / counted.size, 1e-30)
+
+    @cached_property
+    def _products(self) -> tuple[Array, Array]:
+        stretch = self.stretch
+        return self.path.decay.normal_equations(stretch.time, self.residual, _centred_time(stretch), self.names)
+
+    def objective(self, scatter: float, power: float) -> float:
+        """Squares of the residual and of the departures, in the variance of each; infinite if the block overturns."""
+        if not np.isfinite(self.path.decay.arcs()[0]).all():
             return np.inf
-        residual = tried.residual(stretch)
-        return float(np.nansum(residual**2) / power + (tried.decay.by_impact**2).sum() / scatter**2)
+        counted = self.residual[np.isfinite(self.residual)]
+        return float(counted @ counted / power + (self.path.decay.by_impact**2).sum() / scatter**2)
 
-    here = objective(path)
+    def normal(self, scatter: float, power: float) -> tuple[Array, Array]:
+        """Normal equations of the penalised squares: matrix and right side."""
+        normal, gradient = (each / power for each in self._products)
+        impact = np.arange(len(self.names) + 1, gradient.size)
+        normal[impact, impact] += scatter**-2
+        gradient[impact] -= self.path.decay.by_impact * scatter**-2
+        return normal, gradient
+
+    def moved(self, step: Array) -> _Laid:
+        """Return the path with steps added, as `RockingPath.moved`."""
+        return _Laid(self.path.moved(step, self.names), self.stretch, self.names)
+
+
+def _fitted(laid: _Laid, scatter: float) -> _Laid:
+    """Move a path as `fit_path` does."""
+    power = laid.power
+    for _ in range(3):
+        laid = _closest(laid, scatter, power)
+        power, before = laid.power, power
+        if abs(power - before) < SAME_NOISE * before:
+            break
+    return laid
+
+
+def _closest(laid: _Laid, scatter: float, power: float) -> _Laid:
+    """Move a path to the least penalised squares with the noise's variance as given."""
+    here = laid.objective(scatter, power)
     if not np.isfinite(here):
         raise UnfollowedError("the block would overturn")
     for _ in range(MOST_STEPS):
-        normal, gradient = _normal(path, stretch, names, scatter, power)
+        normal, gradient = laid.normal(scatter, power)
         scale = np.sqrt(np.diag(normal))
         if not (scale > 0).all():
             raise UnfollowedError("an unknown has no effect")
@@ -152,37 +193,22 @@ def _closest(path: RockingPath, stretch: Stretch, names: tuple[str, ...], scatte
         if float(gradient @ step) < CONVERGED:
             break
         for halving in range(MOST_HALVINGS):
-            tried = path.moved(0.5**halving * step, names)
-            there = objective(tried)
+            tried = laid.moved(0.5**halving * step)
+            there = tried.objective(scatter, power)
             if there < here * (1 + 1e-9):
                 break
         else:
             break
-        path, here = tried, there
-    return path
+        laid, here = tried, there
+    return laid
 
 
-def _normal(
-    path: RockingPath, stretch: Stretch, names: tuple[str, ...], scatter: float, power: float
-) -> tuple[Array, Array]:
-    """Normal equations of the penalised squares: matrix and right side."""
-    residual, fixed, by_impact = path.linear(stretch, names)
-    columns = np.hstack((fixed, by_impact))
-    normal = columns.T @ columns / power
-    gradient = columns.T @ np.nan_to_num(residual) / power
-    penalty = np.concatenate((np.zeros(fixed.shape[1]), np.full(by_impact.shape[1], scatter**-2)))
-    normal[np.diag_indices_from(normal)] += penalty
-    gradient[fixed.shape[1] :] -= path.decay.by_impact * scatter**-2
-    return normal, gradient
-
-
-def _longer(
-    path: RockingPath, stretch: Stretch, samples: AngleSamples, scatter: float, lowest: float
-) -> RockingPath | None:
+def _longer(laid: _Laid, samples: AngleSamples, scatter: float, lowest: float) -> RockingPath | None:
     """Return the path with as many more arcs as the record has and the fit foresees; None for none."""
-    count, power = path.decay.count, _power(path, stretch)
+    path, power = laid.path, laid.power
+    count = path.decay.count
     # Residuals of filtered noise are correlated over a few samples: twice the error that white noise would give.
-    normal, _ = _normal(path, stretch, ALWAYS, scatter, 4 * power)
+    normal, _ = laid.normal(scatter, 4 * power)
     scale = np.sqrt(np.diag(normal))
     covariance = np.linalg.inv(normal / np.outer(scale, scale)) / np.outer(scale, scale)
     further = replace(path.decay, count=max(int(FARTHER * count), count + 4))
@@ -192,6 +218,6 @@ def _longer(
     known = covariance.shape[0]
     spread = np.diag(np.full(derivatives.shape[1], scatter**2))
     spread[:known, :known] = covariance
-    error = np.sqrt(np.maximum(np.einsum("nk,kj,nj->n", derivatives, spread, derivatives), 0.0))
+    error = np.sqrt(np.maximum(((derivatives @ spread) * derivatives).sum(axis=1), 0.0))
     longer = extended(path.decay, further, error, samples, max(lowest, 2 * sqrt(power)))
     return None if longer is None else replace(path, decay=longer)
