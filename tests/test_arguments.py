@@ -185,6 +185,25 @@ CALLS = {
         }
         | {"lowest_amplitude": "deviation"},
     ),
+    "intensity_measures": Call(
+        colonnade.intensity_measures,
+        {"motion": MOTION},
+        {"motion": "object", "block": "object or none", "measures": "names", "drift": "positive"}
+        | {"baseline": "name", "gravity": "positive"},
+    ),
+    "overturning_spectrum": Call(
+        colonnade.overturning_spectrum,
+        {"block": BLOCK, "pulse": "sine", "frequency_ratio": [2.0, 3.0], "largest": 2.0},
+        {"block": "object", "pulse": "name", "frequency_ratio": "array", "restitution": "e", "model": "name"}
+        | {"cycles": "cycles", "phase": "number", "largest": "positive", "width": "fine", "edge": "fine"}
+        | {"threads": "whole"},
+    ),
+    "rocking_spectrum": Call(
+        colonnade.rocking_spectrum,
+        {"motion": MOTION, "critical_angle": [0.2, 0.3], "period": [1.0, 2.0]},
+        {"motion": "object", "critical_angle": "array", "period": "array", "restitution": "e"}
+        | {"model": "name", "gravity": "positive", "threads": "whole"},
+    ),
     "reactions": Call(
         colonnade.reactions,
         {"history": HISTORY, "motion": MOTION},
@@ -226,7 +245,10 @@ CALLS = {
 FOR["ranked"] = {name: value for name, value in ARRAYS.items() if name != "infinite"}
 FOR["a coefficient"] = {name: value for name, value in FOR["deviation"].items() if name != "infinite"}
 
-GIVEN_BACK = {"Ensemble", "History", "Reactions", "Restitution", "StabilityMap"}
+GIVEN_BACK = {"Ensemble", "History", "IntensityMeasures", "Reactions", "Restitution", "StabilityMap"} | {
+    "OverturningSpectrum",
+    "RockingSpectrum",
+}
 """Results: nobody makes them from arguments; what their methods take is checked."""
 
 NOT_CALLED = {"__version__", "ColonnadeError", "animate", "plot"}

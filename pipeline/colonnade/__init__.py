@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from colonnade.assessment.intensity.measured import IntensityMeasures, intensity_measures
     from colonnade.dynamics.block import Block
     from colonnade.dynamics.ensembles.ensemble import ensemble
     from colonnade.dynamics.ensembles.outcome import Ensemble
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     from colonnade.dynamics.plane.reactions import Reactions, reactions
     from colonnade.dynamics.restitution_law import RestitutionLaw
     from colonnade.dynamics.rock import rock
+    from colonnade.dynamics.spectra.overturning import OverturningSpectrum, overturning_spectrum
+    from colonnade.dynamics.spectra.spectrum import RockingSpectrum, rocking_spectrum
     from colonnade.errors import ColonnadeError
     from colonnade.figures.plot import animate, plot
     from colonnade.identification.fusion.angle import rocking_angle
@@ -35,21 +38,27 @@ __all__ = [
     "ColonnadeError",
     "Ensemble",
     "History",
+    "IntensityMeasures",
     "Motion",
+    "OverturningSpectrum",
     "Reactions",
     "Restitution",
     "RestitutionLaw",
+    "RockingSpectrum",
     "StabilityMap",
     "Uncertainty",
     "__version__",
     "animate",
     "ensemble",
     "identify_restitution",
+    "intensity_measures",
+    "overturning_spectrum",
     "plot",
     "reactions",
     "read_motion",
     "rock",
     "rocking_angle",
+    "rocking_spectrum",
     "run",
     "stability_map",
 ]
@@ -59,20 +68,26 @@ _ROOMS = {
     "ColonnadeError": "colonnade.errors",
     "Ensemble": "colonnade.dynamics.ensembles.outcome",
     "History": "colonnade.dynamics.history",
+    "IntensityMeasures": "colonnade.assessment.intensity.measured",
     "Motion": "colonnade.dynamics.motion",
+    "OverturningSpectrum": "colonnade.dynamics.spectra.overturning",
     "Reactions": "colonnade.dynamics.plane.reactions",
     "Restitution": "colonnade.identification.restitution.result",
     "RestitutionLaw": "colonnade.dynamics.restitution_law",
+    "RockingSpectrum": "colonnade.dynamics.spectra.spectrum",
     "StabilityMap": "colonnade.dynamics.maps.chart",
     "Uncertainty": "colonnade.dynamics.ensembles.uncertainty",
     "animate": "colonnade.figures.plot",
     "ensemble": "colonnade.dynamics.ensembles.ensemble",
     "identify_restitution": "colonnade.identification.restitution.identify",
+    "intensity_measures": "colonnade.assessment.intensity.measured",
+    "overturning_spectrum": "colonnade.dynamics.spectra.overturning",
     "plot": "colonnade.figures.plot",
     "reactions": "colonnade.dynamics.plane.reactions",
     "read_motion": "colonnade.readers.motion",
     "rock": "colonnade.dynamics.rock",
     "rocking_angle": "colonnade.identification.fusion.angle",
+    "rocking_spectrum": "colonnade.dynamics.spectra.spectrum",
     "run": "colonnade.workflow.run",
     "stability_map": "colonnade.dynamics.maps.chart",
 }

@@ -45,6 +45,7 @@ def test_the_contracts_example_is_read_and_written_unchanged_but_for_later_addit
         "outcome": None, "peak_ratio": None, "nrmse": None,
     }  # fmt: skip
     expected["forecasts"] = test["forecast"] = None
+    expected["assessments"] = {}
     expected["specimens"]["prism"] |= dict.fromkeys(LATER["specimen"])
     test |= dict.fromkeys(LATER["test"])
     for prediction in test["predicted"].values():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.motion import read_motion
+from colonnade.readers.motion import read_motion, read_motions
 
 STANDARD_GRAVITY = 9.80665
 
@@ -72,6 +72,32 @@ def test_one_of_several_columns_has_to_be_named(tmp_path: Path) -> None:
     assert read_motion(path, unit="g", column="up").acceleration.min() == -STANDARD_GRAVITY
     with pytest.raises(ReadError, match='2 columns may be the acceleration: "north", "up"'):
         read_motion(path, unit="g")
+
+
+def test_the_one_column_in_a_unit_of_acceleration_needs_no_name(tmp_path: Path) -> None:
+    rows = "".join(f"{row / 100},{row % 3},{row % 2},{row % 5}\n" for row in range(9))
+    motion = read_motion(written(tmp_path, "t [s],v [cm/s],a [g],d [cm]\n" + rows))
+    assert set(motion.acceleration) == {0.0, STANDARD_GRAVITY}
+
+
+def test_a_given_interval_does_not_make_steps_equal(tmp_path: Path) -> None:
+    with pytest.raises(ReadError, match="not equally spaced"):
+        read_motion(written(tmp_path, "t,a\n0,1\n1,2\n3,1\n4,0\n"), unit="g", dt=1.0)
+
+
+def test_the_components_of_a_file_come_by_their_heads(tmp_path: Path) -> None:
+    rows = "".join(f"{row / 100},{row % 3},{row % 2}\n" for row in range(9))
+    path = written(tmp_path, "t [s],NS [g],EW [g]\n" + rows)
+    motions = read_motions(path)
+    assert {head: motion.peak for head, motion in motions.items()} == {
+        "NS [g]": 2 * STANDARD_GRAVITY,
+        "EW [g]": STANDARD_GRAVITY,
+    }
+    assert list(read_motions(path, column="EW")) == ["EW [g]"]
+    with pytest.raises(ReadError, match="4 columns may be accelerations; 1 to 3"):
+        read_motions(
+            written(tmp_path, "t [s],a,b,c,d\n" + "".join(f"{k / 100},1,0,{k % 2},{k % 3}\n" for k in range(9)))
+        )
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ from colonnade.report.addresses import addresses, of_data, scripts_of
 
 
 def test_every_page_has_its_address_and_the_overview_comes_last(filled_campaign):
-    single, whole = addresses(filled_campaign[0], forecasts=False)
+    single, whole = addresses(filled_campaign[0], [])
     assert "tests/span-2.0.html" in single
     assert "specimens/statue.html" in single
     assert whole[-1] == "index.html"

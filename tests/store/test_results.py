@@ -38,7 +38,7 @@ def test_the_stages_that_can_be_asked_for_are_those_of_the_contract():
 
 @pytest.mark.parametrize(("stage", "with_"), [("specimen", "restitution"), ("contact", "predict"), ("map", "report")])
 def test_what_is_of_a_specimen_comes_with_a_stage_of_its_tests(stage, with_):
-    assert ResultId("prism", stage).is_of_specimen
+    assert ResultId("prism", stage).of == "specimen"
     assert ResultId("prism", stage).order == RUN_STAGES.index(with_)
 
 

@@ -16,7 +16,7 @@ def result(*stages, **given):
 
 def test_a_stage_of_a_specimen_is_listed_as_one():
     assert StageRun("prism", "specimen", "done").heading == "specimen prism"
-    assert StageRun("prism", "contact", "done").is_of_specimen
+    assert StageRun("prism", "contact", "done").of == "specimen"
     assert StageRun("free-01", "predict", "done", "linear").heading == "free-01"
 
 

@@ -8,6 +8,8 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
+from colonnade.campaign.assessing.assessment import Assessment
+from colonnade.campaign.assessing.prototype import Prototype
 from colonnade.campaign.channel import Channel
 from colonnade.campaign.decision import Review
 from colonnade.campaign.motions import ReferenceMotion
@@ -54,6 +56,10 @@ class CampaignFile(Table):
     """What the shake table can do."""
     next: NextSettings = NextSettings()
     """Settings of the advice on the next test."""
+    prototype: dict[Identifier, Prototype] = Field(default={})
+    """The real columns, by the specimen that is a model of each."""
+    assessments: dict[Identifier, Assessment] = Field(default={})
+    """What is asked about the real columns, by name."""
     tests: tuple[Test, ...] = ()
     """The tests, or the path of the test log (CSV or Excel)."""
 
@@ -78,6 +84,10 @@ class Campaign:
     watch : Watched
     table : ShakeTable
     next : NextSettings
+    prototype : dict of str to Prototype
+        By specimen.
+    assessments : dict of str to Assessment
+        By name.
     path, folder : Path
         The campaign file and its folder, absolute and resolved.
     warnings : tuple of Finding
@@ -100,6 +110,8 @@ class Campaign:
     watch: Watched
     table: ShakeTable
     next: NextSettings
+    prototype: dict[str, Prototype]
+    assessments: dict[str, Assessment]
     tests: dict[str, Test]
     path: Path
     folder: Path
@@ -120,7 +132,15 @@ class Campaign:
         motions = {
             name: motion.model_copy(update={"file": within(motion.file)}) for name, motion in self.motions.items()
         }
-        return replace(self, path=within(self.path), folder=Path(), tests=tests, motions=motions)
+        assessments = {
+            name: each.model_copy(
+                update={"records": within(each.records), "hazard": each.hazard and within(each.hazard)}
+            )
+            for name, each in self.assessments.items()
+        }
+        return replace(
+            self, path=within(self.path), folder=Path(), tests=tests, motions=motions, assessments=assessments
+        )
 
     def review(self, test: str) -> Review:
         """Decisions of the manual review about a test; empty ones if it has none."""

@@ -34,6 +34,7 @@ def dangling(document: Mapping[str, Any]) -> Iterator[Problem]:
         yield from _setup(("setups", name), _table(setup))
     tests = document.get("tests")
     listed = tests if isinstance(tests, list) else []
+    yield from _assessments(_table(document.get("assessments")), _table(document.get("prototype")), specimens)
     yield from _tests(listed, specimens, setups)
     yield from _faces(listed, specimens, setups)
 
@@ -72,6 +73,28 @@ def _aligned(place: Place, channel: object, owner: str, channels: Mapping[str, A
         yield place, f"Unknown channel {shown(channel)} in this setup.{nearest(channel, own)}"
     elif channel not in own:
         yield place, f'{shown(channel)} is not a channel of recorder "{owner}".{nearest(channel, own)}'
+
+
+def _assessments(
+    assessments: Mapping[str, Any], prototypes: Mapping[str, Any], specimens: Mapping[str, Any]
+) -> Iterator[Problem]:
+    yield from _clashing(("assessments",), assessments)
+    for name in prototypes:
+        if name not in specimens:
+            yield ("prototype", name), f"Unknown specimen {shown(name)}.{nearest(name, specimens)}"
+    for name, assessment in assessments.items():
+        specimen = _table(assessment).get("specimen")
+        if not isinstance(specimen, str):
+            continue
+        place = ("assessments", name, "specimen")
+        if specimen not in specimens:
+            yield place, f"Unknown specimen {shown(specimen)}.{nearest(specimen, specimens)}"
+        elif specimen not in prototypes:
+            yield (
+                place,
+                f"[prototype.{specimen}] is missing. It says what is assumed of the real column; its `restitution` at "
+                'least was expected: a number, "rigid-body", or "identified" to take that of the model.',
+            )
 
 
 def _tests(tests: list[Any], specimens: Mapping[str, Any], setups: Mapping[str, Any]) -> Iterator[Problem]:

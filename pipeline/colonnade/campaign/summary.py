@@ -6,6 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from colonnade.campaign.assessing.assessed import AssessmentSummary
 from colonnade.campaign.foreseen import ForecastsSummary, TestForecast
 from colonnade.campaign.record import Known, Record
 from colonnade.findings import Finding, Severity
@@ -237,6 +238,8 @@ class Summary(Record):
     """By id."""
     forecasts: ForecastsSummary | None = None
     """The forecasts together; null without one."""
+    assessments: dict[str, AssessmentSummary] = Field(default={})
+    """The assessments of real columns, by name."""
 
     def text(self) -> str:
         """Write it as JSON."""

@@ -9,8 +9,6 @@ import rich_click as click
 from colonnade.cli.console import say, show_json, show_table
 from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, results_option, specimen_option
 
-HEADS = ("specimen", "next", "risk", "tests left", "why")
-
 
 @click.command(
     "next",
@@ -29,26 +27,16 @@ HEADS = ("specimen", "next", "risk", "tests left", "why")
 @json_option
 def next_command(campaign: Path, specimen: tuple[str, ...], results: Path | None, as_json: bool) -> int:
     """Show the advice; return the exit code."""
-    from colonnade.store.records.wording import probability
+    from colonnade.store.records.advice import HEADS
     from colonnade.workflow.advising.next import advise
 
     found = advise(campaign, specimens=specimen, results=results)
     if as_json:
         show_json({"advice": [vars(each) for each in found.advice], "awaited": found.awaited})
         return 0
-    rows = [
-        (
-            each.specimen,
-            f"{each.kind}: {'enough' if each.is_enough else each.test}",
-            "" if each.risk is None or each.is_enough else probability(each.risk),
-            "" if each.left is None else str(each.left),
-            "; ".join((each.reason, *each.beyond)),
-        )
-        for each in found.advice
-    ]
-    show_table(HEADS, rows)
+    show_table(HEADS, [each.row() for each in found.advice])
     for test, file in found.awaited.items():
         say(f"{test}: expected: {file}")
-    if not rows:
+    if not found.advice:
         say("Nothing to advise: no free vibration, sine test or earthquake has been run.")
     return 0

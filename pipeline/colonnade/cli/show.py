@@ -66,13 +66,15 @@ def specimens(arguments: tuple[str, ...], results: Path | None, as_json: bool) -
 @click.argument("campaign", required=False, type=click.Path(path_type=Path), metavar="[CAMPAIGN]")
 @json_option
 def settings(campaign: Path | None, as_json: bool) -> int:
-    """Show every setting of the processing: its value in the campaign, its default, and what it does."""
+    """Show every setting: its value in the campaign, its default, and what it does."""
     from colonnade.campaign import FILE_NAME, Processing, load
+    from colonnade.campaign.settings import NextSettings
     from colonnade.campaign.settings import settings as all_settings
 
     if campaign is None and Path(FILE_NAME).is_file():
         campaign = Path()
-    rows = list(all_settings(Processing() if campaign is None else load(campaign).processing))
+    known = None if campaign is None else load(campaign)
+    rows = list(all_settings(*((known.processing, known.next) if known else (Processing(), NextSettings()))))
     if as_json:
         show_json({row.key: {name: value for name, value in vars(row).items() if name != "key"} for row in rows})
     else:

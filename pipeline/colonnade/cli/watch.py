@@ -13,7 +13,7 @@ from colonnade.cli.console import complain, say
 from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, results_option, workers_option
 
 if TYPE_CHECKING:
-    from colonnade.workflow.advising.advice import Advice
+    from colonnade.store.records.advice import Advice
     from colonnade.workflow.watching.line import Line
 
 

@@ -20,6 +20,9 @@ from colonnade.validation import described, number, text, whole
 
 MOST_COLUMNS = 1_000_000
 
+MOST_COMPONENTS = 3
+"""Columns of a file that may be components of one record."""
+
 UNEVEN = 0.01
 """Largest deviation of a time step, as a share of the mean step, in a motion with equal steps."""
 
@@ -71,13 +74,61 @@ def read_motion(
     """
     path = _checked(path, unit, dt, column, layout)
     recording = registry.read(path) if layout is None else registry.read(path, "delimited", {"layout": layout})
-    channel, step = _column(recording, column)
-    if recording.format != "delimited":
+    found = _columns(recording, column)
+    if len(found) != 1:
+        names = ", ".join(f'"{channel.heading}"' for channel in found[:8])
+        raise ReadError(
+            f"{path.name}: {len(found)} columns may be the acceleration{': ' if names else ''}{names}. "
+            "Say which, for example column=2."
+        )
+    return _motions(recording, found, unit, dt)[0]
+
+
+def read_motions(
+    path: Path, *, unit: str | None = None, dt: float | None = None, column: str | int | None = None
+) -> dict[str, Motion]:
+    """
+    Read all columns of a file that may be accelerations of a base, such as the components of a record.
+
+    Parameters
+    ----------
+    path, unit, dt, column : as for `read_motion`
+
+    Returns
+    -------
+    motions : dict of str to Motion
+        By the heads of their columns. Without a column to choose, those with a unit of acceleration, if there are any.
+
+    Raises
+    ------
+    ReadError
+        As `read_motion`, or if there are more than `MOST_COMPONENTS`.
+    """
+    recording = registry.read(path)
+    found = _columns(recording, column)
+    if not 1 <= len(found) <= MOST_COMPONENTS:
+        raise ReadError(
+            f"{path.name}: {len(found)} columns may be accelerations; 1 to {MOST_COMPONENTS} were expected. Name one "
+            'in the column "column" of a list of records.'
+        )
+    return dict(zip((channel.heading for channel in found), _motions(recording, found, unit, dt), strict=True))
+
+
+def _motions(recording: Recording, columns: list[RecordedChannel], unit: str | None, dt: float | None) -> list[Motion]:
+    """Make motions of columns; what is not given is as the columns or the head of the file say."""
+    claims = None
+    if recording.format == "delimited":
+        claims = read_header(recording.path, DelimitedOptions()).claims
+    else:
         for told in recording.warnings:
-            warnings.warn(f"{path.name}: {told}", stacklevel=2)
-        return _motion(recording, channel.values, unit or channel.unit, dt or step)
-    claims = read_header(path, DelimitedOptions()).claims
-    return _motion(recording, channel.values, unit or channel.unit or claims.unit, dt or step or claims.step)
+            warnings.warn(f"{recording.path.name}: {told}", stacklevel=3)
+    motions = []
+    for channel in columns:
+        own_unit, step = channel.unit, _step(recording, channel)
+        if claims is not None:
+            own_unit, step = own_unit or claims.unit, step or claims.step
+        motions.append(_motion(recording, channel.values, unit or own_unit, dt or step))
+    return motions
 
 
 def _motion(recording: Recording, values: Array, unit: str | None, step: float | None) -> Motion:
@@ -86,12 +137,13 @@ def _motion(recording: Recording, values: Array, unit: str | None, step: float |
     if unit is None:
         raise ReadError(
             f"{name}: the file does not give the unit of its acceleration. Give it, for example "
-            f'read_motion("{name}", unit="g"), or "m/s^2".'
+            f'read_motion("{name}", unit="g"), or in the column "unit" of a list of records.'
         )
     if step is None or not step > 0:
         raise ReadError(
             f"{name}: the file has no column of times and does not give its sampling interval. "
-            f'Give it in seconds, for example read_motion("{name}", dt=0.02).'
+            f'Give it in seconds, for example read_motion("{name}", dt=0.02), or in the column "interval" of a list of '
+            "records."
         )
     if not np.isfinite(values).all():
         told = "; ".join(recording.warnings) or f"sample {int(np.argmin(np.isfinite(values))) + 1}"
@@ -118,27 +170,33 @@ def _checked(path: Any, unit: Any, dt: Any, column: Any, layout: Any) -> Path:
     return Path(path)
 
 
-def _column(recording: Recording, column: str | int | None) -> tuple[RecordedChannel, float | None]:
-    """Find the column of accelerations and the step of its times."""
-    rising = [channel for channel in recording.channels if rising_share(channel.values) == 1.0]
-    others = [channel for channel in recording.channels if not any(channel is clock for clock in rising)]
+def _columns(recording: Recording, column: str | int | None) -> list[RecordedChannel]:
+    """Find the columns that may be accelerations: that which is given, those with such a unit, or all but times."""
     if column is not None:
-        chosen = recording.channel(column)
-    elif len(others) == 1:
-        chosen = others[0]
-    else:
-        names = ", ".join(f'"{channel.heading}"' for channel in others[:8])
-        raise ReadError(
-            f"{recording.path.name}: {len(others)} columns may be the acceleration{': ' if names else ''}{names}. "
-            "Say which, for example column=2."
-        )
-    times = rising[0].values if chosen.time is None and rising else chosen.time
+        return [recording.channel(column)]
+    clocks = [id(channel) for channel in recording.channels if rising_share(channel.values) == 1.0]
+    others = [channel for channel in recording.channels if id(channel) not in clocks]
+    return [channel for channel in others if channel.unit and _is_acceleration(channel.unit)] or others
+
+
+def _is_acceleration(unit: str) -> bool:
+    try:
+        units.factor_to_si(unit, "acceleration")
+    except UnitError:
+        return False
+    return True
+
+
+def _step(recording: Recording, channel: RecordedChannel) -> float | None:
+    """Find the step of a column's times, or of those that the file has."""
+    rising = [each for each in recording.channels if rising_share(each.values) == 1.0]
+    times = rising[0].values if channel.time is None and rising else channel.time
     if times is None:
-        return chosen, None
+        return None
     step = equal_step(times, UNEVEN)
     if step is None:
         raise ReadError(
             f"{recording.path.name}: the times are not equally spaced. A base motion needs equal steps: resample it "
             "first."
         )
-    return chosen, step
+    return step

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import posixpath
+from collections.abc import Iterable
 
 from colonnade.campaign import Campaign
 from colonnade.store.layout import STATE
@@ -15,8 +16,9 @@ WHOLE = {
 }
 """Pages about the whole campaign: template and address, the overview last, so that what it links to is there."""
 
-FORECASTS = "forecasts.html"
-"""The page of forecasts, if there are any."""
+FORECASTS, ASSESSMENTS = "forecasts.html", "assessments.html"
+OPTIONAL = {FORECASTS: "Forecasts", ASSESSMENTS: "The real column"}
+"""Pages that only some campaigns have, and their titles."""
 
 LIBRARY = ("scripts/bokeh.min.js", "scripts/bokeh-api.min.js")
 """Scripts of the plotting library, which only pages of tests load."""
@@ -51,13 +53,13 @@ def of_setup(specimen: str, setup: str) -> str:
     return f"setups/{specimen}+{setup}.svg"
 
 
-def addresses(campaign: Campaign, *, forecasts: bool) -> tuple[list[str], list[str]]:
+def addresses(campaign: Campaign, optional: Iterable[str]) -> tuple[list[str], list[str]]:
     """
     Addresses of what shows one test, specimen or setup each, and of what shows the campaign; with their data.
 
-    `forecasts` is whether there are any.
+    `optional` are the pages of `OPTIONAL` that this campaign has.
     """
     single = [*map(of_test, campaign.tests), *map(of_specimen, campaign.specimens)]
     setups = [of_setup(*pair) for pair in campaign.combinations]
-    whole = [*([FORECASTS] if forecasts else []), *WHOLE.values()]
+    whole = [*optional, *WHOLE.values()]
     return [*single, *map(of_data, single), *setups], [*LIBRARY, OWN, *map(of_data, whole), *whole]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, MutableMapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, MutableMapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -35,6 +35,8 @@ from colonnade.report.specimens_page import SpecimenPage
 from colonnade.store import files, stamps
 from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
+from colonnade.store.records import advice as advising
+from colonnade.store.records.advice import Advice
 from colonnade.store.records.stored import read_specimen
 from colonnade.store.records.summary import read_summary
 from colonnade.units import format_percent
@@ -42,7 +44,7 @@ from colonnade.units import format_percent
 IN_A_BLOCK = 5
 """Tests whose pages are drawn one after the other, so that templates are not read again for each."""
 
-OWN = ("tests/*.html", "specimens/*.html", "data/**/*.js", "scripts/*.js", "setups/*.svg", addresses.FORECASTS)
+OWN = ("tests/*.html", "specimens/*.html", "data/**/*.js", "scripts/*.js", "setups/*.svg", *addresses.OPTIONAL)
 """Files of the report's folders; one that nothing of the campaign leads to any more is removed."""
 
 Block = tuple[Campaign, list[Asked]]
@@ -55,6 +57,7 @@ def build(
     campaign: Campaign,
     layout: Layout,
     outdated: Collection[str] = (),
+    advice: Sequence[Advice] = (),
     *,
     code: str = "",
     key: str = "",
@@ -71,6 +74,8 @@ def build(
         Where its results are. Tests that failed or were never run are reported as such.
     outdated : collection of str, optional
         Tests whose stored results are out of date: they are pending, and not shown.
+    advice : sequence of Advice, optional
+        On the next tests.
     code : str, optional
         Hash of the code. With it, pages of tests and specimens that would come out the same are not drawn again.
     key : str, optional
@@ -97,7 +102,7 @@ def build(
     there = set()
     if not layout.state.is_file():
         files.write_text(layout.state, UNWATCHED)
-    for address, text, made_from in render(campaign, layout, outdated, code=code, kept=kept, spread=spread):
+    for address, text, made_from in render(campaign, layout, outdated, advice, code=code, kept=kept, spread=spread):
         expect_none()
         if text is not None:
             files.write_text(folder / address, stamps.stamped(text, made_from or key, script=address.endswith(".js")))
@@ -111,6 +116,7 @@ def render(
     campaign: Campaign,
     layout: Layout,
     outdated: Collection[str] = (),
+    advice: Sequence[Advice] = (),
     *,
     code: str = "",
     kept: MutableMapping[str, str] | None = None,
@@ -171,6 +177,7 @@ def render(
         yield address, text, ""
     foreseen = forecasts_page(layout, read_summary(layout))
     shown = _shown(campaign, tests, specimens, used) | {"groups": grouped, "maps": mapped, "forecasts": foreseen}
+    shown["advice"] = {"heads": advising.HEADS, "rows": [each.row() for each in advice]}
     if foreseen is not None:
         yield from _page(renderer, "forecasts", addresses.FORECASTS, shown)
     for template, address in addresses.WHOLE.items():
@@ -213,7 +220,7 @@ def _shown(campaign: Campaign, tests: list[Part], specimens: list[SpecimenPage],
         "agreement": agreement({row.id: row.record.model_dump() for row in rows}),
         "channels": {part.row.id: part.channels for part in tests},
         "used": used,
-        "settings": list(settings(campaign.processing)),
+        "settings": list(settings(campaign.processing, campaign.next)),
         "references": REFERENCES,
         "software": methods.software(),
         "rule": RULE,

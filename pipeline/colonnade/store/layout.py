@@ -129,10 +129,10 @@ class Layout:
         return self.tests / test_id
 
     def error_log(self, result: ResultId) -> Path:
-        """Traceback of an internal error in a test, or in what is made of a specimen."""
-        if result.is_of_specimen:
-            return self.processed / "specimens" / f"{result.subject}.error.log"
-        return self.test(result.subject) / "error.log"
+        """Traceback of an internal error in a test, or in what is made of a specimen or an assessment."""
+        if result.of == "test":
+            return self.test(result.subject) / "error.log"
+        return self.processed / f"{result.of}s" / f"{result.subject}.error.log"
 
     def path(self, result: ResultId) -> Path:
         """File of a result."""

@@ -84,7 +84,7 @@ def global_attributes(origin: Origin, result: ResultId, *, now: datetime | None 
         "date_created": instant,
         "colonnade_version": colonnade.__version__,
         "stage": stage,
-        "specimen" if result.is_of_specimen else "test": subject,
+        result.of: subject,
     }
     return {name: value for name, value in attributes.items() if value}
 

@@ -12,6 +12,10 @@ WITHOUT_PREDICTION = ("tilt", "other")
 """Kinds of test that have no base motion to predict from."""
 
 
+Subject = Literal["test", "specimen", "assessment"]
+"""What a result is about."""
+
+
 @dataclass(frozen=True)
 class Stage:
     """
@@ -26,7 +30,7 @@ class Stage:
     source : str
         What the result was made from, as ACDD asks.
     of : str
-        Whether its subject is a test or a specimen.
+        What its subject is: a test, a specimen or an assessment.
     goes_with : str
         Stage of `RUN_STAGES` that a run names for this one; empty if it is its own. Scores of forecasts and maps count
         with the report, after everything else; a run makes the maps by the models in the plane, no steady responses.
@@ -35,7 +39,7 @@ class Stage:
     file: str
     summary: str
     source: str = "recordings of a shake-table test, processed"
-    of: Literal["test", "specimen"] = "test"
+    of: Subject = "test"
     goes_with: str = ""
 
 
@@ -103,6 +107,13 @@ STAGES = {
         of="specimen",
         goes_with="report",
     ),
+    "assessment": Stage(
+        "assessments/{subject}",
+        "Outcomes of a real column on scaled ground motions, and how probably it overturns.",
+        "numerical model of a rocking block on recorded ground motions, many times",
+        of="assessment",
+        goes_with="report",
+    ),
 }
 """All stages, in their order."""
 
@@ -118,7 +129,7 @@ class ResultId:
     Attributes
     ----------
     subject : str
-        Id of a test or a specimen.
+        Id of a test, a specimen or an assessment.
     stage : str
         One of `STAGES`.
     model : str or None
@@ -139,9 +150,9 @@ class ResultId:
         return f"{self.stage} {self.model}" if self.model else self.stage
 
     @property
-    def is_of_specimen(self) -> bool:
-        """Whether it is about a specimen rather than a test."""
-        return STAGES[self.stage].of == "specimen"
+    def of(self) -> Subject:
+        """What its subject is."""
+        return STAGES[self.stage].of
 
     @property
     def file(self) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from colonnade.findings import Finding, Severity, in_order
-from colonnade.store.results import ResultId
+from colonnade.store.results import ResultId, Subject
 
 Action = Literal["done", "up-to-date", "failed"]
 
@@ -16,12 +16,12 @@ Action = Literal["done", "up-to-date", "failed"]
 @dataclass(frozen=True)
 class StageRun:
     """
-    What became of one stage of one test or specimen.
+    What became of one stage of one test, specimen or assessment.
 
     Attributes
     ----------
     subject : str
-        Id of the test or specimen.
+        Id of the test, specimen or assessment.
     stage : str
         Name of the stage; "specimen" for what pools a specimen's free vibrations.
     action : str
@@ -48,14 +48,14 @@ class StageRun:
     findings: tuple[Finding, ...] = ()
 
     @property
-    def is_of_specimen(self) -> bool:
-        """Whether it is about a specimen rather than a test."""
-        return ResultId(self.subject, self.stage, self.model).is_of_specimen
+    def of(self) -> Subject:
+        """What its subject is."""
+        return ResultId(self.subject, self.stage, self.model).of
 
     @property
     def heading(self) -> str:
-        """Name under which its findings are listed: the id of a test, or "specimen" and its id."""
-        return f"specimen {self.subject}" if self.is_of_specimen else self.subject
+        """Name under which its findings are listed: the id of a test, or what it is and its id."""
+        return self.subject if self.of == "test" else f"{self.of} {self.subject}"
 
 
 @dataclass(frozen=True)

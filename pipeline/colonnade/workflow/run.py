@@ -11,6 +11,7 @@ from colonnade.errors import CampaignError, nearest
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.results import RUN_STAGES, results_of
+from colonnade.workflow.advising.kept import advice_shown
 from colonnade.workflow.arguments import check_run
 from colonnade.workflow.catalogue import Catalogue, remove_altered
 from colonnade.workflow.chain import remove_later
@@ -124,7 +125,8 @@ def run(
         if last == "report":
             walk.map(summary)
             loaded = with_photos(loaded, layout, catalogue)
-            report = update_report(loaded, layout, catalogue, outdated, summary.forecasts, workers)
+            advice = advice_shown(loaded, layout, catalogue, summary, workers)
+            report = update_report(loaded, layout, catalogue, outdated, summary.forecasts, advice, workers)
         catalogue.save(is_whole=last == "report")
     concerning = {name: loaded.concerning(name) for name in loaded.tests}
     return RunResult(tuple(walk.stages), layout.summary_json, report, loaded.warnings, concerning, tuple(notices))

@@ -56,6 +56,8 @@ class Walk:
         Why tests failed.
     failed_specimens : dict of str to str
         Why specimens failed: their tests cannot be predicted.
+    failed_assessments : dict of str to str
+        Why assessments failed.
     """
 
     graph: Graph
@@ -70,6 +72,7 @@ class Walk:
     stages: list[StageRun] = field(default_factory=list)
     failed_tests: dict[str, str] = field(default_factory=dict)
     failed_specimens: dict[str, str] = field(default_factory=dict)
+    failed_assessments: dict[str, str] = field(default_factory=dict)
     _known: dict[tuple[str, str], list[Step]] = field(default_factory=dict)
 
     def through(self, tests: Sequence[str]) -> None:
@@ -211,12 +214,13 @@ class Walk:
         for stage in runs:
             self.stages.append(stage)
             if stage.action == "failed":
-                (self.failed_specimens if stage.is_of_specimen else self.failed_tests)[stage.subject] = stage.reason
+                failed = {"test": self.failed_tests, "specimen": self.failed_specimens}
+                failed.get(stage.of, self.failed_assessments)[stage.subject] = stage.reason
 
     def chain(self, steps: Sequence[Step], *, redo: bool = True) -> Chain:
         """Return the chain of some steps of one test or specimen; without `redo`, ignore `start_from`."""
         subject = steps[0].result.subject
-        test = None if steps[0].result.is_of_specimen else self._test(subject)
+        test = self._test(subject) if steps[0].result.of == "test" else None
         return Chain(
             steps,
             [] if test is None else results_of(self._campaign, test),

@@ -9,7 +9,7 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.chart import assemble
-from colonnade.dynamics.maps.column import _fraction, _intervals, map_column
+from colonnade.dynamics.maps.column import _fraction, map_column
 from colonnade.dynamics.maps.plan import plan_map
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
@@ -18,19 +18,6 @@ PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 def overturns(*intervals):
     """Outcomes of a column that overturns in known intervals."""
     return lambda amplitudes: np.array([2 * any(low <= a <= high for low, high in intervals) for a in amplitudes])
-
-
-@pytest.mark.parametrize(
-    "intervals",
-    [[], [(0.0, 9.0)], [(1.23456, 2.5)], [(1.5, 1.8), (2.1, 2.35), (2.77, 9.0)], [(0.0, 1.2), (1.7, 1.9)]],
-    ids=["none", "all", "one", "three, the last open", "from the smallest A on"],
-)
-def test_edges_of_intervals_are_found_to_the_given_closeness(intervals):
-    scan = np.linspace(1.0, 3.0, 41)
-    runs = overturns(*intervals)
-    found = _intervals(scan, runs(scan) == 2, runs, 1e-4)
-    expected = np.clip(np.array(intervals).reshape(-1, 2), 1.0, 3.0)
-    np.testing.assert_allclose(found, expected, atol=1e-4)
 
 
 def test_the_fraction_of_a_cell_is_what_intervals_cover_of_it():

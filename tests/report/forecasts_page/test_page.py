@@ -4,6 +4,7 @@ from colonnade.campaign import load
 from colonnade.campaign.summary import Summary
 from colonnade.report.build import build
 from colonnade.report.forecasts_page.page import forecasts_page
+from colonnade.report.paper.document import document_of
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import read_summary
@@ -45,6 +46,8 @@ def test_each_forecast_is_listed_with_what_happened(foreseen_copy):
     assert "&lt;b&gt;.json" in text
     assert "<b>.json" not in text
     assert 'href="forecasts.html"' in layout.report.read_text(encoding="utf-8")
+    chapters = [chapter["title"] for chapter in document_of(campaign, folder).data["chapters"]]
+    assert chapters[-2:] == ["Forecasts", "Methods"]
 
 
 def test_without_a_forecast_there_is_no_page(foreseen_copy):

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from colonnade.errors import StoreError
-from colonnade.workflow.advising.advice import Advice
+from colonnade.store.records.advice import Advice
 from colonnade.workflow.execution.lock import only_watch
 from colonnade.workflow.watching import watch as module
 from colonnade.workflow.watching.line import Line

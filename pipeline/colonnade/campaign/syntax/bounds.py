@@ -7,6 +7,7 @@ UNITS = {"frequency": "Hz", "acceleration": "m/s^2", "inertia": "kg m^2", "press
     "velocity": "m/s",
     "time": "s",
     "angle": "rad",
+    "angular_velocity": "rad/s",
 }
 """In which bounds are written, by dimension."""
 

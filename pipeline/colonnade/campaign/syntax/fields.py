@@ -141,7 +141,14 @@ def _restitution(value: object) -> float:
     return converted
 
 
-def _list_of(count: int, kind: tuple[Any, Any], what: str) -> tuple[Any, Any]:
+RESTITUTION = (
+    BeforeValidator(_restitution),
+    WithJsonSchema({"type": "number", "exclusiveMinimum": 0, "maximum": 1}),
+)
+"""Validator and JSON Schema of a coefficient of restitution."""
+
+
+def list_of(count: int, kind: tuple[Any, Any], what: str) -> tuple[Any, Any]:
     """Give validator and JSON Schema of a list of values of one kind."""
     convert, schema = kind
 
@@ -156,7 +163,7 @@ def _list_of(count: int, kind: tuple[Any, Any], what: str) -> tuple[Any, Any]:
 
 def _sided(kind: tuple[Any, Any]) -> tuple[Any, Any]:
     """Give validator and JSON Schema of one value, or a pair where the specimen is not symmetric."""
-    (one, schema), (pair, both) = kind, _list_of(2, kind, "[for θ < 0, for θ > 0]")
+    (one, schema), (pair, both) = kind, list_of(2, kind, "[for θ < 0, for θ > 0]")
 
     def either(value: object) -> Sided:
         converted: Sided = (pair if isinstance(value, (list, tuple)) else one).func(value)
@@ -165,10 +172,10 @@ def _sided(kind: tuple[Any, Any]) -> tuple[Any, Any]:
     return BeforeValidator(either), WithJsonSchema({"anyOf": [schema.json_schema, both.json_schema]})
 
 
-_NUMBERS, _NUMBERS_SCHEMA = _list_of(
+_NUMBERS, _NUMBERS_SCHEMA = list_of(
     3, (BeforeValidator(number), WithJsonSchema({"type": "number"})), "x, y and z, such as [1, 0, 0]"
 )
-_TIMES, INTERVAL_SCHEMA = _list_of(2, quantity("time"), 'start and end, such as ["2 s", "14 s"]')
+_TIMES, INTERVAL_SCHEMA = list_of(2, quantity("time"), 'start and end, such as ["2 s", "14 s"]')
 
 
 def _unit_vector(value: object) -> Vector:
@@ -237,9 +244,8 @@ Gravity = Annotated[float, *quantity("acceleration", above_zero=True, example="9
 SidedAngle = Annotated[Sided, *_sided(quantity("angle", above_zero=True))]
 SidedLength = Annotated[Sided, *_sided(quantity("length", above_zero=True))]
 SidedInertia = Annotated[Sided, *_sided(quantity("inertia", above_zero=True))]
-_RESTITUTION_SCHEMA = WithJsonSchema({"type": "number", "exclusiveMinimum": 0, "maximum": 1})
-SidedRestitution = Annotated[Sided, *_sided((BeforeValidator(_restitution), _RESTITUTION_SCHEMA))]
-Position = Annotated[Vector, *_list_of(3, quantity("length"), 'x, y and z, each as "1 mm"')]
+SidedRestitution = Annotated[Sided, *_sided(RESTITUTION)]
+Position = Annotated[Vector, *list_of(3, quantity("length"), 'x, y and z, each as "1 mm"')]
 Direction = Annotated[Vector, BeforeValidator(_unit_vector), _NUMBERS_SCHEMA]
 PositiveNumber = Annotated[float, *number_between(*PLAIN)]
 Scale = Annotated[float, *number_between(*SCALE)]

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from math import ceil, log2, pi
+from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Codes
+from colonnade.dynamics.maps.limits import Runs, limits_of
 from colonnade.dynamics.maps.plan import MapPlan
 from colonnade.dynamics.models.registry import PLANE_MODELS
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic import OUTCOMES, Harmonic, harmonic_outcomes
 from colonnade.dynamics.rock import rock
-
-Runs = Callable[[Array], Codes]
-"""Returns the outcomes at some A."""
 
 
 @dataclass(frozen=True)
@@ -59,22 +55,14 @@ def map_column(plan: MapPlan, index: int) -> MapColumn:
     -------
     column : MapColumn
         The same to the last bit, whatever the order and the process in which columns are computed.
-
-    Notes
-    -----
-    `lower` is the start of the first overturning interval at least `width` wide; `upper` the end of the last surviving
-    interval by the same rule, NaN if that reaches the largest A.
     """
     runs = _runs(plan, float(plan.frequency_ratio[index]))
     scan = plan.scan
     codes = runs(scan)
-    intervals = _intervals(scan, codes == 2, runs, plan.edge)
-    low, high = float(scan[0]), float(scan[-1])
-    lower = _first_wide(intervals, plan.width)
-    upper = _last_wide_end(_gaps(intervals, low, high), plan.width, high)
-    fraction = _fraction(plan.amplitude_ratio, intervals)
+    limits = limits_of(scan, codes, runs, width=plan.width, edge=plan.edge)
+    fraction = _fraction(plan.amplitude_ratio, limits.intervals)
     chosen = np.searchsorted(scan, plan.amplitude_ratio)
-    return MapColumn(codes[chosen], fraction, lower, upper, intervals)
+    return MapColumn(codes[chosen], fraction, limits.lower, limits.upper, limits.intervals)
 
 
 def _runs(plan: MapPlan, frequency_ratio: float) -> Runs:
@@ -116,37 +104,6 @@ def _sampled(plan: MapPlan, unit: Array, dt: float) -> Runs:
         return np.array([OUTCOMES.index(outcome) for outcome in found], dtype=np.int8)
 
     return runs
-
-
-def _intervals(scan: Array, overturned: NDArray[np.bool_], runs: Runs, edge: float) -> Array:
-    """Intervals of overturning, shape (k, 2): every change between neighbours of the scan halved down to `edge`."""
-    changes = np.flatnonzero(overturned[1:] != overturned[:-1])
-    low, high, before = scan[changes], scan[changes + 1], overturned[changes]
-    if changes.size:
-        for _ in range(max(0, ceil(log2(float((high - low).max()) / edge)))):
-            middle = 0.5 * (low + high)
-            as_before = (runs(middle) == 2) == before
-            low, high = np.where(as_before, middle, low), np.where(as_before, high, middle)
-    edges = 0.5 * (low + high)
-    first = scan[:1] if overturned[0] else scan[:0]
-    last = scan[-1:] if overturned[-1] else scan[:0]
-    return np.concatenate([first, edges, last]).reshape(-1, 2)
-
-
-def _gaps(intervals: Array, low: float, high: float) -> Array:
-    """What the intervals leave of [low, high], shape (k, 2)."""
-    bounds = np.concatenate([[low], intervals.ravel(), [high]]).reshape(-1, 2)
-    return bounds[bounds[:, 1] > bounds[:, 0]]
-
-
-def _first_wide(intervals: Array, width: float) -> float:
-    wide = intervals[intervals[:, 1] - intervals[:, 0] >= width]
-    return float(wide[0, 0]) if wide.size else float("nan")
-
-
-def _last_wide_end(intervals: Array, width: float, largest: float) -> float:
-    wide = intervals[intervals[:, 1] - intervals[:, 0] >= width]
-    return float(wide[-1, 1]) if wide.size and wide[-1, 1] < largest else float("nan")
 
 
 def _fraction(amplitudes: Array, intervals: Array) -> Array:

@@ -180,7 +180,7 @@ def plan_map(
     cycles = number("cycles", cycles, f"at least one cycle and at most {MOST_CYCLES}", low=1.0, high=MOST_CYCLES)
     ramp = number("ramp", ramp, f"a number of cycles from 0 for none to {MOST_CYCLES}", low=0.0, high=MOST_CYCLES)
     phase = number("phase", phase, "a finite angle in rad")
-    width, edge = _widths(width, edge, float(amplitudes[-1] - amplitudes[0]))
+    width, edge = checked_widths(width, edge, float(amplitudes[-1] - amplitudes[0]))
     motion_frequency = _frequency(motion, motion_frequency)
     return MapPlan(
         block,
@@ -200,8 +200,15 @@ def plan_map(
     )
 
 
-def _widths(width: float, edge: float, height: float) -> tuple[float, float]:
-    """Check the least width of a limit and the closeness of its edges on a map whose A go over `height`."""
+def checked_widths(width: float, edge: float, height: float) -> tuple[float, float]:
+    """
+    Check the least width of a limit and the closeness of its edges where A goes over `height`.
+
+    Raises
+    ------
+    ValueError
+        If one is so small that the search would not end, or the edge is wider than the width.
+    """
     finest = STEPS_A_WIDTH * height / MOST_STEPS
     width = number("width", width, f"a width in A, at least {finest:.3g} for the scan to end,", above=0.0, low=finest)
     edge = number("edge", edge, f"a number in A, at least {LEAST_EDGE:g},", low=LEAST_EDGE)

@@ -15,6 +15,7 @@ from colonnade.validation import sided
 
 if TYPE_CHECKING:
     from colonnade.dynamics.models.model import Case
+    from colonnade.dynamics.plane.nonlinear import BySeries
 from colonnade.dynamics.models.plane import PlaneModel
 
 LARGEST_ACCELERATION = 1e6
@@ -37,7 +38,7 @@ def run(model: PlaneModel, case: Case) -> History:
         raise ValueError(f'contact and out_of_plane are for models in space; the model is "{model.name}"')
     motion = at_rest(case.block, case.duration) if case.motion is None else case.motion
     law = _law(case.block, case.restitution)
-    _check(case.block, motion)
+    expect_usable(case.block, motion)
     while True:
         history = _propagated(model, case, motion, law)
         wider = law.reaching(history.impact_velocities) if isinstance(law, RestitutionLaw) else law
@@ -61,21 +62,17 @@ def _law(
 
 def _propagated(model: PlaneModel, case: Case, motion: Motion, law: RestitutionLaw | tuple[float, float]) -> History:
     # The kernels are decorated on import.
-    from colonnade.dynamics.plane.nonlinear import by_series
     from colonnade.dynamics.plane.sampled_march import propagate
     from colonnade.dynamics.plane.sides import sides_of
 
-    block, series = case.block, None
-    if not (model.is_linearised and motion.vertical is None):
-        vertical = np.zeros_like(motion.acceleration) if motion.vertical is None else motion.vertical / block.gravity
-        series = by_series(vertical, model.is_linearised)
+    block = case.block
     angle, velocity, impact_times, impact_velocities, overturning_time = propagate(
         motion.acceleration / block.gravity,
         motion.dt,
         sides_of(block, law, case.rest_angle),
         case.theta0,
         case.omega0,
-        series,
+        series_of(model, motion, block.gravity),
     )
     e = law(np.abs(impact_velocities)) if isinstance(law, RestitutionLaw) else np.where(impact_velocities > 0.0, *law)
     return History(
@@ -91,7 +88,26 @@ def _propagated(model: PlaneModel, case: Case, motion: Motion, law: RestitutionL
     )
 
 
-def _check(block: Block, motion: Motion) -> None:
+def series_of(model: PlaneModel, motion: Motion, gravity: float) -> BySeries | None:
+    """Prepare the solution by series of a model under a motion (`gravity` in m/s²); None if it has a closed form."""
+    from colonnade.dynamics.plane.nonlinear import by_series
+
+    if model.is_linearised and motion.vertical is None:
+        return None
+    vertical = np.zeros_like(motion.acceleration) if motion.vertical is None else motion.vertical / gravity
+    return by_series(vertical, model.is_linearised)
+
+
+def expect_usable(block: Block, motion: Motion) -> None:
+    """
+    Refuse a motion that the plane models cannot run.
+
+    Raises
+    ------
+    ValueError
+        If it is stronger or its samples are longer than they solve, it has a transverse component, or the base falls
+        faster than the block.
+    """
     fastest = max(block.side_p(block.negative), block.side_p(block.positive))
     if not motion.peak <= LARGEST_ACCELERATION * block.gravity:
         raise ValueError(

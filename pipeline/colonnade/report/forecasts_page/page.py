@@ -75,7 +75,7 @@ def forecasts_page(layout: Layout, summary: Summary | None) -> ForecastsPage | N
         summary.forecasts,
         rows,
         [entry for entry in entries if entry.refused is not None],
-        _calibration(layout, {row.entry.test: row.forecast for row in rows if row.entry.scored and row.entry.test}),
+        calibration(calibrations_of(layout, summary)),
         FEWEST,
     )
 
@@ -103,9 +103,16 @@ def _happened(test: TestSummary) -> str:
     return f"{test.outcome}, max |θ|/α {number(test.peak_ratio)}" if test.outcome == "rocking" else test.outcome
 
 
-def _calibration(layout: Layout, forecasts: Mapping[str, ForecastFile]) -> Picture | None:
-    """Draw how probabilities and amplitudes of enough scored tests agree with what was measured."""
-    scores = {}
+def calibrations_of(layout: Layout, summary: Summary | None) -> dict[str, Calibration]:
+    """Gather by model how probabilities and amplitudes of enough scored tests agree with what was measured."""
+    if summary is None or summary.forecasts is None:
+        return {}
+    there, scores = {known.sha256: known.forecast for known in read_forecasts(layout).known}, {}
+    forecasts = {
+        entry.test: there[entry.sha256]
+        for entry in summary.forecasts.files
+        if entry.scored and entry.test and entry.sha256 in there
+    }
     for test in forecasts:
         try:
             scores[test] = files.read(layout.stage(test, "forecast"))
@@ -117,6 +124,11 @@ def _calibration(layout: Layout, forecasts: Mapping[str, ForecastFile]) -> Pictu
         if len(found.observed) >= FEWEST:
             diagram = reliability(found.forecasts, found.observed, np.zeros(len(found.observed)))
             drawn[model] = Calibration(diagram, found.pit)
+    return drawn
+
+
+def calibration(drawn: Mapping[str, Calibration]) -> Picture | None:
+    """Draw calibrations by model; None without any."""
     if not drawn:
         return None
     described = ", ".join(f"{count(each.pit.size, 'test')} by the {model} model" for model, each in drawn.items())

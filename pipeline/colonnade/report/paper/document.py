@@ -56,12 +56,14 @@ def document_of(campaign: Campaign, folder: Path) -> Document:
     ]
     overview, methods = addresses.WHOLE["overview"], addresses.WHOLE["methods"]
     document = Document({})
-    gather = _Gatherer(folder, document, {*tests, *specimens, overview, methods})
+    optional = {page: title for page, title in addresses.OPTIONAL.items() if (folder / page).is_file()}
+    gather = _Gatherer(folder, document, {*tests, *specimens, *optional, overview, methods})
     summary = gather.page(overview)
     chapters = [_chapter("Summary", overview, summary.parts(without=SPANS))]
     for name, address in zip(campaign.specimens, specimens, strict=True):
         chapters.append(_chapter(f"Specimen {name}", address, gather.page(address).parts()))
     chapters += [_chapter(title, "", inside) for title, inside in _by_title(summary.sections.get(SPANS, []))]
+    chapters += [_chapter(title, page, gather.page(page).parts()) for page, title in optional.items()]
     chapters.append(_chapter("Methods", methods, gather.page(methods).parts()))
     chapters[-1]["equations"] = True
     appendix = []

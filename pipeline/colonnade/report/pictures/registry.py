@@ -17,9 +17,11 @@ from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow
 from colonnade.figures.stored import angle, base, channels, closer, maps, moving, record
 from colonnade.figures.stored import restitution as decays
 from colonnade.identification.response.boundaries import makes_map
+from colonnade.report.forecasts_page import page as forecasts_page
 from colonnade.report.overview_page import peaks as agreement
 from colonnade.report.overview_page.spans import span_groups
 from colonnade.report.pictures.subjects import OfCampaign, OfSpecimen, OfTest, Subject
+from colonnade.store.records.judged import FEWEST
 from colonnade.store.records.wording import listed
 
 
@@ -147,12 +149,17 @@ def _agreement(one: OfCampaign) -> Picture | None:
     return agreement.picture(agreement.points(one.rows, models, agreement.worst(one.rows, models)))
 
 
+def _calibration(one: OfCampaign) -> Picture | None:
+    return forecasts_page.calibration(one.calibrations)
+
+
 _SINES = "It needs sine tests at two frequencies or more."
 _MAP = "Without them, `colonnade map` makes one."
 _RAW = "It needs a raw file that could be read."
 _ANGLE = "It needs a measured or predicted angle."
 _FREE = "It needs a free vibration with an angle."
 _FREED = f"{_FREE} Its fit must free the critical angle."
+_SCORED = f"It needs {FEWEST} scored forecasts."
 FIGURES: tuple[Entry, ...] = (
     Entry("record", "test", "all of a test over time: angle, misfit, other motions, base", _ANGLE, _record),
     Entry("angle", "test", "rocking angle over time, measured and predicted", _ANGLE, _angle),
@@ -194,6 +201,7 @@ FIGURES: tuple[Entry, ...] = (
         _spans,
     ),
     Entry("agreement", "campaign", "predicted over measured peak of each test", "A test must have rocked.", _agreement),
+    Entry("calibration", "campaign", "reliability and PIT of forecasts", _SCORED, _calibration),
 )
 """Every figure; no two of one subject have the same name."""
 

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.chart import StabilityMap
+from colonnade.figures.forecasts import Calibration
 from colonnade.figures.restitution.estimators import EstimateRow
 from colonnade.figures.restitution.impacts import ImpactSeries
 from colonnade.figures.restitution.peaks import PeakSeries
 from colonnade.figures.stored import record as curves
 from colonnade.figures.stored import restitution
 from colonnade.identification.response.boundaries import MapPoint
+from colonnade.report.forecasts_page.page import calibrations_of
 from colonnade.report.overview_page.maps import charts_of
 from colonnade.report.overview_page.spans import SpanTest
 from colonnade.report.rows import TestRow
@@ -105,10 +107,11 @@ class OfSpecimen:
 
 @dataclass(frozen=True)
 class OfCampaign:
-    """A campaign: all its tests as rows of the tables."""
+    """A campaign: all its tests as rows of the tables, and how good its forecasts were, by model."""
 
     campaign: Campaign
     rows: Sequence[TestRow]
+    calibrations: Mapping[str, Calibration] = field(default_factory=dict)
     failures: Sequence[Failure] = ()
 
 
@@ -146,9 +149,10 @@ def read_of_specimen(campaign: Campaign, layout: Layout, specimen: str) -> OfSpe
 
 def read_of_campaign(campaign: Campaign, layout: Layout) -> OfCampaign:
     """Read the records of all tests, as of the last run."""
-    records = records_of_tests(campaign, read_summary(layout))
+    summary = read_summary(layout)
+    records = records_of_tests(campaign, summary)
     rows = [TestRow.of(campaign, test, records[name], Stored()) for name, test in campaign.tests.items()]
-    return OfCampaign(campaign, rows)
+    return OfCampaign(campaign, rows, calibrations_of(layout, summary))
 
 
 def has_span(subject: OfTest) -> bool:

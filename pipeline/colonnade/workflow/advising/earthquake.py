@@ -20,8 +20,8 @@ from colonnade.identification.advice.span import SpanAdvice, advise_span
 from colonnade.stages.predict import sides
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.store.records.advice import Advice, beyond
 from colonnade.store.records.wording import number, probability
-from colonnade.workflow.advising.advice import Advice, beyond
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -10,8 +10,8 @@ import numpy as np
 from colonnade.campaign import Campaign
 from colonnade.campaign.summary import TestSummary
 from colonnade.identification.advice.restitution import LAST_PEAK, advise_free_vibration
+from colonnade.store.records.advice import Advice
 from colonnade.store.records.wording import number, restitution_text
-from colonnade.workflow.advising.advice import Advice
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -12,12 +12,15 @@ from colonnade.errors import CampaignError, StoreError, nearest
 from colonnade.identification.response.boundaries import SAME_FREQUENCY
 from colonnade.stages.predict import sides
 from colonnade.store.layout import Layout
+from colonnade.store.records.advice import Advice
 from colonnade.store.records.summary import map_points, read_summary, records_of_tests
-from colonnade.workflow.advising.advice import Advice
 from colonnade.workflow.advising.earthquake import advise_earthquakes, deviation_of
 from colonnade.workflow.advising.free import advise_free
 from colonnade.workflow.advising.sine import Known, advise_sines
 from colonnade.workflow.pooling import restitution_taken
+
+KINDS = ("free-vibration", "sine", "earthquake")
+"""Kinds of test that are advised, in their order."""
 
 
 @dataclass(frozen=True)
@@ -69,8 +72,8 @@ def advise(campaign: Path | str, *, specimens: Sequence[str] = (), results: Path
     advice = [
         each
         for name in specimens or loaded.specimens
-        for kind in ("free-vibration", "sine", "earthquake")
-        for each in _of_kind(loaded, layout, name, kind, tests)
+        for kind in KINDS
+        for each in advise_kind(loaded, layout, name, kind, tests)
     ]
     return Next(tuple(advice), loaded.awaited)
 
@@ -78,16 +81,17 @@ def advise(campaign: Path | str, *, specimens: Sequence[str] = (), results: Path
 def advise_after(campaign: Campaign, layout: Layout, name: str, record: TestSummary) -> list[Advice]:
     """Advise the next test like one that was just measured: of its specimen and kind, and of its frequency."""
     tests = records_of_tests(campaign, read_summary(layout)) | {name: record}
-    found = _of_kind(campaign, layout, record.specimen, record.kind, tests)
+    found = advise_kind(campaign, layout, record.specimen, record.kind, tests)
     if record.frequency_ratio is None:
         return found
     ratio = record.frequency_ratio
     return [each for each in found if abs(each.values.get("frequency_ratio", 0.0) / ratio - 1) < SAME_FREQUENCY]
 
 
-def _of_kind(
+def advise_kind(
     campaign: Campaign, layout: Layout, specimen: str, kind: str, tests: dict[str, TestSummary]
 ) -> list[Advice]:
+    """Advise the next tests of one kind of a specimen, by the records of all tests."""
     pooled = restitution_taken(campaign, layout, specimen)
     if kind == "free-vibration":
         free = advise_free(campaign, specimen, pooled, tests)

@@ -32,7 +32,7 @@ class Spread(Protocol):
     """`in_blocks` with its settings of execution and progress already given."""
 
     def __call__(
-        self, work: Callable[[range], Mapping[str, NDArray[Any]]], blocks: Sequence[range], folder: Path, key: str
+        self, work: Callable[[Item], Mapping[str, NDArray[Any]]], blocks: Sequence[Item], folder: Path, key: str
     ) -> list[Arrays]:
         """Return the results of each block."""
 

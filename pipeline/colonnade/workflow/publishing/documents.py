@@ -84,7 +84,7 @@ def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | st
 
 def _recipe(campaign: Campaign, layout: Layout, folder: Path) -> Recipe:
     """Give all that the PDF is made from."""
-    every = addresses.addresses(campaign, forecasts=(folder / addresses.FORECASTS).is_file())
+    every = addresses.addresses(campaign, [page for page in addresses.OPTIONAL if (folder / page).is_file()])
     pages = {page: stamps.key_of(folder / page) for found in every for page in found}
     shown = [campaign.title, campaign.campaign, who_and_when.of_campaign(campaign)]
     pictures = {path.name: _hash(path) for pattern in SHOWN for path in sorted(folder.glob(pattern))}

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.foreseen import ForecastsSummary
-from colonnade.report.addresses import addresses, of_data, of_test
+from colonnade.report.addresses import FORECASTS, addresses, of_data, of_test
 from colonnade.report.asked import asked_of, shows
 from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
+from colonnade.store.records.advice import Advice
 from colonnade.store.results import results_of
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.execution.spreading import spread
@@ -30,6 +31,7 @@ def update_report(
     catalogue: Catalogue,
     outdated: Collection[str],
     forecasts: ForecastsSummary | None,
+    advice: Sequence[Advice],
     workers: int | None,
 ) -> Path:
     """
@@ -44,6 +46,8 @@ def update_report(
         Tests whose stored results are out of date.
     forecasts : ForecastsSummary or None
         As in the summary: the hash of each forecast is in it.
+    advice : sequence of Advice
+        On the next tests.
     workers : int or None
         Processes in which pages are drawn; None for one a core.
 
@@ -60,11 +64,11 @@ def update_report(
     recipe = Recipe(
         "report",
         catalogue.code(MADE_BY),
-        json.dumps([repr(campaign.with_relative_paths()), sorted(outdated), *foreseen]),
+        json.dumps([repr(campaign.with_relative_paths()), sorted(outdated), *foreseen, *map(repr, advice)]),
         {path.relative_to(layout.processed).as_posix(): catalogue.content(path) for path in layout.results_there()},
     )
     folder = layout.report.parent
-    single, whole = addresses(campaign, forecasts=forecasts is not None)
+    single, whole = addresses(campaign, [FORECASTS] if forecasts is not None else [])
     are_there = layout.state.is_file() and all(catalogue.stamp(folder / page) for page in single)
     recipes = _recipes(campaign, layout, catalogue, outdated, recipe.code)
     kept = _kept(folder, catalogue, recipes)
@@ -72,7 +76,7 @@ def update_report(
         from colonnade.report.build import build
 
         spread_out = partial(spread, workers=workers)
-        build(campaign, layout, outdated, code=recipe.code, key=recipe.key, kept=kept, spread=spread_out)
+        build(campaign, layout, outdated, advice, code=recipe.code, key=recipe.key, kept=kept, spread=spread_out)
         for test, text in kept.items():
             catalogue.remember(_PART.format(test), recipes[test], text)
         for page in (*single, *whole):

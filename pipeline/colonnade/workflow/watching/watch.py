@@ -17,7 +17,7 @@ from colonnade.errors import CampaignError, StoreError
 from colonnade.interruption import expect_none
 from colonnade.report.interactive.state import EVERY
 from colonnade.store.layout import Layout
-from colonnade.workflow.advising.advice import Advice
+from colonnade.store.records.advice import Advice
 from colonnade.workflow.advising.next import advise_after
 from colonnade.workflow.execution.lock import only_watch
 from colonnade.workflow.watching.arrivals import Arrivals, last_change, marks_of

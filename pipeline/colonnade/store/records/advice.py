@@ -9,6 +9,9 @@ from typing import Any, Literal
 from colonnade.campaign.shake_table import ShakeTable
 from colonnade.store.records.wording import count, probability, quantity
 
+HEADS = ("specimen", "next", "risk", "tests left", "why")
+"""Of a table of advice, see `Advice.row`."""
+
 UNITS = {"acceleration": "g", "velocity": "m/s", "stroke": "mm"}
 """Units in which the demand on the table is written."""
 
@@ -59,6 +62,16 @@ class Advice:
         risk = "" if self.risk is None else f", risk {probability(self.risk)}"
         left = "" if self.left is None else f", {count(self.left, 'test')} left"
         return f"next {self.kind} of {self.specimen}: {self.test}{risk}{left}; {'; '.join((self.reason, *self.beyond))}"
+
+    def row(self) -> tuple[str, str, str, str, str]:
+        """Write it under `HEADS`."""
+        return (
+            self.specimen,
+            f"{self.kind}: {'enough' if self.is_enough else self.test}",
+            "" if self.risk is None or self.is_enough else probability(self.risk),
+            "" if self.left is None else str(self.left),
+            "; ".join((self.reason, *self.beyond)),
+        )
 
     def as_json(self) -> dict[str, Any]:
         """Give it for programs."""

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade.campaign.shake_table import ShakeTable
-from colonnade.workflow.advising.advice import Advice, beyond, demand_of_sine
+from colonnade.store.records.advice import Advice, beyond, demand_of_sine
 
 
 @given(st.floats(0.01, 30.0), st.floats(0.1, 50.0))

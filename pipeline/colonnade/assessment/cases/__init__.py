@@ -1,0 +1,1 @@
+"""Which histories of a real column are run, and how each of them ends."""

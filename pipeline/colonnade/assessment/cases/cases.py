@@ -1,0 +1,256 @@
+"""All histories of an assessment: records at levels, drawn columns, both signs, both horizontal components."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.arrays import Array, Codes, Mask
+from colonnade.assessment.cases.prototype import Draws, Prototype, drawn_column
+from colonnade.dynamics.models.nonlinear import NONLINEAR
+from colonnade.dynamics.models.registry import plane_model_of
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.plane.outcomes import OVERTURNS, Ends, ends_of, prepared
+from colonnade.dynamics.plane.run import expect_usable
+from colonnade.validation import number, samples, whole
+
+if TYPE_CHECKING:
+    from colonnade.dynamics.plane.sides import Sides
+
+AXES = ("record", "level", "draw", "sign", "component")
+"""Of the arrays of an assessment."""
+
+COMPONENTS = ("x", "y")
+"""Horizontal components of a record, each a case in its own plane; vertical motion acts with either."""
+
+NOT_RUN, FALLS_AWAY = -1, -2
+"""
+Outcomes of a case without a history: its record has no such component, or is not wanted at this level; its base falls
+faster than the column, so that no plane model holds.
+"""
+
+MOST_POWER = 4
+"""Of a measure in the strength of a record; Arias intensity has 2."""
+
+
+@dataclass(frozen=True)
+class Cases:
+    """
+    All that the histories of an assessment follow from; any part of them can be run anywhere and gives the same.
+
+    Attributes
+    ----------
+    prototype : Prototype
+    draws : Draws
+        The same at all records and levels.
+    motions : tuple of Motion
+        Of the records, as recorded; `transverse` is the component y.
+    factors : ndarray, shape (records, levels, components)
+        What a record's component, and the vertical motion with it, is multiplied by; NaN where it is not run.
+    model : str
+        A plane one.
+
+    Raises
+    ------
+    ValueError
+        If the shapes differ, a factor is not positive, or a record is too strong or too coarse for the plane models;
+        the message gives its number, from 0.
+
+    Notes
+    -----
+    A motion and its opposite do the same to a symmetric column: it is run with the sign +1 only.
+    """
+
+    prototype: Prototype
+    draws: Draws
+    motions: tuple[Motion, ...]
+    factors: Array
+    model: str = NONLINEAR.name
+
+    def __post_init__(self) -> None:
+        plane_model_of(self.model)
+        factors = samples("factors", self.factors, dimensions=(3,), fewest=0, finite=False)
+        if (factors.shape[0], factors.shape[2]) != (len(self.motions), len(COMPONENTS)):
+            raise ValueError(
+                f"factors has shape {factors.shape}; ({len(self.motions)} records, levels, {len(COMPONENTS)} "
+                "components) was expected"
+            )
+        if factors.size == 0:
+            raise ValueError(f"factors has shape {factors.shape}; at least one record and one level were expected")
+        if not (np.isnan(factors) | (factors > 0.0) & (factors < np.inf)).all():
+            raise ValueError("a factor on a record is not positive; positive numbers, or NaN, were expected")
+        fastest, _ = drawn_column(self.prototype, self.draws, int(self.draws.of("p").argmax()))
+        for record, place in np.argwhere(np.isfinite(factors).any(axis=1)).tolist():
+            largest = float(np.nanmax(factors[record, :, place]))
+            plane = in_plane(self.motions[record], place, largest)
+            if plane is None:
+                continue
+            try:
+                expect_usable(fastest, Motion(plane.acceleration, plane.dt))
+            except ValueError as error:
+                raise ValueError(f"Record {record}, component {COMPONENTS[place]}: {error}") from None
+
+    @property
+    def signs(self) -> tuple[int, ...]:
+        """What each case is multiplied by in turn: +1 and −1, or +1 alone."""
+        return (1,) if self.prototype.is_symmetric else (1, -1)
+
+    @property
+    def shape(self) -> tuple[int, int, int, int, int]:
+        """Lengths of `AXES`."""
+        records, levels, components = self.factors.shape
+        return records, levels, self.draws.size, len(self.signs), components
+
+    @property
+    def count(self) -> int:
+        """Number of cases, each run with all signs; numbered by record, component, level and draw, the last fastest."""
+        return self.factors.size * self.draws.size
+
+    def part(self, chosen: range) -> Part:
+        """Take some cases in order, with no more of the records than they need."""
+        each = self.count // len(self.motions)
+        first, last = chosen.start // each, (chosen.stop - 1) // each + 1
+        cases = replace(self, motions=self.motions[first:last], factors=self.factors[first:last])
+        return Part(cases, range(chosen.start - first * each, chosen.stop - first * each))
+
+
+@dataclass(frozen=True)
+class Part:
+    """Some cases, small enough to send to another process: of the records in `cases` those numbered `chosen`."""
+
+    cases: Cases
+    chosen: range
+
+
+@dataclass(frozen=True)
+class Outcomes:
+    """
+    How the histories of an assessment end; all arrays have the axes `AXES`.
+
+    Attributes
+    ----------
+    outcome : ndarray of int8
+        Index into `dynamics.plane.harmonic.OUTCOMES`, or `NOT_RUN` or `FALLS_AWAY`.
+    peak_ratio : ndarray
+        Largest |θ|/α, by the drawn α; NaN if the column overturns or was not run.
+    instant : ndarray
+        s, of that peak; if it overturns, when |θ| passed α for good; NaN if it was not run.
+    """
+
+    outcome: Codes
+    peak_ratio: Array
+    instant: Array
+
+    @property
+    def is_run(self) -> Mask:
+        """Whether a case has a history."""
+        return np.asarray(self.outcome >= 0)
+
+    def exceeds(self, limit: float = 1.0) -> Mask:
+        """Tell which cases overturn or go beyond `limit` α, also if they come back."""
+        limit = number("limit", limit, "a positive multiple of the critical angle", above=0.0)
+        return np.asarray((self.outcome == OVERTURNS) | (self.peak_ratio > limit))
+
+
+def factors_at(levels: Array, intensity: Array, power: int = 1) -> Array:
+    """
+    Give the factors that bring records to levels of a measure.
+
+    Parameters
+    ----------
+    levels : ndarray, shape (levels,)
+    intensity : ndarray, shape (records, components)
+        The measure of each as recorded; NaN for a component that is not run.
+    power : int, optional
+        A record n times as strong has n**power times the measure: 2 of Arias intensity.
+
+    Returns
+    -------
+    factors : ndarray, shape (records, levels, components)
+        As of `Cases`; NaN also where the measure is 0.
+
+    Raises
+    ------
+    ValueError
+        If the power is not positive: no factor changes such a measure.
+    """
+    whole("power", power, 1, MOST_POWER, "a measure that grows with the record")
+    measured = np.where(intensity > 0.0, intensity, np.nan)
+    return np.asarray((levels[None, :, None] / measured[:, None, :]) ** (1.0 / power), dtype=np.float64)
+
+
+def in_plane(motion: Motion, place: int, factor: float) -> Motion | None:
+    """Return a horizontal component of a record with its vertical motion, multiplied; None if it has none such."""
+    along = (motion.acceleration, motion.transverse)[place]
+    if along is None:
+        return None
+    return Motion(factor * along, motion.dt, None if motion.vertical is None else abs(factor) * motion.vertical)
+
+
+def run_part(part: Part) -> dict[str, NDArray[Any]]:
+    """
+    Run some cases.
+
+    Returns
+    -------
+    arrays : dict of ndarray, shape (cases, signs)
+        By the names of `Outcomes`.
+    """
+    cases, chosen = part.cases, part.chosen
+    _records, levels, draws, signs, components = cases.shape
+
+    @cache
+    def column(draw: int) -> Sides:
+        return prepared(*drawn_column(cases.prototype, cases.draws, draw))
+
+    arrays: dict[str, NDArray[Any]] = {
+        "outcome": np.full((len(chosen), signs), NOT_RUN, dtype=np.int8),
+        "peak_ratio": np.full((len(chosen), signs), np.nan),
+        "instant": np.full((len(chosen), signs), np.nan),
+    }
+    # Draws of one component of a record at one level follow each other, and share its motion.
+    for first in range(chosen.start - chosen.start % draws, chosen.stop, draws):
+        row, low, high = first // draws, max(first, chosen.start), min(first + draws, chosen.stop)
+        record, place, level = row // (levels * components), row // levels % components, row % levels
+        drawn = [column(draw) for draw in range(low - first, high - first)]
+        here = slice(low - chosen.start, high - chosen.start)
+        for side, sign in enumerate(cases.signs):
+            ends = _ends(cases, record, place, sign * float(cases.factors[record, level, place]), drawn)
+            if isinstance(ends, int):
+                arrays["outcome"][here, side] = ends
+                continue
+            for name, values in ends._asdict().items():
+                arrays[name][here, side] = values
+    return arrays
+
+
+def gather(cases: Cases, parts: Iterable[Mapping[str, NDArray[Any]]]) -> Outcomes:
+    """Put what `run_part` gave of all cases, in order, onto the axes of an assessment."""
+    kept = list(parts)
+    records, levels, draws, signs, components = cases.shape
+    joined = {
+        name: np.concatenate([each[name] for each in kept]).reshape(records, components, levels, draws, signs)
+        for name in ("outcome", "peak_ratio", "instant")
+    }
+    return Outcomes(**{name: np.moveaxis(values, 1, -1) for name, values in joined.items()})
+
+
+def run_cases(cases: Cases) -> Outcomes:
+    """Run all cases in this process."""
+    return gather(cases, [run_part(Part(cases, range(cases.count)))])
+
+
+def _ends(cases: Cases, record: int, place: int, factor: float, drawn: list[Sides]) -> Ends | int:
+    """Run drawn columns under one motion; a code if it cannot be run."""
+    motion = None if np.isnan(factor) else in_plane(cases.motions[record], place, factor)
+    if motion is None:
+        return NOT_RUN
+    gravity = cases.prototype.block.gravity
+    if motion.vertical is not None and not motion.vertical.min() > -gravity:
+        return FALLS_AWAY
+    return ends_of(motion, drawn, gravity=gravity, model=cases.model)

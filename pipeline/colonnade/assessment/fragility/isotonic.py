@@ -1,0 +1,102 @@
+"""Curve that only rises: the shares of the stripes by pooling adjacent violators, whatever their distribution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from colonnade.arrays import Array, Mask
+from colonnade.assessment.fragility.outcomes import Outcomes
+from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES, Band, checked_level, record_weights
+from colonnade.assessment.fragility.stripes import striped
+
+
+@dataclass(frozen=True)
+class IsotonicCurve:
+    """
+    Probabilities at stripes.
+
+    Attributes
+    ----------
+    intensity : ndarray, shape (k,)
+        Rising.
+    probability : Band
+        Shape (k,) each.
+    level : float
+        Of the intervals.
+    """
+
+    intensity: Array
+    probability: Band
+    level: float
+
+
+def fit_isotonic(
+    outcomes: Outcomes,
+    *,
+    event: Mask | None = None,
+    level: float = LEVEL,
+    resamples: int = RESAMPLES,
+    seed: int = 0,
+) -> IsotonicCurve:
+    """
+    Fit a curve that only rises.
+
+    Parameters
+    ----------
+    outcomes, event
+        As of `fit_lognormal`.
+    level, resamples, seed : optional
+        Of the bootstrap over records.
+
+    Returns
+    -------
+    curve : IsotonicCurve
+
+    Notes
+    -----
+    Barlow et al. (1972). Each interval is Wilson's (1927), with the number of independent histories that gives the
+    bootstrap's variance (Korn and Graubard 1998), and Student's t of the records: near 0 and 1 resamples of few records
+    hardly scatter, and their quantiles are too narrow. That number is at most what the variances of all stripes
+    together give, and at least the number of records. If each record has intensities of its own, a stripe is a bin,
+    and the curve is that of its bins.
+    """
+    stripes = striped(outcomes.cells(event))
+    ones = np.ones((1, len(outcomes.records)))
+    events, histories = ones @ stripes.events, ones @ stripes.histories
+    value = _pooled(events, histories)[0]
+    weights = record_weights(len(outcomes.records), resamples, seed)
+    variance = _pooled(weights @ stripes.events, weights @ stripes.histories).var(axis=0)
+    of_records = (stripes.histories > 0).sum(axis=0)
+    low, high = _wilson(value, variance, of_records, checked_level(level))
+    # A curve that only rises has limits that only rise.
+    band = Band(value, np.maximum.accumulate(low), np.minimum.accumulate(high[::-1])[::-1])
+    return IsotonicCurve(np.exp(stripes.log_intensity), band, level)
+
+
+def _pooled(events: Array, histories: Array) -> Array:
+    """Isotonic shares of each row, shape (n, k); a stripe without a history takes its neighbour's."""
+    found = np.empty_like(events)
+    for row, (happened, of) in enumerate(zip(events, histories, strict=True)):
+        counted = of > 0
+        fit = scipy.optimize.isotonic_regression(happened[counted] / of[counted], weights=of[counted]).x
+        found[row] = np.interp(np.arange(of.size), np.flatnonzero(counted), fit)
+    return found
+
+
+def _wilson(value: Array, variance: Array, records: Array, level: float) -> tuple[Array, Array]:
+    """Limits of shares whose bootstrap has such a variance, of so many records each."""
+    spread = value * (1 - value)
+    # Of n records the bootstrap's variance is (n − 1) / n of the unbiased one.
+    unbiased = variance * records / np.maximum(records - 1, 1)
+    scatters = unbiased > 0
+    own = np.where(scatters, spread / np.where(scatters, unbiased, 1.0), records)
+    # Independent histories that a record is worth, from all stripes: one with few events overstates it.
+    worth = spread[scatters].sum() / (unbiased * records)[scatters].sum() if scatters.any() else 1.0
+    effective = np.maximum(np.minimum(own, worth * records), records)
+    reach = scipy.stats.t.ppf((1 + level) / 2, np.maximum(records - 1, 1)) ** 2 / effective
+    middle = (value + reach / 2) / (1 + reach)
+    half = np.sqrt(reach * spread + reach**2 / 4) / (1 + reach)
+    return middle - half, middle + half

@@ -1,0 +1,185 @@
+"""Lognormal fragility: binomial fit of the outcomes, with intervals over records; or why there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import scipy
+from numpy.typing import ArrayLike
+
+from colonnade.arrays import Array, Mask
+from colonnade.assessment.fragility import probit
+from colonnade.assessment.fragility.outcomes import Cells, Outcomes
+from colonnade.assessment.fragility.parameters import Parameters, fit_parameters
+from colonnade.assessment.fragility.resampling import (
+    LEVEL,
+    RESAMPLES,
+    Band,
+    Interval,
+    checked_level,
+    record_weights,
+    studentised,
+)
+from colonnade.validation import samples
+
+Reason = Literal["", "separated", "falling", "never", "always", "one intensity"]
+"""Why there is no curve: no overlap of outcomes, fewer events at higher intensity, no event, only events."""
+
+STEP = 1e-5
+"""Of numerical derivatives with respect to ln median and ln β."""
+
+
+@dataclass(frozen=True)
+class LognormalFit:
+    """
+    P = Φ(ln(x / median) / β), or why there is none.
+
+    Attributes
+    ----------
+    reason : str
+        Empty if there is a curve.
+    rises : tuple of float
+        Up to the first intensity nothing overturned, from the second on everything: the curve rises between them.
+        If the outcomes are separated, that is all that is known. 0 or inf if there is no such intensity.
+    median, beta : Interval
+        NaN if there is no curve.
+    log_likelihood : float
+        Of the histories, taken as independent; if separated its limit.
+    level : float
+        Of the intervals.
+    degenerate : float
+        Share of the resamples without a curve, which are left out of the intervals.
+    fit, resampled : Parameters
+        Of all records, shape (1,), and of each resample, shape (n,).
+    """
+
+    reason: Reason
+    rises: tuple[float, float]
+    median: Interval
+    beta: Interval
+    log_likelihood: float
+    level: float
+    degenerate: float
+    fit: Parameters
+    resampled: Parameters
+
+    def probability(self, intensity: ArrayLike) -> Band:
+        """Give P at intensities, shape (k,), with intervals; NaN if there is no curve."""
+        x = np.log(samples("intensity", intensity))
+        band = self.band(lambda mean, log_beta: (x - mean) / np.exp(log_beta))
+        return Band(*(scipy.special.ndtr(each) for each in band))
+
+    def band(self, function: Callable[[Array, Array], Array]) -> Band:
+        """
+        Give an interval of what follows from the curve.
+
+        Parameters
+        ----------
+        function : callable
+            Of ln median and ln β, shape (n, 1) each; returns shape (n, k), on a scale where it is about normal.
+        """
+        value, error = _with_errors(function, self.fit)
+        values, errors = _with_errors(function, self.resampled)
+        return studentised(value[0], error[0], values, errors, self.level)
+
+
+def fit_lognormal(
+    outcomes: Outcomes,
+    *,
+    event: Mask | None = None,
+    intensity: Array | None = None,
+    level: float = LEVEL,
+    resamples: int = RESAMPLES,
+    seed: int = 0,
+) -> LognormalFit:
+    """
+    Fit a lognormal curve to outcomes.
+
+    Parameters
+    ----------
+    outcomes : Outcomes
+    event, intensity : ndarray, optional
+        As of `Outcomes.cells`.
+    level, resamples, seed : optional
+        Of the bootstrap over records; the same seed gives the same intervals.
+
+    Returns
+    -------
+    fit : LognormalFit
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range.
+
+    Notes
+    -----
+    Maximum of the binomial likelihood on stripes (Baker 2015, eq. 11), which holds for any intensities. Histories of
+    one record are not independent, so the standard errors are those of records (sandwich) and the intervals are
+    studentised, of ln median and ln β.
+    """
+    cells = outcomes.cells(event, intensity)
+    weights = np.vstack((np.ones(len(outcomes.records)), record_weights(len(outcomes.records), resamples, seed)))
+    parameters, log_likelihood, status = fit_parameters(cells, weights)
+    all_records, resampled = (Parameters(*(each[part] for each in parameters)) for part in (slice(1), slice(1, None)))
+    usable = status[1:] == probit.FITTED
+    resampled = Parameters(*(each[usable] for each in resampled))
+    median, beta = _intervals(all_records, resampled, checked_level(level))
+    return LognormalFit(
+        _reason(int(status[0]), cells),
+        _rises(cells),
+        median,
+        beta,
+        float(log_likelihood[0]),
+        level,
+        float(1 - usable.mean()),
+        all_records,
+        resampled,
+    )
+
+
+def _intervals(fit: Parameters, resampled: Parameters, level: float) -> tuple[Interval, Interval]:
+    """Of median and β."""
+    found = []
+    for value, variance, values, variances in (
+        (fit.log_median, fit.mm, resampled.log_median, resampled.mm),
+        (fit.log_beta, fit.bb, resampled.log_beta, resampled.bb),
+    ):
+        band = studentised(value, np.sqrt(variance), values[:, None], np.sqrt(variances)[:, None], level)
+        found.append(Interval(*(float(np.exp(each[0])) for each in band)))
+    return found[0], found[1]
+
+
+def _with_errors(function: Callable[[Array, Array], Array], at: Parameters) -> tuple[Array, Array]:
+    """Values of a function of the parameters, and their standard errors by its derivatives, shape (n, k) each."""
+    mean, log_beta = at.log_median[:, None], at.log_beta[:, None]
+    by_mean = (function(mean + STEP, log_beta) - function(mean - STEP, log_beta)) / (2 * STEP)
+    by_beta = (function(mean, log_beta + STEP) - function(mean, log_beta - STEP)) / (2 * STEP)
+    variance = by_mean**2 * at.mm[:, None] + 2 * by_mean * by_beta * at.mb[:, None] + by_beta**2 * at.bb[:, None]
+    return function(mean, log_beta), np.sqrt(np.maximum(variance, 0.0))
+
+
+def _reason(status: int, cells: Cells) -> Reason:
+    if status == probit.ONE_OUTCOME:
+        return "never" if cells.events.sum() == 0 else "always"
+    named: dict[int, Reason] = {
+        probit.FITTED: "",
+        probit.SEPARATED: "separated",
+        probit.FALLING: "falling",
+        probit.ONE_INTENSITY: "one intensity",
+    }
+    return named[status]
+
+
+def _rises(cells: Cells) -> tuple[float, float]:
+    """Give the highest intensity below all events, and the lowest above all survivals."""
+    counted = cells.histories > 0
+    y = cells.log_intensity
+    first = y[counted & (cells.events > 0)].min(initial=np.inf)
+    last = y[counted & (cells.events < cells.histories)].max(initial=-np.inf)
+    low = y[counted & (y < first)].max(initial=-np.inf)
+    high = y[counted & (y > last)].min(initial=np.inf)
+    return float(np.exp(low)), float(np.exp(high))

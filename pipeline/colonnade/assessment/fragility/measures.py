@@ -1,0 +1,185 @@
+"""Which measure of a motion predicts overturning best."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+from numpy.typing import ArrayLike
+
+from colonnade.arrays import Array
+from colonnade.assessment.fragility.outcomes import FEWEST_RECORDS, Cells, Outcomes, with_axes
+from colonnade.assessment.fragility.parameters import fit_parameters
+from colonnade.assessment.fragility.peaks import residuals, scatter
+from colonnade.assessment.fragility.resampling import RESAMPLES, record_weights
+from colonnade.validation import samples
+
+
+@dataclass(frozen=True)
+class Trend:
+    """Slope of the records' mean residuals of ln peak, its standard error, and p of no slope (Student's t)."""
+
+    slope: float
+    error: float
+    p_value: float
+
+
+@dataclass(frozen=True)
+class MeasureScore:
+    """
+    How well one measure predicts.
+
+    Attributes
+    ----------
+    name : str
+    deviance : float
+        −2 log-likelihood per history of the best curve Φ(a + b ln x), which may also fall; 0 is perfect.
+    auc : float
+        Probability that a history that overturned had more of it than one that did not; ties count half.
+    scatter : float
+        Standard deviation of ln peak about its regression on ln x, of histories that rocked and did not overturn.
+    best_deviance, best_auc, best_scatter : float
+        Share of the resamples of records in which it is the best of all measures.
+    on_magnitude, on_log_distance : Trend or None
+        Sufficiency (Luco and Cornell 2007): what magnitude and ln distance still explain.
+    """
+
+    name: str
+    deviance: float
+    auc: float
+    scatter: float
+    best_deviance: float
+    best_auc: float
+    best_scatter: float
+    on_magnitude: Trend | None
+    on_log_distance: Trend | None
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Measures, the best by deviance first, and the records left out because they lack one of them."""
+
+    scores: tuple[MeasureScore, ...]
+    left_out: tuple[str, ...]
+
+
+def compare_measures(
+    outcomes: Outcomes,
+    measures: Mapping[str, ArrayLike],
+    *,
+    magnitude: ArrayLike | None = None,
+    distance: ArrayLike | None = None,
+    resamples: int = RESAMPLES,
+    seed: int = 0,
+) -> Comparison:
+    """
+    Compare measures on the same histories.
+
+    Parameters
+    ----------
+    outcomes : Outcomes
+    measures : mapping of str to array_like, shape (r, l) or (r, l, c)
+        Positive values of each measure for the scaled records; NaN if a record does not have it.
+    magnitude, distance : array_like, shape (r,), optional
+        Of the records; distances positive. NaN if not known.
+    resamples, seed : int, optional
+        Of the bootstrap over records.
+
+    Returns
+    -------
+    comparison : Comparison
+
+    Raises
+    ------
+    ValueError
+        If there is no measure, a shape does not fit, a value is not positive, or fewer than `FEWEST_RECORDS` records
+        have all measures.
+    """
+    if not measures:
+        raise ValueError("measures is empty; at least one measure was expected")
+    arrays = {name: _checked(name, values, outcomes) for name, values in measures.items()}
+    was_run = outcomes.was_run.any(axis=2)
+    known = np.all([~(np.isnan(each) & was_run).any(axis=(1, 2)) for each in arrays.values()], axis=0)
+    if known.sum() < FEWEST_RECORDS:
+        raise ValueError(f"{known.sum()} records have all measures; at least {FEWEST_RECORDS} were expected")
+    chosen = outcomes.only(known)
+    weights = np.vstack((np.ones(int(known.sum())), record_weights(int(known.sum()), resamples, seed)))
+    found = {name: _scored(chosen, each[known], weights) for name, each in arrays.items()}
+    deviances, aucs, scatters = (np.array([each[part] for each in found.values()]) for part in range(3))
+    best = _shares_best(deviances), _shares_best(-np.maximum(aucs, 1 - aucs)), _shares_best(scatters)
+    by_magnitude = None if magnitude is None else samples("magnitude", magnitude, gaps=True)[known]
+    by_distance = None if distance is None else np.log(samples("distance", distance, gaps=True)[known])
+    scores = [
+        MeasureScore(
+            name,
+            float(deviances[place, 0]),
+            float(aucs[place, 0]),
+            float(scatters[place, 0]),
+            float(best[0][place]),
+            float(best[1][place]),
+            float(best[2][place]),
+            _trend(by_magnitude, residuals(chosen, arrays[name][known])),
+            _trend(by_distance, residuals(chosen, arrays[name][known])),
+        )
+        for place, name in enumerate(arrays)
+    ]
+    left_out = tuple(name for name, is_in in zip(outcomes.records, known, strict=True) if not is_in)
+    return Comparison(tuple(sorted(scores, key=lambda score: score.deviance)), left_out)
+
+
+def _checked(name: str, values: ArrayLike, outcomes: Outcomes) -> Array:
+    array = with_axes(samples(name, values, dimensions=(2, 3), gaps=True), 3)
+    rows, levels, _, directions = outcomes.peak.shape
+    if array.shape not in ((rows, levels, 1), (rows, levels, directions)):
+        raise ValueError(f"measure {name} has shape {array.shape}; {rows} records and {levels} levels were expected")
+    if (array <= 0).any():
+        raise ValueError(f"measure {name} is not positive for all records; positive values or NaN were expected")
+    return array
+
+
+def _scored(outcomes: Outcomes, intensity: Array, weights: Array) -> tuple[Array, Array, Array]:
+    """Deviance per history, AUC and scatter of each weighting, shape (n,) each."""
+    cells = outcomes.cells(intensity=intensity)
+    log_likelihood = fit_parameters(cells, weights)[1]
+    histories = weights @ cells.histories.sum(axis=1)
+    return -2 * log_likelihood / histories, _auc(cells, weights), scatter(outcomes, intensity, weights)
+
+
+def _auc(cells: Cells, weights: Array) -> Array:
+    """Mann and Whitney's statistic of events against survivals, over the number of pairs."""
+    distinct, place = np.unique(np.round(cells.log_intensity, 9), return_inverse=True)
+    record = np.repeat(np.arange(cells.events.shape[0]), cells.events.shape[1])
+    flat = record * distinct.size + place.ravel()
+    shape = (cells.events.shape[0], distinct.size)
+    events, histories = (
+        weights @ np.bincount(flat, each.ravel(), shape[0] * shape[1]).reshape(shape)
+        for each in (cells.events, cells.histories)
+    )
+    survivals = histories - events
+    below = np.cumsum(survivals, axis=1) - survivals / 2
+    pairs = events.sum(axis=1) * survivals.sum(axis=1)
+    return np.asarray((events * below).sum(axis=1) / np.where(pairs > 0, pairs, np.nan))
+
+
+def _shares_best(values: Array) -> Array:
+    """Share of the resamples in which each row is the smallest, ties shared; shape (measures,)."""
+    resampled = values[:, 1:]
+    usable = ~np.isnan(resampled).any(axis=0)
+    if not usable.any():
+        return np.full(len(values), np.nan)
+    resampled = resampled[:, usable]
+    is_best = resampled <= resampled.min(axis=0) + 1e-12
+    return np.asarray((is_best / is_best.sum(axis=0)).mean(axis=1))
+
+
+def _trend(covariate: Array | None, left: Array) -> Trend | None:
+    """One value a record: its histories share what is particular about it. None of fewer than three records."""
+    if covariate is None:
+        return None
+    known = np.isfinite(covariate) & np.isfinite(left)
+    if known.sum() < 3 or np.ptp(covariate[known]) == 0:
+        return None
+    line = scipy.stats.linregress(covariate[known], left[known])
+    return Trend(float(line.slope), float(line.stderr), float(line.pvalue))

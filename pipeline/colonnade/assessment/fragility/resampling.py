@@ -1,0 +1,79 @@
+"""Bootstrap over records: how often each is drawn, and studentised intervals of what is computed from them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.dynamics.ensembles.ensemble import LARGEST_SEED
+from colonnade.validation import number, whole
+
+RESAMPLES, MOST_RESAMPLES = 1999, 100_000
+LEVEL = 0.95
+"""Of intervals."""
+
+
+class Interval(NamedTuple):
+    """A value with its limits; infinite or NaN if the resamples give no limit."""
+
+    value: float
+    low: float
+    high: float
+
+
+class Band(NamedTuple):
+    """Values with their limits, each of one shape."""
+
+    value: Array
+    low: Array
+    high: Array
+
+
+def record_weights(records: int, resamples: int, seed: int) -> Array:
+    """
+    Draw records with replacement, as many as there are.
+
+    Returns
+    -------
+    weights : ndarray, shape (resamples, records)
+        How often each was drawn.
+    """
+    random = np.random.default_rng(whole("seed", seed, 0, LARGEST_SEED))
+    count = whole("resamples", resamples, 1, MOST_RESAMPLES)
+    return random.multinomial(records, np.full(records, 1 / records), size=count).astype(np.float64)
+
+
+def checked_level(level: float) -> float:
+    """Return the level of an interval, or raise ValueError."""
+    return number("level", level, "a probability between 0 and 1", above=0.0, below=1.0)
+
+
+def studentised(value: Array, error: Array, values: Array, errors: Array, level: float) -> Band:
+    """
+    Give studentised bootstrap intervals (bootstrap-t).
+
+    Parameters
+    ----------
+    value, error : ndarray, shape (k,)
+        Estimates, on a scale where they are about normal, and their standard errors.
+    values, errors : ndarray, shape (n, k)
+        The same of each resample.
+    level : float
+        Of the intervals.
+
+    Returns
+    -------
+    band : Band
+        Shape (k,) each.
+
+    Notes
+    -----
+    Efron and Tibshirani (1993, ch. 12). Second-order correct, like BCa, and unlike it not too narrow for few records:
+    `reports/fragility-study.md` shows its coverage.
+    """
+    t = (values - value) / np.where(errors > 0, errors, np.nan)
+    tails = [(1 - level) / 2, (1 + level) / 2]
+    low, high = np.full((2, *value.shape), np.nan) if np.isnan(t).all() else np.nanquantile(t, tails, axis=0)
+    return Band(value, value - high * error, value - low * error)

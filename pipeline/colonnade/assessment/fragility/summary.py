@@ -1,0 +1,111 @@
+"""Everything that is asked of the outcomes of a set of records, in one result."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from numpy.typing import ArrayLike
+
+from colonnade.assessment.fragility.betas import Betas, separate_betas
+from colonnade.assessment.fragility.hazard import Hazard
+from colonnade.assessment.fragility.influence import Influence, influence
+from colonnade.assessment.fragility.isotonic import IsotonicCurve, fit_isotonic
+from colonnade.assessment.fragility.lognormal import LognormalFit, fit_lognormal
+from colonnade.assessment.fragility.measures import Comparison, compare_measures
+from colonnade.assessment.fragility.misfit import Misfit, lognormal_misfit
+from colonnade.assessment.fragility.outcomes import Outcomes
+from colonnade.assessment.fragility.rate import AnnualRate, annual_rate
+from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES
+from colonnade.assessment.fragility.resurrection import Resurrection, resurrection
+from colonnade.assessment.fragility.uplift import Uplift, uplift
+
+
+@dataclass(frozen=True)
+class Fragility:
+    """
+    Fragility of a block.
+
+    Attributes
+    ----------
+    outcomes : Outcomes
+    lognormal : LognormalFit
+        Of overturning, or why there is none.
+    isotonic : IsotonicCurve
+    misfit : Misfit
+        Of the lognormal curve.
+    uplift : Uplift
+    resurrection : Resurrection
+    betas : Betas
+    influence : Influence
+    measures : Comparison or None
+        If there are measures to compare.
+    rate : AnnualRate or None
+        If there are a hazard and a lognormal curve.
+    """
+
+    outcomes: Outcomes
+    lognormal: LognormalFit
+    isotonic: IsotonicCurve
+    misfit: Misfit
+    uplift: Uplift
+    resurrection: Resurrection
+    betas: Betas
+    influence: Influence
+    measures: Comparison | None
+    rate: AnnualRate | None
+
+
+def summarise(
+    outcomes: Outcomes,
+    *,
+    threshold: tuple[float, float] | None = None,
+    hazard: Hazard | None = None,
+    measures: Mapping[str, ArrayLike] | None = None,
+    magnitude: ArrayLike | None = None,
+    distance: ArrayLike | None = None,
+    level: float = LEVEL,
+    resamples: int = RESAMPLES,
+    seed: int = 0,
+) -> Fragility:
+    """
+    Summarise outcomes.
+
+    Parameters
+    ----------
+    outcomes : Outcomes
+        Made by `gather`.
+    threshold : tuple of float, optional
+        As of `uplift`.
+    hazard : Hazard, optional
+        Of the measure of the outcomes; made by `hazard_curve`.
+    measures, magnitude, distance : optional
+        As of `compare_measures`.
+    level, resamples, seed : optional
+        Of all intervals; the same seed gives the same result.
+
+    Returns
+    -------
+    fragility : Fragility
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range.
+    """
+    lognormal = fit_lognormal(outcomes, level=level, resamples=resamples, seed=seed)
+    isotonic = fit_isotonic(outcomes, level=level, resamples=resamples, seed=seed)
+    return Fragility(
+        outcomes,
+        lognormal,
+        isotonic,
+        lognormal_misfit(outcomes, resamples=resamples, seed=seed),
+        uplift(outcomes, threshold=threshold, level=level, resamples=resamples, seed=seed),
+        resurrection(outcomes),
+        separate_betas(outcomes, level=level, resamples=resamples, seed=seed),
+        influence(outcomes, hazard),
+        compare_measures(outcomes, measures, magnitude=magnitude, distance=distance, resamples=resamples, seed=seed)
+        if measures
+        else None,
+        annual_rate(hazard, lognormal, isotonic) if hazard is not None and not lognormal.reason else None,
+    )

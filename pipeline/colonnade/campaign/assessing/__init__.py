@@ -1,0 +1,1 @@
+"""What is asked of the real column: its properties, and the assessments of it."""

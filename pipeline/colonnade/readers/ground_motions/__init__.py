@@ -1,0 +1,1 @@
+"""Sets of ground motions, and the hazard of a site."""

@@ -1,0 +1,103 @@
+"""The files of a set of ground motions: which they are, and the components that each holds."""
+
+from __future__ import annotations
+
+import hashlib
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from colonnade.dynamics.motion import Motion
+from colonnade.errors import ReadError
+from colonnade.readers.ground_motions.listed import Entry, LeftOut, inside
+from colonnade.readers.ground_motions.names import direction_of, named
+from colonnade.readers.irregular import irregular
+from colonnade.readers.motion import read_motions
+from colonnade.readers.refusal import unreachable
+from colonnade.readers.registry import companions
+
+LARGEST_FILE = 200_000_000
+"""Bytes."""
+FEWEST_SAMPLES = 10
+LONGEST_INTERVAL = 0.2
+"""s; nothing coarser is a record of a column's base."""
+LARGEST_ACCELERATION = 1000.0
+"""m/s²; no ground moves so, a wrong unit does."""
+
+
+@dataclass(frozen=True)
+class Component:
+    """A component as it was read: the entry with its direction and record filled in, and what its file hashes to."""
+
+    entry: Entry
+    motion: Motion
+    files: tuple[tuple[str, str], ...]
+
+
+def in_folder(folder: Path, left_out: list[LeftOut]) -> list[Entry]:
+    """Give the files of a folder, by name; folders in it and hidden files do not count."""
+    entries, root = [], folder.resolve()
+    try:
+        for path in sorted(folder.iterdir()):
+            if path.name.startswith(".") or path.is_dir():
+                continue
+            try:
+                entries.append(Entry(inside(root, path.name), path.name))
+            except ReadError:
+                left_out.append(LeftOut(path.name, "it is a link to outside this folder. Put the file itself there."))
+    except OSError as error:
+        raise ReadError(unreachable(folder, error)) from None
+    return entries
+
+
+def components_of(entry: Entry, notes: list[str]) -> Iterator[Component]:
+    """Read what an entry names; each column that may be an acceleration is a component."""
+    path = entry.path
+    if kind := irregular(path):
+        raise ReadError(f"this is {kind}; a record was expected.")
+    try:
+        size = path.stat().st_size
+    except OSError as error:
+        raise ReadError(unreachable(path, error)) from None
+    if size > LARGEST_FILE:
+        raise ReadError(f"{size:.3g} bytes are too many for a record; at most {LARGEST_FILE:.3g} were expected.")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        column = int(entry.column) if entry.column.isdecimal() else entry.column or None
+        motions = read_motions(path, unit=entry.unit, dt=entry.interval, column=column)
+    notes += dict.fromkeys(str(each.message) for each in told)
+    files = tuple((each.name, _sha256(each)) for each in (path, *companions(path)))
+    record, direction = named(path.name)
+    if len(motions) > 1 and (entry.component or not all(direction_of(head)[0] for head in motions)):
+        heads = ", ".join(f'"{head}"' for head in motions)
+        raise ReadError(
+            f"{len(motions)} columns may be accelerations ({heads}), and which is which is not clear. Name one in each "
+            'row of a list, in the columns "column", "component" and "record".'
+        )
+    for head, motion in motions.items():
+        own = direction_of(head)[0] if len(motions) > 1 else direction
+        whole = path.stem if len(motions) > 1 else record
+        given = replace(entry, component=entry.component or own, record=entry.record or whole)
+        yield Component(given, _usable(motion, entry.scale), files)
+
+
+def _usable(motion: Motion, scale: float) -> Motion:
+    """Return a component times its scale, if it can be the motion of a column's base."""
+    if motion.acceleration.size < FEWEST_SAMPLES:
+        raise ReadError(f"it has {motion.acceleration.size} samples; at least {FEWEST_SAMPLES} were expected.")
+    if motion.dt > LONGEST_INTERVAL:
+        raise ReadError(f"its samples are {motion.dt:.3g} s apart; at most {LONGEST_INTERVAL:g} s were expected.")
+    scaled = motion if scale == 1.0 else Motion(scale * motion.acceleration, motion.dt)
+    if not scaled.peak > 0.0:
+        raise ReadError("it does not move: all accelerations are 0.")
+    if scaled.peak > LARGEST_ACCELERATION:
+        raise ReadError(
+            f"its peak is {scaled.peak:.3g} m/s²; at most {LARGEST_ACCELERATION:g} m/s² was expected. Check its unit."
+        )
+    return scaled
+
+
+def _sha256(path: Path) -> str:
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()

@@ -1,0 +1,121 @@
+"""The hazard of a site: annual rates at which levels of a measure of intensity are exceeded."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+
+import numpy as np
+
+from colonnade import units
+from colonnade.arrays import Array
+from colonnade.errors import ReadError, UnitError, quoted
+from colonnade.readers.ground_motions.table import Head, SmallTable, read_table
+
+RATES = ("rate", "annual rate", "annual rate of exceedance")
+PER_YEAR = ("1/year", "1/yr", "1/a", "per year", "/year")
+
+
+@dataclass(frozen=True)
+class Hazard:
+    """
+    A hazard curve.
+
+    Attributes
+    ----------
+    intensity : ndarray, shape (n,)
+        In SI, rising.
+    rate : ndarray, shape (n,)
+        1/year, falling or level.
+    """
+
+    intensity: Array
+    rate: Array
+
+
+def read_hazard(path: Path, *, measure: str, unit: str) -> Hazard:
+    """
+    Read a hazard curve.
+
+    Parameters
+    ----------
+    path : Path
+        CSV with two columns: the measure with its unit, and the annual rate; `pgv [m/s], rate [1/year]`.
+    measure : str
+        Id of the measure that it has to be of, such as "sa(0.5 s)".
+    unit : str
+        One in which the measure is given; "1" if it has none.
+
+    Raises
+    ------
+    ReadError
+        If it is of another measure or dimension, a value is not a positive number, intensities do not rise, or rates
+        do.
+    """
+    table = read_table(path, "a hazard curve")
+    factor = _factor(table, measure, unit)
+    if table.faults:
+        line, fault = table.faults[0]
+        raise ReadError(f"{table.name}, line {line}: {fault}")
+    values = np.array([_pair(table.name, line, cells) for line, cells in table.rows]).reshape(-1, 2)
+    if len(values) < 2:
+        raise ReadError(f"{table.name}: {len(values)} rows of numbers; at least two were expected.")
+    lines = [line for line, _ in table.rows]
+    for column, wrong, expected in (
+        (0, np.diff(values[:, 0]) <= 0.0, "rising intensities were expected"),
+        (1, np.diff(values[:, 1]) > 0.0, "a rate that falls as the intensity rises was expected"),
+    ):
+        if wrong.any():
+            first = int(np.argmax(wrong))
+            before, after = values[first, column], values[first + 1, column]
+            raise ReadError(f"{table.name}, line {lines[first + 1]}: {after:g} follows {before:g}; {expected}.")
+    return Hazard(values[:, 0] * factor, values[:, 1])
+
+
+def _factor(table: SmallTable, measure: str, unit: str) -> float:
+    """Check the heads; return the SI units in one of the measure's."""
+    if len(table.heads) != 2:
+        raise ReadError(
+            f"{table.name}: {len(table.heads)} columns; two were expected, the measure with its unit and the annual "
+            f'rate: "{measure} [{unit}], rate [1/year]".'
+        )
+    intensity, rate = table.heads
+    if _same(intensity.name) != _same(measure):
+        raise ReadError(
+            f"{table.name}: the hazard is given for {quoted(intensity.name)} and the fragility for {quoted(measure)}. "
+            "A hazard curve of the same measure was expected."
+        )
+    if rate.name.casefold() not in RATES or (rate.unit is not None and rate.unit.casefold() not in PER_YEAR):
+        raise ReadError(f'{table.name}: the second column is {quoted(_written(rate))}; "rate [1/year]" was expected.')
+    wanted = units.si_factor(unit)[1]
+    if intensity.unit is None and wanted != "1":
+        raise ReadError(f'{table.name}: {quoted(intensity.name)} has no unit; "{measure} [{unit}]" was expected.')
+    try:
+        factor, found = units.si_factor(intensity.unit or "1")
+    except UnitError as error:
+        raise ReadError(f"{table.name}: {error}") from None
+    if found != wanted:
+        raise ReadError(f'{table.name}: {quoted(_written(intensity))} was found; "{measure} [{unit}]" was expected.')
+    return factor
+
+
+def _pair(name: str, line: int, cells: tuple[str, ...]) -> tuple[float, float]:
+    values = []
+    for cell in cells:
+        try:
+            value = float(cell)
+        except ValueError:
+            value = float("nan")
+        if not (isfinite(value) and value > 0.0):
+            raise ReadError(f"{name}, line {line}: {quoted(cell)} is not a positive number.")
+        values.append(value)
+    return values[0], values[1]
+
+
+def _same(text: str) -> str:
+    return "".join(text.casefold().split())
+
+
+def _written(head: Head) -> str:
+    return head.name if head.unit is None else f"{head.name} [{head.unit}]"

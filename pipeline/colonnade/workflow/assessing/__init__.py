@@ -1,0 +1,1 @@
+"""Assessments of real columns: what they need of a campaign, their histories in blocks, their results."""

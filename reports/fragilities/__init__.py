@@ -1,0 +1,1 @@
+"""Parts of the study of fragility curves: populations of records with known truth, trials, the page."""

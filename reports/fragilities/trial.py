@@ -1,0 +1,59 @@
+"""One repetition: a sample of a population, and whether each interval holds the truth."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy
+
+from colonnade.assessment.fragility.betas import separate_betas
+from colonnade.assessment.fragility.hazard import hazard_curve, lognormal_rate
+from colonnade.assessment.fragility.isotonic import IsotonicCurve, fit_isotonic
+from colonnade.assessment.fragility.lognormal import fit_lognormal
+from colonnade.assessment.fragility.misfit import lognormal_misfit
+from colonnade.assessment.fragility.outcomes import Outcomes
+from colonnade.assessment.fragility.rate import annual_rate
+from colonnade.assessment.fragility.resampling import Interval
+from fragilities.population import MEDIAN, Population
+
+RESAMPLES = 999
+PROBABILITIES = (0.1, 0.6, 0.9)
+"""True probabilities at the intensities where P is judged."""
+
+SIGNIFICANT = 0.05
+HAZARD = hazard_curve(np.geomspace(0.01, 10.0, 20), 1e-4 * np.geomspace(0.01, 10.0, 20) ** -2.0)
+"""A power law, so that the true rate is in closed form."""
+
+Held = dict[str, bool]
+"""By the name of an interval; `misfit` says whether the test finds one."""
+
+
+def run(population: Population, seed: int, number: int) -> Held:
+    """Run repetition `number`; a result that is not given counts as not held."""
+    outcomes = population.sample(np.random.default_rng((seed, number)))
+    curve = fit_isotonic(outcomes, resamples=RESAMPLES, seed=number)
+    truth = population.probability(curve.intensity)
+    inside = (curve.probability.low <= truth) & (truth <= curve.probability.high)
+    held = {f"isotonic {place}": bool(each) for place, each in enumerate(inside)}
+    held["misfit"] = lognormal_misfit(outcomes, resamples=RESAMPLES, seed=number).p_value < SIGNIFICANT
+    return held if population.two_kinds else held | _lognormal(population, outcomes, curve, number)
+
+
+def _lognormal(population: Population, outcomes: Outcomes, curve: IsotonicCurve, number: int) -> Held:
+    fit = fit_lognormal(outcomes, resamples=RESAMPLES, seed=number)
+    betas = separate_betas(outcomes, resamples=RESAMPLES, seed=number)
+    held = {
+        "median": _holds(fit.median, MEDIAN),
+        "beta": _holds(fit.beta, population.beta),
+        "beta of records": _holds(betas.records, population.of_records),
+        "beta of parameters": _holds(betas.parameters, population.of_parameters),
+        "rate": not fit.reason
+        and _holds(annual_rate(HAZARD, fit, curve).rate, lognormal_rate(HAZARD, MEDIAN, population.beta)[0]),
+    }
+    at = fit.probability(MEDIAN * np.exp(population.beta * scipy.special.ndtri(PROBABILITIES)))
+    for place, true in enumerate(PROBABILITIES):
+        held[f"P = {true:g}"] = bool(at.low[place] <= true <= at.high[place])
+    return held
+
+
+def _holds(interval: Interval, truth: float) -> bool:
+    return bool(interval.low <= truth <= interval.high)

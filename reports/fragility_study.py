@@ -1,0 +1,61 @@
+"""Study of fragility curves whose truth is known: `python reports/fragility_study.py [--repetitions N] [--seed N]`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from joblib import Parallel, delayed
+
+from fragilities.page import page
+from fragilities.population import Population
+from fragilities.trial import run
+
+HERE = Path(__file__).resolve().parent
+NAME = "fragility-study"
+REPETITIONS, SEED, WORKERS = 500, 2015, 2
+
+POPULATIONS = {
+    "30 records, 10 draws, β 0.40 and 0.15": Population(),
+    "20 records, 10 draws, β 0.40 and 0.15": Population(records=20),
+    "40 records, 5 draws, β 0.30 and 0.30": Population(records=40, draws=5, of_records=0.3, of_parameters=0.3),
+    "12 records, 10 draws, 8 levels, β 0.40 and 0.20": Population(records=12, levels=8, of_parameters=0.2),
+    "two kinds, 30 records": Population(two_kinds=True),
+    "two kinds, 20 records": Population(records=20, two_kinds=True),
+}
+
+
+def study(repetitions: int, seed: int, workers: int) -> dict[str, Any]:
+    """Run all repetitions of all populations, and gather what the page gives."""
+    pool = Parallel(n_jobs=workers, batch_size=4)
+    designs = {}
+    for name, population in POPULATIONS.items():
+        held = list(pool(delayed(run)(population, seed, number) for number in range(repetitions)))
+        shares = {key: float(np.mean([each[key] for each in held])) for key in held[0]}
+        designs[name] = {"population": asdict(population), "shares": shares}
+    return {"repetitions": repetitions, "seed": seed, "designs": designs}
+
+
+def write(found: dict[str, Any], folder: Path) -> None:
+    """Write page and numbers into a folder."""
+    (folder / f"{NAME}.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    (folder / f"{NAME}.md").write_text(page(found), encoding="utf-8")
+
+
+def main() -> None:
+    """Run the study and write page and numbers."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--repetitions", type=int, default=REPETITIONS)
+    parser.add_argument("--seed", type=int, default=SEED)
+    parser.add_argument("--workers", type=int, default=WORKERS)
+    parser.add_argument("--folder", type=Path, default=HERE, help="where the results go")
+    given = parser.parse_args()
+    write(study(given.repetitions, given.seed, given.workers), given.folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,88 @@
+"""The real column: its ranges, and draws that are the same however many there are."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from colonnade.assessment.cases.prototype import UNCERTAIN, Prototype, draw, drawn_column
+from colonnade.dynamics.block import Block
+
+BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)
+COLUMN = Prototype(
+    BLOCK,
+    0.95,
+    0.6,
+    restitution_range=(0.93, 0.97),
+    critical_angle_range=(0.17, 0.19),
+    p_range=(1.2, 1.5),
+    friction_range=(0.5, 0.7),
+)
+
+
+def test_more_draws_begin_with_the_same_and_the_first_has_nothing_varied():
+    few, many = draw(COLUMN, 5, seed=3), draw(COLUMN, 50, seed=3)
+    np.testing.assert_array_equal(few.values, many.values[:6])
+    np.testing.assert_allclose(many.values[0], [0.95, 0.18, BLOCK.p, 0.6])
+    assert (draw(COLUMN, 5, seed=4).values[1:] != few.values[1:]).all()
+
+
+def test_draws_fill_their_ranges_evenly():
+    values = draw(COLUMN, 2000).values[1:]
+    for column, (low, high) in enumerate(COLUMN.ranges):
+        share = (values[:, column] - low) / (high - low)
+        assert 0.0 <= share.min() < 0.01
+        assert 0.99 < share.max() <= 1.0
+        assert share.mean() == pytest.approx(0.5, abs=4 / np.sqrt(12 * 2000))
+    assert np.abs(np.corrcoef(values.T) - np.eye(4)).max() < 4 / np.sqrt(2000)
+
+
+def test_a_range_that_goes_leaves_the_other_draws_as_they_are():
+    without = draw(replace(COLUMN, p_range=None), 9).values
+    np.testing.assert_array_equal(without[:, [0, 1, 3]], draw(COLUMN, 9).values[:, [0, 1, 3]])
+    assert set(without[:, UNCERTAIN.index("p")]) == {BLOCK.p}
+
+
+def test_nothing_is_drawn_of_what_is_exactly_known():
+    exact = Prototype(BLOCK, 0.95)
+    draws = draw(exact, 100)
+    assert draws.size == 1
+    assert np.isnan(draws.of("friction")).all()
+    assert drawn_column(exact, draws, 0) == (BLOCK, (0.95, 0.95))
+
+
+def test_a_drawn_column_has_what_was_drawn():
+    draws = draw(COLUMN, 3)
+    block, e = drawn_column(COLUMN, draws, 2)
+    drawn = (*set(e), block.critical_angle, block.p)
+    np.testing.assert_allclose(drawn, draws.values[2, :3], rtol=1e-12)
+
+
+def test_the_sides_of_a_column_keep_their_proportions():
+    uneven = replace(BLOCK, positive=replace(BLOCK.positive, critical_angle=0.27))
+    column = replace(COLUMN, block=uneven, restitution=(0.94, 0.96))
+    assert not column.is_symmetric
+    draws = draw(column, 1)
+    block, (negative, positive) = drawn_column(column, draws, 1)
+    assert block.positive.critical_angle / block.negative.critical_angle == pytest.approx(1.5)
+    assert 0.5 * (negative + positive) == pytest.approx(draws.of("restitution")[1])
+    assert positive - negative == pytest.approx(0.02)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"restitution_range": (0.97, 0.93)}, "restitution_range goes from 0.97 to 0.93"),
+        ({"restitution_range": (0.93, 1.01)}, "restitution_range is 1.01"),
+        ({"critical_angle_range": (0.0, 0.2)}, "critical_angle_range is 0"),
+        ({"p_range": (-1.0, 1.0)}, "p_range is -1"),
+        ({"friction": None}, "friction_range is given without friction"),
+        ({"friction": -0.1}, "friction is -0.1"),
+        ({"restitution": 1.5}, "restitution is 1.5"),
+    ],
+)
+def test_what_no_column_can_be_is_refused(changed, message):
+    with pytest.raises(ValueError, match=message):
+        replace(COLUMN, **changed)

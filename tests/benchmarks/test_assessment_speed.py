@@ -1,0 +1,291 @@
+"""
+A million histories of an assessment: against the kernel's own time, heyoka, a Runge–Kutta, and on a cluster.
+
+Marked slow; `python -m pytest -m slow tests/benchmarks/test_assessment_speed.py -s` prints the figures.
+"""
+
+import json
+import math
+import subprocess
+import sys
+import time
+from functools import partial
+from pathlib import Path
+
+import numba
+import numpy as np
+import pytest
+
+from colonnade.assessment.cases.cases import Cases, factors_at, in_plane, run_part
+from colonnade.assessment.cases.prototype import Prototype, draw, drawn_column
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.plane.nonlinear import by_series
+from colonnade.dynamics.plane.outcomes import prepared
+from colonnade.dynamics.plane.sampled_march import propagate
+from colonnade.workflow.assessing.blocks import outcomes_of
+from colonnade.workflow.execution.blocks import in_blocks
+
+BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)
+COLUMN = Prototype(BLOCK, 0.95, restitution_range=(0.93, 0.97), critical_angle_range=(0.16, 0.2), p_range=(1.2, 1.5))
+INTERVAL, SAMPLES = 0.005, 4000
+REST = 1e-6
+
+pytestmark = pytest.mark.slow
+
+
+def _record(seed):
+    """Broad-band noise about 1.5 Hz that rises and dies away, 20 s at 200 Hz, both components; peak 1 m/s²."""
+    random = np.random.default_rng(seed)
+    moment = np.arange(SAMPLES) * INTERVAL
+    hertz = np.fft.rfftfreq(SAMPLES, INTERVAL)
+
+    def component():
+        wave = np.fft.irfft(
+            np.fft.rfft(random.standard_normal(SAMPLES)) * np.exp(-(((hertz - 1.5) / 1.5) ** 2)), SAMPLES
+        )
+        wave *= (moment / 5.0 * np.exp(1.0 - moment / 5.0)) ** 2
+        return wave / np.abs(wave).max()
+
+    return Motion(component(), INTERVAL, transverse=component())
+
+
+def _cases(records, levels, draws):
+    """Levels from well above uplift on, so that every history rocks: records, two components, levels, draws."""
+    peaks = np.geomspace(1.2, 6.0, levels) * BLOCK.uplift_acceleration
+    motions = tuple(_record(seed) for seed in range(records))
+    return Cases(COLUMN, draw(COLUMN, draws - 1), motions, factors_at(peaks, np.ones((records, 2))))
+
+
+def _inputs(cases, chosen):
+    """What the kernel needs of some cases, made beforehand."""
+    _records, levels, draws, _signs, components = cases.shape
+    inputs = []
+    for case in chosen:
+        row, which = divmod(int(case), draws)
+        record, place, level = row // (levels * components), row // levels % components, row % levels
+        motion = in_plane(cases.motions[record], place, float(cases.factors[record, level, place]))
+        base = motion.acceleration / BLOCK.gravity
+        inputs.append((base, *drawn_column(cases.prototype, cases.draws, which)))
+    return inputs
+
+
+def _kernel(inputs):
+    """Processor time of the kernel alone, s, with all that it takes prepared."""
+    series = by_series(np.zeros(SAMPLES), False)
+    ready = [(base, prepared(block, e)) for base, block, e in inputs]
+    propagate(ready[0][0], INTERVAL, ready[0][1], 0.0, 0.0, series)
+    begin = time.process_time()
+    for base, sides in ready:
+        propagate(base, INTERVAL, sides, 0.0, 0.0, series)
+    return time.process_time() - begin
+
+
+MILLION = """
+import json, resource, sys, time
+from functools import partial
+from pathlib import Path
+import test_assessment_speed as bench
+cases = bench._cases(50, 20, 500)
+bench.run_part(cases.part(range(1)))
+begin = time.perf_counter()
+outcomes = bench.outcomes_of(cases, partial(bench.in_blocks, workers=2), Path(sys.argv[1]), "key")
+elapsed = time.perf_counter() - begin
+from joblib.externals.loky import get_reusable_executor
+get_reusable_executor().shutdown(wait=True)
+own, workers = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+print(json.dumps({
+    "histories": int(outcomes.is_run.sum()), "overturned": float((outcomes.outcome == 2).mean()), "elapsed": elapsed,
+    "processor": workers.ru_utime + workers.ru_stime, "memory": [1024 * own.ru_maxrss, 1024 * workers.ru_maxrss],
+}))
+"""
+
+
+def test_a_million_histories_take_little_more_than_the_kernels_own_time(tmp_path, capsys):
+    cases = _cases(50, 20, 500)
+    assert cases.count == 1_000_000
+    chosen = np.random.default_rng(0).choice(cases.count, 10_000, replace=False)
+    kernel = 100.0 * _kernel(_inputs(cases, chosen))
+    command = [sys.executable, "-c", MILLION, str(tmp_path)]
+    ended = subprocess.run(command, cwd=Path(__file__).parent, capture_output=True, text=True, check=True)
+    found = json.loads(ended.stdout)
+    ratio = found["processor"] / kernel
+    with capsys.disabled():
+        print(
+            f"\n{found['histories']:,} histories, {100 * found['overturned']:.0f} % overturn: {found['elapsed']:.0f} s "
+            f"on two processes, {found['processor']:.0f} s of their processor time, {ratio:.3f} times the kernel's own "
+            f"{kernel:.0f} s; largest memory {max(found['memory']) / 1e6:.0f} MB a process"
+        )
+    assert found["histories"] == 1_000_000
+    assert ratio <= 1.3
+    assert found["elapsed"] <= 720.0
+    assert sum(found["memory"]) + found["memory"][1] < 1e9
+
+
+@numba.njit
+def _turning(angle, base, lean, square):
+    return -square * (math.sin(lean - angle) + base * math.cos(lean - angle))
+
+
+@numba.njit
+def _step(angle, velocity, h, base, slope, lean, square):
+    """One step of the classical Runge–Kutta scheme of the full equation."""
+    half, middle, end = 0.5 * h, base + 0.5 * h * slope, base + h * slope
+    k1 = _turning(angle, base, lean, square)
+    k2 = _turning(angle + half * velocity, middle, lean, square)
+    k3 = _turning(angle + half * (velocity + half * k1), middle, lean, square)
+    k4 = _turning(angle + h * (velocity + half * k2), end, lean, square)
+    return angle + h * velocity + h * h / 6.0 * (k1 + k2 + k3), velocity + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+
+
+@numba.njit
+def _runge_kutta(base, dt, alpha, p, e, steps):
+    """Largest |θ|/α of a block by equal steps, landings bisected; inf once it lies."""
+    angle, velocity, side, largest, threshold, square = 0.0, 0.0, 0.0, 0.0, math.tan(alpha), p * p
+    for sample in range(base.size - 1):
+        slope = (base[sample + 1] - base[sample]) / dt
+        moment, end = 0.0, dt
+        if side == 0.0:
+            if abs(base[sample + 1]) <= threshold:
+                continue
+            sign = 1.0 if base[sample + 1] > 0.0 else -1.0
+            side = -sign
+            moment = max(0.0, (sign * threshold - base[sample]) / slope) if abs(base[sample]) <= threshold else 0.0
+        count = steps
+        h = (end - moment) / count
+        while moment < end * (1.0 - 1e-12):
+            h = min(h, end - moment)
+            now = base[sample] + moment * slope
+            new, speed = _step(angle, velocity, h, now, slope, alpha * side, square)
+            if side * new < 0.0 and (side * angle > 0.0 or side * velocity > 0.0):
+                low, high = 0.0, h
+                for _ in range(50):
+                    mid = 0.5 * (low + high)
+                    if side * _step(angle, velocity, mid, now, slope, alpha * side, square)[0] < 0.0:
+                        high = mid
+                    else:
+                        low = mid
+                speed = _step(angle, velocity, high, now, slope, alpha * side, square)[1]
+                moment += high
+                angle, velocity, side = 0.0, e * speed, -side
+                holding = math.sin(alpha) + side * (base[sample] + moment * slope) * math.cos(alpha)
+                if holding >= 0.0 and 0.5 * velocity * velocity / square <= REST * alpha * holding:
+                    velocity, side = 0.0, 0.0
+                    break
+                continue
+            angle, velocity = new, speed
+            moment += h
+        if abs(angle) >= 0.5 * math.pi:
+            return math.inf
+        largest = max(largest, abs(angle) / alpha)
+    return largest
+
+
+class Heyoka:
+    """heyoka's Taylor integrator of the same block, a call for each sample; landings by terminal events."""
+
+    def __init__(self, heyoka):
+        angle, velocity = heyoka.make_vars("angle", "velocity")
+        alpha, side, base, slope, p = (heyoka.par[k] for k in range(5))
+        lean = alpha * side - angle
+        force = base + slope * heyoka.time
+        turning = -p * p * (heyoka.sin(lean) + force * heyoka.cos(lean))
+        event = heyoka.t_event(angle, callback=lambda integrator, _: self._land(integrator))
+        self.integrator = heyoka.taylor_adaptive(
+            [(angle, velocity), (velocity, turning)], [0.0, 0.0], pars=[0.0] * 5, t_events=[event], tol=1e-12
+        )
+
+    def _land(self, integrator):
+        alpha, side, base, slope, p = integrator.pars
+        velocity, side = self.e * integrator.state[1], -side
+        integrator.pars[1], integrator.state[1] = side, velocity
+        holding = math.sin(alpha) + side * (base + slope * integrator.time) * math.cos(alpha)
+        self.rests = holding >= 0 and 0.5 * (velocity / p) ** 2 <= REST * alpha * holding
+        return not self.rests
+
+    def largest(self, base, dt, alpha, p, e):
+        """Largest |θ|/α at the samples; inf once it lies."""
+        integrator, self.e, self.rests, largest = self.integrator, e, True, 0.0
+        threshold = math.tan(alpha)
+        for now, then in zip(base[:-1].tolist(), base[1:].tolist(), strict=True):
+            slope, start = (then - now) / dt, 0.0
+            if self.rests:
+                if abs(then) <= threshold:
+                    continue
+                sign = math.copysign(1.0, then)
+                start = max(0.0, (sign * threshold - now) / slope) if abs(now) <= threshold else 0.0
+                # It needs to be off θ = 0: just after uplift θ = −p² b' t³/6, b' the rate of the moment.
+                later = min(1e-6, 0.5 * (dt - start))
+                rate = slope * math.cos(alpha) * p * p
+                integrator.state[:] = -rate * later**3 / 6, -rate * later**2 / 2
+                integrator.pars[1] = -sign
+                start, self.rests = start + later, False
+                integrator.reset_cooldowns()
+            integrator.pars[0], integrator.pars[2], integrator.pars[3], integrator.pars[4] = alpha, now, slope, p
+            integrator.time = start
+            while not self.rests and integrator.time < dt:
+                integrator.propagate_until(dt)
+            if abs(integrator.state[0]) >= 0.5 * math.pi:
+                return math.inf
+            if not self.rests:
+                largest = max(largest, abs(integrator.state[0]) / alpha)
+        return largest
+
+
+def test_histories_beside_heyoka_and_a_compiled_runge_kutta(capsys):
+    heyoka = pytest.importorskip("heyoka", reason="the extra `bench` is not installed")
+    cases = _cases(6, 5, 20)
+    chosen = np.arange(0, cases.count, 4)
+    inputs = _inputs(cases, chosen)
+    peer = Heyoka(heyoka)
+    arguments = [(base, INTERVAL, block.critical_angle, block.p, e[0]) for base, block, e in inputs]
+    part = partial(run_part, cases.part(range(cases.count)))
+    part()
+    begin = time.process_time()
+    own = part()
+    seconds = (time.process_time() - begin) / cases.count
+    peaks = own["peak_ratio"][chosen, 0]
+    rows = []
+    for name, function, some in (
+        ("Runge–Kutta, 1 step a sample", lambda *given: _runge_kutta(*given, 1), 1),
+        ("Runge–Kutta, 10 steps a sample", lambda *given: _runge_kutta(*given, 10), 1),
+        ("heyoka at 1e-12, a call a sample", peer.largest, 10),
+    ):
+        function(*arguments[0])
+        begin = time.process_time()
+        theirs = np.array([function(*each) for each in arguments[::some]])
+        cost = (time.process_time() - begin) / theirs.size
+        both = np.isfinite(peaks[::some]) & np.isfinite(theirs)
+        errors = np.abs(peaks[::some] - theirs)[both]
+        rows.append((name, cost, np.median(errors), (errors < 1e-6).mean()))
+    with capsys.disabled():
+        print(f"\n{1e6 * seconds:.0f} µs a history of 20 s at 200 Hz")
+        for name, cost, median, share in rows:
+            print(
+                f"{name}: {1e6 * cost:.0f} µs, {cost / seconds:.1f} times; median difference of the peaks "
+                f"{median:.0e}, {100 * share:.0f} % below 1e-6"
+            )
+    assert rows[2][3] >= 0.9
+    assert rows[1][3] >= 0.9
+    assert rows[2][1] / seconds >= 2.0
+
+
+def test_two_workers_of_a_cluster_are_as_quick_as_two_processes(tmp_path, capsys):
+    distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
+    cases = _cases(10, 10, 300)
+    outcomes = {}
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+    ) as cluster:
+        ways = {"processes": {"workers": 2}, "Dask": {"scheduler": cluster.scheduler_address}}
+        seconds = {name: [] for name in ways}
+        for turn in range(4):
+            for name, way in ways.items():
+                begin = time.perf_counter()
+                outcomes[name] = outcomes_of(cases, partial(in_blocks, **way), tmp_path / f"{name}{turn}", "key")
+                seconds[name].append(time.perf_counter() - begin)
+    np.testing.assert_array_equal(outcomes["processes"].peak_ratio, outcomes["Dask"].peak_ratio)
+    best = {name: min(each[1:]) for name, each in seconds.items()}
+    with capsys.disabled():
+        print(f"\n{cases.count:,} histories: " + ", ".join(f"{name} {each:.1f} s" for name, each in best.items()))
+    assert best["Dask"] <= 1.15 * best["processes"]

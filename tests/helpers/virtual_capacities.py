@@ -1,0 +1,29 @@
+"""Samples of populations of capacities with known truth."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fragilities import population
+from fragilities.population import MEDIAN, Population
+
+__all__ = ["BETA", "LEVELS", "MEDIAN", "lognormal", "names", "outcomes_of", "two_kinds"]
+
+BETA, LEVELS = Population().beta, Population().intensity
+
+
+def names(count):
+    return [f"record {number}" for number in range(count)]
+
+
+def outcomes_of(capacity, levels=LEVELS):
+    """Outcomes of capacities of shape (records, draws)."""
+    return population.outcomes_of(capacity, levels)
+
+
+def lognormal(seed, **chosen):
+    return Population(**chosen).sample(np.random.default_rng(seed))
+
+
+def two_kinds(seed):
+    return lognormal(seed, two_kinds=True)

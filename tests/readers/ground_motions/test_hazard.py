@@ -1,0 +1,57 @@
+"""Hazard curves: of the fragility's own measure, positive and falling, or refused with what was found."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.ground_motions.hazard import read_hazard
+
+
+def read(tmp_path, text, measure="pgv", unit="m/s"):
+    path = tmp_path / "hazard.csv"
+    path.write_text(text)
+    return read_hazard(path, measure=measure, unit=unit)
+
+
+@pytest.mark.parametrize(
+    ("text", "measure", "unit", "factor"),
+    [
+        ("pgv [cm/s],rate [1/year]\n1,0.1\n2,0.01\n", "pgv", "m/s", 0.01),
+        ("PGV [m/s];Annual rate\n1;0,1\n2;0,01\n", "pgv", "m/s", 1.0),
+        ("Sa(0.50 s) [g],rate\n1,0.1\n2,0.01\n", "sa(0.50 s)", "m/s^2", 9.80665),
+        ("# site 1\npga_ratio,rate [1/yr]\n\n1,0.1\n2,0.01\n", "pga_ratio", "1", 1.0),
+    ],
+)
+def test_intensity_comes_in_si(tmp_path, text, measure, unit, factor):
+    hazard = read(tmp_path, text, measure, unit)
+    np.testing.assert_allclose(hazard.intensity, [factor, 2 * factor])
+    np.testing.assert_allclose(hazard.rate, [0.1, 0.01])
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("pga [g],rate\n1,2\n2,1\n", 'given for "pga" and the fragility for "pgv"'),
+        ("pgv [g],rate\n1,2\n2,1\n", '"pgv [g]" was found; "pgv [m/s]" was expected'),
+        ("pgv,rate\n1,2\n2,1\n", '"pgv" has no unit'),
+        ("pgv [m/s],probability\n1,2\n2,1\n", 'the second column is "probability"'),
+        ("pgv [m/s],rate [1/day]\n1,2\n2,1\n", 'the second column is "rate [1/day]"'),
+        ("pgv [furlong],rate\n1,2\n2,1\n", 'Unknown unit "furlong"'),
+        ("pgv [m/s]\n1\n2\n", "1 columns; two were expected"),
+        ("pgv [m/s],rate\n1,2\n", "1 rows of numbers; at least two"),
+        ("pgv [m/s],rate\n1,2\n1,1\n", "line 3: 1 follows 1; rising intensities"),
+        ("pgv [m/s],rate\n1,2\n2,3\n", "line 3: 3 follows 2; a rate that falls"),
+        ("pgv [m/s],rate\n1,2\n2,0\n", 'line 3: "0" is not a positive number'),
+        ("pgv [m/s],rate\n1,2\n2,\n", 'line 3: "" is not a positive number'),
+        ("pgv [m/s],rate\n1,2\n2,nan\n", 'line 3: "nan" is not a positive number'),
+        ("pgv [m/s],rate\n1,2\n2,1,0\n", "line 3: 3 cells are below 2 heads"),
+        ("", "the file is empty"),
+    ],
+)
+def test_what_is_no_hazard_of_this_measure_is_refused(tmp_path, text, message):
+    with pytest.raises(ReadError, match=re.escape(message)):
+        read(tmp_path, text)

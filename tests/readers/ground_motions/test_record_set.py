@@ -1,0 +1,242 @@
+"""Sets of ground motions: what belongs together, what is left out and why; one bad file stops no other."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.ground_motions import files, record_set
+from colonnade.readers.ground_motions.record_set import read_record_set
+
+G = 9.80665
+EXAMPLES = Path(__file__).parents[3] / "raw_schema" / "examples"
+
+
+def shaken(size=200, seed=0):
+    return np.round(np.random.default_rng(seed).standard_normal(size), 4)
+
+
+def columns(path, unit="m/s^2", interval=0.01, size=200, seed=0, names=("acc",)):
+    values = np.column_stack([np.arange(size) * interval, *(shaken(size, seed + k) for k in range(len(names)))])
+    heads = ",".join(["time [s]", *(f"{name} [{unit}]" for name in names)])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(heads + "\n" + "\n".join(",".join(f"{cell:.6g}" for cell in row) for row in values) + "\n")
+    return path
+
+
+def reasons(found):
+    return {each.name: each.reason for each in found.left_out}
+
+
+def test_files_of_a_folder_are_put_together_by_their_names(tmp_path):
+    for seed, name in enumerate(("lefkada_x.csv", "lefkada_y.csv", "lefkada_z.csv", "pulse.csv")):
+        columns(tmp_path / name, unit="g", seed=seed)
+    found = read_record_set(tmp_path)
+    assert found.left_out == found.notes == ()
+    lefkada, pulse = found.records
+    assert (lefkada.name, lefkada.components, pulse.name, pulse.components) == (
+        "lefkada",
+        ("x", "y", "z"),
+        "pulse",
+        ("",),
+    )
+    along = lefkada.motion.acceleration, lefkada.motion.transverse, lefkada.motion.vertical
+    for seed, values in enumerate(along):
+        np.testing.assert_allclose(values, G * shaken(seed=seed), rtol=1e-12)
+    assert lefkada.motion.dt == pytest.approx(0.01)
+    assert dict(lefkada.files)["lefkada_y.csv"] == hashlib.sha256((tmp_path / "lefkada_y.csv").read_bytes()).hexdigest()
+
+
+def test_columns_of_a_file_are_the_components_that_their_heads_say(tmp_path):
+    columns(tmp_path / "site.csv", names=("NS", "UD", "EW"))
+    (record,) = read_record_set(tmp_path).records
+    assert record.components == ("x", "y", "z")
+    np.testing.assert_allclose(record.motion.acceleration, shaken(seed=2))
+    np.testing.assert_allclose(record.motion.transverse, shaken(seed=0))
+    np.testing.assert_allclose(record.motion.vertical, shaken(seed=1))
+
+
+def test_formats_of_strong_motion_are_read(tmp_path):
+    peer = (EXAMPLES / "peer/raw/pulse-01.AT2").read_bytes()
+    for name in ("RSN1_A-ELC180.AT2", "RSN1_A-ELC270.AT2", "RSN1_A-ELC-UP.AT2"):
+        (tmp_path / name).write_bytes(peer)
+    (tmp_path / "cosmos.V2").write_bytes((EXAMPLES / "cosmos/raw/pulse-01.V2").read_bytes())
+    found = read_record_set(tmp_path)
+    assert found.left_out == ()
+    assert [(record.name, record.components) for record in found.records] == [
+        ("RSN1_A-ELC", ("180", "270", "z")),
+        ("cosmos", ("",)),
+    ]
+
+
+def test_records_of_networks_have_the_components_that_they_name(shared_data):
+    found = read_record_set(shared_data / "strongmotion")
+    components = {record.name: record.components for record in found.records}
+    assert components["AOM0011801241951"] == components["5526-1"] == ("x", "y", "z")
+
+
+def test_what_is_broken_is_named_and_left_out_and_the_rest_is_read(tmp_path):
+    columns(tmp_path / "good.csv")
+    columns(tmp_path / "elsewhere" / "secret.csv")
+    text = (tmp_path / "good.csv").read_text()
+    broken = {
+        "empty.csv": "",
+        "head.csv": "time [s],acc [g]\n",
+        "unit.csv": text.replace(" [m/s^2]", ""),
+        "uneven.csv": text.replace("\n0.05,", "\n0.055,"),
+        "short.csv": "".join(text.splitlines(keepends=True)[:7]),
+        "still.csv": "time [s],acc [g]\n" + "".join(f"{0.01 * k:.2f},0\n" for k in range(50)),
+        "volts.csv": text.replace("m/s^2", "V"),
+        "huge.csv": text.replace("m/s^2", "km/s^2"),
+        "slow.csv": text.replace("time [s]", "time [min]"),
+        "gap.csv": text.replace("\n0.05,", "\n0.05,x#"),
+        "README.md": "# Records\n\nFrom a stranger.\n",
+        "two.csv": None,
+    }
+    for name, content in broken.items():
+        if content is not None:
+            (tmp_path / name).write_text(content)
+    columns(tmp_path / "two.csv", names=("first", "second"))
+    (tmp_path / "noise.bin").write_bytes(np.random.default_rng(0).bytes(5000))
+    os.mkfifo(tmp_path / "pipe.csv")
+    (tmp_path / "link.csv").symlink_to("/etc/hostname")
+    (tmp_path / "gone.csv").symlink_to("nowhere.csv")
+    found = read_record_set(tmp_path)
+    assert [record.name for record in found.records] == ["good"]
+    told = reasons(found)
+    assert set(told) == {*broken, "noise.bin", "pipe.csv", "link.csv", "gone.csv"}
+    for name, expected in {
+        "empty.csv": "empty",
+        "unit.csv": "unit",
+        "uneven.csv": "not equally spaced",
+        "short.csv": "6 samples",
+        "still.csv": "does not move",
+        "volts.csv": "acceleration",
+        "huge.csv": "Check its unit",
+        "slow.csv": "0.6 s apart",
+        "gap.csv": "missing",
+        "two.csv": '"first [m/s^2]", "second [m/s^2]"',
+        "pipe.csv": "a named pipe",
+        "link.csv": "outside this folder",
+        "gone.csv": "no such file",
+    }.items():
+        assert expected in told[name], name
+
+
+def written(tmp_path, *rows, head="file,component,record,interval [ms],unit,scale,magnitude,distance [km]"):
+    path = tmp_path / "records.csv"
+    path.write_text("\n".join([head, *rows]) + "\n")
+    return path
+
+
+def test_a_list_says_what_files_do_not(tmp_path):
+    (tmp_path / "deep").mkdir()
+    np.savetxt(tmp_path / "deep" / "a.txt", shaken())
+    np.savetxt(tmp_path / "b.txt", shaken(seed=1))
+    listed = written(tmp_path, "deep/a.txt,x,Aigio,5,cm/s^2,-2,6.2,14", "b.txt,z,Aigio,5,g,,,")
+    found = read_record_set(listed)
+    assert found.left_out == ()
+    (record,) = found.records
+    assert (record.name, record.components, record.magnitude) == ("Aigio", ("x", "z"), 6.2)
+    assert record.distance == pytest.approx(14_000.0)
+    assert record.motion.dt == pytest.approx(0.005)
+    np.testing.assert_allclose(record.motion.acceleration, -0.02 * shaken(), rtol=1e-12)
+    np.testing.assert_allclose(record.motion.vertical, G * shaken(seed=1), rtol=1e-12)
+
+
+def test_rows_that_cannot_be_used_are_left_out_of_a_list(tmp_path):
+    columns(tmp_path / "set" / "a.csv")
+    columns(tmp_path / "secret.csv")
+    rows = [
+        "a.csv,x,good,,,,,",
+        "a.csv,x,good,,,,,",
+        "a.csv,z,lone,,,,,",
+        "../secret.csv,,,,,,,",
+        f"{tmp_path}/secret.csv,,,,,,,",
+        "missing.csv,,,,,,,",
+        "a.csv,w,,,,,,",
+        "a.csv,,,,,0,,",
+        "a.csv,,,,,much,,",
+        "a.csv,,,-5,,,,",
+        "a.csv,,,,furlong,,,",
+        ",x,nameless,,,,,",
+        "a.csv,x,long,,,,,,,,more",
+        '"a.csv,x',
+    ]
+    found = read_record_set(written(tmp_path / "set", *rows))
+    assert [record.name for record in found.records] == ["good"]
+    told = [each.reason for each in found.left_out]
+    for expected in (
+        "has this component already",
+        "no horizontal component",
+        "outside the folder of the list",
+        "an absolute path",
+        "no such file",
+        'component is "w"',
+        "scale is 0",
+        '"much"',
+        "interval is -0.005 s",
+        "furlong",
+        "the cell of the file is empty",
+        "8 heads",
+        "no row of a table",
+    ):
+        assert sum(expected in each for each in told) == 1, expected
+    assert len(told) == len(rows) - 1
+
+
+def test_a_column_of_a_file_is_chosen_by_head_or_number(tmp_path):
+    columns(tmp_path / "two.csv", names=("first", "second"))
+    rows = ["two.csv,second,named", "two.csv,2,numbered"]
+    found = read_record_set(written(tmp_path, *rows, head="file,column,record"))
+    assert found.left_out == ()
+    named, numbered = found.records
+    np.testing.assert_allclose(named.motion.acceleration, shaken(seed=1))
+    np.testing.assert_allclose(numbered.motion.acceleration, shaken(seed=0))
+
+
+def test_components_are_cut_to_the_shortest_and_may_not_differ_in_step(tmp_path):
+    columns(tmp_path / "a_x.csv", size=200)
+    columns(tmp_path / "a_y.csv", size=150)
+    columns(tmp_path / "b_x.csv")
+    columns(tmp_path / "b_y.csv", interval=0.02)
+    found = read_record_set(tmp_path)
+    (record,) = found.records
+    assert record.motion.acceleration.size == record.motion.transverse.size == 150
+    assert "all are cut to 1.5 s" in found.notes[0]
+    assert "0.01 s and 0.02 s" in reasons(found)["b"]
+
+
+@pytest.mark.parametrize(
+    ("where", "name", "most", "message"),
+    [
+        (files, "LARGEST_FILE", 1000, "bytes are too many for a record"),
+        (record_set, "MOST_SAMPLES", 300, "Divide the set"),
+    ],
+)
+def test_what_is_too_large_is_left_out(tmp_path, monkeypatch, where, name, most, message):
+    columns(tmp_path / "a.csv", size=20)
+    columns(tmp_path / "b.csv", size=290)
+    monkeypatch.setattr(where, name, most)
+    found = read_record_set(tmp_path)
+    assert [record.name for record in found.records] == ["a"]
+    assert message in reasons(found)["b.csv"]
+
+
+def test_a_set_of_too_many_files_is_refused(tmp_path, monkeypatch):
+    columns(tmp_path / "a.csv")
+    columns(tmp_path / "b.csv")
+    monkeypatch.setattr(record_set, "MOST_FILES", 1)
+    with pytest.raises(ReadError, match="2 files are too many"):
+        read_record_set(tmp_path)
+
+
+def test_what_is_not_there_is_said(tmp_path):
+    columns(tmp_path / "records.csv")
+    with pytest.raises(ReadError, match=r'Did you mean "records\.csv"'):
+        read_record_set(tmp_path / "record.csv")

@@ -1,0 +1,113 @@
+"""Histories in blocks: the same whatever the processes and interruptions; their key depends on all inputs."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import random
+import signal
+import subprocess
+import sys
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from colonnade.assessment.cases.cases import Cases, run_cases
+from colonnade.assessment.cases.prototype import Prototype, draw
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.workflow.assessing.blocks import given, outcomes_of
+from colonnade.workflow.execution.blocks import in_blocks
+
+BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)
+COLUMN = Prototype(BLOCK, 0.95, p_range=(1.2, 1.5))
+WAVES = tuple(Motion(np.sin(0.1 * hertz * np.arange(200)), 0.01, transverse=np.ones(200)) for hertz in (1, 2, 3))
+CASES = Cases(COLUMN, draw(COLUMN, 20), WAVES, np.tile([[1.0, np.nan], [3.0, 1.0]], (3, 1, 1)))
+
+
+def in_turn(work, blocks, folder, key):
+    """Work on blocks as they come to another process."""
+    return [work(pickle.loads(pickle.dumps(block))) for block in blocks]
+
+
+def test_blocks_give_what_the_whole_gives(tmp_path):
+    outcomes = outcomes_of(CASES, in_turn, tmp_path, "key")
+    whole = run_cases(CASES)
+    for name in ("outcome", "peak_ratio", "instant"):
+        np.testing.assert_array_equal(getattr(outcomes, name), getattr(whole, name))
+
+
+def test_finished_blocks_are_not_run_again(tmp_path, monkeypatch):
+    def told(done, total):
+        if done == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        outcomes_of(CASES, partial(in_blocks, workers=1, progress=told), tmp_path, "key")
+    steps = []
+    again = partial(in_blocks, workers=1, progress=lambda *step: steps.append(step))
+    outcomes = outcomes_of(CASES, again, tmp_path, "key")
+    assert steps[0][0] == 3
+    np.testing.assert_array_equal(outcomes.peak_ratio, run_cases(CASES).peak_ratio)
+
+
+@pytest.mark.parametrize(
+    ("changed", "what"),
+    [
+        ({"prototype": replace(COLUMN, restitution=0.94)}, "column"),
+        ({"draws": draw(COLUMN, 20, seed=1)}, "column"),
+        ({"model": "linear"}, "column"),
+        ({"motions": (*WAVES[:2], Motion(WAVES[2].acceleration, 0.011, transverse=np.ones(200)))}, "motions"),
+        ({"motions": (*WAVES[:2], Motion(WAVES[2].acceleration, 0.01, vertical=np.ones(200)))}, "motions"),
+        ({"factors": 2.0 * CASES.factors}, "factors"),
+    ],
+    ids=["e", "draws", "model", "interval", "component", "factors"],
+)
+def test_the_hash_of_what_is_given_changes_with_it(changed, what):
+    before, after = given(CASES), given(replace(CASES, **changed))
+    assert [name for name in before if before[name] != after[name]] == [what]
+    assert given(replace(CASES)) == before
+
+
+KILLED = """
+import sys
+from functools import partial
+from pathlib import Path
+import test_blocks as tested
+spread = partial(tested.in_blocks, workers=2, progress=lambda done, total: print(done, total, flush=True))
+tested.outcomes_of(tested.MANY, spread, Path(sys.argv[1]), "key")
+"""
+MANY = replace(CASES, prototype=COLUMN, draws=draw(COLUMN, 400))
+
+
+@pytest.mark.slow
+def test_ten_kills_and_a_resumption_give_the_undisturbed_values(tmp_path):
+    chance, done = random.Random(1), [0]
+    for _ in range(10):
+        process = subprocess.Popen(
+            [sys.executable, "-c", KILLED, str(tmp_path)],
+            cwd=Path(__file__).parent,
+            stdout=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+        found, total = map(int, process.stdout.readline().split())
+        assert found >= done[-1]
+        until = found + chance.randint(0, 8)
+        while found < until:
+            found = int(process.stdout.readline().split()[0])
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        process.stdout.close()
+        done.append(found)
+    assert 10 < done[-1] < total
+    steps = []
+    again = partial(in_blocks, workers=2, progress=lambda *step: steps.append(step))
+    outcomes = outcomes_of(MANY, again, tmp_path, "key")
+    assert steps[0][0] >= done[-1]
+    whole = run_cases(MANY)
+    for name in ("outcome", "peak_ratio", "instant"):
+        np.testing.assert_array_equal(getattr(outcomes, name), getattr(whole, name))
