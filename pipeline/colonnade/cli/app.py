@@ -16,11 +16,12 @@ from colonnade.cli.next import next_command
 from colonnade.cli.run import identify, ingest, predict, report, run
 from colonnade.cli.schema import schema
 from colonnade.cli.show import show
+from colonnade.cli.spectrum import spectrum
 from colonnade.cli.watch import watch
 
 COMMANDS = (
     *(demo, init, check, run, ingest, identify, predict, report, watch, next_command),
-    *(foresee, map_command, calibrate, figure, show, schema),
+    *(foresee, map_command, spectrum, calibrate, figure, show, schema),
 )
 
 

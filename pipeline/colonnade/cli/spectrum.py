@@ -1,0 +1,161 @@
+"""`colonnade spectrum`: the rocking spectrum of a motion, or the overturning spectrum of a pulse, for a column."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import rich_click as click
+
+from colonnade.cli.console import say, show_fields, show_json, show_table
+from colonnade.cli.options import CAMPAIGN, LateChoice, campaign_argument, json_option, results_option
+
+
+def _pulses() -> Iterable[str]:
+    from colonnade.dynamics.spectra.pulses import PULSES
+
+    return PULSES
+
+
+def _plane_models() -> Iterable[str]:
+    from colonnade.dynamics.models.registry import PLANE_MODELS
+
+    return PLANE_MODELS
+
+
+@click.command(
+    epilog='Example: colonnade spectrum --motion record.AT2 --critical-angle "0.18 rad" --p "1.26 rad/s"',
+    help=f"""
+    Show what a base motion or a pulse does to a column.
+
+    --motion gives the rocking spectrum of a motion: the largest angle over the size of blocks as slender as the column,
+    with the intensity measures of the motion. --pulse gives the overturning spectrum of a pulse: the amplitudes from
+    which it overturns the column, and up to which it may not, over frequency.
+
+    The column is a specimen of CAMPAIGN, or is given by --critical-angle and --p; then no campaign is needed.
+    {CAMPAIGN}
+    """,
+)
+@campaign_argument
+@click.option("--motion", metavar="FILE|NAME", help="A file, a test that recorded it, or one of [motions].")
+@click.option("--pulse", type=LateChoice(_pulses), help="Kind of pulse.")
+@click.option("--specimen", metavar="ID", help="The specimen; needed if there are several.")
+@click.option("--scale", type=float, default=1.0, help="How many times larger the column is.", metavar="FACTOR")
+@click.option("--critical-angle", metavar="ANGLE", help='Of the column, such as "0.18 rad".')
+@click.option("--p", metavar="FREQUENCY", help='Frequency parameter of the column, such as "1.26 rad/s".')
+@click.option(
+    "--restitution",
+    metavar="E",
+    help="A value, rigid-body or identified; by default identified for a specimen, else rigid-body.",
+)
+@click.option(
+    "--model", type=LateChoice(_plane_models), default="nonlinear", show_default=True, help="Model of rocking."
+)
+@click.option("--unit", help='Unit of the accelerations in the file, such as "g".')
+@click.option("--interval", metavar="TIME", help='Sampling interval of the file, such as "0.01 s".')
+@click.option("--column", metavar="NAME|NUMBER", help="Column of the accelerations in the file.")
+@click.option("--peak", metavar="ACCELERATION", help='Bring the motion to this peak, such as "0.3 g".')
+@click.option(
+    "--baseline",
+    default="none",
+    show_default=True,
+    metavar="METHOD",
+    help="Correct the motion's baseline: linear, quadratic or highpass(0.1 Hz).",
+)
+@click.option(
+    "--drift", type=float, default=0.1, show_default=True, help="Largest end velocity over PGV of a motion with PGV."
+)
+@click.option("--periods", type=float, nargs=2, metavar="LOW HIGH", help="Sizes 2π/p of the rocking spectrum, s.")
+@click.option("--omega", type=float, nargs=2, metavar="LOW HIGH", help="Frequency ratios Ω of the pulse.")
+@click.option("--points", type=int, default=24, show_default=True, help="Number of sizes or of frequencies.")
+@click.option("--cycles", type=float, default=2.0, show_default=True, help="γ of mavroeidis-papageorgiou.")
+@click.option("--phase", type=float, default=0.0, show_default=True, help="ν of mavroeidis-papageorgiou, in degrees.")
+@click.option("--largest", type=float, default=10.0, show_default=True, help="Largest A that is tried.")
+@click.option(
+    "--width", type=float, default=0.01, show_default=True, help="In A: narrower intervals are islands, not limits."
+)
+@click.option("--out", type=click.Path(path_type=Path), metavar="FILE", help="Draw it: .svg, .pdf or .png.")
+@click.option("--data", type=click.Path(path_type=Path), metavar="FILE", help="Write what is drawn as a .csv table.")
+@results_option
+@json_option
+def spectrum(campaign: Path, motion: str | None, pulse: str | None, results: Path | None, **options: Any) -> int:
+    """Compute a spectrum, show and draw it, and return the exit code."""
+    if (motion is None) == (pulse is None):
+        raise click.UsageError("Give either --motion or --pulse.")
+    from colonnade.workflow.spectra.asked import AskedColumn, AskedMotion
+
+    out, data = options.pop("out"), options.pop("data")
+    _expect_places(out, data)
+    known, layout = _campaign(campaign, results)
+    column = AskedColumn(**_taken(options, "specimen", "scale", "critical_angle", "p", "restitution"))
+    common = {"points": options["points"], "model": options["model"]}
+    if motion is not None:
+        from colonnade.workflow.spectra.spectrum import rocking_of
+
+        asked = AskedMotion(motion, **_taken(options, "unit", "interval", "column", "peak", "baseline"))
+        more = _taken(options, "periods", "drift")
+        return _show(rocking_of(known, layout, column, asked, **more, **common), out, data, options["as_json"])
+    return _show(_overturning(known, layout, column, str(pulse), options, common), out, data, options["as_json"])
+
+
+def _overturning(known: Any, layout: Any, column: Any, pulse: str, options: dict[str, Any], common: Any) -> Any:
+    from math import radians
+
+    from colonnade.workflow.spectra.spectrum import AskedPulse, overturning_of
+
+    asked = AskedPulse(pulse, phase=radians(options["phase"]), **_taken(options, "cycles", "largest", "width"))
+    return overturning_of(known, layout, column, asked, frequencies=options["omega"], **common)
+
+
+def _taken(options: dict[str, Any], *names: str) -> dict[str, Any]:
+    return {name: options[name] for name in names}
+
+
+def _campaign(path: Path, results: Path | None) -> tuple[Any, Any]:
+    """Load the campaign if one is named, or if the current folder is one."""
+    if path == Path() and not Path("campaign.toml").is_file():
+        return None, None
+    from colonnade.campaign import load
+    from colonnade.store.layout import Layout
+
+    campaign = load(path)
+    return campaign, Layout.of(campaign.folder, results)
+
+
+def _expect_places(out: Path | None, data: Path | None) -> None:
+    if out is None and data is None:
+        return
+    from colonnade.figures.files.saving import PICTURES, TABLE, expect_place
+
+    for place, endings in ((out, PICTURES), (data, (TABLE,))):
+        if place is not None:
+            expect_place(place, endings)
+
+
+def _show(found: Any, out: Path | None, data: Path | None, as_json: bool) -> int:
+    from colonnade.workflow.spectra import shown
+    from colonnade.workflow.spectra.spectrum import Rocking, picture_of
+
+    written: list[Path] = []
+    if out is not None or data is not None:
+        from colonnade.figures.files.saving import save
+
+        picture = picture_of(found)
+        written = [save(picture, place) for place in (out, data) if place is not None]
+    if as_json:
+        show_json(shown.record_of(found) | {"figure": out, "data": data})
+        return 0
+    show_fields(
+        [*shown.column_fields(found.column), *(shown.motion_fields(found) if isinstance(found, Rocking) else [])]
+    )
+    say()
+    if isinstance(found, Rocking):
+        show_table(shown.MEASURE_HEADS, shown.measure_rows(found))
+        say()
+        show_table(shown.ROCKING_HEADS, shown.rocking_rows(found))
+    else:
+        show_table(shown.OVERTURNING_HEADS, shown.overturning_rows(found))
+    for place in written:
+        say(f"{'data' if place.suffix.lower() == '.csv' else 'figure'}: {place}")
+    return 0

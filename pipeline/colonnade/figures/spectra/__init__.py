@@ -1,0 +1,1 @@
+"""Figures of rocking spectra and overturning spectra."""

@@ -1,0 +1,89 @@
+"""The overturning spectrum of a pulse: what overturns over frequency and amplitude, with both limits."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from colonnade.dynamics.spectra.overturning import OverturningSpectrum
+from colonnade.figures.maps.measured_map import LOGARITHMIC, label_logarithmic, name_axes
+from colonnade.figures.maps.stability_map import OVERTURNED_COLOUR, words_of_restitution
+from colonnade.figures.style import SMALL_TEXT, SOFT, blank_figure, is_narrow, model_style, styled
+
+
+@styled()
+def overturning_spectrum(spectrum: OverturningSpectrum, *, title: str = "", axes: Axes | None = None) -> Figure:
+    """
+    Draw an overturning spectrum.
+
+    Parameters
+    ----------
+    spectrum : OverturningSpectrum
+        Of two frequencies at least.
+    title : str, optional
+        By default the pulse and what the limits depend on.
+    axes : Axes, optional
+        To draw into; a new figure otherwise.
+
+    Returns
+    -------
+    figure : Figure
+
+    Notes
+    -----
+    Every amplitude that overturns is shaded, islands too. The lower limit is the full line, the upper one the thin
+    one; where a limit is absent up to the largest A its line breaks.
+    """
+    if axes is None:
+        axes = blank_figure(3.8).subplots()
+    ratios, largest = spectrum.frequency_ratio, spectrum.options["largest"]
+    half = 0.5 * np.diff(ratios, prepend=ratios[:1], append=ratios[-1:])
+    left, right = dict(zip(ratios, half[:-1], strict=True)), dict(zip(ratios, half[1:], strict=True))
+    starts, ends, places = spectrum.interval_start, spectrum.interval_end, spectrum.interval_frequency_ratio
+    axes.bar(
+        [place - left[place] for place in places],
+        ends - starts,
+        [left[place] + right[place] for place in places],
+        starts,
+        align="edge",
+        color=OVERTURNED_COLOUR,
+        linewidth=0.0,
+        label="overturns",
+        zorder=0,
+    )
+    axes.plot(
+        np.tile(places, 2),
+        np.concatenate([starts, ends]),
+        linestyle="none",
+        marker=".",
+        markersize=1.2,
+        color=SOFT,
+        zorder=1,
+        gid="edges of the intervals that overturn",
+    )
+    style = model_style(spectrum.model)
+    axes.plot(ratios, spectrum.lower, label="lower limit", zorder=3, **style | {"linewidth": 1.6})
+    axes.plot(ratios, spectrum.upper, label="upper limit", zorder=3, **style | {"linewidth": 0.8})
+    axes.grid(False)
+    axes.set_xlim(float(ratios.min()), float(ratios.max()))
+    lowest = float(starts.min(initial=1.0))
+    if largest / lowest > LOGARITHMIC:
+        label_logarithmic(axes)
+    axes.set_ylim(0.8 * lowest, largest)
+    name_axes(axes)
+    small = SMALL_TEXT["legend.fontsize"] if is_narrow() else 8
+    axes.set_title(title or words_of(spectrum), fontsize=small, color=SOFT)
+    figure = cast(Figure, axes.get_figure(root=True))
+    figure.legend(loc="outside lower center", ncols=3, fontsize=small)
+    return figure
+
+
+def words_of(spectrum: OverturningSpectrum) -> str:
+    """Return in words what the limits depend on."""
+    options = spectrum.options
+    shape = f", γ = {options['cycles']:g}, ν = {options['phase']:.3g} rad" if "cycles" in options else ""
+    wide = f"limits at least {options['width']:.2g} wide"
+    return f"{spectrum.pulse}{shape}; {spectrum.model} model; {words_of_restitution(options)}; {wide}"

@@ -1,0 +1,151 @@
+"""What `spectrum` prints of a spectrum: its rows for people, and its record for programs."""
+
+from __future__ import annotations
+
+from math import isfinite, pi
+from typing import Any
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.assessment.intensity.registry import measure_of
+from colonnade.store.records.wording import NOTHING, acceleration, number, quantity, ratio
+from colonnade.workflow.spectra.asked import Column
+from colonnade.workflow.spectra.spectrum import Overturning, Rocking
+
+ROCKING_HEADS = ("2π/p", "p", "outcome", "largest |θ|/α", "largest |θ'|")
+OVERTURNING_HEADS = ("Ω", "frequency", "lower limit A", "acceleration", "upper limit A", "acceleration", "islands")
+MEASURE_HEADS = ("measure", "symbol", "value", "why not")
+
+Row = tuple[str, ...]
+
+
+def column_fields(column: Column) -> list[tuple[str, str]]:
+    """Write what the column is."""
+    negative, positive = column.restitution
+    e = f"{negative:.4g}" if negative == positive else f"{negative:.4g} | {positive:.4g}"
+    return [
+        ("column", column.name),
+        ("critical angle α", quantity(column.block.critical_angle, "rad", 4)),
+        ("p", quantity(column.block.p, "rad/s", 4)),
+        ("uplift from", acceleration(column.block.uplift_acceleration)),
+        ("restitution e", f"{e} ({column.restitution_source})"),
+    ]
+
+
+def rocking_rows(found: Rocking) -> list[Row]:
+    """Write the spectrum, a row for each size."""
+    spectrum = found.spectrum
+    return [
+        (
+            quantity(period, "s"),
+            quantity(2 * pi / period, "rad/s"),
+            *_ended(peak, bool(fell), fastest * 2 * pi / period),
+        )
+        for period, peak, fell, fastest in zip(
+            spectrum.period.tolist(),
+            spectrum.peak_ratio[0].tolist(),
+            spectrum.overturned[0].tolist(),
+            spectrum.peak_velocity_ratio[0].tolist(),
+            strict=True,
+        )
+    ]
+
+
+def _ended(peak: float, fell: bool, fastest: float) -> Row:
+    outcome = "overturned" if fell else "rocking" if peak > 0.0 else "no-rocking"
+    return outcome, ratio(peak), quantity(fastest, "rad/s")
+
+
+def motion_fields(found: Rocking) -> list[tuple[str, str]]:
+    """Write what the motion is, and what it does to the column itself."""
+    history, measures = found.history, found.measures
+    peak = "" if history.peak_ratio is None else f", largest |θ|/α = {ratio(history.peak_ratio)}"
+    return [
+        ("motion", f"{found.source}; {found.motion.duration:.4g} s in steps of {found.motion.dt:.4g} s"),
+        ("drift", f"the velocity ends at {measures.drift:.2g} of its peak; {measures.largest_drift:g} is allowed"),
+        ("the column", f"{history.outcome}{peak} ({history.model} model)"),
+    ]
+
+
+def measure_rows(found: Rocking) -> list[Row]:
+    """Write the measures of the motion."""
+    rows: list[Row] = []
+    for name, value in found.measures.values.items():
+        each = measure_of(name)
+        shown = acceleration(value) if each.dimension == "acceleration" else _value(value, each.unit)
+        rows.append((each.name, each.symbol, shown, found.measures.reasons.get(name, "").partition(":")[0]))
+    return rows
+
+
+def _value(value: float, unit: str) -> str:
+    return f"{number(value)} {unit}".rstrip() if isfinite(value) else NOTHING
+
+
+def overturning_rows(found: Overturning) -> list[Row]:
+    """Write the spectrum, a row for each frequency."""
+    spectrum, block = found.spectrum, found.column.block
+    islands = spectrum.islands
+    rows: list[Row] = []
+    for omega, lower, upper in zip(spectrum.frequency_ratio, spectrum.lower, spectrum.upper, strict=True):
+        here = int((islands[:, 0] == omega).sum())
+        limits = [
+            text
+            for limit in (float(lower), float(upper))
+            for text in (number(limit, 5), acceleration(limit * block.uplift_acceleration))
+        ]
+        rows.append((number(float(omega)), quantity(float(omega) * block.p / (2 * pi), "Hz"), *limits, str(here)))
+    return rows
+
+
+def record_of(found: Rocking | Overturning) -> dict[str, Any]:
+    """Give a spectrum for programs: SI, null for what there is not."""
+    block = found.column.block
+    column = {
+        "name": found.column.name,
+        "critical_angle": block.critical_angle,
+        "p": block.p,
+        "uplift_acceleration": block.uplift_acceleration,
+        "restitution": list(found.column.restitution),
+        "restitution_source": found.column.restitution_source,
+    }
+    if isinstance(found, Overturning):
+        spectrum = found.spectrum
+        edges = np.column_stack([spectrum.interval_frequency_ratio, spectrum.interval_start, spectrum.interval_end])
+        return {
+            "column": column,
+            "pulse": spectrum.pulse,
+            "model": spectrum.model,
+            "options": spectrum.options,
+            "frequency_ratio": _plain(spectrum.frequency_ratio),
+            "lower": _plain(spectrum.lower),
+            "upper": _plain(spectrum.upper),
+            "intervals": edges.tolist(),
+        }
+    history, measures = found.history, found.measures
+    return {
+        "column": column,
+        "motion": found.source,
+        "interval": found.motion.dt,
+        "duration": found.motion.duration,
+        "model": found.spectrum.model,
+        "outcome": history.outcome,
+        "peak_ratio": history.peak_ratio,
+        "period": _plain(found.spectrum.period),
+        "spectrum_peak_ratio": _plain(found.spectrum.peak_ratio[0]),
+        "spectrum_overturned": found.spectrum.overturned[0].tolist(),
+        "drift": measures.drift,
+        "largest_drift": measures.largest_drift,
+        "measures": {
+            name: {
+                "value": value if isfinite(value) else None,
+                "unit": measure_of(name).unit,
+                "reason": measures.reasons.get(name, ""),
+            }
+            for name, value in measures.values.items()
+        },
+    }
+
+
+def _plain(values: Array) -> list[float | None]:
+    return [value if isfinite(value) else None for value in values.tolist()]

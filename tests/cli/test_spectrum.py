@@ -1,0 +1,114 @@
+"""`colonnade spectrum`: with a campaign and without, and what it says where it cannot."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+
+import numpy as np
+import pytest
+
+from colonnade.cli import invoke
+
+COLUMN = ("--critical-angle", "0.2 rad", "--p", "2 rad/s")
+
+
+@pytest.fixture
+def record(tmp_path):
+    time = np.arange(0, 4, 0.01)
+    values = 0.4 * np.sin(2 * np.pi * time) * np.exp(-(((time - 2) / 0.8) ** 2))
+    values *= 0.4 / np.abs(values).max()
+    path = tmp_path / "record.csv"
+    rows = "\n".join(f"{each:.2f},{value:.6f}" for each, value in zip(time, values, strict=True))
+    path.write_text(f"time (s),acceleration\n{rows}\n")
+    return path
+
+
+@pytest.fixture(autouse=True)
+def _elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def test_the_overturning_spectrum_of_a_pulse_needs_no_campaign(tmp_path, capsys):
+    out, data = tmp_path / "spectrum.svg", tmp_path / "spectrum.csv"
+    asked = ["spectrum", "--pulse", "half-sine", *COLUMN, "--points", "3", "--omega", "1", "3", "--model", "linear"]
+    assert invoke([*asked, "--largest", "3", "--out", str(out), "--data", str(data)]) == 0
+    said = capsys.readouterr().out
+    # a/(gα) = 1.800724 at Ω = 2.
+    level = 1.800724 * 0.2 / math.tan(0.2)
+    row = next(line for line in said.splitlines() if line.startswith("2 "))
+    assert f"{level:.5g}" in row
+    assert "m/s²" in row
+    assert "restitution e     0.9408 (rigid-body)" in said
+    assert out.read_text(encoding="utf-8").startswith("<?xml")
+    with data.open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert float(rows[1]["A = a / (g tan α), lower limit"]) == pytest.approx(level, abs=1e-6)
+    assert float(rows[1]["A = a / (g tan α), edges of the intervals that overturn"]) > 1.0
+
+
+def test_the_rocking_spectrum_of_a_file_comes_with_its_measures(record, capsys):
+    asked = ["spectrum", "--motion", str(record), *COLUMN, "--unit", "g", "--points", "4", "--restitution", "0.95"]
+    assert invoke(asked) == 0
+    said = capsys.readouterr().out
+    assert "PGA/(g tan α)" in said
+    assert "0.95 (given)" in said
+    assert invoke([*asked, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    peak = found["measures"]["pga"]["value"]
+    assert peak == pytest.approx(0.4 * 9.80665, rel=1e-5)
+    assert found["measures"]["pga_ratio"]["value"] == pytest.approx(peak / (9.81 * math.tan(0.2)))
+    assert len(found["spectrum_peak_ratio"]) == len(found["period"]) == 4
+    assert found["column"]["restitution"] == [0.95, 0.95]
+
+
+def test_a_specimen_of_a_campaign_is_taken_at_its_scale(campaign, record, capsys):
+    with (campaign / "campaign.toml").open("a", encoding="utf-8") as stream:
+        stream.write('\n[motions]\nswinging = "record.csv"\n')
+    asked = ["spectrum", str(campaign), "--motion", "swinging", "--points", "2", "--json"]
+    assert invoke(asked) == 2
+    assert '--peak "0.3 g"' in capsys.readouterr().err
+    found = {}
+    for name, options in {"model": [], "real": ["--scale", "4", "--baseline", "linear"]}.items():
+        assert invoke([*asked, "--peak", "0.1 g", *options]) == 0
+        found[name] = json.loads(capsys.readouterr().out)
+    model, real = found["model"], found["real"]
+    assert model["column"]["restitution_source"] == "rigid-body"
+    assert real["column"]["p"] == pytest.approx(model["column"]["p"] / 2)
+    assert real["column"]["critical_angle"] == model["column"]["critical_angle"]
+    assert model["measures"]["pga"]["value"] == pytest.approx(0.1 * 9.80665)
+    assert "brought to a peak of 0.1 g, baseline corrected: linear" in real["motion"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([], "Give either --motion or --pulse"),
+        (["--pulse", "sine"], "The column is not known"),
+        (["--pulse", "sine", "--specimen", "prism"], "there is no campaign here"),
+        (["--pulse", "sine", *COLUMN, "--scale", "2"], "--scale is for a specimen"),
+        (["--pulse", "sine", *COLUMN, "--restitution", "2"], "--restitution 2: a number between 0 and 1"),
+        (["--pulse", "sine", *COLUMN, "--restitution", "identified"], "e is identified of a specimen"),
+        (["--pulse", "sine", *COLUMN, "--omega", "3", "1"], "--omega 3 1: two positive values in rising order"),
+        (["--pulse", "sine", *COLUMN, "--points", "1"], "--points 1"),
+        (["--pulse", "sine", *COLUMN, "--largest", "-1"], "largest is -1.0"),
+        (["--pulse", "sine", *COLUMN, "--out", "x.txt"], "unknown ending"),
+        (["--pulse", "sine", "--critical-angle", "2 rad", "--p", "2 rad/s"], "The column cannot be"),
+        (["--pulse", "sine", "--critical-angle", "0.2", "--p", "2 rad/s"], "--critical-angle 0.2"),
+        (["--pulse", "sine", "--critical-angle", "0.2 rad", "--p", "2 m"], "--p 2 m"),
+        (["--motion", "nowhere.csv", *COLUMN], "there is no such file and no campaign"),
+        (["--motion", "record.csv", *COLUMN, "--unit", "g", "--baseline", "cubic"], "--baseline Unknown baseline"),
+        (["--motion", "record.csv", *COLUMN, "--unit", "g", "--peak", "strong"], "--peak strong"),
+        (["--motion", "record.csv", *COLUMN, "--unit", "g", "--drift", "-1"], "drift is -1.0"),
+    ],
+)
+def test_a_wrong_use_says_what_was_expected(record, arguments, message, capsys):
+    assert invoke(["spectrum", *arguments]) == 2
+    said = " ".join(capsys.readouterr().err.replace("│", " ").split())
+    assert message in said
+
+
+def test_a_file_without_a_unit_is_named(record, capsys):
+    assert invoke(["spectrum", "--motion", str(record), *COLUMN]) == 1
+    assert "does not give the unit" in capsys.readouterr().err
