@@ -103,7 +103,7 @@ def read_record_set(path: Path | str) -> RecordSet:
     samples = 0
     for entry in entries:
         try:
-            found = list(components_of(entry, notes))
+            found = list(components_of(entry, notes)) if samples <= MOST_SAMPLES else []
             samples += sum(component.motion.acceleration.size for component in found)
             if samples > MOST_SAMPLES:
                 raise ReadError(f"with it the set has more than {MOST_SAMPLES:.3g} samples. Divide the set.")
