@@ -44,6 +44,14 @@ def test_a_column_that_rocks_needs_tan_alpha_at_rest_and_the_ratio_of_impulses_a
     assert found.rocking[0, 0, 0, 0] > tan(0.18)
 
 
+def test_a_record_that_begins_with_a_jump_uplifts_the_column_before_it_needs_friction_at_rest():
+    column = Prototype(BLOCK, 0.9)
+    jump = Motion(np.where(TIME < 0.1, 5.0, 0.0), 0.01)
+    found = friction_needed(Cases(column, draw(column, 0), (jump,), np.array([[[1.0, np.nan]]])))
+    assert found.standing[0, 0, 0, 0] <= tan(0.18)
+    assert tan(0.18) < found.rocking[0, 0, 0, 0] < 5.0 / 9.81
+
+
 def test_a_base_that_falls_away_holds_nothing():
     found = needed(1.0, 4.0, vertical=-3.0 * np.ones_like(TIME))
     assert np.isinf(found.largest[0, 1, 0, 0])

@@ -8,6 +8,8 @@ import numpy as np
 
 from colonnade.arrays import Array, Mask
 from colonnade.assessment.cases.cases import Cases, in_plane
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.models.registry import model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.reactions import reactions
 from colonnade.dynamics.rock import rock
@@ -82,10 +84,16 @@ def _needed(cases: Cases, motion: Motion) -> tuple[float, float, float]:
     history = rock(block, motion, restitution=cases.prototype.restitution, model=cases.model)
     forces = reactions(history, motion)
     until = history.overturning_time if np.isfinite(history.overturning_time) else np.inf
-    rests = (history.angle == 0.0) & (history.angular_velocity == 0.0)
+    upright = (history.angle == 0.0) & (history.angular_velocity == 0.0)
+    # A record that begins with a jump uplifts the column in its first sample: it stands there, but does not rest.
+    rests = upright & (forces.required_friction <= model_of(cases.model).uplift_threshold(_widest(block)))
     before, landed = forces.time <= until, forces.impact_times <= until
     return (
         float(forces.required_friction[before & rests].max(initial=0.0)),
-        float(forces.required_friction[before & ~rests].max(initial=0.0)),
+        float(forces.required_friction[before & ~upright].max(initial=0.0)),
         float(forces.impact_friction[landed].max(initial=0.0)),
     )
+
+
+def _widest(block: Block) -> float:
+    return max(side.critical_angle for side in block.sides)
