@@ -1,0 +1,1 @@
+"""Synthetic ground motions of known origin: broad-band ones, some of them with a pulse."""
