@@ -7,12 +7,13 @@ import math
 import numpy as np
 import pytest
 import scipy
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import colonnade
 from colonnade.assessment.intensity.ground import Ground
 from colonnade.assessment.intensity.measured import intensity_measures
+from colonnade.assessment.intensity.quantities import QUANTITIES
 from colonnade.assessment.intensity.registry import MEASURES, measure_of
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
@@ -22,6 +23,10 @@ PEAK, FREQUENCY, CYCLES, STEP = 3.0, 2.0, 10, 5e-5
 OMEGA = 2 * math.pi * FREQUENCY
 TIME = np.arange(round(CYCLES / FREQUENCY / STEP) + 1) * STEP
 SINE = Motion(PEAK * np.sin(OMEGA * TIME), STEP)
+
+
+def test_every_measure_is_computed():
+    assert QUANTITIES.keys() == MEASURES.keys()
 
 
 def energy_time(share):
@@ -93,9 +98,10 @@ def test_measures_agree_with_eqsig():
     assert ours.values["d5_95"] == pytest.approx(eqsig.im.calc_sig_dur(theirs), abs=2 * step)
 
 
+@settings(max_examples=25)
 @given(factor=st.floats(0.01, 100.0), name=st.sampled_from([*MEASURES, "sa(0.5 s)"]))
 def test_a_stronger_motion_has_a_measure_by_its_power(factor, name):
-    values = noise()[:801]
+    values = noise()[:401]
     one, other = (
         intensity_measures(Motion(scale * values, 0.01), BLOCK, measures=[name], drift=10.0).values[name]
         for scale in (1.0, factor)
@@ -116,7 +122,7 @@ def test_a_record_that_drifts_has_no_velocity_and_says_why():
 
 
 def test_what_needs_a_block_is_given_only_with_one():
-    assert {"pga_ratio", "pgv_ratio"}.isdisjoint(intensity_measures(SINE).values)
+    assert {"pga_ratio", "pgv_ratio"}.isdisjoint(intensity_measures(Motion(noise()[:201], 0.02)).values)
     assert intensity_measures(SINE, measures=["pga_ratio"]).reasons == {"pga_ratio": "a block is needed"}
 
 
@@ -127,7 +133,9 @@ def test_a_motion_at_rest_has_reasons_and_no_error():
 
 
 def test_the_result_is_shown_with_units():
-    assert "PGA 3 m/s²" in repr(colonnade.intensity_measures(SINE))
+    shown = repr(colonnade.intensity_measures(SINE, measures=["pga", "sa(0.5 s)"]))
+    assert shown.startswith("<IntensityMeasures: PGA 3 m/s², Sa(0.5 s) ")
+    assert shown.endswith(" m/s²>")
 
 
 @pytest.mark.parametrize(

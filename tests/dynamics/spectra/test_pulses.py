@@ -7,20 +7,22 @@ import math
 import numpy as np
 import pytest
 import scipy
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from colonnade.dynamics.spectra.pulses import PULSES, mavroeidis_papageorgiou, pulse_of, ricker, sampled_pulse
 
 
+@settings(max_examples=30)
 @given(cycles=st.floats(1.0, 6.0), phase=st.floats(0.0, 6.28))
 def test_mavroeidis_and_papageorgious_acceleration_is_the_derivative_of_its_velocity(cycles, phase):
-    angle = np.linspace(-math.pi * cycles, math.pi * cycles, 20001)
+    angle = np.linspace(-math.pi * cycles, math.pi * cycles, 8001)
     velocity = 0.5 * (1 + np.cos(angle / cycles)) * np.cos(angle + phase)
     slope = np.gradient(velocity, angle, edge_order=2)
-    np.testing.assert_allclose(mavroeidis_papageorgiou(cycles, phase, angle), slope, atol=2e-5)
+    np.testing.assert_allclose(mavroeidis_papageorgiou(cycles, phase, angle), slope, atol=1e-4)
 
 
+@settings(max_examples=30)
 @given(
     cycles=st.floats(1.0, 6.0), phase=st.floats(0.0, 6.28), kind=st.sampled_from(["ricker", "mavroeidis-papageorgiou"])
 )

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy
 
 from colonnade.arrays import Array
 from colonnade.assessment.intensity.ground import Ground
@@ -97,6 +96,8 @@ def _without_polynomial(acceleration: Array, interval: float, degree: int) -> Ar
 
 def _highpass(corner: float, name: str) -> Baseline:
     def correct(acceleration: Array, interval: float) -> Array:
+        import scipy  # the check of a campaign file must not load it
+
         if not corner < 0.5 / interval:
             raise ValueError(
                 f"{name}: the corner {corner:g} Hz is not below half the sampling rate, {0.5 / interval:g} Hz"

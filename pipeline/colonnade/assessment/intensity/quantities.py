@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import pi
 
 import numpy as np
@@ -20,6 +21,16 @@ EARLY, LATE = 0.05, 0.95
 """Shares of the Arias intensity between which the significant duration lies."""
 
 
+def peak_acceleration(ground: Ground) -> float:
+    """Largest |a|, m/s²."""
+    return float(np.abs(ground.acceleration).max())
+
+
+def peak_displacement(ground: Ground) -> float:
+    """Largest displacement, m."""
+    return float(np.abs(ground.displacement).max())
+
+
 def peak_velocity(ground: Ground) -> float:
     """Largest |v|, m/s."""
     return float(np.abs(ground.velocity).max())
@@ -27,7 +38,7 @@ def peak_velocity(ground: Ground) -> float:
 
 def ratio_of_peaks(ground: Ground) -> float:
     """PGV over PGA, s; NaN of a motion at rest."""
-    peak = float(np.abs(ground.acceleration).max())
+    peak = peak_acceleration(ground)
     return peak_velocity(ground) / peak if peak > 0.0 else float("nan")
 
 
@@ -70,9 +81,30 @@ def housner(ground: Ground) -> float:
 
 def acceleration_ratio(ground: Ground, block: Block | None) -> float:
     """PGA over g tan α; NaN without a block."""
-    return float("nan") if block is None else float(np.abs(ground.acceleration).max()) / block.uplift_acceleration
+    return float("nan") if block is None else peak_acceleration(ground) / block.uplift_acceleration
 
 
 def velocity_ratio(ground: Ground, block: Block | None) -> float:
     """p PGV over g tan α; NaN without a block."""
     return float("nan") if block is None else block.p * peak_velocity(ground) / block.uplift_acceleration
+
+
+def _of_motion(quantity: Callable[[Ground], float]) -> Callable[[Ground, Block | None], float]:
+    return lambda ground, _block: quantity(ground)
+
+
+QUANTITIES: dict[str, Callable[[Ground, Block | None], float]] = {
+    "pga": _of_motion(peak_acceleration),
+    "pgv": _of_motion(peak_velocity),
+    "pgd": _of_motion(peak_displacement),
+    "pgv_pga": _of_motion(ratio_of_peaks),
+    "arias": _of_motion(arias),
+    "cav": _of_motion(cumulative_velocity),
+    "d5_95": _of_motion(significant_duration),
+    "housner": _of_motion(housner),
+    "pulse_period": _of_motion(lambda ground: ground.pulse.period),
+    "pulse_indicator": _of_motion(lambda ground: ground.pulse.indicator),
+    "pga_ratio": acceleration_ratio,
+    "pgv_ratio": velocity_ratio,
+}
+"""What each measure of the registry computes, by its id."""

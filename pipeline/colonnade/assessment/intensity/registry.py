@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from colonnade import units
-from colonnade.assessment.intensity import quantities
 from colonnade.assessment.intensity.ground import Ground
 from colonnade.assessment.intensity.naming import quantity_of, split_name
 from colonnade.dynamics.block import Block
@@ -37,11 +33,11 @@ class Measure:
         SI, as it is written for people.
     power : int
         A motion n times as strong has n**power times the measure; 0 of one that does not grow with it.
-    value : callable
-        A motion, and a block where `needs_block`, in; the measure in SI out.
     is_integrated : bool
         Whether it needs a record without drift.
     needs_block : bool
+    period : float or None
+        s, of a spectral acceleration.
     """
 
     id: str
@@ -52,10 +48,18 @@ class Measure:
     dimension: str
     unit: str
     power: int
-    value: Callable[[Ground, Block | None], float]
     filter: str = RAW
     is_integrated: bool = False
     needs_block: bool = False
+    period: float | None = None
+
+    def value(self, ground: Ground, block: Block | None = None) -> float:
+        """Compute it of a motion, SI; a block is needed if `needs_block`."""
+        from colonnade.assessment.intensity.quantities import QUANTITIES, spectral_acceleration
+
+        if self.period is not None:
+            return spectral_acceleration(ground, self.period)
+        return QUANTITIES[self.id](ground, block)
 
 
 def measure_of(name: str) -> Measure:
@@ -87,7 +91,7 @@ def _spectral(period: float) -> Measure:
         SPECTRAL,
         id=f"sa({units.format_quantity(period, 's', 6)})",
         symbol=f"Sa({units.format_quantity(period, 's', 6)})",
-        value=lambda ground, _block: quantities.spectral_acceleration(ground, period),
+        period=period,
     )
 
 
@@ -100,7 +104,6 @@ SPECTRAL = Measure(
     "acceleration",
     "m/s²",
     1,
-    lambda _ground, _block: float("nan"),
 )
 """What all spectral accelerations have in common; `measure_of` gives one with its period."""
 
@@ -116,7 +119,6 @@ MEASURES: dict[str, Measure] = {
             "acceleration",
             "m/s²",
             1,
-            lambda ground, _block: float(np.abs(ground.acceleration).max()),
         ),
         Measure(
             "pgv",
@@ -127,7 +129,6 @@ MEASURES: dict[str, Measure] = {
             "velocity",
             "m/s",
             1,
-            lambda ground, _block: quantities.peak_velocity(ground),
             UNDRIFTING,
             True,
         ),
@@ -140,7 +141,6 @@ MEASURES: dict[str, Measure] = {
             "length",
             "m",
             1,
-            lambda ground, _block: float(np.abs(ground.displacement).max()),
             UNDRIFTING,
             True,
         ),
@@ -153,7 +153,6 @@ MEASURES: dict[str, Measure] = {
             "time",
             "s",
             0,
-            lambda ground, _block: quantities.ratio_of_peaks(ground),
             UNDRIFTING,
             True,
         ),
@@ -166,7 +165,6 @@ MEASURES: dict[str, Measure] = {
             "velocity",
             "m/s",
             2,
-            lambda ground, _block: quantities.arias(ground),
         ),
         Measure(
             "cav",
@@ -177,7 +175,6 @@ MEASURES: dict[str, Measure] = {
             "velocity",
             "m/s",
             1,
-            lambda ground, _block: quantities.cumulative_velocity(ground),
         ),
         Measure(
             "d5_95",
@@ -188,7 +185,6 @@ MEASURES: dict[str, Measure] = {
             "time",
             "s",
             0,
-            lambda ground, _block: quantities.significant_duration(ground),
         ),
         Measure(
             "housner",
@@ -199,7 +195,6 @@ MEASURES: dict[str, Measure] = {
             "length",
             "m",
             1,
-            lambda ground, _block: quantities.housner(ground),
         ),
         Measure(
             "pulse_period",
@@ -210,7 +205,6 @@ MEASURES: dict[str, Measure] = {
             "time",
             "s",
             0,
-            lambda ground, _block: ground.pulse.period,
             UNDRIFTING,
             True,
         ),
@@ -224,7 +218,6 @@ MEASURES: dict[str, Measure] = {
             "dimensionless",
             "",
             0,
-            lambda ground, _block: ground.pulse.indicator,
             UNDRIFTING,
             True,
         ),
@@ -237,7 +230,6 @@ MEASURES: dict[str, Measure] = {
             "dimensionless",
             "",
             1,
-            lambda ground, block: quantities.acceleration_ratio(ground, block),
             needs_block=True,
         ),
         Measure(
@@ -249,7 +241,6 @@ MEASURES: dict[str, Measure] = {
             "dimensionless",
             "",
             1,
-            lambda ground, block: quantities.velocity_ratio(ground, block),
             UNDRIFTING,
             True,
             True,
