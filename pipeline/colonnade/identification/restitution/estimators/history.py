@@ -255,6 +255,8 @@ def _first_arc_left_over(followed: DecayFit, noise: Noise) -> bool:
 
 
 def _covariance(followed: DecayFit, names: tuple[str, ...], noise: Noise, *, consistent: bool) -> Array:
+    if consistent and noise.cutoff_hz is None:
+        return noise.level * followed.inverse
     jacobian = followed.jacobian(names)
     if consistent or noise.freedom < 20:
         inverse = np.linalg.inv(filtered_products(jacobian, noise)) if noise.cutoff_hz else followed.inverse

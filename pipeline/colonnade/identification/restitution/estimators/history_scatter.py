@@ -37,7 +37,7 @@ from colonnade.identification.restitution.fitting.scatter_likelihood import (
     reduced,
     solve,
 )
-from colonnade.identification.restitution.fitting.scatter_model import LinearModel, SpectralModel
+from colonnade.identification.restitution.fitting.scatter_model import LinearModel, Products, SpectralModel
 from colonnade.identification.restitution.free_vibration import FreeVibration
 
 MOST_ROUNDS = 4
@@ -157,13 +157,13 @@ class ScatteredHistory(Estimator[ScatteredFit]):
         scatter = FIRST_SCATTER
         for _ in range(MOST_ROUNDS):
             path = fit_path(path, stretch, names, max(scatter, LEAST_SCATTER))
-            transformed = SpectralModel(_linear(path, stretch, names))
             # Noise of power 1/f hardly moves the path: it is looked for at the end.
-            parts, best = solve(reduced([transformed.white()]))
+            parts, _ = solve(reduced([_white(path, stretch, names)]))
             found = float(np.average(parts.scatter, weights=np.exp(parts.likelihood - parts.likelihood.max())))
             if abs(found - scatter) <= SAME_SCATTER * scatter:
                 break
             scatter = found
+        transformed = SpectralModel(_linear(path, stretch, names))
         reduction = reduced(transformed.all_products(), _along_speed(path.decay))
         parts, best = solve(reduction.of_columns(np.arange(len(names) + 1)))
         own, of_all = transformed.products_with(_own_columns(path, stretch), best.products.knee)
@@ -228,8 +228,32 @@ def _linear(path: RockingPath, stretch: Stretch, names: tuple[str, ...]) -> Line
     counted = np.isfinite(residual)
     # As seen from the mean: what the impacts' own departures explain is left in the values.
     values = np.where(counted, residual, 0.0) + by_impact @ path.decay.by_impact
-    least = float((LEAST_NOISE * path.decay.critical.min()) ** 2)
+    least = _least(path)
     return LinearModel(values, fixed, by_impact, int(counted.sum()), least, stretch.interval, stretch.cutoff_hz)
+
+
+def _white(path: RockingPath, stretch: Stretch, names: tuple[str, ...]) -> Products:
+    """Products with white noise of the model that `_linear` gives; without a low-pass they are sums over arcs."""
+    if stretch.cutoff_hz is not None:
+        return SpectralModel(_linear(path, stretch, names)).white()
+    residual = path.residual(stretch)
+    counted = residual[np.isfinite(residual)]
+    products, gradient = path.normal_equations(residual, stretch, names)
+    fixed, own = len(names) + 1, path.decay.by_impact
+    # As seen from the mean: what the impacts' own departures explain is left in the values.
+    explained = products[:, fixed:] @ own
+    square = counted @ counted + own @ (2 * gradient[fixed:] + explained[fixed:])
+    with_values = gradient + explained
+    lengths = np.maximum(np.sqrt(np.diag(products)[:fixed]), 1e-300)
+    across, scaled = with_values[:fixed] / lengths, products[:fixed, :fixed] / np.outer(lengths, lengths)
+    outer = np.vstack((np.append(square, across), np.column_stack((across, scaled))))
+    side = np.column_stack((with_values[fixed:], products[fixed:, :fixed] / lengths))
+    return Products(0.0, outer, side, products[fixed:, fixed:], lengths, 0.0, float(counted.size), _least(path))
+
+
+def _least(path: RockingPath) -> float:
+    """Least variance of the noise, rad²."""
+    return float((LEAST_NOISE * path.decay.critical.min()) ** 2)
 
 
 def _own_columns(path: RockingPath, stretch: Stretch) -> Array:

@@ -68,6 +68,10 @@ class RockingPath:
         fixed[uncounted], by_impact[uncounted] = 0.0, 0.0
         return residual, fixed, by_impact
 
+    def normal_equations(self, residual: Array, stretch: Stretch, names: tuple[str, ...]) -> tuple[Array, Array]:
+        """Products of the derivatives of `linear` with themselves, and with the residual."""
+        return self.decay.normal_equations(stretch.time, residual, _centred_time(stretch), names)
+
     def moved(self, step: Array, names: tuple[str, ...]) -> RockingPath:
         """Return the path with steps added to the unknowns, the drift, and ln e of each impact."""
         steps = dict(zip(names, step.tolist(), strict=False))
@@ -145,8 +149,7 @@ class _Laid:
 
     @cached_property
     def _products(self) -> tuple[Array, Array]:
-        stretch = self.stretch
-        return self.path.decay.normal_equations(stretch.time, self.residual, _centred_time(stretch), self.names)
+        return self.path.normal_equations(self.residual, self.stretch, self.names)
 
     def objective(self, scatter: float, power: float) -> float:
         """Squares of the residual and of the departures, in the variance of each; infinite if the block overturns."""
