@@ -15,9 +15,8 @@ def test_both_are_near_the_truth_and_inside_their_intervals():
     assert found.reason == ""
     assert found.records.low < Population.of_records < found.records.high
     assert found.parameters.low < Population.of_parameters < found.parameters.high
-    assert (found.records.value, found.parameters.value) == pytest.approx(
-        (Population.of_records, Population.of_parameters), rel=0.12
-    )
+    truth = (Population.of_records, Population.of_parameters)
+    assert (found.records.value, found.parameters.value) == pytest.approx(truth, rel=0.12)
 
 
 def test_with_fine_levels_they_are_those_of_an_analysis_of_variance():

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from colonnade.assessment.fragility.isotonic import fit_isotonic
+from colonnade.assessment.fragility.isotonic import IsotonicCurve, fit_isotonic
 from colonnade.assessment.fragility.outcomes import gather
+from colonnade.assessment.fragility.resampling import Band
 from virtual_capacities import lognormal, names
 
 
@@ -33,6 +34,14 @@ def test_limits_rise_and_hold_the_curve():
     assert (np.diff(band.low) >= 0).all()
     assert (np.diff(band.high) >= 0).all()
     assert ((band.low <= band.value) & (band.value <= band.high)).all()
+
+
+def test_the_intensity_of_a_probability_is_between_its_stripes():
+    band = Band(*(np.array(each) for each in ([0.0, 0.2, 0.6], [0.0, 0.1, 0.4], [0.1, 0.5, 0.9])))
+    curve = IsotonicCurve(np.array([1.0, 2.0, 4.0]), band, 0.95)
+    assert curve.reaches(0.4) == pytest.approx((2 * 2**0.5, 2**0.75, 4.0))
+    assert curve.reaches(0.05) == pytest.approx((2**0.25, 0.0, 2**0.5))
+    assert curve.reaches(0.95) == (np.inf, np.inf, np.inf)
 
 
 def test_many_different_intensities_are_binned():

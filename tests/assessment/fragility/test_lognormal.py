@@ -25,6 +25,16 @@ def test_median_beta_and_probabilities_are_near_the_truth_and_inside_their_inter
     assert (fit.reason, fit.degenerate) == ("", 0.0)
 
 
+def test_the_intensity_of_a_probability_has_that_probability():
+    fit = fit_lognormal(lognormal(5), resamples=100)
+    found = fit.intensity([0.05, 0.5, 0.95])
+    assert fit.probability(found.value).value == pytest.approx([0.05, 0.5, 0.95])
+    assert (found.low[1], found.high[1]) == pytest.approx((fit.median.low, fit.median.high))
+    assert (found.low < found.value).all()
+    with pytest.raises(ValueError, match="between 0 and 1"):
+        fit.intensity([1.0])
+
+
 def test_a_record_at_more_levels_or_draws_does_not_narrow_the_interval_as_more_records_do():
     """32 records with 10 draws of hardly any scatter: the median's error is that of 32 capacities."""
     random = np.random.default_rng(8)
@@ -53,6 +63,13 @@ def test_no_curve_is_given_if_the_outcomes_have_none(peaks, reason, rises):
     fit = fit_lognormal(single(peaks), resamples=20)
     assert (fit.reason, fit.rises) == (reason, pytest.approx(rises))
     assert np.isnan([*fit.median, *fit.beta, *fit.probability([1.0]).low]).all()
+
+
+def test_of_four_records_no_interval_is_given():
+    fit = fit_lognormal(lognormal(5, records=4), resamples=50)
+    assert (fit.reason, fit.median.value) == ("", pytest.approx(MEDIAN, rel=0.5))
+    assert np.isnan([fit.median.low, fit.beta.high, fit.probability([MEDIAN]).low[0]]).all()
+    assert np.isfinite(fit_lognormal(lognormal(5, records=5), resamples=50).median.low)
 
 
 def test_one_intensity_gives_no_curve():

@@ -29,6 +29,12 @@ def test_directions_with_intensities_of_their_own_are_cells_of_their_own():
     assert (apart.events.tolist(), together.events.tolist()) == ([[0, 1], [1, 1]], [[1], [2]])
 
 
+def test_a_peak_that_is_not_known_because_it_overturned_may_be_infinite():
+    found = gather(["a", "b"], INTENSITY, np.where(PEAK > 1, np.inf, PEAK))
+    assert found.overturned.sum() == 1
+    assert found.was_run.sum() == 5
+
+
 def test_what_counts_as_overturned_may_be_given():
     given = gather(["a", "b"], INTENSITY, PEAK, PEAK > 0.3)
     assert given.overturned.sum() == 3

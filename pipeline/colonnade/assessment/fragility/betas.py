@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from colonnade.arrays import Array
 from colonnade.assessment.fragility.outcomes import Outcomes
 from colonnade.assessment.fragility.resampling import (
+    FEWEST_RECORDS,
     LEVEL,
     RESAMPLES,
     Band,
@@ -156,7 +157,8 @@ def _band(pairs: Array, counts: Array, record: NDArray[np.intp], at: Array, weig
     left = influence[None] - (steps / weights.shape[1])[:, None]
     errors = np.sqrt(np.einsum("nr,nri->ni", weights, left**2))[:, 1:]
     moved = variances + steps[:, 1:]
-    usable = (moved > 0).all(axis=1)
+    enough = weights.shape[1] >= FEWEST_RECORDS
+    usable = np.all(moved > 0, axis=1) & (enough | (np.arange(len(moved)) == 0))
     values, errors = np.log(moved[usable]) / 2, errors[usable] / (2 * moved[usable])
     return studentised(values[0], errors[0], values[1:], errors[1:], level)
 

@@ -9,7 +9,7 @@ import scipy
 
 from colonnade.arrays import Array, Mask
 from colonnade.assessment.fragility.outcomes import Outcomes
-from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES, Band, checked_level, record_weights
+from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES, Band, Interval, checked_level, record_weights
 from colonnade.assessment.fragility.stripes import striped
 
 
@@ -31,6 +31,25 @@ class IsotonicCurve:
     intensity: Array
     probability: Band
     level: float
+
+    def reaches(self, probability: float) -> Interval:
+        """
+        Give the intensity at which the curve reaches a probability, ln x linear between stripes, and its interval.
+
+        The limits are where those of the curve reach it. 0 if that is below the first stripe, inf if above the last.
+        """
+        value, low, high = self.probability
+        return Interval(*(self._crossing(each, probability) for each in (value, high, low)))
+
+    def _crossing(self, values: Array, probability: float) -> float:
+        above = np.flatnonzero(values >= probability)
+        if above.size == 0:
+            return np.inf
+        place = int(above[0])
+        if place == 0:
+            return 0.0 if values[0] > probability else float(self.intensity[0])
+        y, (before, after) = np.log(self.intensity[place - 1 : place + 1]), values[place - 1 : place + 1]
+        return float(np.exp(y[0] + (probability - before) / (after - before) * (y[1] - y[0])))
 
 
 def fit_isotonic(

@@ -15,6 +15,7 @@ from colonnade.assessment.fragility import probit
 from colonnade.assessment.fragility.outcomes import Cells, Outcomes
 from colonnade.assessment.fragility.parameters import Parameters, fit_parameters
 from colonnade.assessment.fragility.resampling import (
+    FEWEST_RECORDS,
     LEVEL,
     RESAMPLES,
     Band,
@@ -45,13 +46,13 @@ class LognormalFit:
         Up to the first intensity nothing overturned, from the second on everything: the curve rises between them.
         If the outcomes are separated, that is all that is known. 0 or inf if there is no such intensity.
     median, beta : Interval
-        NaN if there is no curve.
+        NaN if there is no curve; their limits also of fewer than `FEWEST_RECORDS` records.
     log_likelihood : float
         Of the histories, taken as independent; if separated its limit.
     level : float
         Of the intervals.
     degenerate : float
-        Share of the resamples without a curve, which are left out of the intervals.
+        Share of the resamples that are left out of the intervals because they have no curve.
     fit, resampled : Parameters
         Of all records, shape (1,), and of each resample, shape (n,).
     """
@@ -71,6 +72,11 @@ class LognormalFit:
         x = np.log(samples("intensity", intensity))
         band = self.band(lambda mean, log_beta: (x - mean) / np.exp(log_beta))
         return Band(*(scipy.special.ndtr(each) for each in band))
+
+    def intensity(self, probability: ArrayLike) -> Band:
+        """Give the intensities at which P is `probability`, shape (k,), with intervals; NaN if there is no curve."""
+        z = scipy.special.ndtri(_probabilities(probability))
+        return Band(*(np.exp(each) for each in self.band(lambda mean, log_beta: mean + z * np.exp(log_beta))))
 
     def band(self, function: Callable[[Array, Array], Array]) -> Band:
         """
@@ -126,6 +132,8 @@ def fit_lognormal(
     parameters, log_likelihood, status = fit_parameters(cells, weights)
     all_records, resampled = (Parameters(*(each[part] for each in parameters)) for part in (slice(1), slice(1, None)))
     usable = status[1:] == probit.FITTED
+    if len(outcomes.records) < FEWEST_RECORDS:
+        usable[:] = False
     resampled = Parameters(*(each[usable] for each in resampled))
     median, beta = _intervals(all_records, resampled, checked_level(level))
     return LognormalFit(
@@ -141,6 +149,13 @@ def fit_lognormal(
     )
 
 
+def _probabilities(values: ArrayLike) -> Array:
+    given = samples("probability", values)
+    if not ((given > 0) & (given < 1)).all():
+        raise ValueError("probability is not between 0 and 1; the curve reaches 0 and 1 nowhere")
+    return given
+
+
 def _intervals(fit: Parameters, resampled: Parameters, level: float) -> tuple[Interval, Interval]:
     """Of median and β."""
     found = []
@@ -149,7 +164,8 @@ def _intervals(fit: Parameters, resampled: Parameters, level: float) -> tuple[In
         (fit.log_beta, fit.bb, resampled.log_beta, resampled.bb),
     ):
         band = studentised(value, np.sqrt(variance), values[:, None], np.sqrt(variances)[:, None], level)
-        found.append(Interval(*(float(np.exp(each[0])) for each in band)))
+        with np.errstate(over="ignore"):  # of few records a limit may be as good as infinite
+            found.append(Interval(*(float(np.exp(each[0])) for each in band)))
     return found[0], found[1]
 
 

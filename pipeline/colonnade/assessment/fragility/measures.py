@@ -10,7 +10,7 @@ import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
-from colonnade.assessment.fragility.outcomes import FEWEST_RECORDS, Cells, Outcomes, with_axes
+from colonnade.assessment.fragility.outcomes import FEWEST, Cells, Outcomes, with_axes
 from colonnade.assessment.fragility.parameters import fit_parameters
 from colonnade.assessment.fragility.peaks import residuals, scatter
 from colonnade.assessment.fragility.resampling import RESAMPLES, record_weights
@@ -94,7 +94,7 @@ def compare_measures(
     Raises
     ------
     ValueError
-        If there is no measure, a shape does not fit, a value is not positive, or fewer than `FEWEST_RECORDS` records
+        If there is no measure, a shape does not fit, a value is not positive, or fewer than `FEWEST` records
         have all measures.
     """
     if not measures:
@@ -102,8 +102,8 @@ def compare_measures(
     arrays = {name: _checked(name, values, outcomes) for name, values in measures.items()}
     was_run = outcomes.was_run.any(axis=2)
     known = np.all([~(np.isnan(each) & was_run).any(axis=(1, 2)) for each in arrays.values()], axis=0)
-    if known.sum() < FEWEST_RECORDS:
-        raise ValueError(f"{known.sum()} records have all measures; at least {FEWEST_RECORDS} were expected")
+    if known.sum() < FEWEST:
+        raise ValueError(f"{known.sum()} records have all measures; at least {FEWEST} were expected")
     chosen = outcomes.only(known)
     weights = np.vstack((np.ones(int(known.sum())), record_weights(int(known.sum()), resamples, seed)))
     found = {name: _scored(chosen, each[known], weights) for name, each in arrays.items()}

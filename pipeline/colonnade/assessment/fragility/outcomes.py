@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from colonnade.arrays import Array, Mask
 from colonnade.validation import samples
 
-FEWEST_RECORDS = 2
+FEWEST = 2
 """Of a curve: one record has no scatter between records."""
 
 
@@ -111,7 +111,7 @@ def gather(
     Raises
     ------
     ValueError
-        If the shapes do not fit, a name occurs twice, there are fewer than `FEWEST_RECORDS` records, a peak is
+        If the shapes do not fit, a name occurs twice, there are fewer than `FEWEST` records, a peak is
         negative, a record has no history, or an intensity of a history is missing or not positive.
     """
     peaks = with_axes(samples("peak", peak, dimensions=(2, 3, 4), gaps=True, finite=False, each="history"), 4)
@@ -124,10 +124,8 @@ def gather(
             f"there are {len(names)} records, intensity has shape {given.shape} and peak {peaks.shape}; one intensity "
             "for each record and level (and direction) of peak was expected"
         )
-    if len(set(names)) < len(names) or rows < FEWEST_RECORDS:
-        raise ValueError(
-            f"records has {len(set(names))} different names; at least {FEWEST_RECORDS} were expected, each once"
-        )
+    if len(set(names)) < len(names) or rows < FEWEST:
+        raise ValueError(f"records has {len(set(names))} different names; at least {FEWEST} were expected, each once")
     was_run = ~np.isnan(peaks)
     if (peaks < 0).any() or not was_run.any(axis=(1, 2, 3)).all():
         raise ValueError("peak is negative, or a record has no history; max |θ| / α of each record was expected")

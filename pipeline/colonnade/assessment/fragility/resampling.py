@@ -11,6 +11,9 @@ from colonnade.dynamics.ensembles.ensemble import LARGEST_SEED
 from colonnade.validation import number, whole
 
 RESAMPLES, MOST_RESAMPLES = 1999, 100_000
+FEWEST_RECORDS = 5
+"""Of an interval: of fewer no resampling shows how much records differ."""
+
 LEVEL = 0.95
 """Of intervals."""
 
@@ -66,7 +69,7 @@ def studentised(value: Array, error: Array, values: Array, errors: Array, level:
     Returns
     -------
     band : Band
-        Shape (k,) each.
+        Shape (k,) each; limits are NaN without resamples.
 
     Notes
     -----
