@@ -40,6 +40,7 @@ def test_the_overturning_spectrum_of_a_pulse_needs_no_campaign(tmp_path, capsys)
     row = next(line for line in said.splitlines() if line.startswith("2 "))
     assert f"{level:.5g}" in row
     assert "m/s²" in row
+    assert "half-sine: sin φ for 0 < φ < π, φ = ω t (Housner 1963)" in said
     assert "restitution e     0.9408 (rigid-body)" in said
     assert out.read_text(encoding="utf-8").startswith("<?xml")
     with data.open(encoding="utf-8", newline="") as stream:
@@ -54,12 +55,14 @@ def test_the_rocking_spectrum_of_a_file_comes_with_its_measures(record, capsys):
     said = capsys.readouterr().out
     assert "PGA/(g tan α)" in said
     assert "0.95 (given)" in said
-    assert invoke([*asked, "--json"]) == 0
+    assert invoke([*asked, "--slenderness", "0.3 rad", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     peak = found["measures"]["pga"]["value"]
     assert peak == pytest.approx(0.4 * 9.80665, rel=1e-5)
     assert found["measures"]["pga_ratio"]["value"] == pytest.approx(peak / (9.81 * math.tan(0.2)))
-    assert len(found["spectrum_peak_ratio"]) == len(found["period"]) == 4
+    assert found["critical_angle"] == [0.2, 0.3]
+    assert [len(row) for row in found["spectrum_peak_ratio"]] == [4, 4]
+    assert found["measures"]["cav"]["definition"] == "∫ |a| dt"
     assert found["column"]["restitution"] == [0.95, 0.95]
 
 
@@ -85,6 +88,9 @@ def test_a_specimen_of_a_campaign_is_taken_at_its_scale(campaign, record, capsys
     ("arguments", "message"),
     [
         ([], "Give either --motion or --pulse"),
+        (["--pulse", "sine", *COLUMN, "--peak", "1 g"], "--peak is only for --motion"),
+        (["--motion", "record.csv", *COLUMN, "--omega", "1", "2"], "--omega is only for --pulse"),
+        (["--pulse", "sine", *COLUMN, "--cycles", "3"], "--cycles is only for --pulse mavroeidis-papageorgiou"),
         (["--pulse", "sine"], "The column is not known"),
         (["--pulse", "sine", "--specimen", "prism"], "there is no campaign here"),
         (["--pulse", "sine", *COLUMN, "--scale", "2"], "--scale is for a specimen"),
@@ -101,6 +107,7 @@ def test_a_specimen_of_a_campaign_is_taken_at_its_scale(campaign, record, capsys
         (["--motion", "record.csv", *COLUMN, "--unit", "g", "--baseline", "cubic"], "--baseline Unknown baseline"),
         (["--motion", "record.csv", *COLUMN, "--unit", "g", "--peak", "strong"], "--peak strong"),
         (["--motion", "record.csv", *COLUMN, "--unit", "g", "--drift", "-1"], "drift is -1.0"),
+        (["--motion", "record.csv", *COLUMN, "--unit", "g", "--slenderness", "1 m"], "--slenderness 1 m"),
     ],
 )
 def test_a_wrong_use_says_what_was_expected(record, arguments, message, capsys):

@@ -4,12 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rich_click as click
+from click import get_current_context
+from click.core import ParameterSource
 
 from colonnade.cli.console import say, show_fields, show_json, show_table
 from colonnade.cli.options import CAMPAIGN, LateChoice, campaign_argument, json_option, results_option
+
+if TYPE_CHECKING:
+    from colonnade.campaign import Campaign
+    from colonnade.store.layout import Layout
+    from colonnade.workflow.spectra.asked import AskedColumn
+    from colonnade.workflow.spectra.spectrum import Overturning, Rocking
+
+OF_MOTION = ("unit", "interval", "column", "peak", "baseline", "drift", "slenderness", "periods")
+OF_PULSE = ("omega", "cycles", "phase", "largest", "width")
+"""Options that say nothing with the other of --motion and --pulse, and are refused there."""
+
+SHAPE = ("cycles", "phase")
+"""Those of one pulse alone."""
 
 
 def _pulses() -> Iterable[str]:
@@ -66,6 +81,9 @@ def _plane_models() -> Iterable[str]:
 @click.option(
     "--drift", type=float, default=0.1, show_default=True, help="Largest end velocity over PGV of a motion with PGV."
 )
+@click.option(
+    "--slenderness", multiple=True, metavar="ANGLE", help="A further α of the rocking spectrum. Repeat it for several."
+)
 @click.option("--periods", type=float, nargs=2, metavar="LOW HIGH", help="Sizes 2π/p of the rocking spectrum, s.")
 @click.option("--omega", type=float, nargs=2, metavar="LOW HIGH", help="Frequency ratios Ω of the pulse.")
 @click.option("--points", type=int, default=24, show_default=True, help="Number of sizes or of frequencies.")
@@ -83,6 +101,9 @@ def spectrum(campaign: Path, motion: str | None, pulse: str | None, results: Pat
     """Compute a spectrum, show and draw it, and return the exit code."""
     if (motion is None) == (pulse is None):
         raise click.UsageError("Give either --motion or --pulse.")
+    _refuse(OF_MOTION if pulse else OF_PULSE, "--motion" if pulse else "--pulse")
+    if pulse != "mavroeidis-papageorgiou":
+        _refuse(SHAPE, "--pulse mavroeidis-papageorgiou")
     from colonnade.workflow.spectra.asked import AskedColumn, AskedMotion
 
     out, data = options.pop("out"), options.pop("data")
@@ -94,12 +115,27 @@ def spectrum(campaign: Path, motion: str | None, pulse: str | None, results: Pat
         from colonnade.workflow.spectra.spectrum import rocking_of
 
         asked = AskedMotion(motion, **_taken(options, "unit", "interval", "column", "peak", "baseline"))
-        more = _taken(options, "periods", "drift")
+        more = _taken(options, "slenderness", "periods", "drift")
         return _show(rocking_of(known, layout, column, asked, **more, **common), out, data, options["as_json"])
     return _show(_overturning(known, layout, column, str(pulse), options, common), out, data, options["as_json"])
 
 
-def _overturning(known: Any, layout: Any, column: Any, pulse: str, options: dict[str, Any], common: Any) -> Any:
+def _refuse(names: Iterable[str], only: str) -> None:
+    """Refuse options that are given but say nothing."""
+    context = get_current_context()
+    for name in names:
+        if context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
+            raise click.UsageError(f"--{name} is only for {only}.")
+
+
+def _overturning(
+    known: Campaign | None,
+    layout: Layout | None,
+    column: AskedColumn,
+    pulse: str,
+    options: dict[str, Any],
+    common: dict[str, Any],
+) -> Overturning:
     from math import radians
 
     from colonnade.workflow.spectra.spectrum import AskedPulse, overturning_of
@@ -112,7 +148,7 @@ def _taken(options: dict[str, Any], *names: str) -> dict[str, Any]:
     return {name: options[name] for name in names}
 
 
-def _campaign(path: Path, results: Path | None) -> tuple[Any, Any]:
+def _campaign(path: Path, results: Path | None) -> tuple[Campaign | None, Layout | None]:
     """Load the campaign if one is named, or if the current folder is one."""
     if path == Path() and not Path("campaign.toml").is_file():
         return None, None
@@ -133,7 +169,7 @@ def _expect_places(out: Path | None, data: Path | None) -> None:
             expect_place(place, endings)
 
 
-def _show(found: Any, out: Path | None, data: Path | None, as_json: bool) -> int:
+def _show(found: Rocking | Overturning, out: Path | None, data: Path | None, as_json: bool) -> int:
     from colonnade.workflow.spectra import shown
     from colonnade.workflow.spectra.spectrum import Rocking, picture_of
 
@@ -146,9 +182,8 @@ def _show(found: Any, out: Path | None, data: Path | None, as_json: bool) -> int
     if as_json:
         show_json(shown.record_of(found) | {"figure": out, "data": data})
         return 0
-    show_fields(
-        [*shown.column_fields(found.column), *(shown.motion_fields(found) if isinstance(found, Rocking) else [])]
-    )
+    more = shown.motion_fields(found) if isinstance(found, Rocking) else shown.pulse_fields(found)
+    show_fields([*shown.column_fields(found.column), *more])
     say()
     if isinstance(found, Rocking):
         show_table(shown.MEASURE_HEADS, shown.measure_rows(found))

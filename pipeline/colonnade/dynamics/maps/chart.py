@@ -15,6 +15,7 @@ from colonnade.arrays import Array, Codes
 from colonnade.digest import Digested
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.maps.column import MapColumn, map_column
+from colonnade.dynamics.maps.limits import islands_of
 from colonnade.dynamics.maps.plan import EDGE, WIDTH, MapPlan, plan_map
 from colonnade.dynamics.models.registry import DEFAULT
 from colonnade.dynamics.motion import Motion
@@ -75,9 +76,7 @@ class StabilityMap(Digested):
     @property
     def islands(self) -> Array:
         """Overturning intervals narrower than `width`: rows of Ω, start and end in A, shape (k, 3)."""
-        rows = np.column_stack([self.interval_frequency_ratio, self.interval_start, self.interval_end])
-        islands: Array = rows[self.interval_end - self.interval_start < self.options["width"]]
-        return islands
+        return islands_of(self.interval_frequency_ratio, self.interval_start, self.interval_end, self.options["width"])
 
 
 def stability_map(

@@ -55,6 +55,13 @@ def limits_of(scan: Array, codes: Codes, runs: Runs, *, width: float, edge: floa
     return Limits(_first_wide(intervals, width), _last_wide_end(_gaps(intervals, low, high), width, high), intervals)
 
 
+def islands_of(frequency_ratio: Array, start: Array, end: Array, width: float) -> Array:
+    """Give the intervals that overturn and are narrower than `width`: rows of Ω, start and end in A, shape (k, 3)."""
+    rows = np.column_stack([frequency_ratio, start, end])
+    islands: Array = rows[end - start < width]
+    return islands
+
+
 def _intervals(scan: Array, overturned: NDArray[np.bool_], runs: Runs, edge: float) -> Array:
     """Intervals of overturning, shape (k, 2): every change between neighbours of the scan halved down to `edge`."""
     changes = np.flatnonzero(overturned[1:] != overturned[:-1])

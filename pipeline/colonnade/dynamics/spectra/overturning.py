@@ -15,14 +15,14 @@ from colonnade.arrays import Array, Codes
 from colonnade.digest import Digested
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.maps.chart import MOST_THREADS
-from colonnade.dynamics.maps.limits import Limits, Runs, limits_of
+from colonnade.dynamics.maps.limits import Limits, Runs, islands_of, limits_of
 from colonnade.dynamics.maps.plan import LARGEST_RATIO, LEAST_EDGE, STEPS_A_WIDTH, WIDTH, checked_widths
 from colonnade.dynamics.models.registry import DEFAULT, plane_model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic import harmonic_outcomes
 from colonnade.dynamics.plane.outcomes import ends_of, prepared
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
-from colonnade.dynamics.spectra.pulses import MAVROEIDIS_PAPAGEORGIOU, MOST_CYCLES, pulse_of, sampled_pulse
+from colonnade.dynamics.spectra.pulses import MAVROEIDIS_PAPAGEORGIOU, MOST_CYCLES, PulseKind, pulse_of, sampled_pulse
 from colonnade.validation import instance, number, samples, sided, whole
 
 
@@ -68,9 +68,7 @@ class OverturningSpectrum(Digested):
     @property
     def islands(self) -> Array:
         """Overturning intervals narrower than `width`: rows of Ω, start and end in A, shape (k, 3)."""
-        rows = np.column_stack([self.interval_frequency_ratio, self.interval_start, self.interval_end])
-        islands: Array = rows[self.interval_end - self.interval_start < self.options["width"]]
-        return islands
+        return islands_of(self.interval_frequency_ratio, self.interval_start, self.interval_end, self.options["width"])
 
 
 def overturning_spectrum(
@@ -154,19 +152,10 @@ def overturning_spectrum(
         low=0.0,
         high=1.0,
     )
-    options = {
-        "restitution_negative": e[0],
-        "restitution_positive": e[1],
-        **({"cycles": cycles, "phase": phase} if kind is MAVROEIDIS_PAPAGEORGIOU else {}),
-        "largest": largest,
-        "width": width,
-        "edge": edge,
-        "rest_angle": DEFAULT_REST_ANGLE,
-    }
+    case = _Case(block, kind, cycles, phase, e, model)
     scan = np.linspace(0.0, largest, ceil(largest / width * STEPS_A_WIDTH) + 1)[1:]
-    column = partial(_limits, block, pulse, cycles, phase, e, model, scan, width, edge)
     with ThreadPoolExecutor(threads) as pool:
-        found = list(pool.map(column, omegas.tolist()))
+        found = list(pool.map(partial(case.limits, scan, width, edge), omegas.tolist()))
     intervals = np.concatenate([each.intervals for each in found])
     return OverturningSpectrum(
         pulse,
@@ -177,41 +166,45 @@ def overturning_spectrum(
         np.repeat(omegas, [len(each.intervals) for each in found]),
         intervals[:, 0],
         intervals[:, 1],
-        options,
+        case.options | {"largest": largest, "width": width, "edge": edge},
     )
 
 
-def _limits(
-    block: Block,
-    pulse: str,
-    cycles: float,
-    phase: float,
-    restitution: tuple[float, float],
-    model: str,
-    scan: Array,
-    width: float,
-    edge: float,
-    frequency_ratio: float,
-) -> Limits:
-    runs = _runs(block, pulse, cycles, phase, restitution, model, frequency_ratio * block.p)
-    return limits_of(scan, runs(scan), runs, width=width, edge=edge)
+@dataclass(frozen=True)
+class _Case:
+    """A block and a pulse; attributes as the arguments of `overturning_spectrum`."""
 
+    block: Block
+    pulse: PulseKind
+    cycles: float
+    phase: float
+    restitution: tuple[float, float]
+    model: str
 
-def _runs(
-    block: Block, pulse: str, cycles: float, phase: float, restitution: tuple[float, float], model: str, omega: float
-) -> Runs:
-    harmonic = pulse_of(pulse).harmonic(omega)
-    if harmonic is not None:
-        return lambda amplitudes: harmonic_outcomes(block, harmonic, amplitudes, restitution, model)
-    unit, step = sampled_pulse(pulse, cycles, phase)
-    unit *= block.uplift_acceleration
-    sides = [prepared(block, restitution)]
+    @property
+    def options(self) -> dict[str, Any]:
+        """What the limits depend on, but for the search."""
+        shape = {"cycles": self.cycles, "phase": self.phase} if self.pulse is MAVROEIDIS_PAPAGEORGIOU else {}
+        e = dict(zip(("restitution_negative", "restitution_positive"), self.restitution, strict=True))
+        return {**e, **shape, "rest_angle": DEFAULT_REST_ANGLE}
 
-    def sampled(amplitudes: Array) -> Codes:
-        found = [
-            ends_of(Motion(amplitude * unit, step / omega), sides, gravity=block.gravity, model=model).outcome
-            for amplitude in amplitudes
-        ]
-        return np.concatenate(found)
+    def limits(self, scan: Array, width: float, edge: float, frequency_ratio: float) -> Limits:
+        """Find the limits at one Ω."""
+        runs = self.runs(frequency_ratio * self.block.p)
+        return limits_of(scan, runs(scan), runs, width=width, edge=edge)
 
-    return sampled
+    def runs(self, omega: float) -> Runs:
+        """Give what runs some A at ω, rad/s."""
+        block, harmonic = self.block, self.pulse.harmonic(omega)
+        if harmonic is not None:
+            return lambda amplitudes: harmonic_outcomes(block, harmonic, amplitudes, self.restitution, self.model)
+        shape, step = sampled_pulse(self.pulse.name, self.cycles, self.phase)
+        unit, sides = block.uplift_acceleration * shape, [prepared(block, self.restitution)]
+
+        def sampled(amplitudes: Array) -> Codes:
+            motions = (Motion(amplitude * unit, step / omega) for amplitude in amplitudes)
+            return np.concatenate(
+                [ends_of(each, sides, gravity=block.gravity, model=self.model).outcome for each in motions]
+            )
+
+        return sampled

@@ -228,9 +228,18 @@ def _found(asked: AskedMotion, campaign: Campaign | None, layout: Layout | None)
 
 
 def _quantity(option: str, given: str | None, dimension: str) -> float | None:
-    """Read a positive quantity with its unit, SI; None if it is not given."""
-    if given is None:
-        return None
+    return None if given is None else quantity_of(option, given, dimension)
+
+
+def quantity_of(option: str, given: str, dimension: str) -> float:
+    """
+    Read a positive quantity with its unit, SI.
+
+    Raises
+    ------
+    CampaignError
+        If it is not one; the message names the option.
+    """
     try:
         value = units.to_si(given, dimension)
     except UnitError as error:

@@ -9,11 +9,12 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.assessment.intensity.registry import measure_of
+from colonnade.dynamics.spectra.pulses import pulse_of
 from colonnade.store.records.wording import NOTHING, acceleration, number, quantity, ratio
 from colonnade.workflow.spectra.asked import Column
 from colonnade.workflow.spectra.spectrum import Overturning, Rocking
 
-ROCKING_HEADS = ("2π/p", "p", "outcome", "largest |θ|/α", "largest |θ'|")
+ROCKING_HEADS = ("α", "2π/p", "p", "outcome", "largest |θ|/α", "largest |θ'|")
 OVERTURNING_HEADS = ("Ω", "frequency", "lower limit A", "acceleration", "upper limit A", "acceleration", "islands")
 MEASURE_HEADS = ("measure", "symbol", "value", "why not")
 
@@ -34,21 +35,21 @@ def column_fields(column: Column) -> list[tuple[str, str]]:
 
 
 def rocking_rows(found: Rocking) -> list[Row]:
-    """Write the spectrum, a row for each size."""
+    """Write the spectrum, a row for each slenderness and size."""
     spectrum = found.spectrum
     return [
         (
+            quantity(angle, "rad", 4),
             quantity(period, "s"),
             quantity(2 * pi / period, "rad/s"),
-            *_ended(peak, bool(fell), fastest * 2 * pi / period),
+            *_ended(
+                float(spectrum.peak_ratio[row, column]),
+                bool(spectrum.overturned[row, column]),
+                float(spectrum.peak_velocity_ratio[row, column]) * 2 * pi / period,
+            ),
         )
-        for period, peak, fell, fastest in zip(
-            spectrum.period.tolist(),
-            spectrum.peak_ratio[0].tolist(),
-            spectrum.overturned[0].tolist(),
-            spectrum.peak_velocity_ratio[0].tolist(),
-            strict=True,
-        )
+        for row, angle in enumerate(spectrum.critical_angle.tolist())
+        for column, period in enumerate(spectrum.period.tolist())
     ]
 
 
@@ -80,6 +81,18 @@ def measure_rows(found: Rocking) -> list[Row]:
 
 def _value(value: float, unit: str) -> str:
     return f"{number(value)} {unit}".rstrip() if isfinite(value) else NOTHING
+
+
+def pulse_fields(found: Overturning) -> list[tuple[str, str]]:
+    """Write what the pulse is, and what its limits are."""
+    spectrum, kind = found.spectrum, pulse_of(found.spectrum.pulse)
+    options = spectrum.options
+    shape = f"; γ = {options['cycles']:g}, ν = {options['phase']:.3g} rad" if "cycles" in options else ""
+    return [
+        ("pulse", f"{kind.name}: {kind.definition}, φ = ω t{shape} ({kind.source})"),
+        ("limits", f"of intervals at least {options['width']:g} wide in A, up to A = {options['largest']:g}"),
+        ("model", spectrum.model),
+    ]
 
 
 def overturning_rows(found: Overturning) -> list[Row]:
@@ -132,14 +145,18 @@ def record_of(found: Rocking | Overturning) -> dict[str, Any]:
         "outcome": history.outcome,
         "peak_ratio": history.peak_ratio,
         "period": _plain(found.spectrum.period),
-        "spectrum_peak_ratio": _plain(found.spectrum.peak_ratio[0]),
-        "spectrum_overturned": found.spectrum.overturned[0].tolist(),
+        "critical_angle": _plain(found.spectrum.critical_angle),
+        "spectrum_peak_ratio": [_plain(row) for row in found.spectrum.peak_ratio],
+        "spectrum_overturned": found.spectrum.overturned.tolist(),
         "drift": measures.drift,
         "largest_drift": measures.largest_drift,
         "measures": {
             name: {
                 "value": value if isfinite(value) else None,
                 "unit": measure_of(name).unit,
+                "definition": measure_of(name).definition,
+                "source": measure_of(name).source,
+                "filter": measure_of(name).filter,
                 "reason": measures.reasons.get(name, ""),
             }
             for name, value in measures.values.items()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from math import pi
@@ -22,7 +23,7 @@ from colonnade.dynamics.spectra.overturning import OverturningSpectrum, overturn
 from colonnade.dynamics.spectra.spectrum import RockingSpectrum, rocking_spectrum
 from colonnade.errors import CampaignError
 from colonnade.store.layout import Layout
-from colonnade.workflow.spectra.asked import AskedColumn, AskedMotion, Column, column_of, motion_of
+from colonnade.workflow.spectra.asked import AskedColumn, AskedMotion, Column, column_of, motion_of, quantity_of
 
 if TYPE_CHECKING:
     from colonnade.figures.files.output import Picture
@@ -50,7 +51,7 @@ class Rocking:
     history : History
         Of the column itself.
     spectrum : RockingSpectrum
-        Of rectangular blocks of the same slenderness, over their size.
+        Of rectangular blocks over their size, the slenderness of the column first.
     measures : IntensityMeasures
     """
 
@@ -91,6 +92,7 @@ def rocking_of(
     column: AskedColumn,
     asked: AskedMotion,
     *,
+    slenderness: Sequence[str] = (),
     periods: tuple[float, float] | None = None,
     points: int = POINTS,
     model: str = NONLINEAR.name,
@@ -105,6 +107,8 @@ def rocking_of(
         None without a campaign.
     column : AskedColumn
     asked : AskedMotion
+    slenderness : sequence of str, optional
+        Further α with their units, besides that of the column.
     periods : pair of float, optional
         First and last 2π/p, s; by default from a fourth of the column's to four times.
     points : int, optional
@@ -124,10 +128,11 @@ def rocking_of(
     own = 2 * pi / known.block.p
     low, high = _range("--periods", periods or (own / REACH, own * REACH), "s")
     sizes = np.geomspace(low, high, _points(points))
+    others = [quantity_of("--slenderness", each, "angle") for each in slenderness]
     try:
         spectrum = rocking_spectrum(
             motion,
-            critical_angle=known.block.critical_angle,
+            critical_angle=[known.block.critical_angle, *others],
             period=sizes,
             restitution=known.restitution,
             model=model,
@@ -190,7 +195,8 @@ def picture_of(found: Rocking | Overturning) -> Picture:
     if isinstance(found, Rocking):
         title = f"Rocking spectrum: {found.source}"
         figure = rocking.rocking_spectrum(found.spectrum, period=2 * pi / found.column.block.p, title=found.source)
-        seen = f"Largest angle over the size of blocks with α = {found.column.block.critical_angle:.4g} rad."
+        angles = ", ".join(f"{angle:.4g}" for angle in found.spectrum.critical_angle)
+        seen = f"Largest angle over the size of blocks with α = {angles} rad."
         return Picture(figure, "rocking-spectrum", title, seen)
     figure = overturning.overturning_spectrum(found.spectrum)
     title = f"Overturning spectrum: {found.spectrum.pulse}"
