@@ -129,7 +129,15 @@ def test_what_needs_a_block_is_given_only_with_one():
 def test_a_motion_at_rest_has_reasons_and_no_error():
     measured = intensity_measures(Motion(np.zeros(500), 0.01), BLOCK)
     assert measured.values["pga"] == 0.0
-    assert measured.reasons["d5_95"] == measured.reasons["pulse_period"] == "the motion is too weak or too short"
+    assert measured.reasons["d5_95"] == measured.reasons["pulse_period"]
+    assert "the motion is at rest" in measured.reasons["d5_95"]
+
+
+@pytest.mark.parametrize("values", [[1.0], [1.0, -1.0], np.full(500, 1e200)], ids=["one sample", "two", "huge"])
+def test_a_motion_of_no_use_has_reasons_and_no_error(values):
+    measured = intensity_measures(Motion(values, 0.01), BLOCK, drift=2.0)
+    assert all(math.isfinite(value) != (name in measured.reasons) for name, value in measured.values.items())
+    assert {"d5_95", "pulse_indicator"} & measured.reasons.keys()
 
 
 def test_the_result_is_shown_with_units():

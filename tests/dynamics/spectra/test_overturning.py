@@ -102,9 +102,22 @@ def random_case(number):
     return block, pulse, model, float(drawn.uniform(0.8, 0.98)), float(drawn.uniform(1.0, 5.0))
 
 
+FINE = np.linspace(-2 * math.pi, 2 * math.pi, 400_001)
+SIZE = np.abs(mavroeidis_papageorgiou(2.0, 0.5, FINE)).max()
+INDEPENDENT = {
+    "cosine": (math.pi, lambda angle: np.cos(angle + math.pi)),
+    "ricker": (RICKER_REACH, ricker),
+    "mavroeidis-papageorgiou": (
+        2 * math.pi,
+        lambda angle: mavroeidis_papageorgiou(2.0, 0.5, angle) / SIZE,
+    ),
+}
+"""Reach of each pulse in ω t, and its shape."""
+
+
 def independent(block, pulse, model, restitution, ratio, level):
-    strength, reach = level * math.tan(block.critical_angle), (RICKER_REACH if pulse == "ricker" else math.pi) / ratio
-    shape = ricker if pulse == "ricker" else lambda angle: np.cos(angle + math.pi)
+    (reach, shape), strength = INDEPENDENT[pulse], level * math.tan(block.critical_angle)
+    reach /= ratio
     return overturns(
         lambda x: strength * float(shape(np.float64(ratio * x))),
         -reach,
@@ -128,6 +141,16 @@ def expect_both_limits(number):
 @pytest.mark.parametrize("number", [0, 1, 2, 3])
 def test_both_limits_of_a_pulse_are_those_of_an_independent_integrator(number):
     assert expect_both_limits(number) > 0
+
+
+@pytest.mark.parametrize("model", ["linear", "nonlinear"])
+def test_mavroeidis_and_papageorgious_limits_are_those_of_an_independent_integrator(model):
+    pulse, e = "mavroeidis-papageorgiou", 0.9
+    spectrum = overturning_spectrum(
+        PRISM, pulse, frequency_ratio=[3.0], cycles=2.0, phase=0.5, model=model, restitution=e, largest=6.0
+    )
+    for limit in {spectrum.lower[0], spectrum.upper[0]}:
+        assert [independent(PRISM, pulse, model, e, 3.0, limit + off) for off in (-1e-6, 1e-6)] == [False, True]
 
 
 @pytest.mark.slow

@@ -132,8 +132,11 @@ def measured(
         return float("nan"), (
             f"the record drifts: its velocity ends at {ground.drift:.2g} of its peak; at most {drift:g} was expected"
         )
-    value = measure.value(ground, block)
-    return value, "" if np.isfinite(value) else "the motion is too weak or too short"
+    with np.errstate(over="ignore", invalid="ignore"):
+        value = measure.value(ground, block)
+    if not np.isfinite(value):
+        return float("nan"), "the motion is at rest, too short or beyond what can be computed"
+    return value, ""
 
 
 def _asked(names: Sequence[str]) -> list[Measure]:
