@@ -158,6 +158,7 @@ def test_the_result_is_shown_with_units():
         ({"gravity": -1.0}, "gravity is -1.0"),
         ({"baseline": "cubic"}, 'Unknown baseline correction "cubic"'),
         ({"baseline": "linear(1 Hz)"}, "nothing in brackets"),
+        ({"baseline": "highpass(1e-9 Hz)"}, "at least 0.001 Hz"),
         ({"baseline": "highpass(90 Hz)"}, "not below half the sampling rate"),
     ],
 )

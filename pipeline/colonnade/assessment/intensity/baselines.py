@@ -19,6 +19,9 @@ NONE = "none"
 CORNER = 0.1
 """Hz, of the high-pass, if its name gives no other."""
 
+LEAST_CORNER = 1e-3
+"""Hz: slower than any motion of the ground that is recorded; the zeros around the record grow with its inverse."""
+
 ORDER = 2
 """Of the high-pass in each direction."""
 
@@ -61,7 +64,10 @@ def baseline_of(name: str) -> Baseline:
         return BASELINES[bare]
     if bare != "highpass":
         raise ValueError(f'"{name}": nothing in brackets was expected, but for highpass its corner, "highpass(0.1 Hz)"')
-    return _highpass(quantity_of(name, given, "frequency"), name)
+    corner = quantity_of(name, given, "frequency")
+    if corner < LEAST_CORNER:
+        raise ValueError(f'"{name}": a corner of at least {LEAST_CORNER:g} Hz was expected')
+    return _highpass(corner, name)
 
 
 def corrected(ground: Ground, baseline: str) -> Ground:
