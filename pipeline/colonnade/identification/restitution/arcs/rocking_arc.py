@@ -129,8 +129,7 @@ def half_duration_of(peaks: Array, critical: Array, linearised: bool) -> Array:
 def peak_of_duration(phase: float, critical: float, lowest: float, highest: float) -> float:
     """Return |θ| of the peak from which `half_duration` takes a phase p t, or the nearer of two bounds; rad."""
     low, high = lowest, highest
-    # Until no number is left between the bounds.
-    while low < 0.5 * (low + high) < high:
+    while high - low > 1e-10 * high:
         middle = 0.5 * (low + high)
         if half_duration(middle, critical, False) < phase:
             low = middle

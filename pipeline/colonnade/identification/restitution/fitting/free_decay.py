@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import exp, log
 
 import numpy as np
@@ -49,6 +49,13 @@ def first_values(energy: Array, size: Array, *, peak: float, time: float) -> dic
     return values | {"restitution": log(min(max(exp(slope / 2), 0.3), 0.9999)), "peak": peak, "time": time}
 
 
+@lru_cache(maxsize=16)
+def _of_sides(block: Block) -> tuple[Array, Array]:
+    """Critical angles (rad) and p (rad/s) of the sides θ < 0 and θ > 0, each shape (2,)."""
+    sides = block.sides
+    return np.array([side.critical_angle for side in sides]), np.array([block.side_p(side) for side in sides])
+
+
 @dataclass(frozen=True)
 class Decay:
     """
@@ -87,12 +94,12 @@ class Decay:
     @cached_property
     def critical(self) -> Array:
         """Critical angles of the sides θ < 0 and θ > 0, rad, shape (2,)."""
-        return np.array([side.critical_angle for side in self.block.sides]) * exp(self.values["critical_angle"])
+        return np.asarray(_of_sides(self.block)[0] * exp(self.values["critical_angle"]))
 
     @cached_property
     def p(self) -> Array:
         """Frequency parameters of both sides, rad/s, shape (2,)."""
-        return np.array([self.block.side_p(side) for side in self.block.sides]) * exp(self.values["p"])
+        return np.asarray(_of_sides(self.block)[1] * exp(self.values["p"]))
 
     def arcs(self) -> tuple[Array, Array, Array]:
         """Peaks (|θ|, rad), their times and the ends of the arcs (s), shape (count,)."""
