@@ -7,6 +7,7 @@
 # make restitution-study  5000 records with known truth: reports/restitution-study.md, ten minutes and more
 # make verdict-study  1000 tests with known truth judged by their spread: reports/verdict-study.md, a quarter of an hour
 # make forecast-study  480 tests with known truth, forecast and scored: reports/forecast-study.md, five minutes and more
+# make fragility-study  3000 sets of virtual records with known truth: reports/fragility-study.md, ten minutes and more
 # make contact-study  measures the contact model again: reports/contact-study.md, half an hour
 # make clean    removes what the other targets made
 #
@@ -24,7 +25,7 @@ SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope
 # Each command and worker starts several seconds sooner if Python keeps the bytecode of what it has imported.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test study drill format reports restitution-study verdict-study forecast-study contact-study clean
+.PHONY: demo test study drill format reports restitution-study verdict-study forecast-study fragility-study contact-study clean
 
 demo: $(DEMO_INSTALLED)
 	@$(BIN)/colonnade demo demo
@@ -60,6 +61,9 @@ verdict-study: $(INSTALLED)
 
 forecast-study: $(INSTALLED)
 	$(BIN)/python reports/forecast_study.py
+
+fragility-study: $(INSTALLED)
+	$(BIN)/python reports/fragility_study.py
 
 contact-study: $(INSTALLED)
 	$(BIN)/python reports/contact_study.py

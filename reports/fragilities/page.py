@@ -24,12 +24,12 @@ Share of the repetitions in which each interval holds the truth. P is judged at 
 
 {lognormal}
 
-The last column is the share in which the misfit test finds a misfit at {significant}: there is none.
+The last column is the share in which the test of the misfit rejects the curve at {significant}, although it is right.
 
 ## Records of two kinds
 
 Half of the records have a ln capacity {apart:g} above the median, half {apart:g} below, each with a scatter of
-{within:g}: no lognormal curve. The misfit test should find it, and the interval of the isotonic curve should hold.
+{within:g}: not lognormal. The test of the misfit should reject the curve, and the interval of the isotonic one hold.
 
 {two_kinds}
 
@@ -39,7 +39,7 @@ Share in which its interval holds the truth at each level, from the lowest to th
 
 {isotonic}
 
-The intervals are somewhat wider than needed at probabilities near 0 and 1.
+The intervals are wider than needed at probabilities near 0 and 1.
 """
 
 COLUMNS = (
@@ -69,14 +69,14 @@ def page(found: dict[str, Any]) -> str:
         apart=APART,
         within=WITHIN,
         lognormal=_table(
-            ("population", *COLUMNS, "misfit found"),
+            ("population", *COLUMNS, "rejected"),
             [
                 [name, *(_percent(shares[key]) for key in (*COLUMNS, "misfit"))]
                 for name, (_, shares) in lognormal.items()
             ],
         ),
         two_kinds=_table(
-            ("population", "misfit found", "isotonic, mean over levels"),
+            ("population", "rejected", "isotonic, mean over levels"),
             [
                 [name, _percent(shares["misfit"]), _percent(float(np.mean(_isotonic(shares))))]
                 for name, (_, shares) in two_kinds.items()

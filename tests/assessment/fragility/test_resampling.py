@@ -20,6 +20,6 @@ def test_of_a_mean_of_normal_values_it_is_about_students_interval():
     means = weights @ values / 40
     errors = np.sqrt((weights @ values**2 / 40 - means**2) / 40)
     mean, error = values.mean(), values.std() / np.sqrt(40)
-    band = studentised(np.array([mean]), np.array([error]), means[:, None], errors[:, None], 0.95)
+    band = studentised(np.array([mean]), np.array([error]), means[:, None], errors[:, None], 0.95, 40)
     reach = scipy.stats.t.ppf(0.975, 39) * error
     assert (band.low[0], band.high[0]) == pytest.approx((mean - reach, mean + reach), abs=0.25 * reach)

@@ -78,9 +78,10 @@ def separate_betas(outcomes: Outcomes, *, level: float = LEVEL, resamples: int =
     -----
     ln capacity = ln median + β_records R + β_parameters D, R and D standard normal, R one for each motion, D one for
     each of its draws: variance components of a nested design (Searle, Casella and McCulloch 1992, ch. 3). A capacity
-    is known to lie between two levels; it is the lowest that overturns. Maximum likelihood with R integrated out. The
-    intervals are studentised, over resamples of records. A resample moves the two variances by the mean influence of
-    its records (one Newton step, Davidson and MacKinnon 1999), which is nearly exact: they are nearly means.
+    is known to lie between two levels; it is the lowest that overturns, so that the two make up the β of the curve only
+    without resurrections. Maximum likelihood with R integrated out. The intervals are studentised, over resamples of
+    records. A resample moves the two variances by the mean influence of its records (one Newton step, Davidson and
+    MacKinnon 1999), which is nearly exact: they are nearly means.
     """
     level = checked_level(level)
     pairs, counts, record = _capacities(outcomes)
@@ -95,7 +96,7 @@ def separate_betas(outcomes: Outcomes, *, level: float = LEVEL, resamples: int =
         return Betas("records alike" if alike[0] else "parameters alike", unknown, unknown, level)
     weights = record_weights(len(outcomes.records), resamples, seed)
     band = _band(pairs, counts, record, estimate, np.vstack((np.ones(len(outcomes.records)), weights)), level)
-    records, parameters = (Interval(*(float(np.exp(each[part])) for each in band)) for part in (0, 1))
+    records, parameters = (Interval(*(float(each[part]) for each in band)) for part in (0, 1))
     return Betas("", records, parameters, level)
 
 
@@ -140,8 +141,9 @@ def _estimate(pairs: Array, counts: Array) -> Array:
     return np.asarray(found.x)
 
 
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # of few records a limit may be as good as infinite
 def _band(pairs: Array, counts: Array, record: NDArray[np.intp], at: Array, weights: Array, level: float) -> Band:
-    """Limits of ln β of the records and ln β of the parameters, shape (2,) each."""
+    """β of the records and β of the parameters with their limits, shape (2,) each."""
     variances = np.exp(2 * at[1:])
     unit = np.diag(STEP * np.array([np.sqrt(variances.sum()), *variances]))
 
@@ -151,16 +153,18 @@ def _band(pairs: Array, counts: Array, record: NDArray[np.intp], at: Array, weig
         return np.asarray(found, dtype=np.float64)
 
     scores, information = _derivatives(of_records, unit)
-    influence = scores @ np.linalg.inv(information)
+    influence = scores @ np.linalg.pinv(information)
     steps = weights @ influence
     # What each record would move the moved estimate by, of all records the mean.
     left = influence[None] - (steps / weights.shape[1])[:, None]
     errors = np.sqrt(np.einsum("nr,nri->ni", weights, left**2))[:, 1:]
-    moved = variances + steps[:, 1:]
+    moved = variances + steps[:, 1:] - steps[0, 1:]
     enough = weights.shape[1] >= FEWEST_RECORDS
     usable = np.all(moved > 0, axis=1) & (enough | (np.arange(len(moved)) == 0))
     values, errors = np.log(moved[usable]) / 2, errors[usable] / (2 * moved[usable])
-    return studentised(values[0], errors[0], values[1:], errors[1:], level)
+    return Band(
+        *(np.exp(each) for each in studentised(values[0], errors[0], values[1:], errors[1:], level, weights.shape[1]))
+    )
 
 
 def _derivatives(function: Callable[[Array], Array], unit: Array) -> tuple[Array, Array]:

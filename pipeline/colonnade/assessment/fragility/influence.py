@@ -34,6 +34,7 @@ class Influence:
     rate: Array | None
 
 
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # without a record the curve may be nearly flat
 def influence(outcomes: Outcomes, hazard: Hazard | None = None) -> Influence:
     """Leave out one record after the other; `hazard` is of the same measure."""
     rows = len(outcomes.records)

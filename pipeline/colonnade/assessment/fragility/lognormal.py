@@ -51,6 +51,8 @@ class LognormalFit:
         Of the histories, taken as independent; if separated its limit.
     level : float
         Of the intervals.
+    records : int
+        Their number.
     degenerate : float
         Share of the resamples that are left out of the intervals because they have no curve.
     fit, resampled : Parameters
@@ -63,6 +65,7 @@ class LognormalFit:
     beta: Interval
     log_likelihood: float
     level: float
+    records: int
     degenerate: float
     fit: Parameters
     resampled: Parameters
@@ -89,7 +92,7 @@ class LognormalFit:
         """
         value, error = _with_errors(function, self.fit)
         values, errors = _with_errors(function, self.resampled)
-        return studentised(value[0], error[0], values, errors, self.level)
+        return studentised(value[0], error[0], values, errors, self.level, self.records)
 
 
 def fit_lognormal(
@@ -123,7 +126,7 @@ def fit_lognormal(
 
     Notes
     -----
-    Maximum of the binomial likelihood on stripes (Baker 2015, eq. 11), which holds for any intensities. Histories of
+    Maximum of the binomial likelihood on stripes (Baker 2015), which holds for any intensities. Histories of
     one record are not independent, so the standard errors are those of records (sandwich) and the intervals are
     studentised, of ln median and ln β.
     """
@@ -131,11 +134,10 @@ def fit_lognormal(
     weights = np.vstack((np.ones(len(outcomes.records)), record_weights(len(outcomes.records), resamples, seed)))
     parameters, log_likelihood, status = fit_parameters(cells, weights)
     all_records, resampled = (Parameters(*(each[part] for each in parameters)) for part in (slice(1), slice(1, None)))
-    usable = status[1:] == probit.FITTED
-    if len(outcomes.records) < FEWEST_RECORDS:
-        usable[:] = False
+    has_curve = status[1:] == probit.FITTED
+    usable = has_curve & (len(outcomes.records) >= FEWEST_RECORDS)
     resampled = Parameters(*(each[usable] for each in resampled))
-    median, beta = _intervals(all_records, resampled, checked_level(level))
+    median, beta = _intervals(all_records, resampled, checked_level(level), len(outcomes.records))
     return LognormalFit(
         _reason(int(status[0]), cells),
         _rises(cells),
@@ -143,7 +145,8 @@ def fit_lognormal(
         beta,
         float(log_likelihood[0]),
         level,
-        float(1 - usable.mean()),
+        len(outcomes.records),
+        float(1 - has_curve.mean()),
         all_records,
         resampled,
     )
@@ -156,16 +159,16 @@ def _probabilities(values: ArrayLike) -> Array:
     return given
 
 
-def _intervals(fit: Parameters, resampled: Parameters, level: float) -> tuple[Interval, Interval]:
+@np.errstate(over="ignore", invalid="ignore")  # of few records a limit may be as good as infinite
+def _intervals(fit: Parameters, resampled: Parameters, level: float, records: int) -> tuple[Interval, Interval]:
     """Of median and β."""
     found = []
     for value, variance, values, variances in (
         (fit.log_median, fit.mm, resampled.log_median, resampled.mm),
         (fit.log_beta, fit.bb, resampled.log_beta, resampled.bb),
     ):
-        band = studentised(value, np.sqrt(variance), values[:, None], np.sqrt(variances)[:, None], level)
-        with np.errstate(over="ignore"):  # of few records a limit may be as good as infinite
-            found.append(Interval(*(float(np.exp(each[0])) for each in band)))
+        band = studentised(value, np.sqrt(variance), values[:, None], np.sqrt(variances)[:, None], level, records)
+        found.append(Interval(*(float(np.exp(each[0])) for each in band)))
     return found[0], found[1]
 
 

@@ -54,6 +54,7 @@ class AnnualRate:
     isotonic: float
 
 
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # of few records a resample may be nearly flat
 def annual_rate(hazard: Hazard, fit: LognormalFit, isotonic: IsotonicCurve) -> AnnualRate:
     """
     Put a fragility curve over a hazard curve of the same measure.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 
 from colonnade.arrays import Array
 from colonnade.dynamics.ensembles.ensemble import LARGEST_SEED
@@ -53,7 +54,7 @@ def checked_level(level: float) -> float:
     return number("level", level, "a probability between 0 and 1", above=0.0, below=1.0)
 
 
-def studentised(value: Array, error: Array, values: Array, errors: Array, level: float) -> Band:
+def studentised(value: Array, error: Array, values: Array, errors: Array, level: float, records: int) -> Band:
     """
     Give studentised bootstrap intervals (bootstrap-t).
 
@@ -65,6 +66,7 @@ def studentised(value: Array, error: Array, values: Array, errors: Array, level:
         The same of each resample.
     level : float
         Of the intervals.
+    records : int
 
     Returns
     -------
@@ -73,10 +75,14 @@ def studentised(value: Array, error: Array, values: Array, errors: Array, level:
 
     Notes
     -----
-    Efron and Tibshirani (1993, ch. 12). Second-order correct, like BCa, and unlike it not too narrow for few records:
-    `reports/fragility-study.md` shows its coverage.
+    Efron and Tibshirani (1993, ch. 12). Resamples of few records scatter too little: their quantiles are taken as far
+    out as Student's t is for that number of records (Hesterberg 2015). `reports/fragility-study.md` shows the coverage.
     """
     t = (values - value) / np.where(errors > 0, errors, np.nan)
-    tails = [(1 - level) / 2, (1 + level) / 2]
-    low, high = np.full((2, *value.shape), np.nan) if np.isnan(t).all() else np.nanquantile(t, tails, axis=0)
+    reach = np.sqrt(records / (records - 1)) * scipy.stats.t.ppf((1 + level) / 2, records - 1)
+    outside = scipy.stats.norm.sf(reach)
+    known = ~np.isnan(t).all(axis=0)
+    low, high = np.full((2, *value.shape), np.nan)
+    if known.any():
+        low[known], high[known] = np.nanquantile(t[:, known], [outside, 1 - outside], axis=0)
     return Band(value, value - high * error, value - low * error)

@@ -40,7 +40,10 @@ def striped(cells: Cells) -> Stripes:
     distinct = np.unique(np.round(y[counted], 9))
     if distinct.size > MOST_STRIPES:
         distinct = np.unique(np.quantile(y[counted], (np.arange(MOST_STRIPES) + 0.5) / MOST_STRIPES))
-    place = np.searchsorted((distinct[1:] + distinct[:-1]) / 2, y)
+    edges = (distinct[1:] + distinct[:-1]) / 2
+    # Between two quantiles there may be nothing.
+    distinct = np.unique(np.searchsorted(edges, y[counted]))
+    place = np.minimum(np.searchsorted(distinct, np.searchsorted(edges, y)), distinct.size - 1)
     rows = np.repeat(np.arange(y.shape[0])[:, None], y.shape[1], axis=1)
     flat = (rows * distinct.size + place).ravel()
     shape = (y.shape[0], distinct.size)

@@ -1,0 +1,74 @@
+"""The study of fragility curves: what its numbers promise, and that it gives them again."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import fragility_study
+from fragilities.page import page
+from fragilities.population import MEDIAN, Population
+from fragilities.trial import PROBABILITIES, run
+
+REPORTS = Path(__file__).resolve().parents[2] / "reports"
+LEAST, MOST = 0.92, 0.98
+"""Of a coverage of 95 %, within two standard errors of 200 repetitions."""
+
+JUDGED = ("median", "beta", *(f"P = {true:g}" for true in PROBABILITIES))
+
+
+@pytest.fixture(scope="module")
+def found():
+    return json.loads((REPORTS / "fragility-study.json").read_text(encoding="utf-8"))
+
+
+def check_promises(designs):
+    """Intervals of lognormal curves cover; a curve that is not lognormal is found; isotonic intervals hold then too."""
+    for design in designs.values():
+        shares = design["shares"]
+        isotonic = [share for name, share in shares.items() if name.startswith("isotonic")]
+        assert min(isotonic) >= LEAST
+        if design["population"]["two_kinds"]:
+            assert shares["misfit"] >= 0.9
+        else:
+            assert all(LEAST <= shares[name] <= MOST for name in JUDGED)
+            assert shares["misfit"] <= 0.1
+
+
+def test_the_stored_study_keeps_its_promises(found):
+    assert found["repetitions"] >= 200
+    check_promises(found["designs"])
+
+
+def test_its_page_is_made_from_its_numbers(found):
+    assert (REPORTS / "fragility-study.md").read_text(encoding="utf-8") == page(found)
+
+
+def test_a_small_study_writes_its_page(tmp_path, monkeypatch):
+    few = dict(list(fragility_study.POPULATIONS.items())[3:5])
+    monkeypatch.setattr(fragility_study, "POPULATIONS", few)
+    found = fragility_study.study(2, 7, 1)
+    fragility_study.write(found, tmp_path)
+    assert "With 2 repetitions" in (tmp_path / "fragility-study.md").read_text(encoding="utf-8")
+    held = [run(few["two kinds, 30 records"], 7, number) for number in range(2)]
+    shares = {key: np.mean([each[key] for each in held]) for key in held[0]}
+    assert found["designs"]["two kinds, 30 records"]["shares"] == shares
+
+
+@pytest.mark.parametrize("two_kinds", [False, True])
+def test_a_population_overturns_as_often_as_it_says(two_kinds):
+    population = Population(records=4000, draws=2, two_kinds=two_kinds)
+    shares = population.sample(np.random.default_rng(1)).overturned.mean(axis=(0, 2, 3))
+    np.testing.assert_allclose(shares, population.probability(population.intensity), atol=0.025)
+    assert population.probability(np.array([MEDIAN])) == pytest.approx([0.5])
+
+
+@pytest.mark.slow
+def test_the_whole_study_gives_its_numbers_again(found):
+    again = fragility_study.study(found["repetitions"], found["seed"], fragility_study.WORKERS)
+    check_promises(again["designs"])
+    for name, design in found["designs"].items():
+        assert again["designs"][name]["shares"] == pytest.approx(design["shares"], abs=0.01)
