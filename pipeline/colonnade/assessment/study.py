@@ -1,0 +1,236 @@
+"""An assessment from the records to the answer: measured and scaled, then run by whoever has the cores, then judged."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from colonnade.arrays import Array
+from colonnade.assessment.cases.cases import COMPONENTS, Cases, Outcomes, factors_at
+from colonnade.assessment.cases.levels import default_levels
+from colonnade.assessment.cases.prototype import Prototype, draw
+from colonnade.assessment.fragility import outcomes as counted
+from colonnade.assessment.fragility.hazard import Hazard
+from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES
+from colonnade.assessment.fragility.summary import Fragility, summarise
+from colonnade.assessment.intensity.baselines import NONE, baseline_of
+from colonnade.assessment.intensity.ground import LARGEST_DRIFT, Ground
+from colonnade.assessment.intensity.measured import measured
+from colonnade.assessment.intensity.registry import MEASURES, Measure, measure_of
+from colonnade.dynamics.models.nonlinear import NONLINEAR
+from colonnade.dynamics.motion import Motion
+
+DRAWS = 8
+"""Columns that are drawn besides the one with nothing varied."""
+
+WITH_COMPONENT = {"x": "acceleration", "y": "transverse"}
+"""Attribute of a motion that holds each horizontal component."""
+
+
+@dataclass(frozen=True)
+class Study:
+    """
+    What is run, and what is known of the records.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Of the records that are run.
+    cases : Cases
+    measure : Measure
+        Over which the records are scaled.
+    levels : ndarray, shape (levels,)
+        Of it, SI, rising.
+    values : dict of str to ndarray, shape (records, components)
+        Measures of the records as recorded, SI, by id; NaN of a component that is not there or has none.
+    drift : ndarray, shape (records,)
+        Largest velocity at the end of a component over its peak velocity.
+    left_out : dict of str to str
+        Records that cannot be scaled over the measure, and why.
+    """
+
+    names: tuple[str, ...]
+    cases: Cases
+    measure: Measure
+    levels: Array
+    values: dict[str, Array]
+    drift: Array
+    left_out: dict[str, str]
+
+    def of(self, prototype: Prototype) -> Study:
+        """Return the study of another column with nothing varied, on the same records at the same levels."""
+        return replace(self, cases=replace(self.cases, prototype=prototype, draws=draw(prototype, 0)))
+
+
+def plan_study(
+    prototype: Prototype,
+    motions: Mapping[str, Motion],
+    *,
+    measure: str = "pgv",
+    levels: ArrayLike | None = None,
+    measures: Sequence[str] | None = None,
+    draws: int = DRAWS,
+    model: str = NONLINEAR.name,
+    drift: float = LARGEST_DRIFT,
+    baseline: str = NONE,
+    seed: int = 0,
+) -> Study:
+    """
+    Measure the records, scale them, and plan the histories.
+
+    Parameters
+    ----------
+    prototype : Prototype
+    motions : mapping of str to Motion
+        Records by name; `transverse` is their second horizontal component.
+    measure : str, optional
+        Id of the measure over which they are scaled.
+    levels : array_like, optional
+        Of it, SI; chosen so that the share of records that overturn goes from 0 to 1 if not given.
+    measures : sequence of str, optional
+        Ids of the measures that are compared with it; default all.
+    draws : int, optional
+        Columns that are drawn, the same at all levels.
+    model : str, optional
+        A plane one.
+    drift, baseline : optional
+        As of `intensity_measures`; a correction applies to the motions that are run.
+    seed : int, optional
+
+    Returns
+    -------
+    study : Study
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or no record has the measure.
+    """
+    scaled_over, block = measure_of(measure), prototype.block
+    if not scaled_over.power:
+        raise ValueError(f"{scaled_over.id} does not grow with a motion; a measure that does was expected")
+    baseline_of(baseline)
+    compared = [scaled_over, *map(measure_of, MEASURES if measures is None else measures)]
+    corrected = {name: _corrected(motion, baseline) for name, motion in motions.items()}
+    values = {each.id: np.full((len(motions), len(COMPONENTS)), np.nan) for each in compared}
+    drifts, reasons = np.zeros(len(motions)), {}
+    for row, (name, motion) in enumerate(corrected.items()):
+        for column, component in enumerate(COMPONENTS):
+            along = getattr(motion, WITH_COMPONENT[component])
+            if along is None:
+                continue
+            ground = Ground(along, motion.dt, block.gravity)
+            drifts[row] = max(drifts[row], ground.drift)
+            for each in compared:
+                values[each.id][row, column], reason = measured(each, ground, block, drift=drift)
+                if reason and each is scaled_over:
+                    reasons[name] = reason
+    usable = np.isfinite(values[scaled_over.id]).any(axis=1)
+    if not usable.any():
+        why = next(iter(reasons.values()), "there is no record")
+        raise ValueError(f"No record has a {scaled_over.name}: {why}")
+    kept = [name for name, is_in in zip(corrected, usable, strict=True) if is_in]
+    chosen = tuple(corrected[name] for name in kept)
+    values = {name: each[usable] for name, each in values.items()}
+    # A measure that grows with the square of a motion is scaled by its root.
+    proportional = values[scaled_over.id] ** (1 / scaled_over.power)
+    if levels is None:
+        found = default_levels(prototype, chosen, proportional, model=model) ** scaled_over.power
+    else:
+        found = np.unique(np.asarray(levels, dtype=np.float64))
+    factors = factors_at(found ** (1 / scaled_over.power), proportional)
+    cases = Cases(prototype, draw(prototype, draws, seed), chosen, factors, model)
+    left_out = {name: reasons[name] for name in corrected if name not in kept}
+    return Study(tuple(kept), cases, scaled_over, found, values, drifts[usable], left_out)
+
+
+def judge(
+    study: Study,
+    outcomes: Outcomes,
+    *,
+    overturned: float = 1.0,
+    hazard: Hazard | None = None,
+    magnitude: ArrayLike | None = None,
+    distance: ArrayLike | None = None,
+    level: float = LEVEL,
+    resamples: int = RESAMPLES,
+    seed: int = 0,
+) -> Fragility:
+    """
+    Judge the outcomes of a study.
+
+    Parameters
+    ----------
+    study : Study
+    outcomes : Outcomes
+        Of its cases.
+    overturned : float, optional
+        A largest |θ|/α above this counts as overturned.
+    hazard : Hazard, optional
+        Of the study's measure.
+    magnitude, distance : array_like, shape (records,), optional
+        Of the earthquakes; NaN if not known.
+    level, resamples, seed : optional
+        As of `summarise`.
+
+    Returns
+    -------
+    fragility : Fragility
+        Signs and components are its directions.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or there are too few records.
+    """
+    records, levels, draws, signs, components = outcomes.outcome.shape
+    directions = (records, levels, draws, signs * components)
+    peak = np.where(outcomes.is_run & np.isnan(outcomes.peak_ratio), np.inf, outcomes.peak_ratio)
+    gathered = counted.gather(
+        study.names,
+        np.broadcast_to(study.levels, (records, levels)),
+        np.where(outcomes.is_run, peak, np.nan).reshape(directions),
+        outcomes.exceeds(overturned).reshape(directions),
+    )
+    return summarise(
+        gathered,
+        threshold=_threshold(study),
+        hazard=hazard,
+        measures=_scaled(study, signs),
+        magnitude=magnitude,
+        distance=distance,
+        level=level,
+        resamples=resamples,
+        seed=seed,
+    )
+
+
+def _corrected(motion: Motion, baseline: str) -> Motion:
+    if baseline == NONE:
+        return motion
+    correct = baseline_of(baseline).correct
+    parts = (motion.acceleration, motion.vertical, motion.transverse)
+    along, vertical, transverse = (None if part is None else correct(part, motion.dt) for part in parts)
+    return Motion(along, motion.dt, vertical, transverse)
+
+
+def _threshold(study: Study) -> tuple[float, float] | None:
+    """Peak accelerations at which the drawn columns uplift, where these alone decide it."""
+    if study.measure.id != "pga" or any(motion.vertical is not None for motion in study.cases.motions):
+        return None
+    uplifting = study.cases.prototype.block.gravity * np.tan(study.cases.draws.of("critical_angle"))
+    return float(uplifting.min()), float(uplifting.max())
+
+
+def _scaled(study: Study, signs: int) -> dict[str, Array]:
+    """Measures of the scaled records that all of them have, shape (records, levels, directions)."""
+    found = {}
+    for name, recorded in study.values.items():
+        runs = np.isfinite(study.cases.factors).any(axis=1)
+        if np.isfinite(recorded[runs]).all():
+            values = recorded[:, None, :] * study.cases.factors ** measure_of(name).power
+            found[name] = np.tile(values, (1, 1, signs))
+    return found

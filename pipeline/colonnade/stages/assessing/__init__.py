@@ -1,0 +1,1 @@
+"""The real column of an assessment, and the answer about it."""

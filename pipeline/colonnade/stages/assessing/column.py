@@ -1,0 +1,97 @@
+"""The real column of a specimen: its properties, and the limits of what is not known."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+import numpy as np
+import xarray as xr
+
+from colonnade.assessment.cases.prototype import Prototype
+from colonnade.campaign.assessing import prototype as written
+from colonnade.dynamics.block import Block, Sided, pair
+from colonnade.dynamics.ensembles.uncertainty import member_block
+from colonnade.dynamics.similitude import at_prototype
+from colonnade.stages.parts.inputs import Inputs
+
+USUAL_MARGIN = 0.02
+"""To either side of e, if neither limits nor an interval are known."""
+
+
+class ColumnInputs(Inputs):
+    """What is read of the campaign about a real column: its model, how many times larger it is, what is assumed."""
+
+    block: Block
+    scale: float
+    prototype: written.Prototype
+
+
+def real_column(inputs: ColumnInputs, pooled: xr.Dataset) -> tuple[Prototype, str]:
+    """
+    Put together the real column.
+
+    Parameters
+    ----------
+    inputs : ColumnInputs
+    pooled : xr.Dataset
+        Result of `specimen`: the e of the model.
+
+    Returns
+    -------
+    column : Prototype
+    source : str
+        Of its e: "given", "identified" or "rigid-body".
+    """
+    given = inputs.prototype
+    block = _enlarged(inputs.block, inputs.scale)
+    factors = (
+        (1.0 if given.critical_angle is None else given.critical_angle / block.critical_angle),
+        (1.0 if given.p is None else given.p / block.p),
+    )
+    if factors != (1.0, 1.0):
+        block = member_block(block, *factors)
+    restitution, limits, source = _restitution(given, block, pooled)
+    column = Prototype(
+        block,
+        restitution,
+        given.friction,
+        given.restitution_range or limits,
+        given.critical_angle_range,
+        given.p_range,
+        given.friction_range,
+    )
+    return column, source
+
+
+def _enlarged(block: Block, scale: float) -> Block:
+    """Enlarge a model of the same material; angles stay, lengths, mass and inertia grow."""
+    sides = block.sides
+    return Block.measured(
+        mass=at_prototype("mass", block.mass, scale),
+        pole_distance=(
+            at_prototype("length", sides[0].pole_distance, scale),
+            at_prototype("length", sides[1].pole_distance, scale),
+        ),
+        critical_angle=(sides[0].critical_angle, sides[1].critical_angle),
+        inertia=(at_prototype("inertia", sides[0].inertia, scale), at_prototype("inertia", sides[1].inertia, scale)),
+        gravity=block.gravity,
+    )
+
+
+def _restitution(given: written.Prototype, block: Block, pooled: xr.Dataset) -> tuple[Sided, tuple[float, float], str]:
+    """Return e, its limits if none are given, and where it comes from."""
+    if given.restitution != "identified":
+        rigid = given.restitution == "rigid-body"
+        e = max(block.restitution, 0.0) if rigid else float(given.restitution)
+        return e, _around(e), "rigid-body" if rigid else "given"
+    negative, positive = (float(each) for each in pooled["side_restitution"])
+    e = float(np.mean((negative, positive)))
+    low, high = float(pooled["restitution_low"]), float(pooled["restitution_high"])
+    source = str(pooled.attrs["restitution_source"])
+    limits = (max(low, 0.0), min(high, 1.0)) if isfinite(low) and isfinite(high) and low < high else _around(e)
+    return (e if negative == positive else (negative, positive)), limits, source
+
+
+def _around(restitution: Sided) -> tuple[float, float]:
+    e = float(np.mean(pair(restitution)))
+    return max(e - USUAL_MARGIN, 0.0), min(e + USUAL_MARGIN, 1.0)

@@ -1,0 +1,135 @@
+"""An assessment before its histories are run: the real column, the records at their levels, and what is varied."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from colonnade.assessment.cases.prototype import Prototype
+from colonnade.assessment.intensity.baselines import NONE
+from colonnade.assessment.study import Study, plan_study
+from colonnade.campaign import Campaign
+from colonnade.campaign.assessing.assessment import Assessment
+from colonnade.dynamics.block import pair
+from colonnade.errors import StageError
+from colonnade.readers.ground_motions.hazard import Hazard
+from colonnade.readers.ground_motions.record_set import RecordSet
+from colonnade.stages.assessing.column import USUAL_MARGIN, ColumnInputs, real_column
+
+ASSUMED, UNCORRECTED = "as assumed", "records as they are"
+"""The columns and records of the answer; the records without the correction that was asked for."""
+
+
+class AssessmentInputs(ColumnInputs):
+    """What an assessment reads of the campaign."""
+
+    specimen: str
+    asked: Assessment
+
+    @classmethod
+    def of(cls, campaign: Campaign, asked: Assessment) -> AssessmentInputs:
+        """Gather what an assessment reads; of its files the names: their content enters the key by itself."""
+        specimen = campaign.specimens[asked.specimen]
+        return cls(
+            block=specimen.block(campaign.gravity),
+            scale=asked.scale or specimen.scale or 1.0,
+            prototype=campaign.prototype[asked.specimen],
+            specimen=asked.specimen,
+            asked=asked.model_copy(
+                update={"records": Path(asked.records.name), "hazard": asked.hazard and Path(asked.hazard.name)}
+            ),
+        )
+
+
+@dataclass(frozen=True)
+class Plan:
+    """
+    An assessment before its histories are run.
+
+    Attributes
+    ----------
+    inputs : AssessmentInputs
+    records : RecordSet
+    hazard : Hazard or None
+    restitution_source : str
+    studies : dict of str to Study
+        `ASSUMED`, and what is compared with it.
+    """
+
+    inputs: AssessmentInputs
+    records: RecordSet
+    hazard: Hazard | None
+    restitution_source: str
+    studies: dict[str, Study]
+
+
+def plan_assessment(
+    pooled: xr.Dataset, records: RecordSet, hazard: Hazard | None, inputs: AssessmentInputs
+) -> Plan:
+    """
+    Plan an assessment.
+
+    Parameters
+    ----------
+    pooled : xr.Dataset
+        Result of `specimen`.
+    records : RecordSet
+    hazard : Hazard or None
+        Of the measure that is asked for.
+    inputs : AssessmentInputs
+
+    Raises
+    ------
+    StageError
+        If there are too few records for an answer.
+    """
+    column, source = real_column(inputs, pooled)
+    asked = inputs.asked
+    if len(records.records) < 2:
+        reasons = "; ".join(f"{each.name}: {each.reason}" for each in records.left_out[:3])
+        raise StageError(
+            f"{len(records.records)} ground motions can be used; at least 2 were expected."
+            + (f" Left out: {reasons}" if reasons else "")
+        )
+    motions = {each.name: each.motion for each in records.records}
+
+    def planned(baseline: str) -> Study:
+        return plan_study(
+            column,
+            motions,
+            measure=asked.measure,
+            levels=asked.levels_in_si(),
+            measures=asked.measures,
+            draws=asked.draws,
+            model=asked.model,
+            drift=asked.drift,
+            baseline=baseline,
+            seed=asked.seed,
+        )
+
+    try:
+        study = planned(asked.baseline)
+        studies = {ASSUMED: study} | {name: study.of(other) for name, other in _variants(column).items()}
+        if asked.baseline != NONE:
+            studies[UNCORRECTED] = planned(NONE).of(column)
+    except ValueError as error:
+        raise StageError(str(error)) from error
+    return Plan(inputs, records, hazard, source, studies)
+
+
+def _variants(column: Prototype) -> dict[str, Prototype]:
+    """Give the column as assumed, with the e of a rigid body, and with a smaller and a larger e."""
+    e = np.array(pair(column.restitution))
+    changed = {
+        "nothing varied": e,
+        "e of a rigid body": np.full(2, max(column.block.restitution, 0.0)),
+        f"e smaller by {USUAL_MARGIN:g}": np.maximum(e - USUAL_MARGIN, 0.0),
+        f"e larger by {USUAL_MARGIN:g}": np.minimum(e + USUAL_MARGIN, 1.0),
+    }
+    return {
+        name: replace(column, restitution=float(both[0]) if both[0] == both[1] else (float(both[0]), float(both[1])))
+        for name, both in changed.items()
+    }

@@ -1,0 +1,130 @@
+"""Assessment: the outcomes of a real column on scaled ground motions -> how probably it overturns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from colonnade.arrays import Array
+from colonnade.assessment.cases.cases import AXES, COMPONENTS, Outcomes
+from colonnade.assessment.cases.prototype import UNCERTAIN
+from colonnade.assessment.cases.sliding import FrictionNeeded, friction_needed, holds
+from colonnade.assessment.fragility.hazard import hazard_curve
+from colonnade.assessment.fragility.summary import Fragility
+from colonnade.assessment.study import judge
+from colonnade.errors import StageError
+from colonnade.stages.assessing.answer import answer
+from colonnade.stages.assessing.plan import ASSUMED, Plan
+
+CURVE = 101
+"""Points at which the lognormal curve is stored, over the levels and half as far beyond either end."""
+
+
+def assessment(plan: Plan, outcomes: Mapping[str, Outcomes]) -> xr.Dataset:
+    """
+    Judge the histories of an assessment.
+
+    Parameters
+    ----------
+    plan : Plan
+    outcomes : mapping of str to Outcomes
+        Of each of its studies.
+
+    Returns
+    -------
+    result : xr.Dataset
+        Outcomes over the axes `AXES`, the drawn columns, the friction needed, and the curves over the measure; the
+        attribute `answer` is an `AssessmentSummary` as JSON.
+
+    Raises
+    ------
+    StageError
+        If the outcomes allow no answer.
+    """
+    about = {each.name: each for each in plan.records.records}
+    names = plan.studies[ASSUMED].names
+    magnitude = _known([about[name].magnitude for name in names])
+    distance = _known([about[name].distance for name in names])
+
+    def judged(name: str) -> Fragility:
+        hazard = plan.hazard if name == ASSUMED else None
+        return judge(
+            plan.studies[name],
+            outcomes[name],
+            overturned=plan.inputs.asked.overturned,
+            hazard=None if hazard is None else hazard_curve(hazard.intensity, hazard.rate),
+            magnitude=magnitude if name == ASSUMED else None,
+            distance=distance if name == ASSUMED else None,
+            resamples=plan.inputs.asked.resamples,
+            seed=plan.inputs.asked.seed,
+        )
+
+    try:
+        fragilities = {name: judged(name) for name in plan.studies}
+    except ValueError as error:
+        raise StageError(str(error)) from error
+    needed = friction_needed(plan.studies[ASSUMED].cases)
+    found = answer(plan, outcomes[ASSUMED], fragilities, _sliding(plan, outcomes[ASSUMED], needed))
+    result = _dataset(plan, outcomes[ASSUMED], needed, fragilities[ASSUMED])
+    return result.assign_attrs(
+        answer=found.model_dump_json(),
+        restitution_source=plan.restitution_source,
+        record_files=[file for each in found.records_used for file in each.files],
+        record_sha256=[digest for each in found.records_used for digest in each.files.values()],
+        warnings=list(found.findings()),
+    )
+
+
+def _known(values: list[float | None]) -> Array | None:
+    """Values with NaN for those that are missing; None if all are."""
+    found = np.array([np.nan if value is None else value for value in values])
+    return None if np.isnan(found).all() else found
+
+
+def _sliding(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded) -> float | None:
+    """Share of the histories that need more friction than there is; None if none is given."""
+    cases = plan.studies[ASSUMED].cases
+    if cases.prototype.friction is None:
+        return None
+    run = outcomes.is_run
+    return float((~holds(needed, cases.draws.of("friction")) & run).sum() / run.sum())
+
+
+def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: Fragility) -> xr.Dataset:
+    study = plan.studies[ASSUMED]
+    reach = np.sqrt(study.levels[-1] / study.levels[0])
+    over = np.geomspace(study.levels[0] / reach, study.levels[-1] * reach, CURVE)
+    lognormal = fragility.lognormal.probability(over)
+    isotonic = fragility.isotonic
+    drawn = {f"drawn_{name}": ("draw", study.cases.draws.of(name)) for name in UNCERTAIN}
+    curves = {
+        f"{kind}_probability{end}": (dimension, values)
+        for kind, dimension, band in (
+            ("lognormal", "curve", lognormal),
+            ("isotonic", "stripe", isotonic.probability),
+        )
+        for end, values in zip(("", "_low", "_high"), band, strict=True)
+    }
+    return xr.Dataset(
+        {
+            "case_outcome": (AXES, outcomes.outcome),
+            "case_peak_ratio": (AXES, outcomes.peak_ratio),
+            "case_factor": (("record", "level", "component"), study.cases.factors),
+            "case_friction": (("record", "level", "sign", "component"), needed.largest),
+            "curve_intensity": ("curve", over),
+            "stripe_intensity": ("stripe", isotonic.intensity),
+            **curves,
+            **drawn,
+            **{
+                f"record_{name}": (("record", "component"), values)
+                for name, values in study.values.items() if name in STORED
+            },
+        },
+        coords={
+            "record": np.array(study.names, dtype=object),
+            "level_intensity": ("level", study.levels),
+            "component": np.array(COMPONENTS, dtype=object),
+        },
+    )
