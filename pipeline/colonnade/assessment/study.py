@@ -26,6 +26,9 @@ from colonnade.dynamics.motion import Motion
 DRAWS = 8
 """Columns that are drawn besides the one with nothing varied."""
 
+USUAL = tuple(name for name, measure in MEASURES.items() if not measure.needs_block)
+"""Measures that are compared if none are named: over one block the others are in proportion to these."""
+
 WITH_COMPONENT = {"x": "acceleration", "y": "transverse"}
 """Attribute of a motion that holds each horizontal component."""
 
@@ -91,7 +94,7 @@ def plan_study(
     levels : array_like, optional
         Of it, SI; chosen so that the share of records that overturn goes from 0 to 1 if not given.
     measures : sequence of str, optional
-        Ids of the measures that are compared with it; default all.
+        Ids of the measures that are compared with it; default `USUAL`.
     draws : int, optional
         Columns that are drawn, the same at all levels.
     model : str, optional
@@ -113,7 +116,7 @@ def plan_study(
     if not scaled_over.power:
         raise ValueError(f"{scaled_over.id} does not grow with a motion; a measure that does was expected")
     baseline_of(baseline)
-    compared = [scaled_over, *map(measure_of, MEASURES if measures is None else measures)]
+    compared = [scaled_over, *map(measure_of, USUAL if measures is None else measures)]
     corrected = {name: _corrected(motion, baseline) for name, motion in motions.items()}
     values = {each.id: np.full((len(motions), len(COMPONENTS)), np.nan) for each in compared}
     drifts, reasons = np.zeros(len(motions)), {}
@@ -212,9 +215,8 @@ def _corrected(motion: Motion, baseline: str) -> Motion:
     if baseline == NONE:
         return motion
     correct = baseline_of(baseline).correct
-    parts = (motion.acceleration, motion.vertical, motion.transverse)
-    along, vertical, transverse = (None if part is None else correct(part, motion.dt) for part in parts)
-    return Motion(along, motion.dt, vertical, transverse)
+    others = (None if part is None else correct(part, motion.dt) for part in (motion.vertical, motion.transverse))
+    return Motion(correct(motion.acceleration, motion.dt), motion.dt, *others)
 
 
 def _threshold(study: Study) -> tuple[float, float] | None:
@@ -227,10 +229,10 @@ def _threshold(study: Study) -> tuple[float, float] | None:
 
 def _scaled(study: Study, signs: int) -> dict[str, Array]:
     """Measures of the scaled records that all of them have, shape (records, levels, directions)."""
-    found = {}
+    found, runs = {}, np.isfinite(study.cases.factors).any(axis=1)
     for name, recorded in study.values.items():
-        runs = np.isfinite(study.cases.factors).any(axis=1)
         if np.isfinite(recorded[runs]).all():
             values = recorded[:, None, :] * study.cases.factors ** measure_of(name).power
-            found[name] = np.tile(values, (1, 1, signs))
+            # What is not run has no say.
+            found[name] = np.tile(np.where(np.isfinite(study.cases.factors), values, 1.0), (1, 1, signs))
     return found

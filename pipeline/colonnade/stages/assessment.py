@@ -13,8 +13,10 @@ from colonnade.assessment.cases.prototype import UNCERTAIN
 from colonnade.assessment.cases.sliding import FrictionNeeded, friction_needed, holds
 from colonnade.assessment.fragility.hazard import hazard_curve
 from colonnade.assessment.fragility.summary import Fragility
+from colonnade.assessment.intensity.registry import measure_of
 from colonnade.assessment.study import judge
 from colonnade.errors import StageError
+from colonnade.findings import warning
 from colonnade.stages.assessing.answer import answer
 from colonnade.stages.assessing.plan import ASSUMED, Plan
 
@@ -70,10 +72,11 @@ def assessment(plan: Plan, outcomes: Mapping[str, Outcomes]) -> xr.Dataset:
     result = _dataset(plan, outcomes[ASSUMED], needed, fragilities[ASSUMED])
     return result.assign_attrs(
         answer=found.model_dump_json(),
+        measure_asked=f"{found.measure} [{found.unit or '1'}]",
         restitution_source=plan.restitution_source,
         record_files=[file for each in found.records_used for file in each.files],
         record_sha256=[digest for each in found.records_used for digest in each.files.values()],
-        warnings=list(found.findings()),
+        warnings=[warning("assessment", said) for said in found.warnings],
     )
 
 
@@ -94,6 +97,7 @@ def _sliding(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded) -> float | 
 
 def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: Fragility) -> xr.Dataset:
     study = plan.studies[ASSUMED]
+    units = [measure_of(name).unit or "1" for name in study.values]
     reach = np.sqrt(study.levels[-1] / study.levels[0])
     over = np.geomspace(study.levels[0] / reach, study.levels[-1] * reach, CURVE)
     lognormal = fragility.lognormal.probability(over)
@@ -117,14 +121,13 @@ def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: 
             "stripe_intensity": ("stripe", isotonic.intensity),
             **curves,
             **drawn,
-            **{
-                f"record_{name}": (("record", "component"), values)
-                for name, values in study.values.items() if name in STORED
-            },
+            "record_measure": (("measure", "record", "component"), np.stack(list(study.values.values()))),
         },
         coords={
             "record": np.array(study.names, dtype=object),
             "level_intensity": ("level", study.levels),
             "component": np.array(COMPONENTS, dtype=object),
+            "measure": np.array(list(study.values), dtype=object),
+            "measure_unit": ("measure", np.array(units, dtype=object)),
         },
     )

@@ -68,6 +68,8 @@ _FEW_ARCS = (
     "If too few arcs are above the lowest amplitude to identify it, the mean velocity ratio of the impacts: see the "
     "attribute contact_restitution_source."
 )
+_CASES = "0 no rocking, 1 rocking, 2 overturned, -1 not run, -2 its base falls faster than the column."
+_MEASURED = "In the unit of the measure, see the attribute measure_asked."
 _ORDERS = "k: it repeats every k cycles of the base; 0 at rest, -1 irregular, -2 overturned."
 
 VARIABLES: dict[str, Variable] = {
@@ -246,4 +248,27 @@ VARIABLES: dict[str, Variable] = {
     "steady_order": Variable("order of the steady response", "1", MODELLED, dtype="int32", comment=_ORDERS),
     "steady_period": Variable("period of the steady response", "s", MODELLED),
     "steady_peak_ratio": Variable("peak angle of the steady response over the critical angle", "1", MODELLED),
+    # assessments
+    "record": Variable("ground motion", None, COORDINATE, dtype="str"),
+    "component": Variable("horizontal component of a ground motion", None, COORDINATE, dtype="str"),
+    "measure": Variable("measure of the intensity of a ground motion", None, COORDINATE, dtype="str"),
+    "measure_unit": Variable("SI unit of each measure", None, dtype="str"),
+    "level_intensity": Variable("measure to which the ground motions are scaled", "1", COORDINATE, comment=_MEASURED),
+    "record_measure": Variable("measure of each component as recorded", "1", MEASURED, comment="In its measure_unit."),
+    "case_outcome": Variable("outcome of each history", None, MODELLED, dtype="int8", comment=_CASES),
+    "case_peak_ratio": Variable("largest angle over the critical angle, missing if it overturns", "1", MODELLED),
+    "case_factor": Variable("factor on the ground motion, missing if it is not run", "1"),
+    "case_friction": Variable("friction that the column needs with nothing varied", "1", MODELLED),
+    "drawn_restitution": Variable("coefficient of restitution of each draw"),
+    "drawn_critical_angle": Variable("critical angle of each draw", "rad"),
+    "drawn_p": Variable("frequency parameter of each draw", "rad s-1"),
+    "drawn_friction": Variable("coefficient of friction of each draw"),
+    "curve_intensity": Variable("measure at which the lognormal curve is given", "1", MODELLED, comment=_MEASURED),
+    "stripe_intensity": Variable("measure at which the isotonic curve is given", "1", MODELLED, comment=_MEASURED),
+    "lognormal_probability": Variable("probability of overturning by the lognormal curve", "1", MODELLED),
+    "lognormal_probability_low": Variable("lower end of its interval", "1", QUALITY),
+    "lognormal_probability_high": Variable("upper end of its interval", "1", QUALITY),
+    "isotonic_probability": Variable("probability of overturning by the isotonic curve", "1", MODELLED),
+    "isotonic_probability_low": Variable("lower end of its interval", "1", QUALITY),
+    "isotonic_probability_high": Variable("upper end of its interval", "1", QUALITY),
 }

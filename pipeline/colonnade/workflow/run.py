@@ -116,10 +116,18 @@ def run(
         chosen = choose(loaded, forecasts, raw)
         if last == "report":
             walk.score(chosen.scored, outdated)
+            walk.assess(loaded.assessments)
         left_out = outdated | walk.failed_tests.keys()
         foreseen = foreseen_of(layout, forecasts, chosen, left_out)
         summary = write_summary(
-            loaded, layout, catalogue, outdated=outdated, failed=walk.failed_tests, foreseen=foreseen, workers=workers
+            loaded,
+            layout,
+            catalogue,
+            outdated=outdated,
+            failed=walk.failed_tests,
+            failed_assessments=walk.failed_assessments,
+            foreseen=foreseen,
+            workers=workers,
         )
         report = None
         if last == "report":

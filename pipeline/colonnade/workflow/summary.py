@@ -9,6 +9,7 @@ from functools import partial
 
 import colonnade
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.assessing.assessed import AssessmentSummary
 from colonnade.campaign.summary import SpecimenSummary, Summary, TestSummary
 from colonnade.store import files
 from colonnade.store.freshness import Recipe
@@ -18,7 +19,7 @@ from colonnade.store.records.stored import read_test
 from colonnade.store.records.table import as_csv
 from colonnade.store.records.test import record_of_test
 from colonnade.store.results import results_of
-from colonnade.workflow.catalogue import Catalogue
+from colonnade.workflow.catalogue import Catalogue, stored_attributes
 from colonnade.workflow.execution.spreading import spread
 from colonnade.workflow.forecasting.records import NOTHING_FORESEEN, Foreseen
 from colonnade.workflow.pooling import restitution_taken
@@ -34,6 +35,7 @@ def write_summary(
     *,
     outdated: Collection[str] = (),
     failed: Mapping[str, str] | None = None,
+    failed_assessments: Mapping[str, str] | None = None,
     foreseen: Foreseen = NOTHING_FORESEEN,
     workers: int | None = 1,
 ) -> Summary:
@@ -50,6 +52,8 @@ def write_summary(
         Tests whose stored results are out of date; they are reported as pending.
     failed : mapping of str to str, optional
         Why tests failed in this run, whether stored or not.
+    failed_assessments : mapping of str to str, optional
+        The same of assessments.
     foreseen : Foreseen, optional
         What was forecast.
     workers : int, optional
@@ -72,10 +76,26 @@ def write_summary(
         specimens={name: _of_specimen(campaign, layout, catalogue, name) for name in campaign.specimens},
         tests={name: each.model_copy(update={"forecast": foreseen.tests.get(name)}) for name, each in records.items()},
         forecasts=foreseen.together,
+        assessments=_assessments(campaign, layout, failed_assessments or {}),
     )
     files.write_text(layout.summary_json, summary.text())
     files.write_text(layout.summary_csv, as_csv(summary))
     return summary
+
+
+def _assessments(campaign: Campaign, layout: Layout, failed: Mapping[str, str]) -> dict[str, AssessmentSummary]:
+    """Return the records of assessments that were made or failed."""
+    found = {}
+    for name, asked in campaign.assessments.items():
+        stored = stored_attributes(layout.stage(name, "assessment"))
+        if name in failed or stored.get("status") == "failed":
+            reason = failed.get(name) or str(stored["reason"])
+            found[name] = AssessmentSummary(
+                status="failed", reason=reason, specimen=asked.specimen, measure=asked.measure
+            )
+        elif stored:
+            found[name] = AssessmentSummary.model_validate_json(stored["answer"])
+    return found
 
 
 def _of_specimen(campaign: Campaign, layout: Layout, catalogue: Catalogue, name: str) -> SpecimenSummary:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Literal
 
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.assessing.assessment import Assessment
 from colonnade.campaign.summary import Summary
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.interruption import expect_none
@@ -15,7 +17,8 @@ from colonnade.store import files
 from colonnade.store.forecasts import Known
 from colonnade.store.provenance import Origin
 from colonnade.store.results import RUN_STAGES, ResultId, models_of, results_of
-from colonnade.workflow.chain import Chain, if_up_to_date, remove_later
+from colonnade.workflow.chain import Chain, bring_up_to_date, if_up_to_date, remove_later
+from colonnade.workflow.execution.blocks import Counted, forget, in_blocks
 from colonnade.workflow.execution.cluster import Tell
 from colonnade.workflow.execution.processes import execute
 from colonnade.workflow.outcome import StageRun
@@ -163,6 +166,21 @@ class Walk:
 
         known = [name for name in self._campaign.specimens if name not in self.failed_specimens]
         self._walk_specimens(map_steps(self.graph, summary, known), self.workers)
+
+    def assess(self, assessments: Mapping[str, Assessment], tell: Counted | None = None) -> None:
+        """Bring assessments up to date, their histories in blocks on all processes."""
+        from colonnade.workflow.assessing.steps import assessing
+
+        spread = partial(in_blocks, workers=self.workers, scheduler=self.scheduler, progress=tell)
+        for name, asked in assessments.items():
+            step = assessing(self.graph, name, asked, spread)
+            if reason := self.failed_specimens.get(asked.specimen):
+                files.remove(step.path)
+                self.failed_assessments[name] = f"specimen {asked.specimen}: {reason}"
+                continue
+            chain = self.chain([step])
+            self._note(if_up_to_date(chain, self.graph.catalogue.attributes) or bring_up_to_date(chain))
+            forget(self.graph.layout.blocks(step.result))
 
     def score(self, forecasts: Mapping[str, Known], outdated: Collection[str]) -> None:
         """

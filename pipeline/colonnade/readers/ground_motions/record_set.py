@@ -64,6 +64,20 @@ class RecordSet:
     notes: tuple[str, ...]
 
 
+def files_of(path: Path) -> list[Path]:
+    """
+    List the files of a set of ground motions, with the list itself; what is in them is not looked at.
+
+    Raises
+    ------
+    ReadError
+        If there is no such folder or list, or the list is none.
+    """
+    if path.is_dir():
+        return [entry.path for entry in in_folder(path, [])]
+    return [path, *(entry.path for entry in read_list(path)[0])]
+
+
 def read_record_set(path: Path | str) -> RecordSet:
     """
     Read a set of ground motions.

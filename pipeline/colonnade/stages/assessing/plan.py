@@ -66,9 +66,7 @@ class Plan:
     studies: dict[str, Study]
 
 
-def plan_assessment(
-    pooled: xr.Dataset, records: RecordSet, hazard: Hazard | None, inputs: AssessmentInputs
-) -> Plan:
+def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | None, inputs: AssessmentInputs) -> Plan:
     """
     Plan an assessment.
 
