@@ -195,7 +195,7 @@ def _used(plan: Plan) -> tuple[RecordUsed, ...]:
 
 
 def _left_out(plan: Plan) -> tuple[RecordLeftOut, ...]:
-    named = [(each.name, each.reason) for each in plan.records.left_out]
+    named = [(each.name, each.reason.removeprefix(f"{each.name}: ")) for each in plan.records.left_out]
     return tuple(
         RecordLeftOut(record=name, reason=reason) for name, reason in (*named, *plan.studies[ASSUMED].left_out.items())
     )
@@ -211,7 +211,8 @@ def _warnings(plan: Plan, outcomes: Outcomes, found: Fragility, sliding: float |
         )
     if left_out:
         first = left_out[0]
-        said.append(f"{len(left_out)} ground motions are left out, such as {first.record}: {first.reason}")
+        others = "" if len(left_out) == 1 else f" and {len(left_out) - 1} more"
+        said.append(f"Left out: {first.record}{others}. {first.record}: {first.reason.splitlines()[0]}")
     if (falling := int((outcomes.outcome == FALLS_AWAY).sum())) > 0:
         said.append(
             f"{falling} histories are not run: their base falls faster than the column. Their levels are too high."
