@@ -17,7 +17,7 @@ WHOLE = {
 """Pages about the whole campaign: template and address, the overview last, so that what it links to is there."""
 
 FORECASTS, ASSESSMENTS = "forecasts.html", "assessments.html"
-OPTIONAL = {FORECASTS: "Forecasts", ASSESSMENTS: "The real column"}
+OPTIONAL = {ASSESSMENTS: "The real column", FORECASTS: "Forecasts"}
 """Pages that only some campaigns have, and their titles."""
 
 LIBRARY = ("scripts/bokeh.min.js", "scripts/bokeh-api.min.js")

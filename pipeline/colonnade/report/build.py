@@ -18,6 +18,7 @@ from colonnade.identification.restitution.estimators.registry import ESTIMATORS
 from colonnade.interruption import expect_none
 from colonnade.report import addresses, drawings, methods, pages, problems, specimens_page
 from colonnade.report.asked import Asked, asked_of
+from colonnade.report.assessments_page.page import assessments_page, symbol
 from colonnade.report.forecasts_page.page import forecasts_page
 from colonnade.report.interactive import tables
 from colonnade.report.interactive.scripts import scripts
@@ -37,6 +38,7 @@ from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
 from colonnade.store.records import advice as advising
 from colonnade.store.records.advice import Advice
+from colonnade.store.records.assessment import NOT_COVERED
 from colonnade.store.records.stored import read_specimen
 from colonnade.store.records.summary import read_summary
 from colonnade.units import format_percent
@@ -175,9 +177,13 @@ def render(
         yield from _page(renderer, "specimen", address, shown, made_from)
     for address, text in scripts().items():
         yield address, text, ""
-    foreseen = forecasts_page(layout, read_summary(layout))
+    summary = read_summary(layout)
+    foreseen, assessed = forecasts_page(layout, summary), assessments_page(campaign, layout, summary)
     shown = _shown(campaign, tests, specimens, used) | {"groups": grouped, "maps": mapped, "forecasts": foreseen}
     shown["advice"] = {"heads": advising.HEADS, "rows": [each.row() for each in advice]}
+    shown |= {"assessments": assessed, "symbol": symbol, "not_covered": NOT_COVERED}
+    if campaign.assessments:
+        yield from _page(renderer, "assessments", addresses.ASSESSMENTS, shown)
     if foreseen is not None:
         yield from _page(renderer, "forecasts", addresses.FORECASTS, shown)
     for template, address in addresses.WHOLE.items():

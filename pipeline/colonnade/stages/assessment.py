@@ -103,6 +103,15 @@ def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: 
     lognormal = fragility.lognormal.probability(over)
     isotonic = fragility.isotonic
     drawn = {f"drawn_{name}": ("draw", study.cases.draws.of(name)) for name in UNCERTAIN}
+    rate = fragility.rate
+    disaggregated = (
+        {}
+        if rate is None
+        else {
+            "rate_edge": ("edge", rate.edges),
+            "rate_share": ("part", rate.contributions),
+        }
+    )
     curves = {
         f"{kind}_probability{end}": (dimension, values)
         for kind, dimension, band in (
@@ -120,6 +129,7 @@ def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: 
             "curve_intensity": ("curve", over),
             "stripe_intensity": ("stripe", isotonic.intensity),
             **curves,
+            **disaggregated,
             **drawn,
             "record_measure": (("measure", "record", "component"), np.stack(list(study.values.values()))),
         },

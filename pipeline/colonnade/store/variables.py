@@ -271,4 +271,6 @@ VARIABLES: dict[str, Variable] = {
     "isotonic_probability": Variable("probability of overturning by the isotonic curve", "1", MODELLED),
     "isotonic_probability_low": Variable("lower end of its interval", "1", QUALITY),
     "isotonic_probability_high": Variable("upper end of its interval", "1", QUALITY),
+    "rate_edge": Variable("measures between which a share of the annual rate lies", "1", comment=_MEASURED),
+    "rate_share": Variable("share of the annual rate of overturning between two of them", "1", MODELLED),
 }

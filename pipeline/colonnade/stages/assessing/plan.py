@@ -123,9 +123,9 @@ def _variants(column: Prototype) -> dict[str, Prototype]:
     e = np.array(pair(column.restitution))
     changed = {
         "nothing varied": e,
-        "e of a rigid body": np.full(2, max(column.block.restitution, 0.0)),
-        f"e smaller by {USUAL_MARGIN:g}": np.maximum(e - USUAL_MARGIN, 0.0),
-        f"e larger by {USUAL_MARGIN:g}": np.minimum(e + USUAL_MARGIN, 1.0),
+        "the e of a rigid body": np.full(2, max(column.block.restitution, 0.0)),
+        f"an e smaller by {USUAL_MARGIN:g}": np.maximum(e - USUAL_MARGIN, 0.0),
+        f"an e larger by {USUAL_MARGIN:g}": np.minimum(e + USUAL_MARGIN, 1.0),
     }
     return {
         name: replace(column, restitution=float(both[0]) if both[0] == both[1] else (float(both[0]), float(both[1])))

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.foreseen import ForecastsSummary
-from colonnade.report.addresses import FORECASTS, addresses, of_data, of_test
+from colonnade.report.addresses import ASSESSMENTS, FORECASTS, addresses, of_data, of_test
 from colonnade.report.asked import asked_of, shows
 from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
@@ -68,7 +68,8 @@ def update_report(
         {path.relative_to(layout.processed).as_posix(): catalogue.content(path) for path in layout.results_there()},
     )
     folder = layout.report.parent
-    single, whole = addresses(campaign, [FORECASTS] if forecasts is not None else [])
+    optional = {ASSESSMENTS: bool(campaign.assessments), FORECASTS: forecasts is not None}
+    single, whole = addresses(campaign, [page for page, is_there in optional.items() if is_there])
     are_there = layout.state.is_file() and all(catalogue.stamp(folder / page) for page in single)
     recipes = _recipes(campaign, layout, catalogue, outdated, recipe.code)
     kept = _kept(folder, catalogue, recipes)

@@ -1,0 +1,150 @@
+"""The answer of an assessment in words."""
+
+from __future__ import annotations
+
+from colonnade.assessment.intensity.registry import measure_of
+from colonnade.campaign.assessing.assessed import AssessmentSummary, Estimate, Variant
+from colonnade.store.records.wording import NOTHING, number, quantity
+from colonnade.units import PERCENT, with_minus
+
+NOT_COVERED = (
+    "Not covered: columns of several drums, a plinth or a capital that moves by itself, anchorage, rocking in two "
+    "directions at once, and whether the records are those that the site has to expect."
+)
+
+SOURCES = {
+    "given": "as given",
+    "identified": "identified on the model and assumed for the column",
+    "rigid-body": "that of a rigid body",
+}
+"""Where e comes from."""
+
+
+def unit_of(measure: str) -> str:
+    """
+    Give the unit in which a measure is written.
+
+    Examples
+    --------
+    >>> unit_of("pga"), unit_of("pgv"), unit_of("pga_ratio")
+    ('g', 'm/s', '')
+    """
+    found = measure_of(measure)
+    return "g" if found.dimension == "acceleration" else found.unit
+
+
+def level(measure: str, value: float | None) -> str:
+    """
+    Write a value of a measure.
+
+    Examples
+    --------
+    >>> level("pga", 1.8501), level("pgv", 0.69754), level("pgv", None)
+    ('0.189 g', '0.698 m/s', '–')
+    """
+    return quantity(value, unit_of(measure)).strip()
+
+
+def estimated(measure: str, estimate: Estimate) -> str:
+    """
+    Write a value of a measure with its interval.
+
+    Examples
+    --------
+    >>> estimated("pgv", Estimate(value=1.15, low=0.92, high=1.34))
+    '1.15 m/s (0.92 to 1.34)'
+    >>> estimated("pgv", Estimate(value=1.15))
+    '1.15 m/s (interval beyond the levels)'
+    """
+    if estimate.value is None:
+        return NOTHING
+    ends = (estimate.low, estimate.high)
+    if None in ends:
+        said = [f"{word} {level(measure, end)}" for word, end in zip(("above", "below"), ends, strict=True) if end]
+        return f"{level(measure, estimate.value)} ({said[0] if said else 'interval beyond the levels'})"
+    low, high = (level(measure, end).partition(" ")[0] for end in ends)
+    return f"{level(measure, estimate.value)} ({low} to {high})"
+
+
+def percent(value: float | None) -> str:
+    r"""
+    Write a small probability with two digits.
+
+    Examples
+    --------
+    >>> percent(0.00413), percent(0.25), percent(2.2e-7)
+    ('0.41\xa0%', '25\xa0%', '2.2·10⁻⁵\xa0%')
+    """
+    return NOTHING if value is None else f"{with_minus(f'{100 * value:.2g}')}{PERCENT}"
+
+
+def sentences(record: AssessmentSummary) -> list[str]:
+    """Say the answer of an assessment: a sentence on each thing that was asked."""
+    if record.status == "failed":
+        return [f"There is no answer: {record.reason}"]
+    found = [_rocks(record), _overturns(record)]
+    if record.curve_reason:
+        found.append(f"This is read from a curve that only rises, not from a lognormal one: {record.curve_reason}.")
+    found += [*_restitution_matters(record), *_parts(record), *_rate(record), _assumed(record)]
+    return found
+
+
+def _rocks(record: AssessmentSummary) -> str:
+    return f"It starts to rock at {quantity(record.uplift_acceleration, 'g')} of horizontal acceleration."
+
+
+def _overturns(record: AssessmentSummary) -> str:
+    symbol = measure_of(record.measure).symbol
+    said = []
+    for share, estimate in ((5, record.five_percent), (50, record.fifty_percent)):
+        if estimate.value is None:
+            said.append(f"{share}{PERCENT} is not reached within the levels")
+        else:
+            said.append(f"{share}{PERCENT} at {symbol} {estimated(record.measure, estimate)}")
+    return f"It overturns with a probability of {', and of '.join(said)}. In brackets: 95{PERCENT} over the records."
+
+
+def _restitution_matters(record: AssessmentSummary) -> list[str]:
+    known = [each for each in record.variants if each.median.value is not None]
+    if len(known) < 2:
+        return []
+    first, *others = known
+    said = ", ".join(f"with {each.name} ({number(each.restitution)}) {_median(record, each)}" for each in others)
+    own = f"{_median(record, first)} with {first.name} (e {number(first.restitution)})"
+    return [f"Half of the records overturn it at {own}, {said}."]
+
+
+def _median(record: AssessmentSummary, variant: Variant) -> str:
+    return level(record.measure, variant.median.value)
+
+
+def _parts(record: AssessmentSummary) -> list[str]:
+    records, parameters = record.dispersion_records, record.dispersion_parameters
+    if record.dispersion.value is None or records is None or parameters is None:
+        return []
+    more = "records matter more than e, α and p" if records > parameters else "e, α and p matter more than the records"
+    return [
+        f"β is {number(record.dispersion.value, 2)}. From record to record it is {number(records, 2)}, within a record "
+        f"{number(parameters, 2)}: the {more}."
+    ]
+
+
+def _rate(record: AssessmentSummary) -> list[str]:
+    if record.annual_rate.value is None:
+        return []
+    years = record.probability_50_years
+    return [
+        f"With the hazard given it overturns {with_minus(f'{record.annual_rate.value:.2g}')} times a year, within 50 "
+        f"years with a probability of {percent(years.value)} ({percent(years.low)} to {percent(years.high)})."
+    ]
+
+
+def _assumed(record: AssessmentSummary) -> str:
+    e = record.restitution
+    limits = "" if e.low is None else f", drawn between {number(e.low)} and {number(e.high)}"
+    source = SOURCES[record.restitution_source or "given"]
+    sliding = "sliding is not judged" if record.sliding is None else "it does not slide"
+    return (
+        f"Assumed: α {number(record.critical_angle)} rad, p {number(record.p)} rad/s, e {number(e.value)} "
+        f"({source}{limits}); {sliding}. The records are scaled as they are."
+    )
