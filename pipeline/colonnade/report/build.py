@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from colonnade.assessment.criteria.registry import NOT_COMPUTED
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import settings
 from colonnade.identification.response.base_motion import LEAST_MOTION
@@ -182,6 +183,7 @@ def render(
     shown = _shown(campaign, tests, specimens, used) | {"groups": grouped, "maps": mapped, "forecasts": foreseen}
     shown["advice"] = {"heads": advising.HEADS, "rows": [each.row() for each in advice]}
     shown |= {"assessments": assessed, "symbol": symbol, "not_covered": NOT_COVERED}
+    shown["not_computed"] = NOT_COMPUTED
     if campaign.assessments:
         yield from _page(renderer, "assessments", addresses.ASSESSMENTS, shown)
     if foreseen is not None:

@@ -53,12 +53,10 @@ class JudgedMeasure(Record):
 
 
 class JudgedCriterion(Record):
-    """A criterion of practice against what was computed: numbers of records at levels."""
+    """A criterion of practice against what was computed: numbers of motions, each at a level, with nothing varied."""
 
     criterion: str
-    """Its name."""
-    source: str
-    """Who published it."""
+    """Its id."""
     right_overturned: int
     """It says that the column overturns (or rocks), and it does."""
     right_stands: int
@@ -67,6 +65,8 @@ class JudgedCriterion(Record):
     """It says that the column overturns (or rocks), and it does not."""
     missed: int
     """It says that it stands (or does not rock), and it does not."""
+    unknown: int = 0
+    """It says nothing, as the record drifts and has no velocity."""
 
 
 class DecidingRecord(Record):

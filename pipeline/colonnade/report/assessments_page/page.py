@@ -8,9 +8,10 @@ import numpy as np
 import xarray as xr
 
 from colonnade.arrays import Array
+from colonnade.assessment.criteria.registry import CRITERIA, Criterion
 from colonnade.assessment.intensity.registry import measure_of
 from colonnade.campaign import Campaign
-from colonnade.campaign.assessing.assessed import AssessmentSummary, RecordUsed
+from colonnade.campaign.assessing.assessed import AssessmentSummary, JudgedCriterion, RecordUsed
 from colonnade.campaign.summary import Summary
 from colonnade.dynamics.plane.outcomes import OVERTURNS
 from colonnade.errors import StoreError
@@ -52,6 +53,11 @@ class AssessmentShown(NamedTuple):
         """Write median and 5 % of a variant."""
         variant = self.record.variants[place]
         return estimated(self.record.measure, variant.median), estimated(self.record.measure, variant.five_percent)
+
+    def criteria(self) -> list[tuple[Criterion, JudgedCriterion]]:
+        """Give the criteria of practice with what was counted."""
+        known = {each.id: each for each in CRITERIA}
+        return [(known[each.criterion], each) for each in self.record.criteria if each.criterion in known]
 
     def heads(self) -> list[str]:
         """Heads of the measures in the table of records."""

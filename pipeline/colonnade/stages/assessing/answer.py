@@ -23,6 +23,7 @@ from colonnade.campaign.assessing.assessed import (
     Variant,
 )
 from colonnade.dynamics.block import pair
+from colonnade.stages.assessing.criteria import judged_criteria
 from colonnade.stages.assessing.plan import ASSUMED, Plan
 from colonnade.units import format_percent
 
@@ -95,6 +96,9 @@ def answer(
         rate_outside=None if rate is None else rate.below_hazard + rate.above_hazard,
         variants=tuple(_variant(plan, name, each) for name, each in fragilities.items() if name != ASSUMED),
         measures=_measures(found),
+        criteria=judged_criteria(
+            study, outcomes, drift=plan.inputs.asked.drift, overturned=plan.inputs.asked.overturned
+        ),
         deciding=_deciding(found),
         records_used=_used(plan),
         records_left_out=_left_out(plan),
