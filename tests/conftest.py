@@ -137,6 +137,21 @@ def foreseen_copy(foreseen: tuple[Path, Any], tmp_path: Path) -> Path:
     return tmp_path / "campaign"
 
 
+@pytest.fixture(scope="session")
+def assessed(made_once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
+    """A campaign with a real column that is assessed, after one real run; look only."""
+    from assessing import write_assessed
+    from colonnade.workflow.run import run
+
+    return made_once("assessed", lambda folder: run(write_assessed(folder), workers=1))
+
+
+@pytest.fixture
+def assessed_copy(assessed: Path, tmp_path: Path) -> Path:
+    """The same, to change."""
+    return Path(shutil.copytree(assessed, tmp_path / "assessed"))
+
+
 def _small_campaign() -> Any:
     """Import `small_campaign.py`, which is next to this file and in no package."""
     spec = importlib.util.spec_from_file_location("small_campaign", Path(__file__).with_name("small_campaign.py"))

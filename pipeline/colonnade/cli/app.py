@@ -10,6 +10,7 @@ from colonnade.cli.check import check
 from colonnade.cli.demo import demo
 from colonnade.cli.figure import figure
 from colonnade.cli.foresee import foresee
+from colonnade.cli.fragility import fragility
 from colonnade.cli.init import init
 from colonnade.cli.map import map_command
 from colonnade.cli.next import next_command
@@ -21,7 +22,7 @@ from colonnade.cli.watch import watch
 
 COMMANDS = (
     *(demo, init, check, run, ingest, identify, predict, report, watch, next_command),
-    *(foresee, map_command, spectrum, calibrate, figure, show, schema),
+    *(foresee, spectrum, fragility, map_command, calibrate, figure, show, schema),
 )
 
 

@@ -123,6 +123,7 @@ def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: 
     return xr.Dataset(
         {
             "case_outcome": (AXES, outcomes.outcome),
+            "case_overturned": (AXES, outcomes.exceeds(plan.inputs.asked.overturned).astype(np.int8)),
             "case_peak_ratio": (AXES, outcomes.peak_ratio),
             "case_factor": (("record", "level", "component"), study.cases.factors),
             "case_friction": (("record", "level", "sign", "component"), needed.largest),

@@ -256,6 +256,12 @@ VARIABLES: dict[str, Variable] = {
     "level_intensity": Variable("measure to which the ground motions are scaled", "1", COORDINATE, comment=_MEASURED),
     "record_measure": Variable("measure of each component as recorded", "1", MEASURED, comment="In its measure_unit."),
     "case_outcome": Variable("outcome of each history", None, MODELLED, dtype="int8", comment=_CASES),
+    "case_overturned": Variable(
+        "whether the angle goes beyond the share of the critical angle that counts as overturned",
+        None,
+        MODELLED,
+        dtype="int8",
+    ),
     "case_peak_ratio": Variable("largest angle over the critical angle, missing if it overturns", "1", MODELLED),
     "case_factor": Variable("factor on the ground motion, missing if it is not run", "1"),
     "case_friction": Variable("friction that the column needs with nothing varied", "1", MODELLED),

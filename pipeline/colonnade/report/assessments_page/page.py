@@ -13,7 +13,6 @@ from colonnade.assessment.intensity.registry import measure_of
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessing.assessed import AssessmentSummary, JudgedCriterion, RecordUsed
 from colonnade.campaign.summary import Summary
-from colonnade.dynamics.plane.outcomes import OVERTURNS
 from colonnade.errors import StoreError
 from colonnade.figures import fragility as figures
 from colonnade.figures.files.output import Picture
@@ -109,7 +108,7 @@ def _shown(layout: Layout, name: str, record: AssessmentSummary) -> AssessmentSh
         record,
         sentences(record),
         _columns(name, record, stored),
-        _curves(name, record, stored),
+        curves(name, record, stored),
         _rate(name, record, stored),
     )
 
@@ -125,10 +124,11 @@ def _factor(record: AssessmentSummary) -> float:
     return 1.0 / from_si(1.0, unit) if unit else 1.0
 
 
-def _curves(name: str, record: AssessmentSummary, stored: xr.Dataset) -> Picture:
+def curves(name: str, record: AssessmentSummary, stored: xr.Dataset) -> Picture:
+    """Draw the curves of an assessment that was made."""
     factor, outcome = _factor(record), stored["case_outcome"].to_numpy()
     run = (outcome >= 0).sum(axis=(0, 2, 3, 4))
-    shares = (outcome == OVERTURNS).sum(axis=(0, 2, 3, 4)) / np.maximum(run, 1)
+    shares = stored["case_overturned"].to_numpy().sum(axis=(0, 2, 3, 4)) / np.maximum(run, 1)
     isotonic = _curve(stored, "isotonic", "stripe_intensity", factor)
     lognormal = None if record.median.value is None else _curve(stored, "lognormal", "curve_intensity", factor)
     drawn = figures.fragility(

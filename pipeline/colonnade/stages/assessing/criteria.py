@@ -32,7 +32,8 @@ def judged_criteria(
     """
     run = np.asarray(outcomes.is_run[:, :, 0].any(axis=2))
     happened = {
-        "rocking": np.asarray((outcomes.outcome[:, :, 0] > 0).any(axis=2))[run],
+        # However little: what is called rocking elsewhere begins at a thousandth of α.
+        "rocking": np.asarray(outcomes.exceeds(np.finfo(np.float64).tiny)[:, :, 0].any(axis=2))[run],
         "overturning": np.asarray(outcomes.exceeds(overturned)[:, :, 0].any(axis=2))[run],
     }
     recorded = _recorded(study, drift)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,6 +20,8 @@ from colonnade.workflow.steps import FORMATS, Graph, Step
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from colonnade.stages.assessing.plan import AssessmentInputs
 
 MADE_BY = ("colonnade.stages.assessment", "colonnade.workflow.assessing")
 """Modules whose code makes assessments; what they import counts too."""
@@ -43,7 +44,7 @@ def assessing(graph: Graph, name: str, asked: Assessment, spread: Spread) -> Ste
 
     result, layout = ResultId(name, "assessment"), graph.layout
     code = graph.catalogue.code((*MADE_BY, FORMATS))
-    work = partial(_made, _Files.of(asked), spread, layout.blocks(result), code)
+    work = partial(made, asked, spread, layout.blocks(result), code)
     return Step(
         result,
         layout.path(result),
@@ -53,19 +54,6 @@ def assessing(graph: Graph, name: str, asked: Assessment, spread: Spread) -> Ste
         code,
         _given(asked, graph.catalogue),
     )
-
-
-@dataclass(frozen=True)
-class _Files:
-    """The ground motions and the hazard of an assessment; the measure that the hazard has to be of."""
-
-    records: Path
-    hazard: Path | None
-    measure: str
-
-    @classmethod
-    def of(cls, asked: Assessment) -> _Files:
-        return cls(asked.records, asked.hazard, asked.measure)
 
 
 def _given(asked: Assessment, catalogue: Catalogue) -> dict[str, str | None]:
@@ -83,9 +71,30 @@ def _digest(catalogue: Catalogue, path: Path) -> str | None:
     return None if found is None else found[1]
 
 
-def _made(
-    files: _Files, spread: Spread, blocks: Path, code: str, upstream: Mapping[str, Any], inputs: Any
+def made(
+    asked: Assessment, spread: Spread, blocks: Path, code: str, upstream: Mapping[str, Any], inputs: AssessmentInputs
 ) -> xr.Dataset:
+    """
+    Make an assessment.
+
+    Parameters
+    ----------
+    asked : Assessment
+        With the whole paths of its files.
+    spread : Spread
+    blocks : Path
+        Folder for the finished blocks of its histories.
+    code : str
+        Hash of the code, by which such blocks are known again.
+    upstream : mapping
+        The result of `specimen`.
+    inputs : AssessmentInputs
+
+    Raises
+    ------
+    ColonnadeError
+        If a file cannot be read, or the records allow no answer.
+    """
     from colonnade.assessment.intensity.registry import measure_of
     from colonnade.readers.ground_motions.hazard import read_hazard
     from colonnade.readers.ground_motions.record_set import read_record_set
@@ -93,11 +102,10 @@ def _made(
     from colonnade.stages.assessment import assessment
     from colonnade.workflow.assessing.blocks import given, outcomes_of
 
-    measure = measure_of(files.measure)
-    hazard = None
-    if files.hazard is not None:
-        hazard = read_hazard(files.hazard, measure=measure.id, unit=measure.unit or "1")
-    plan = plan_assessment(upstream["specimen"], read_record_set(files.records), hazard, inputs)
+    measure, hazard = measure_of(asked.measure), None
+    if asked.hazard is not None:
+        hazard = read_hazard(asked.hazard, measure=measure.id, unit=measure.unit or "1")
+    plan = plan_assessment(upstream["specimen"], read_record_set(asked.records), hazard, inputs)
     outcomes = {}
     for number, (name, study) in enumerate(plan.studies.items()):
         key = Recipe("assessment", code, "", given(study.cases)).key

@@ -1,0 +1,189 @@
+"""`colonnade fragility`: how probably a real column overturns on a set of ground motions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import rich_click as click
+
+from colonnade.cli.console import complain, say, show_json, show_table
+from colonnade.cli.options import (
+    CAMPAIGN,
+    LateChoice,
+    campaign_argument,
+    json_option,
+    results_option,
+    scheduler_option,
+    workers_option,
+)
+from colonnade.cli.progress import work_progress
+
+if TYPE_CHECKING:
+    from colonnade.workflow.assessing.fragility import Assessed, Where
+
+
+def _plane_models() -> Iterable[str]:
+    from colonnade.dynamics.models.registry import PLANE_MODELS
+
+    return PLANE_MODELS
+
+
+@click.command(
+    epilog="Example: colonnade fragility demo --name prism",
+    help=f"""
+    Say how probably a real column overturns on a set of ground motions.
+
+    {CAMPAIGN} Without options it brings the campaign's [assessments] up to date, as `run` does. With --specimen and
+    --records, or options that replace keys of an assessment, it answers a question of your own and stores nothing; the
+    files may be anywhere. A column that is no specimen is given by --critical-angle, --p and --restitution; then no
+    campaign is needed.
+
+    An interrupted assessment of the campaign is continued.
+    """,
+)
+@campaign_argument
+@click.option("--name", multiple=True, metavar="NAME", help="Only this assessment of the campaign; may be repeated.")
+@click.option("--specimen", metavar="ID", help="The specimen that is a model of the column.")
+@click.option(
+    "--records", type=click.Path(path_type=Path), metavar="DIR|FILE", help="Ground motions: a folder or a list."
+)
+@click.option("--scale", type=float, metavar="FACTOR", help="How many times larger the column is.")
+@click.option("--critical-angle", metavar="ANGLE", help='Of the column, such as "0.18 rad".')
+@click.option("--p", metavar="FREQUENCY", help='Frequency parameter of the column, such as "1.26 rad/s".')
+@click.option("--restitution", metavar="E", help="Its e: a number, rigid-body, or identified.")
+@click.option("--restitution-range", type=float, nargs=2, metavar="LOW HIGH", help="Limits between which e is drawn.")
+@click.option("--friction", type=float, metavar="MU", help="Friction between the column and what it stands on.")
+@click.option("--measure", metavar="ID", help="Measure of intensity over which the records are scaled, such as pgv.")
+@click.option(
+    "--level", "levels", multiple=True, metavar="LEVEL", help='One level of it, such as "0.4 m/s"; repeat it.'
+)
+@click.option("--hazard", type=click.Path(path_type=Path), metavar="FILE", help="Annual rates of exceedance, as CSV.")
+@click.option("--overturned", type=float, metavar="SHARE", help="Share of α beyond which it counts as overturned.")
+@click.option("--model", type=LateChoice(_plane_models), help="Model of rocking.")
+@click.option("--draws", type=int, metavar="N", help="Draws of e, α, p and friction.")
+@click.option("--drift", type=float, metavar="SHARE", help="Largest end velocity over PGV of a record without drift.")
+@click.option("--baseline", metavar="METHOD", help="Correct the records: linear, quadratic or highpass(0.1 Hz).")
+@click.option("--resamples", type=int, metavar="N", help="Times that the records are drawn again.")
+@click.option("--seed", type=int, metavar="N", help="Of all that is drawn.")
+@click.option("--out", type=click.Path(path_type=Path), metavar="FILE", help="Draw the curve: .svg, .pdf or .png.")
+@click.option("--data", type=click.Path(path_type=Path), metavar="FILE", help="Write what is drawn as a .csv table.")
+@workers_option
+@scheduler_option
+@results_option
+@json_option
+def fragility(
+    campaign: Path,
+    name: tuple[str, ...],
+    out: Path | None,
+    data: Path | None,
+    workers: int | None,
+    scheduler: str | None,
+    results: Path | None,
+    as_json: bool,
+    **options: Any,
+) -> int:
+    """Assess, show the answers, and return the exit code."""
+    from colonnade.workflow.assessing.fragility import Where
+
+    _expect_places(out, data)
+    with work_progress("Assessing") as progress:
+        found = _assessed(campaign, name, options, results, Where(workers, scheduler, progress))
+    if (out or data) and len(found) > 1:
+        raise click.UsageError(f"{len(found)} assessments were found. Name one with --name to draw it.")
+    written = _drawn(found[0], out, data) if out or data else []
+    if as_json:
+        show_json([{"name": each.name, "file": each.path, **each.record.model_dump(mode="json")} for each in found])
+    else:
+        for each in found:
+            _show(each)
+        for place in written:
+            say(f"{'data' if place.suffix.lower() == '.csv' else 'figure'}: {place}")
+    return int(any(each.record.status == "failed" for each in found))
+
+
+def _assessed(
+    path: Path, names: tuple[str, ...], options: dict[str, Any], results: Path | None, where: Where
+) -> list[Assessed]:
+    from colonnade.campaign import load
+    from colonnade.store.layout import Layout
+    from colonnade.workflow.assessing.fragility import assess_campaign, assess_column, assess_own
+
+    specimen = options.pop("specimen")
+    options = {key: list(value) if isinstance(value, tuple) else value for key, value in options.items()}
+    asked = {key: _number(key, value) for key, value in options.items() if value not in (None, [])}
+    if specimen is None and not names and {"critical_angle", "p"} <= asked.keys():
+        from colonnade import units
+
+        angle = units.to_si(asked.pop("critical_angle"), "angle")
+        return [assess_column(angle, units.to_si(asked.pop("p"), "angular_velocity"), asked, where)]
+    loaded = load(path)
+    layout = Layout.of(loaded.folder, results)
+    if specimen is None and not asked:
+        return assess_campaign(loaded, layout, names, where)
+    if len(names) > 1:
+        raise click.UsageError("Options are for one assessment. Name one.")
+    base = names[0] if names else next(iter(loaded.assessments)) if len(loaded.assessments) == 1 else None
+    return [assess_own(loaded, layout, base, specimen, asked, where)]
+
+
+def _number(key: str, value: Any) -> Any:
+    """Take an e that is a number as one."""
+    if key != "restitution":
+        return value
+    try:
+        return float(value)
+    except ValueError:
+        return value
+
+
+def _expect_places(out: Path | None, data: Path | None) -> None:
+    if out is None and data is None:
+        return
+    from colonnade.figures.files.saving import PICTURES, TABLE, expect_place
+
+    for place, endings in ((out, PICTURES), (data, (TABLE,))):
+        if place is not None:
+            expect_place(place, endings)
+
+
+def _drawn(assessed: Assessed, out: Path | None, data: Path | None) -> list[Path]:
+    from colonnade.figures.files.saving import save
+    from colonnade.report.assessments_page.page import curves
+
+    if assessed.result is None:
+        return []
+    picture = curves(assessed.name, assessed.record, assessed.result)
+    return [save(picture, place) for place in (out, data) if place is not None]
+
+
+def _show(assessed: Assessed) -> None:
+    from colonnade.report.assessments_page.page import symbol
+    from colonnade.store.records.assessment import NOT_COVERED, level, sentences
+    from colonnade.store.records.wording import number
+    from colonnade.units import format_percent
+
+    record = assessed.record
+    say(f"{assessed.name} ({record.specimen})")
+    for sentence in sentences(record):
+        say(f"  {sentence}")
+    for said in record.warnings:
+        complain(f"warning: {said}")
+    if record.status == "failed":
+        return
+    say(f"  {NOT_COVERED}")
+    say()
+    rows = [
+        (
+            *(symbol(each.measure), number(each.deviance), number(each.auc, 2), number(each.scatter, 2)),
+            "–" if each.best is None else format_percent(each.best),
+        )
+        for each in record.measures
+    ]
+    show_table(("measure", "deviance", "AUC", "scatter of ln peak", "best in"), rows)
+    if record.deciding:
+        without = (f"{each.record} (without it {level(record.measure, each.median)})" for each in record.deciding)
+        say(f"The records that change the answer most: {', '.join(without)}.")
+    if assessed.path is not None:
+        say(f"result: {assessed.path}")

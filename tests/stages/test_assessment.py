@@ -1,0 +1,85 @@
+"""The answer of an assessment: what is stored agrees with itself, and with a count by hand."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from scipy.stats import norm
+
+from colonnade.campaign.assessing.assessed import AssessmentSummary
+from colonnade.errors import StageError
+from colonnade.readers.ground_motions.record_set import RecordSet
+from colonnade.stages.assessing.plan import plan_assessment
+from colonnade.store import files
+from colonnade.store.layout import Layout
+
+
+@pytest.fixture(scope="module")
+def stored(assessed):
+    return files.read(Layout(assessed).stage("site", "assessment"))
+
+
+@pytest.fixture(scope="module")
+def answer(stored):
+    return AssessmentSummary.model_validate_json(stored.attrs["answer"])
+
+
+def test_the_curve_is_that_of_its_median_and_dispersion(stored, answer):
+    over = stored["curve_intensity"].to_numpy()
+    expected = norm.cdf(np.log(over / answer.median.value) / answer.dispersion.value)
+    assert stored["lognormal_probability"].to_numpy() == pytest.approx(expected, abs=1e-9)
+    if answer.curve == "lognormal":
+        five = answer.median.value * np.exp(norm.ppf(0.05) * answer.dispersion.value)
+        assert answer.five_percent.value == pytest.approx(five)
+
+
+def test_shares_and_sliding_are_those_of_the_histories(stored, answer):
+    assert (stored["case_outcome"].to_numpy()[..., 0] >= 0).all()
+    overturned = stored["case_overturned"].to_numpy()[..., 0, 0]
+    isotonic = stored["isotonic_probability"].to_numpy()
+    assert isotonic.mean() == pytest.approx(overturned.mean())
+    assert (np.diff(isotonic) >= 0).all()
+    needed, friction = stored["case_friction"].to_numpy()[:, :, 0, 0], stored["drawn_friction"].to_numpy()
+    assert answer.sliding == pytest.approx((needed[:, :, None] > friction).mean())
+
+
+def test_a_stiffer_rebound_overturns_earlier_or_later_and_is_listed(answer):
+    names = [each.name for each in answer.variants]
+    assert names[0] == "nothing varied"
+    assert len(names) == 4
+    smaller, larger = answer.variants[2].restitution, answer.variants[3].restitution
+    assert (smaller, larger) == pytest.approx((answer.restitution.value - 0.02, answer.restitution.value + 0.02))
+
+
+def test_west_is_exact_without_vertical_motion(answer):
+    west = next(each for each in answer.criteria if each.criterion == "west")
+    assert (west.false_alarms, west.missed) == (0, 0)
+    assert west.right_overturned + west.right_stands == 8 * 5
+
+
+def test_the_result_holds_what_it_was_made_from(stored, answer):
+    assert [each.record for each in answer.records_used] == stored["record"].to_numpy().tolist()
+    used = answer.records_used[0]
+    assert used.measures["pga"] == pytest.approx(3.0, rel=1e-6)
+    assert json.loads(stored.attrs["settings"])["asked"]["records"] == "records"
+
+
+def test_without_records_there_is_no_answer():
+    with pytest.raises(StageError, match="0 ground motions can be used"):
+        _plan(RecordSet((), (), ()))
+
+
+def _plan(records):
+    from colonnade.campaign.assessing.assessment import Assessment
+    from colonnade.campaign.assessing.prototype import Prototype
+    from colonnade.dynamics.block import Block
+    from colonnade.stages.assessing.plan import AssessmentInputs
+    from colonnade.stages.specimen import SpecimenInputs, taken
+
+    block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.1)
+    asked = Assessment.model_validate({"specimen": "prism", "records": "records"})
+    prototype = Prototype.model_validate({"restitution": "rigid-body"})
+    inputs = AssessmentInputs(block=block, scale=20.0, prototype=prototype, specimen="prism", asked=asked)
+    return plan_assessment(taken(None, SpecimenInputs(block=block, given=None, level=0.95)), records, None, inputs)

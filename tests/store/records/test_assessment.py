@@ -1,0 +1,53 @@
+"""The answer in words, also where there is none."""
+
+from __future__ import annotations
+
+from colonnade.campaign.assessing.assessed import AssessmentSummary, Estimate, Variant
+from colonnade.store.records.assessment import sentences
+
+KNOWN = {
+    "status": "done",
+    "specimen": "prism",
+    "measure": "pga",
+    "unit": "m/s²",
+    "critical_angle": 0.1864,
+    "p": 1.259,
+    "restitution": Estimate(value=0.976, low=0.95, high=0.98),
+    "restitution_source": "identified",
+    "uplift_acceleration": 1.85,
+}
+
+
+def test_what_is_known_is_said_with_units_and_intervals():
+    record = AssessmentSummary(
+        **KNOWN,
+        median=Estimate(value=4.0, low=3.5, high=4.5),
+        dispersion=Estimate(value=0.4, low=0.3, high=0.5),
+        dispersion_records=0.1,
+        dispersion_parameters=0.2,
+        five_percent=Estimate(value=2.0, high=2.4),
+        fifty_percent=Estimate(value=4.0, low=3.5, high=4.5),
+        curve="lognormal",
+        variants=(
+            Variant(name="nothing varied", restitution=0.976, median=Estimate(value=4.1)),
+            Variant(name="the e of a rigid body", restitution=0.95, median=Estimate(value=4.4)),
+        ),
+    )
+    text = " ".join(sentences(record)).replace("\xa0", " ")
+    assert "rock at 0.189 g" in text
+    assert "5 % at PGA 0.204 g (below 0.245 g), and of 50 % at PGA 0.408 g (0.357 to 0.459)" in text
+    assert "0.418 g with nothing varied (e 0.976), with the e of a rigid body (0.95) 0.449 g" in text
+    assert "e, α and p matter more than the records" in text
+    assert "identified on the model and assumed for the column, drawn between 0.95 and 0.98" in text
+    assert "sliding is not judged" in text
+
+
+def test_what_is_not_reached_is_said():
+    text = " ".join(sentences(AssessmentSummary(**KNOWN, curve="isotonic", curve_reason="everything overturns")))
+    assert "is not reached within the levels" in text
+    assert "not from a lognormal one: everything overturns." in text
+
+
+def test_a_failure_gives_its_reason_alone():
+    failed = AssessmentSummary(status="failed", reason="no record", specimen="prism", measure="pgv")
+    assert sentences(failed) == ["There is no answer: no record"]

@@ -1,0 +1,77 @@
+"""Questions of one's own: options over the keys of a campaign, columns without one, refusals."""
+
+from __future__ import annotations
+
+import pytest
+
+from colonnade.campaign import load
+from colonnade.errors import CampaignError
+from colonnade.store.layout import Layout
+from colonnade.workflow.assessing.fragility import Where, assess_campaign, assess_column, assess_own
+
+HERE = Where(workers=1)
+
+
+def own(folder, base="site", specimen=None, **options):
+    return assess_own(load(folder), Layout(folder), base, specimen, options, HERE)
+
+
+def test_options_replace_keys_and_store_nothing(assessed):
+    before = sorted(path.stat().st_mtime_ns for path in assessed.rglob("*") if path.is_file())
+    found = own(assessed, restitution=0.9, draws=1, levels=["1 m/s", "2 m/s", "4 m/s"])
+    assert found.record.restitution_source == "given"
+    assert found.record.restitution.value == 0.9
+    assert found.record.restitution.low == pytest.approx(0.88)
+    assert found.result is not None
+    assert found.result.sizes["level"] == 3
+    assert sorted(path.stat().st_mtime_ns for path in assessed.rglob("*") if path.is_file()) == before
+
+
+def test_a_column_without_a_campaign_is_the_same_column(assessed):
+    campaign = load(assessed)
+    block = campaign.block("prism")
+    options = {
+        "records": assessed / "records",
+        "restitution": 0.9,
+        "restitution_range": [0.85, 0.95],
+        "draws": 2,
+        "resamples": 200,
+        "measures": ["pga", "pgv"],
+        "levels": ["0.5 m/s", "1 m/s", "1.5 m/s", "2.5 m/s", "4 m/s"],
+    }
+    alone = assess_column(block.critical_angle, block.p / 20**0.5, options, HERE)
+    same = own(assessed, restitution=0.9, restitution_range=[0.85, 0.95])
+    assert alone.record.median.value == pytest.approx(same.record.median.value, rel=1e-6)
+
+
+def test_another_measure_leaves_the_hazard_of_the_old_one(assessed):
+    found = own(assessed, measure="pga", levels=["0.5 g", "1 g", "2 g"], draws=1)
+    assert found.record.status == "done"
+    assert found.record.annual_rate.value is None
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"base": "sight"}, 'no assessment "sight"'),
+        ({"specimen": "prsm"}, 'no specimen "prsm"'),
+        ({"base": None}, "--specimen ID"),
+        ({"base": None, "specimen": "prism"}, "--records"),
+        ({"draws": 0}, "--draws: "),
+        ({"restitution": 1.5}, "--restitution: "),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(assessed, options, words):
+    with pytest.raises(CampaignError) as refused:
+        own(assessed, **options)
+    assert words in str(refused.value)
+
+
+def test_assessments_of_the_campaign_are_brought_up_to_date(assessed_copy):
+    campaign, layout = load(assessed_copy), Layout(assessed_copy)
+    (layout.processed / "assessments" / "site.nc").unlink()
+    [found] = assess_campaign(campaign, layout, (), HERE)
+    assert found.path is not None
+    assert found.path.is_file()
+    with pytest.raises(CampaignError, match='no assessment "sight"'):
+        assess_campaign(campaign, layout, ("sight",), HERE)

@@ -1,0 +1,55 @@
+"""Assessments in the graph: made once, made again for what changed, failing without stopping the rest."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from colonnade.store import files
+from colonnade.store.layout import Layout
+from colonnade.workflow.run import run
+
+
+def action(folder: Path) -> tuple[str, str]:
+    """What became of the assessment, and why."""
+    [stage] = [stage for stage in run(folder, workers=1).stages if stage.stage == "assessment"]
+    return stage.action, stage.because or stage.reason
+
+
+def test_the_summary_has_the_answer_and_the_result_its_files(assessed):
+    layout = Layout(assessed)
+    [(name, found)] = json.loads(layout.summary_json.read_text(encoding="utf-8"))["assessments"].items()
+    assert (name, found["status"], found["specimen"]) == ("site", "done", "prism")
+    assert found["uplift_acceleration"] == pytest.approx(9.81 * 86 / 456, rel=1e-9)
+    assert found["restitution_source"] == "identified"
+    assert [each["record"] for each in found["records_left_out"]] == ["broken.csv"]
+    stored = files.read(layout.stage("site", "assessment"))
+    assert stored.sizes["record"] == 8
+    assert len(set(stored.attrs["record_sha256"])) == 8
+
+
+def test_only_what_changed_makes_it_again(assessed_copy):
+    assert action(assessed_copy) == ("up-to-date", "")
+    (assessed_copy / "records" / "broken.csv").unlink()
+    assert action(assessed_copy) == ("done", "upstream changed")
+    campaign_file = assessed_copy / "campaign.toml"
+    text = campaign_file.read_text(encoding="utf-8")
+    campaign_file.write_text(text.replace("[0.85, 0.95]", "[0.86, 0.95]"), encoding="utf-8")
+    assert action(assessed_copy) == ("done", "settings changed")
+    assert not list(Layout(assessed_copy).processed.glob("assessments/.*"))
+
+
+def test_a_failure_is_told_and_stops_nothing(assessed_copy):
+    (assessed_copy / "hazard.csv").write_text("pga [g], rate [1/year]\n0.1,0.01\n0.5,0.001\n", encoding="utf-8")
+    result = run(assessed_copy, workers=1)
+    assert result.failed
+    [failed] = [stage for stage in result.stages if stage.action == "failed"]
+    assert (failed.heading, failed.stage) == ("assessment site", "assessment")
+    assert 'the hazard is given for "pga"' in failed.reason
+    summary = json.loads(Layout(assessed_copy).summary_json.read_text(encoding="utf-8"))
+    assert summary["assessments"]["site"]["status"] == "failed"
+    assert summary["tests"]["free-01"]["status"] == "done"
+    page = (assessed_copy / "report" / "assessments.html").read_text(encoding="utf-8")
+    assert "There is no answer" in page
