@@ -85,6 +85,7 @@ FOR: dict[str, dict[str, Any]] = {
     "duration": NUMBERS | {"zero": 0.0, "negative": -1.0, "endless": 1e300, "none": None},
     "cycles": NUMBERS | {"endless": 1e12, "negative": -1.0},
     "columns": {"zero": 0, "negative": -1, "a broken number": 1.5, "true": True, "an array": np.zeros(2)},
+    "limits": {name: value for name, value in NUMBERS.items() if name != "an array"} | {"falling": (0.9, 0.8)},
     "fine": NUMBERS | {"too fine to end": 1e-300, "negative": -1.0},
 }
 """Hostile values by what an argument is."""
@@ -198,6 +199,15 @@ CALLS = {
         | {"cycles": "cycles", "phase": "number", "largest": "positive", "width": "fine", "edge": "fine"}
         | {"threads": "whole"},
     ),
+    "fragility": Call(
+        colonnade.fragility,
+        {"block": BLOCK, "motions": [MOTION, MOTION], "measure": "pga", "levels": [1.0, 4.0, 9.0], "draws": 1}
+        | {"resamples": 20, "measures": ["pga"]},
+        {"block": "object", "motions": "object", "restitution": "e", "measure": "name", "levels": "array"}
+        | {"restitution_range": "limits", "critical_angle_range": "limits", "p_range": "limits", "draws": "whole"}
+        | {"overturned": "positive", "hazard": "object or none", "measures": "names", "model": "name"}
+        | {"drift": "positive", "baseline": "name", "level": "share", "resamples": "whole", "seed": "seed"},
+    ),
     "rocking_spectrum": Call(
         colonnade.rocking_spectrum,
         {"motion": MOTION, "critical_angle": [0.2, 0.3], "period": [1.0, 2.0]},
@@ -245,7 +255,7 @@ CALLS = {
 FOR["ranked"] = {name: value for name, value in ARRAYS.items() if name != "infinite"}
 FOR["a coefficient"] = {name: value for name, value in FOR["deviation"].items() if name != "infinite"}
 
-GIVEN_BACK = {"Ensemble", "History", "IntensityMeasures", "Reactions", "Restitution", "StabilityMap"} | {
+GIVEN_BACK = {"Ensemble", "Fragility", "History", "IntensityMeasures", "Reactions", "Restitution", "StabilityMap"} | {
     "OverturningSpectrum",
     "RockingSpectrum",
 }

@@ -10,7 +10,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from colonnade.assessment.fragility.summary import Fragility
     from colonnade.assessment.intensity.measured import IntensityMeasures, intensity_measures
+    from colonnade.assessment.library import fragility
     from colonnade.dynamics.block import Block
     from colonnade.dynamics.ensembles.ensemble import ensemble
     from colonnade.dynamics.ensembles.outcome import Ensemble
@@ -37,6 +39,7 @@ __all__ = [
     "Block",
     "ColonnadeError",
     "Ensemble",
+    "Fragility",
     "History",
     "IntensityMeasures",
     "Motion",
@@ -50,6 +53,7 @@ __all__ = [
     "__version__",
     "animate",
     "ensemble",
+    "fragility",
     "identify_restitution",
     "intensity_measures",
     "overturning_spectrum",
@@ -67,6 +71,7 @@ _ROOMS = {
     "Block": "colonnade.dynamics.block",
     "ColonnadeError": "colonnade.errors",
     "Ensemble": "colonnade.dynamics.ensembles.outcome",
+    "Fragility": "colonnade.assessment.fragility.summary",
     "History": "colonnade.dynamics.history",
     "IntensityMeasures": "colonnade.assessment.intensity.measured",
     "Motion": "colonnade.dynamics.motion",
@@ -79,6 +84,7 @@ _ROOMS = {
     "Uncertainty": "colonnade.dynamics.ensembles.uncertainty",
     "animate": "colonnade.figures.plot",
     "ensemble": "colonnade.dynamics.ensembles.ensemble",
+    "fragility": "colonnade.assessment.library",
     "identify_restitution": "colonnade.identification.restitution.identify",
     "intensity_measures": "colonnade.assessment.intensity.measured",
     "overturning_spectrum": "colonnade.dynamics.spectra.overturning",

@@ -54,7 +54,7 @@ def test_outcomes_are_judged_as_they_are():
     outcomes = run_cases(study.cases)
     hazard = hazard_curve([1.0, 20.0], [1e-2, 1e-6])
     found = judge(study, outcomes, hazard=hazard, resamples=100)
-    assert found.isotonic.probability.value.mean() == pytest.approx(outcomes.exceeds()[..., 0].mean())
+    assert found.isotonic.probability.value.mean() == pytest.approx(outcomes.exceeds()[:, :, 1:, :, 0].mean())
     assert found.uplift.threshold == pytest.approx((COLUMN.block.uplift_acceleration,) * 2, rel=1e-9)
     assert found.rate is not None
     stricter = judge(study, outcomes, overturned=0.2, resamples=100)

@@ -54,7 +54,7 @@ def _cases(records, levels, draws):
     """Levels from well above uplift on, so that every history rocks: records, two components, levels, draws."""
     peaks = np.geomspace(1.2, 6.0, levels) * BLOCK.uplift_acceleration
     motions = tuple(_record(seed) for seed in range(records))
-    return Cases(COLUMN, draw(COLUMN, draws - 1), motions, factors_at(peaks, np.ones((records, 2))))
+    return Cases(COLUMN, (draw(COLUMN, draws - 1),) * records, motions, factors_at(peaks, np.ones((records, 2))))
 
 
 def _inputs(cases, chosen):
@@ -66,7 +66,7 @@ def _inputs(cases, chosen):
         record, place, level = row // (levels * components), row // levels % components, row % levels
         motion = in_plane(cases.motions[record], place, float(cases.factors[record, level, place]))
         base = motion.acceleration / BLOCK.gravity
-        inputs.append((base, *drawn_column(cases.prototype, cases.draws, which)))
+        inputs.append((base, *drawn_column(cases.prototype, cases.draws[record], which)))
     return inputs
 
 

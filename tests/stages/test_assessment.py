@@ -37,12 +37,12 @@ def test_the_curve_is_that_of_its_median_and_dispersion(stored, answer):
 
 def test_shares_and_sliding_are_those_of_the_histories(stored, answer):
     assert (stored["case_outcome"].to_numpy()[..., 0] >= 0).all()
-    overturned = stored["case_overturned"].to_numpy()[..., 0, 0]
+    overturned = stored["case_overturned"].to_numpy()[:, :, 1:, 0, 0]
     isotonic = stored["isotonic_probability"].to_numpy()
     assert isotonic.mean() == pytest.approx(overturned.mean())
     assert (np.diff(isotonic) >= 0).all()
     needed, friction = stored["case_friction"].to_numpy()[:, :, 0, 0], stored["drawn_friction"].to_numpy()
-    assert answer.sliding == pytest.approx((needed[:, :, None] > friction).mean())
+    assert answer.sliding == pytest.approx((needed[:, :, None] > friction[:, None]).mean())
 
 
 def test_a_stiffer_rebound_overturns_earlier_or_later_and_is_listed(answer):

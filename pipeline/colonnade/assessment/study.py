@@ -18,10 +18,11 @@ from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES
 from colonnade.assessment.fragility.summary import Fragility, summarise
 from colonnade.assessment.intensity.baselines import NONE, baseline_of
 from colonnade.assessment.intensity.ground import LARGEST_DRIFT, Ground
-from colonnade.assessment.intensity.measured import measured
+from colonnade.assessment.intensity.measured import measured, measures_of
 from colonnade.assessment.intensity.registry import MEASURES, Measure, measure_of
 from colonnade.dynamics.models.nonlinear import NONLINEAR
 from colonnade.dynamics.motion import Motion
+from colonnade.validation import number, samples
 
 DRAWS = 8
 """Columns that are drawn besides the one with nothing varied."""
@@ -65,7 +66,9 @@ class Study:
 
     def of(self, prototype: Prototype) -> Study:
         """Return the study of another column with nothing varied, on the same records at the same levels."""
-        return replace(self, cases=replace(self.cases, prototype=prototype, draws=draw(prototype, 0)))
+        return replace(
+            self, cases=replace(self.cases, prototype=prototype, draws=(draw(prototype, 0),) * len(self.names))
+        )
 
 
 def plan_study(
@@ -96,7 +99,7 @@ def plan_study(
     measures : sequence of str, optional
         Ids of the measures that are compared with it; default `USUAL`.
     draws : int, optional
-        Columns that are drawn, the same at all levels.
+        Columns that are drawn for each record, the same at all its levels.
     model : str, optional
         A plane one.
     drift, baseline : optional
@@ -116,7 +119,8 @@ def plan_study(
     if not scaled_over.power:
         raise ValueError(f"{scaled_over.id} does not grow with a motion; a measure that does was expected")
     baseline_of(baseline)
-    compared = [scaled_over, *map(measure_of, USUAL if measures is None else measures)]
+    drift = number("drift", drift, "a positive share of the peak velocity", above=0.0)
+    compared = [scaled_over, *measures_of(USUAL if measures is None else measures)]
     corrected = {name: _corrected(motion, baseline) for name, motion in motions.items()}
     values = {each.id: np.full((len(motions), len(COMPONENTS)), np.nan) for each in compared}
     drifts, reasons = np.zeros(len(motions)), {}
@@ -138,14 +142,16 @@ def plan_study(
     kept = [name for name, is_in in zip(corrected, usable, strict=True) if is_in]
     chosen = tuple(corrected[name] for name in kept)
     values = {name: each[usable] for name, each in values.items()}
-    # A measure that grows with the square of a motion is scaled by its root.
-    proportional = values[scaled_over.id] ** (1 / scaled_over.power)
+    recorded, power = values[scaled_over.id], scaled_over.power
     if levels is None:
-        found = default_levels(prototype, chosen, proportional, model=model) ** scaled_over.power
+        found = default_levels(prototype, chosen, recorded, power=power, model=model)
     else:
-        found = np.unique(np.asarray(levels, dtype=np.float64))
-    factors = factors_at(found ** (1 / scaled_over.power), proportional)
-    cases = Cases(prototype, draw(prototype, draws, seed), chosen, factors, model)
+        found = np.unique(samples("levels", levels))
+        if not found[0] > 0.0:
+            raise ValueError(f"levels begin at {found[0]:g}; positive levels of the {scaled_over.name} were expected")
+    factors = factors_at(found, recorded, power)
+    drawn = tuple(draw(prototype, draws, seed, record=number) for number in range(len(chosen)))
+    cases = Cases(prototype, drawn, chosen, factors, model)
     left_out = {name: reasons[name] for name in corrected if name not in kept}
     return Study(tuple(kept), cases, scaled_over, found, values, drifts[usable], left_out)
 
@@ -190,13 +196,14 @@ def judge(
         If an argument is out of its range, or there are too few records.
     """
     records, levels, draws, signs, components = outcomes.outcome.shape
-    directions = (records, levels, draws, signs * components)
+    drawn = counted_draws(draws)
+    directions = (records, levels, -1, signs * components)
     peak = np.where(outcomes.is_run & np.isnan(outcomes.peak_ratio), np.inf, outcomes.peak_ratio)
     gathered = counted.gather(
         study.names,
         np.broadcast_to(study.levels, (records, levels)),
-        np.where(outcomes.is_run, peak, np.nan).reshape(directions),
-        outcomes.exceeds(overturned).reshape(directions),
+        np.where(outcomes.is_run, peak, np.nan)[:, :, drawn].reshape(directions),
+        outcomes.exceeds(overturned)[:, :, drawn].reshape(directions),
     )
     return summarise(
         gathered,
@@ -211,6 +218,11 @@ def judge(
     )
 
 
+def counted_draws(draws: int) -> slice:
+    """Give the draws that count: the first, with nothing varied, only if it is the only one."""
+    return slice(1 if draws > 1 else 0, None)
+
+
 def _corrected(motion: Motion, baseline: str) -> Motion:
     if baseline == NONE:
         return motion
@@ -223,7 +235,7 @@ def _threshold(study: Study) -> tuple[float, float] | None:
     """Peak accelerations at which the drawn columns uplift, where these alone decide it."""
     if study.measure.id != "pga" or any(motion.vertical is not None for motion in study.cases.motions):
         return None
-    uplifting = study.cases.prototype.block.gravity * np.tan(study.cases.draws.of("critical_angle"))
+    uplifting = study.cases.prototype.block.gravity * np.tan(study.cases.drawn("critical_angle"))
     return float(uplifting.min()), float(uplifting.max())
 
 

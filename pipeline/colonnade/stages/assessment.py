@@ -92,7 +92,7 @@ def _sliding(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded) -> float | 
     if cases.prototype.friction is None:
         return None
     run = outcomes.is_run
-    return float((~holds(needed, cases.draws.of("friction")) & run).sum() / run.sum())
+    return float((~holds(needed, cases.drawn("friction")) & run).sum() / run.sum())
 
 
 def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: Fragility) -> xr.Dataset:
@@ -102,7 +102,7 @@ def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: 
     over = np.geomspace(study.levels[0] / reach, study.levels[-1] * reach, CURVE)
     lognormal = fragility.lognormal.probability(over)
     isotonic = fragility.isotonic
-    drawn = {f"drawn_{name}": ("draw", study.cases.draws.of(name)) for name in UNCERTAIN}
+    drawn = {f"drawn_{name}": (("record", "draw"), study.cases.drawn(name)) for name in UNCERTAIN}
     rate = fragility.rate
     disaggregated = (
         {}

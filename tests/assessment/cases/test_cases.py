@@ -39,7 +39,7 @@ MOTIONS = (shaken(1), shaken(2, transverse="y"), shaken(3, transverse="y", verti
 INTENSITY = np.array([[1.0, np.nan], [1.1, 0.9], [1.2, 0.8]])
 CASES = Cases(
     Prototype(UNEVEN, 0.95, **RANGES),
-    draw(Prototype(UNEVEN, 0.95, **RANGES), 3),
+    tuple(draw(Prototype(UNEVEN, 0.95, **RANGES), 3, record=record) for record in range(len(MOTIONS))),
     MOTIONS,
     factors_at(np.array([1.0, 2.0, 4.0, 40.0]), INTENSITY),
 )
@@ -61,7 +61,7 @@ def test_every_case_ends_as_its_history_does():
         if vertical is not None and vertical.min() <= -BLOCK.gravity:
             assert outcomes.outcome[index] == FALLS_AWAY
             continue
-        block, e = drawn_column(CASES.prototype, CASES.draws, which)
+        block, e = drawn_column(CASES.prototype, CASES.draws[record], which)
         plane = Motion((1, -1)[side] * factor * along, motion.dt, vertical)
         history = rock(block, plane, restitution=e, model="nonlinear")
         assert OUTCOMES[outcomes.outcome[index]] == history.outcome
@@ -87,7 +87,7 @@ def test_a_part_holds_no_more_records_than_it_needs():
 
 def test_of_a_symmetric_column_the_opposite_motion_is_not_run_as_it_does_the_same():
     column = Prototype(BLOCK, 0.95)
-    cases = Cases(column, draw(column, 0), MOTIONS, CASES.factors)
+    cases = Cases(column, (draw(column, 0),) * len(MOTIONS), MOTIONS, CASES.factors)
     assert cases.signs == (1,)
     turned = tuple(
         Motion(-each.acceleration, each.dt, each.vertical, None if each.transverse is None else -each.transverse)

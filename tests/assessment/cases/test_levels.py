@@ -23,7 +23,7 @@ def test_the_share_that_overturns_goes_from_none_to_all():
     assert levels.size == 8
     assert (np.diff(levels) > 0).all()
     np.testing.assert_allclose(np.diff(np.log(levels), 2), 0.0, atol=0.02)
-    cases = Cases(COLUMN, draw(COLUMN, 0), WAVES, factors_at(levels, PEAKS))
+    cases = Cases(COLUMN, (draw(COLUMN, 0),) * len(WAVES), WAVES, factors_at(levels, PEAKS))
     shares = run_cases(cases).exceeds()[..., 0].mean(axis=(0, 2, 3))
     assert shares[0] == 0.0
     assert shares[-1] == 1.0

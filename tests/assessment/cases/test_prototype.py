@@ -29,6 +29,12 @@ def test_more_draws_begin_with_the_same_and_the_first_has_nothing_varied():
     assert (draw(COLUMN, 5, seed=4).values[1:] != few.values[1:]).all()
 
 
+def test_each_record_draws_columns_of_its_own():
+    here, there = draw(COLUMN, 5, record=0), draw(COLUMN, 5, record=1)
+    assert (here.values[0] == there.values[0]).all()
+    assert (here.values[1:] != there.values[1:]).all()
+
+
 def test_draws_fill_their_ranges_evenly():
     values = draw(COLUMN, 2000).values[1:]
     for column, (low, high) in enumerate(COLUMN.ranges):

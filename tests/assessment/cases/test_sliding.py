@@ -21,7 +21,7 @@ WAVE = np.where(TIME < 1.0, np.sin(2 * np.pi * TIME), 0.0)
 def needed(*factors, vertical=None):
     column = Prototype(BLOCK, 0.9)
     factor = np.array([[[each, np.nan] for each in factors]])
-    return friction_needed(Cases(column, draw(column, 0), (Motion(WAVE, 0.01, vertical),), factor))
+    return friction_needed(Cases(column, (draw(column, 0),), (Motion(WAVE, 0.01, vertical),), factor))
 
 
 def test_a_column_at_rest_needs_the_accelerations_over_gravity():
@@ -47,7 +47,7 @@ def test_a_column_that_rocks_needs_tan_alpha_at_rest_and_the_ratio_of_impulses_a
 def test_a_record_that_begins_with_a_jump_uplifts_the_column_before_it_needs_friction_at_rest():
     column = Prototype(BLOCK, 0.9)
     jump = Motion(np.where(TIME < 0.1, 5.0, 0.0), 0.01)
-    found = friction_needed(Cases(column, draw(column, 0), (jump,), np.array([[[1.0, np.nan]]])))
+    found = friction_needed(Cases(column, (draw(column, 0),), (jump,), np.array([[[1.0, np.nan]]])))
     assert found.standing[0, 0, 0, 0] <= tan(0.18)
     assert tan(0.18) < found.rocking[0, 0, 0, 0] < 5.0 / 9.81
 
@@ -60,6 +60,6 @@ def test_a_base_that_falls_away_holds_nothing():
 
 def test_a_case_holds_where_the_drawn_friction_reaches():
     one = np.array([0.3, 0.5, np.nan]).reshape(1, 3, 1, 1)
-    found = holds(FrictionNeeded(one, 0.5 * one, 0.0 * one), np.array([0.2, 0.4, 0.6]))
+    found = holds(FrictionNeeded(one, 0.5 * one, 0.0 * one), np.array([[0.2, 0.4, 0.6]]))
     assert found.shape == (1, 3, 3, 1, 1)
     assert found[0, :, :, 0, 0].tolist() == [[False, True, True], [False, False, True], [False, False, False]]

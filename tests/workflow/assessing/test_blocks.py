@@ -25,7 +25,8 @@ from colonnade.workflow.execution.blocks import in_blocks
 BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)
 COLUMN = Prototype(BLOCK, 0.95, p_range=(1.2, 1.5))
 WAVES = tuple(Motion(np.sin(0.1 * hertz * np.arange(200)), 0.01, transverse=np.ones(200)) for hertz in (1, 2, 3))
-CASES = Cases(COLUMN, draw(COLUMN, 20), WAVES, np.tile([[1.0, np.nan], [3.0, 1.0]], (3, 1, 1)))
+DRAWS = tuple(draw(COLUMN, 20, record=record) for record in range(3))
+CASES = Cases(COLUMN, DRAWS, WAVES, np.tile([[1.0, np.nan], [3.0, 1.0]], (3, 1, 1)))
 
 
 def in_turn(work, blocks, folder, key):
@@ -58,7 +59,7 @@ def test_finished_blocks_are_not_run_again(tmp_path, monkeypatch):
     ("changed", "what"),
     [
         ({"prototype": replace(COLUMN, restitution=0.94)}, "column"),
-        ({"draws": draw(COLUMN, 20, seed=1)}, "column"),
+        ({"draws": (draw(COLUMN, 20, seed=1),) * 3}, "column"),
         ({"model": "linear"}, "column"),
         ({"motions": (*WAVES[:2], Motion(WAVES[2].acceleration, 0.011, transverse=np.ones(200)))}, "motions"),
         ({"motions": (*WAVES[:2], Motion(WAVES[2].acceleration, 0.01, vertical=np.ones(200)))}, "motions"),
@@ -80,7 +81,7 @@ import test_blocks as tested
 spread = partial(tested.in_blocks, workers=2, progress=lambda done, total: print(done, total, flush=True))
 tested.outcomes_of(tested.MANY, spread, Path(sys.argv[1]), "key")
 """
-MANY = replace(CASES, prototype=COLUMN, draws=draw(COLUMN, 400))
+MANY = replace(CASES, prototype=COLUMN, draws=(draw(COLUMN, 400),) * 3)
 
 
 @pytest.mark.slow

@@ -46,8 +46,9 @@ class Cases:
     Attributes
     ----------
     prototype : Prototype
-    draws : Draws
-        The same at all records and levels.
+    draws : tuple of Draws
+        Of each record, as many for each; the same at all its levels. Draws of their own make the draws nested in the
+        records: what few draws miss shows from record to record.
     motions : tuple of Motion
         Of the records, as recorded; `transverse` is the component y.
     factors : ndarray, shape (records, levels, components)
@@ -67,7 +68,7 @@ class Cases:
     """
 
     prototype: Prototype
-    draws: Draws
+    draws: tuple[Draws, ...]
     motions: tuple[Motion, ...]
     factors: Array
     model: str = NONLINEAR.name
@@ -84,7 +85,12 @@ class Cases:
             raise ValueError(f"factors has shape {factors.shape}; at least one record and one level were expected")
         if not (np.isnan(factors) | (factors > 0.0) & (factors < np.inf)).all():
             raise ValueError("a factor on a record is not positive; positive numbers, or NaN, were expected")
-        fastest, _ = drawn_column(self.prototype, self.draws, int(self.draws.of("p").argmax()))
+        if len(self.draws) != len(self.motions) or len({each.size for each in self.draws}) > 1:
+            raise ValueError(
+                f"{len(self.draws)} sets of draws are given; one of each record, of one size, was expected"
+            )
+        record = int(np.argmax([each.of("p").max() for each in self.draws]))
+        fastest, _ = drawn_column(self.prototype, self.draws[record], int(self.draws[record].of("p").argmax()))
         for record, place in np.argwhere(np.isfinite(factors).any(axis=1)).tolist():
             largest = float(np.nanmax(factors[record, :, place]))
             plane = in_plane(self.motions[record], place, largest)
@@ -104,18 +110,24 @@ class Cases:
     def shape(self) -> tuple[int, int, int, int, int]:
         """Lengths of `AXES`."""
         records, levels, components = self.factors.shape
-        return records, levels, self.draws.size, len(self.signs), components
+        return records, levels, self.draws[0].size, len(self.signs), components
 
     @property
     def count(self) -> int:
         """Number of cases, each run with all signs; numbered by record, component, level and draw, the last fastest."""
-        return self.factors.size * self.draws.size
+        return self.factors.size * self.draws[0].size
+
+    def drawn(self, name: str) -> Array:
+        """Give one of `UNCERTAIN` of each record and draw, shape (records, draws)."""
+        return np.stack([each.of(name) for each in self.draws])
 
     def part(self, chosen: range) -> Part:
         """Take some cases in order, with no more of the records than they need."""
         each = self.count // len(self.motions)
         first, last = chosen.start // each, (chosen.stop - 1) // each + 1
-        cases = replace(self, motions=self.motions[first:last], factors=self.factors[first:last])
+        cases = replace(
+            self, motions=self.motions[first:last], draws=self.draws[first:last], factors=self.factors[first:last]
+        )
         return Part(cases, range(chosen.start - first * each, chosen.stop - first * each))
 
 
@@ -205,8 +217,8 @@ def run_part(part: Part) -> dict[str, NDArray[Any]]:
     _records, levels, draws, signs, components = cases.shape
 
     @cache
-    def column(draw: int) -> Sides:
-        return prepared(*drawn_column(cases.prototype, cases.draws, draw))
+    def column(record: int, draw: int) -> Sides:
+        return prepared(*drawn_column(cases.prototype, cases.draws[record], draw))
 
     arrays: dict[str, NDArray[Any]] = {
         "outcome": np.full((len(chosen), signs), NOT_RUN, dtype=np.int8),
@@ -217,7 +229,7 @@ def run_part(part: Part) -> dict[str, NDArray[Any]]:
     for first in range(chosen.start - chosen.start % draws, chosen.stop, draws):
         row, low, high = first // draws, max(first, chosen.start), min(first + draws, chosen.stop)
         record, place, level = row // (levels * components), row // levels % components, row % levels
-        drawn = [column(draw) for draw in range(low - first, high - first)]
+        drawn = [column(record, draw) for draw in range(low - first, high - first)]
         here = slice(low - chosen.start, high - chosen.start)
         for side, sign in enumerate(cases.signs):
             ends = _ends(cases, record, place, sign * float(cases.factors[record, level, place]), drawn)

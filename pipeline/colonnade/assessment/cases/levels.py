@@ -58,7 +58,9 @@ def default_levels(
     """
     lowest = _first_uplift(prototype, motions, intensity, power)
     trials = np.geomspace(lowest, REACH**power * lowest, TRIALS)
-    cases = Cases(prototype, draw(prototype, 0), tuple(motions), factors_at(trials, intensity, power), model)
+    cases = Cases(
+        prototype, (draw(prototype, 0),) * len(motions), tuple(motions), factors_at(trials, intensity, power), model
+    )
     outcomes = run_cases(cases)
     run, fell = outcomes.is_run, outcomes.exceeds()
     aside = (0, 2, 3, 4)

@@ -106,7 +106,7 @@ class Draws:
         return self.values[:, UNCERTAIN.index(name)]
 
 
-def draw(prototype: Prototype, count: int, seed: int = 0) -> Draws:
+def draw(prototype: Prototype, count: int, seed: int = 0, *, record: int = 0) -> Draws:
     """
     Draw columns within the ranges of a real one.
 
@@ -116,8 +116,10 @@ def draw(prototype: Prototype, count: int, seed: int = 0) -> Draws:
     count : int
         Columns besides that with nothing varied; none are drawn if nothing has a range.
     seed : int, optional
-        Column k draws from a stream of its own, of (seed, k): the same whatever the count, and whichever ranges the
-        others have.
+        Column k draws from a stream of its own, of (seed, record, k): the same whatever the count, and whichever ranges
+        the others have.
+    record : int, optional
+        Number of the record under which they are run: each has columns of its own.
 
     Raises
     ------
@@ -128,7 +130,7 @@ def draw(prototype: Prototype, count: int, seed: int = 0) -> Draws:
     whole("seed", seed, 0, LARGEST_SEED)
     values = np.tile(prototype.central, (1 + (count if any(prototype.ranges) else 0), 1))
     for number_ in range(1, len(values)):
-        shares = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number_,))).random(len(UNCERTAIN))
+        shares = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(record, number_))).random(len(UNCERTAIN))
         for column, limits in enumerate(prototype.ranges):
             if limits is not None:
                 values[number_, column] = limits[0] + shares[column] * (limits[1] - limits[0])

@@ -66,7 +66,7 @@ def holds(needed: FrictionNeeded, friction: Array) -> Mask:
     Parameters
     ----------
     needed : FrictionNeeded
-    friction : ndarray, shape (draws,)
+    friction : ndarray, shape (records, draws)
         Drawn coefficients; not of a column without friction.
 
     Returns
@@ -74,7 +74,7 @@ def holds(needed: FrictionNeeded, friction: Array) -> Mask:
     holds : ndarray of bool, shape (records, levels, draws, signs, components)
         False also where nothing was run.
     """
-    return np.asarray(needed.largest[:, :, None] <= friction[:, None, None])
+    return np.asarray(needed.largest[:, :, None] <= friction[:, None, :, None, None])
 
 
 def _needed(cases: Cases, motion: Motion) -> tuple[float, float, float]:

@@ -19,10 +19,11 @@ from colonnade.assessment.fragility.rate import AnnualRate, annual_rate
 from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES
 from colonnade.assessment.fragility.resurrection import Resurrection, resurrection
 from colonnade.assessment.fragility.uplift import Uplift, uplift
+from colonnade.digest import Digested, written
 
 
-@dataclass(frozen=True)
-class Fragility:
+@dataclass(frozen=True, repr=False)
+class Fragility(Digested):
     """
     Fragility of a block.
 
@@ -54,6 +55,19 @@ class Fragility:
     influence: Influence
     measures: Comparison | None
     rate: AnnualRate | None
+
+    def digest(self) -> dict[str, str]:
+        """Return the curve, or why there is none, and what it rests on; in SI."""
+        curve: dict[str, str] = {"no curve": self.lognormal.reason}
+        if not self.lognormal.reason:
+            median, beta = self.lognormal.median, self.lognormal.beta
+            curve = {
+                "median": f"{written(median.value)} ({written(median.low)} to {written(median.high)})",
+                "β": f"{written(beta.value)} ({written(beta.low)} to {written(beta.high)})",
+                "p of the misfit": written(self.misfit.p_value, digits=2),
+            }
+        rate = {} if self.rate is None else {"rate": written(self.rate.rate.value, "1/year", 3)}
+        return {"records": str(len(self.outcomes.records)), **curve, **rate}
 
 
 def summarise(

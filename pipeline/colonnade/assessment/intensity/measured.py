@@ -103,7 +103,7 @@ def intensity_measures(
     if gravity is None:
         gravity = STANDARD_GRAVITY if block is None else block.gravity
     gravity = number("gravity", gravity, "a positive acceleration in m/s²", above=0.0)
-    asked = _default(block) if measures is None else _asked(measures)
+    asked = _default(block) if measures is None else measures_of(measures)
     ground = corrected(Ground(motion.acceleration, motion.dt, gravity), baseline)
     values, reasons = {}, {}
     for each in asked:
@@ -139,7 +139,8 @@ def measured(
     return value, ""
 
 
-def _asked(names: Sequence[str]) -> list[Measure]:
+def measures_of(names: Sequence[str]) -> list[Measure]:
+    """Find measures by their ids; raises ValueError about `measures` if they are none."""
     if isinstance(names, str) or not isinstance(names, Sequence):
         raise ValueError(f'measures is {described(names)}; a list of ids was expected, such as ["pgv"]')
     try:

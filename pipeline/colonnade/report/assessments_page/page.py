@@ -10,6 +10,7 @@ import xarray as xr
 from colonnade.arrays import Array
 from colonnade.assessment.criteria.registry import CRITERIA, Criterion
 from colonnade.assessment.intensity.registry import measure_of
+from colonnade.assessment.study import counted_draws
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessing.assessed import AssessmentSummary, JudgedCriterion, RecordUsed
 from colonnade.campaign.summary import Summary
@@ -126,9 +127,10 @@ def _factor(record: AssessmentSummary) -> float:
 
 def curves(name: str, record: AssessmentSummary, stored: xr.Dataset) -> Picture:
     """Draw the curves of an assessment that was made."""
-    factor, outcome = _factor(record), stored["case_outcome"].to_numpy()
+    factor, counted = _factor(record), counted_draws(stored.sizes["draw"])
+    outcome, overturned = (stored[f"case_{name}"].to_numpy()[:, :, counted] for name in ("outcome", "overturned"))
     run = (outcome >= 0).sum(axis=(0, 2, 3, 4))
-    shares = stored["case_overturned"].to_numpy().sum(axis=(0, 2, 3, 4)) / np.maximum(run, 1)
+    shares = overturned.sum(axis=(0, 2, 3, 4)) / np.maximum(run, 1)
     isotonic = _curve(stored, "isotonic", "stripe_intensity", factor)
     lognormal = None if record.median.value is None else _curve(stored, "lognormal", "curve_intensity", factor)
     drawn = figures.fragility(

@@ -34,7 +34,7 @@ def outcomes_of(cases: Cases, spread: Spread, folder: Path, key: str) -> Outcome
 
 def given(cases: Cases) -> dict[str, str | None]:
     """Hash what the outcomes are made from: column, draws, motions, factors and model."""
-    column = [repr(cases.prototype), cases.draws.values.tolist(), cases.model]
+    column = [repr(cases.prototype), [each.values.tolist() for each in cases.draws], cases.model]
     motions = [_hash(motion) for motion in cases.motions]
     return {"column": hash_of(column), "motions": hash_of(motions), "factors": hash_of(cases.factors.tolist())}
 
