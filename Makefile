@@ -1,4 +1,5 @@
 # make demo     writes the virtual campaign into demo/ and runs it: open demo/report/index.html
+# make demo-full  the same, and whether the real columns of its specimens stand, on synthetic ground motions
 # make test     style, types, import rules, tests, and the built wheel in a fresh environment
 # make study    the slow tests: seeds 0-19 of the virtual campaign, MuJoCo, benchmarks, other laboratories' files
 # make drill    500 kills, full and read-only disks (as root), two runs at once, 2000 damaged files: two hours
@@ -25,10 +26,13 @@ SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope
 # Each command and worker starts several seconds sooner if Python keeps the bytecode of what it has imported.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test study drill format reports restitution-study verdict-study forecast-study fragility-study contact-study clean
+.PHONY: demo demo-full test study drill format reports restitution-study verdict-study forecast-study fragility-study contact-study clean
 
 demo: $(DEMO_INSTALLED)
 	@$(BIN)/colonnade demo demo
+
+demo-full: $(DEMO_INSTALLED)
+	@$(BIN)/colonnade demo demo --full
 
 test: $(INSTALLED)
 	$(BIN)/ruff check

@@ -24,9 +24,14 @@ from colonnade.cli.run import failed_rows, run_with_progress
     help="Earthquake record to play; El Centro 1940 NS by default.",
 )
 @click.option("--short", is_flag=True, help="Ten tests of the prism instead of the whole programme.")
+@click.option(
+    "--full", is_flag=True, help="Also assess the real columns of the specimens, on synthetic ground motions."
+)
 @workers_option
 @json_option
-def demo(folder: Path, seed: int, motion: Path | None, short: bool, workers: int | None, as_json: bool) -> int:
+def demo(
+    folder: Path, seed: int, motion: Path | None, short: bool, full: bool, workers: int | None, as_json: bool
+) -> int:
     """
     Write a virtual campaign with known truth, run all of it, and compare with the known truth.
 
@@ -45,7 +50,7 @@ def demo(folder: Path, seed: int, motion: Path | None, short: bool, workers: int
     complain(f"Shaking the virtual table into {folder}")
     try:
         programme = prism_programme if short else paper_programme
-        written = write_campaign(folder, seed=seed, motion=motion, programme=programme, workers=workers)
+        written = write_campaign(folder, seed=seed, motion=motion, programme=programme, workers=workers, site=full)
     except ReadError as error:
         raise click.UsageError(str(error)) from error
     result = run_with_progress(folder, workers=workers)

@@ -49,13 +49,13 @@ _TESTS = """
 
 def campaign_text(plan: Plan) -> str:
     """Write out the campaign file of a plan."""
-    lines = [_HEAD, "schema = 1", f"campaign = {_value(plan.campaign)}", f"title = {_value(plan.title)}"]
-    lines.append(f"facility = {_value(FACILITY)}")
+    lines = [_HEAD, "schema = 1", f"campaign = {toml_value(plan.campaign)}", f"title = {toml_value(plan.title)}"]
+    lines.append(f"facility = {toml_value(FACILITY)}")
     gravity = next(iter(plan.specimens.values())).block.gravity
     if gravity != STANDARD_GRAVITY:
         lines.append(f'gravity = "{gravity} m/s^2"')
     lines.append(_SPECIMENS + "[specimens]")
-    lines += [f"{_key(name)} = {_inline(specimen.shape)}" for name, specimen in plan.specimens.items()]
+    lines += [f"{toml_key(name)} = {_inline(specimen.shape)}" for name, specimen in plan.specimens.items()]
     for number, (name, setup) in enumerate(plan.setups.items()):
         lines += _setup(name, setup, explained=number == 0)
     lines.append(_TESTS.rstrip())
@@ -83,15 +83,17 @@ def refuse_foreign(folder: Path) -> None:
 
 def _setup(name: str, setup: Setup, *, explained: bool) -> list[str]:
     main = setup.recorders[MAIN]
-    lines = ["", *([f"# {setup.comment}"] if setup.comment else []), f"[setups.{_key(name)}]", *_file(main.flavour)]
+    lines = ["", *([f"# {setup.comment}"] if setup.comment else []), f"[setups.{toml_key(name)}]", *_file(main.flavour)]
     if setup.catch is not None:
         lines.append(f'catch = "{setup.catch:g} rad"    # where the safety frame catches the specimen')
     for recorder_name, recorder in setup.recorders.items():
         if recorder_name != MAIN:
             lines += _recorder(name, recorder_name, recorder)
-    lines.append((_CHANNELS if explained else "\n") + f"[setups.{_key(name)}.channels]")
+    lines.append((_CHANNELS if explained else "\n") + f"[setups.{toml_key(name)}.channels]")
     for recorder_name, recorder in setup.recorders.items():
-        lines += [f"{_key(each.channel)} = {_inline(_channel(each, recorder_name))}" for each in recorder.transducers]
+        lines += [
+            f"{toml_key(each.channel)} = {_inline(_channel(each, recorder_name))}" for each in recorder.transducers
+        ]
     return lines
 
 
@@ -103,9 +105,13 @@ def _file(flavour: FileFormat) -> list[str]:
 
 
 def _recorder(setup: str, name: str, recorder: Recorder) -> list[str]:
-    lines = ["", f"[setups.{_key(setup)}.recorders.{_key(name)}]    # a second recorder", *_file(recorder.flavour)]
+    lines = [
+        "",
+        f"[setups.{toml_key(setup)}.recorders.{toml_key(name)}]    # a second recorder",
+        *_file(recorder.flavour),
+    ]
     if recorder.align is not None:
-        first, second = map(_value, recorder.align)
+        first, second = map(toml_value, recorder.align)
         lines.append(
             "# It starts separately. Two channels that measure the same motion, one on each recorder, give its delay."
         )
@@ -143,23 +149,25 @@ def _trial(plan: Plan, trial: Trial, position: int) -> list[str]:
     entry["setup"] = trial.setup
     entry["file"] = paths[MAIN] if len(paths) == 1 else paths
     entry |= {"date": begun(position).date(), "operator": OPERATOR}
-    return ["", "[[tests]]", *(f"{key} = {_value(value)}" for key, value in (entry | dict(trial.entry)).items())]
+    return ["", "[[tests]]", *(f"{key} = {toml_value(value)}" for key, value in (entry | dict(trial.entry)).items())]
 
 
 def _inline(table: Mapping[str, object]) -> str:
-    return "{" + ", ".join(f"{_key(key)} = {_value(value)}" for key, value in table.items()) + "}"
+    return "{" + ", ".join(f"{toml_key(key)} = {toml_value(value)}" for key, value in table.items()) + "}"
 
 
-def _value(value: object) -> str:
+def toml_value(value: object) -> str:
+    """Write a value as TOML."""
     if isinstance(value, Mapping):
         return _inline(value)
     if isinstance(value, list):
-        return "[" + ", ".join(_value(each) for each in value) + "]"
+        return "[" + ", ".join(toml_value(each) for each in value) + "]"
     if isinstance(value, date):
         return value.isoformat()
     # JSON's strings are TOML's basic strings.
     return json.dumps(value, ensure_ascii=False)
 
 
-def _key(name: str) -> str:
-    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else _value(name)
+def toml_key(name: str) -> str:
+    """Write a key as TOML."""
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else toml_value(name)

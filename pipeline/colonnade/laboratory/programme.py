@@ -17,6 +17,7 @@ from colonnade.laboratory.files import put
 from colonnade.laboratory.record import load_record
 from colonnade.laboratory.rig import prism_setups
 from colonnade.laboratory.runs import run_tests, write_truth
+from colonnade.laboratory.site import add_site
 from colonnade.laboratory.trials import LENGTH_SCALE, Placed, earthquakes, free_vibrations, sine
 from colonnade.store.own_files import own_files
 
@@ -52,6 +53,7 @@ def write_campaign(
     motion: Path | None = None,
     programme: Callable[..., Plan] | None = None,
     workers: int | None = 1,
+    site: bool = False,
 ) -> WrittenCampaign:
     """
     Write a virtual campaign.
@@ -68,6 +70,8 @@ def write_campaign(
         `paper_programme`, or `prism_programme`, the default: its prism's ten tests.
     workers : int or None, optional
         Processes; None takes one a core.
+    site : bool, optional
+        Also ask whether the real columns stand, on synthetic ground motions.
 
     Returns
     -------
@@ -84,7 +88,10 @@ def write_campaign(
     """
     name, record = load_record(motion)
     plan = (programme or prism_programme)(name, record, seed=seed)
-    return write(plan, folder, seed=seed, workers=workers)
+    written = write(plan, folder, seed=seed, workers=workers)
+    if site:
+        add_site(plan, written.path, seed=seed)
+    return written
 
 
 def write(plan: Plan, folder: Path | str, *, seed: int = 0, workers: int | None = 1) -> WrittenCampaign:
