@@ -11,7 +11,6 @@ from colonnade.arrays import Array
 from colonnade.assessment.cases.cases import AXES, COMPONENTS, Outcomes
 from colonnade.assessment.cases.prototype import UNCERTAIN
 from colonnade.assessment.cases.sliding import FrictionNeeded, friction_needed, holds
-from colonnade.assessment.fragility.hazard import hazard_curve
 from colonnade.assessment.fragility.summary import Fragility
 from colonnade.assessment.intensity.registry import measure_of
 from colonnade.assessment.study import judge
@@ -51,12 +50,11 @@ def assessment(plan: Plan, outcomes: Mapping[str, Outcomes]) -> xr.Dataset:
     distance = _known([about[name].distance for name in names])
 
     def judged(name: str) -> Fragility:
-        hazard = plan.hazard if name == ASSUMED else None
         return judge(
             plan.studies[name],
             outcomes[name],
             overturned=plan.inputs.asked.overturned,
-            hazard=None if hazard is None else hazard_curve(hazard.intensity, hazard.rate),
+            hazard=plan.hazard if name == ASSUMED else None,
             magnitude=magnitude if name == ASSUMED else None,
             distance=distance if name == ASSUMED else None,
             resamples=plan.inputs.asked.resamples,

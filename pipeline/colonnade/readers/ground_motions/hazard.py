@@ -2,36 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 
 import numpy as np
 
 from colonnade import units
-from colonnade.arrays import Array
+from colonnade.assessment.fragility.hazard import Hazard, hazard_curve
 from colonnade.errors import ReadError, UnitError, quoted
 from colonnade.readers.ground_motions.table import Head, SmallTable, read_table
 
 RATES = ("rate", "annual rate", "annual rate of exceedance")
 PER_YEAR = ("1/year", "1/yr", "1/a", "per year", "/year")
-
-
-@dataclass(frozen=True)
-class Hazard:
-    """
-    A hazard curve.
-
-    Attributes
-    ----------
-    intensity : ndarray, shape (n,)
-        In SI, rising.
-    rate : ndarray, shape (n,)
-        1/year, falling or level.
-    """
-
-    intensity: Array
-    rate: Array
 
 
 def read_hazard(path: Path, *, measure: str, unit: str) -> Hazard:
@@ -70,7 +52,10 @@ def read_hazard(path: Path, *, measure: str, unit: str) -> Hazard:
             first = int(np.argmax(wrong))
             before, after = values[first, column], values[first + 1, column]
             raise ReadError(f"{table.name}, line {lines[first + 1]}: {after:g} follows {before:g}; {expected}.")
-    return Hazard(values[:, 0] * factor, values[:, 1])
+    try:
+        return hazard_curve(values[:, 0] * factor, values[:, 1])
+    except ValueError as error:
+        raise ReadError(f"{table.name}: {error}") from None
 
 
 def _factor(table: SmallTable, measure: str, unit: str) -> float:

@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-import scipy
 
-from colonnade.arrays import Array
 from colonnade.assessment.cases.cases import FALLS_AWAY, Outcomes
-from colonnade.assessment.fragility.isotonic import IsotonicCurve
 from colonnade.assessment.fragility.lognormal import LognormalFit
 from colonnade.assessment.fragility.resampling import Interval
 from colonnade.assessment.fragility.summary import Fragility
@@ -66,7 +63,9 @@ def answer(
     study, found = plan.studies[ASSUMED], fragilities[ASSUMED]
     column, lognormal = study.cases.prototype, found.lognormal
     why = _why_not(found)
-    five, fifty = (_at(found.isotonic, share) if why else _at_lognormal(lognormal, share) for share in (0.05, 0.5))
+    five, fifty = (
+        _estimate(found.isotonic.reaches(share)) if why else _at_lognormal(lognormal, share) for share in (0.05, 0.5)
+    )
     limits = column.restitution_range or (None, None)
     rate = found.rate
     return AssessmentSummary(
@@ -106,7 +105,8 @@ def answer(
 
 
 def _estimate(interval: Interval) -> Estimate:
-    value, low, high = (float(each) if np.isfinite(each) else None for each in interval)
+    # 0 and infinity stand for what lies beyond the levels.
+    value, low, high = (float(each) if 0.0 < each < np.inf else None for each in interval)
     return Estimate(value=value, low=low, high=high)
 
 
@@ -121,28 +121,7 @@ def _why_not(found: Fragility) -> str:
 
 def _at_lognormal(fit: LognormalFit, share: float) -> Estimate:
     """Intensity at which the lognormal curve reaches a share."""
-    distance = float(scipy.special.ndtri(share))
-    band = fit.band(lambda mean, log_beta: mean + distance * np.exp(log_beta))
-    return _estimate(Interval(*(float(np.exp(each[0])) for each in band)))
-
-
-def _at(curve: IsotonicCurve, share: float) -> Estimate:
-    """Intensity at which the isotonic curve reaches a share, and at which its limits do."""
-    value, low, high = (
-        _reached(curve.intensity, each, share)
-        for each in (curve.probability.value, curve.probability.high, curve.probability.low)
-    )
-    return Estimate(value=value, low=low, high=high)
-
-
-def _reached(intensity: Array, probability: Array, share: float) -> float | None:
-    """Intensity at which a rising curve reaches a share, linear in ln x between its points; None if it does not."""
-    above = np.flatnonzero(probability >= share)
-    if not above.size or above[0] == 0:
-        return None
-    high = int(above[0])
-    part = (share - probability[high - 1]) / (probability[high] - probability[high - 1])
-    return float(intensity[high - 1] * (intensity[high] / intensity[high - 1]) ** part)
+    return _estimate(Interval(*(float(each[0]) for each in fit.intensity([share]))))
 
 
 def _variant(plan: Plan, name: str, found: Fragility) -> Variant:

@@ -9,13 +9,13 @@ import numpy as np
 import xarray as xr
 
 from colonnade.assessment.cases.prototype import Prototype
+from colonnade.assessment.fragility.hazard import Hazard
 from colonnade.assessment.intensity.baselines import NONE
 from colonnade.assessment.study import Study, plan_study
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessing.assessment import Assessment
 from colonnade.dynamics.block import pair
 from colonnade.errors import StageError
-from colonnade.readers.ground_motions.hazard import Hazard
 from colonnade.readers.ground_motions.record_set import RecordSet
 from colonnade.stages.assessing.column import USUAL_MARGIN, ColumnInputs, real_column
 
