@@ -1,4 +1,4 @@
-"""The site of a virtual campaign: real columns and questions that load, a hazard that falls, motions that can be read."""
+"""The site of a virtual campaign: columns and questions that load, a hazard that falls, motions that can be read."""
 
 from __future__ import annotations
 

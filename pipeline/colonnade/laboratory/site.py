@@ -40,7 +40,7 @@ def annual_rate(velocity: float) -> float:
     [0.01, 0.000386]
     """
     steps = np.log(velocity / 0.1)
-    return float(0.01 * np.exp(-1.7 * steps - 0.2 * steps * abs(steps)))
+    return float(0.01 * np.exp(-1.7 * steps - 0.2 * steps**2))
 
 
 def site_text(plan: Plan) -> str:

@@ -125,7 +125,7 @@ def _parts(record: AssessmentSummary) -> list[str]:
     more = "records matter more than e, α and p" if records > parameters else "e, α and p matter more than the records"
     return [
         f"β is {number(record.dispersion.value, 2)}. From record to record it is {number(records, 2)}, within a record "
-        f"{number(parameters, 2)}: the {more}. The two need not add up to β, as a column that overturns at one level may "
+        f"{number(parameters, 2)}: the {more}. They need not add up to β: a column that overturns at one level may "
         "stand at a higher one."
     ]
 
