@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+from pathlib import Path
 
 import pytest
 
@@ -25,6 +26,15 @@ def die(number: int) -> None:
     os.kill(os.getpid(), signal.SIGKILL)
 
 
+def die_once(place: str) -> str:
+    """Let the process be killed at the first call only."""
+    mark = Path(place)
+    if not mark.exists():
+        mark.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return mark.name
+
+
 @pytest.mark.parametrize(("items", "workers"), [([3, 1, 2], 1), ([3], 4)], ids=["one worker", "one item"])
 def test_one_worker_or_one_item_is_done_here_and_in_order(items, workers):
     assert list(spread(whose, items, workers=workers)) == [(item**2, os.getpid()) for item in items]
@@ -44,6 +54,16 @@ def test_two_workers_do_each_item_once_and_not_here():
 def test_an_error_is_the_one_that_was_raised(workers):
     with pytest.raises(ColonnadeError, match="number 2 cannot be"):
         list(spread(refuse, range(4), workers=workers))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+def test_what_a_stopped_worker_did_is_done_again(tmp_path):
+    (tmp_path / "second").touch()
+    told = []
+    found = spread(die_once, [str(tmp_path / name) for name in ("first", "second")], workers=2, tell=told.append)
+    assert sorted(found) == ["first", "second"]
+    assert len(told) == 1
+    assert "done again" in told[0]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")

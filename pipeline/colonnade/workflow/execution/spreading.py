@@ -10,6 +10,7 @@ import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from functools import partial
 from typing import Any, TypeVar
 
 from colonnade.errors import ColonnadeError
@@ -59,7 +60,7 @@ def spread(
     Raises
     ------
     ColonnadeError
-        If a worker was stopped, or the cluster is not there, runs other code or ends before the work does.
+        If workers were stopped twice, or the cluster is not there, runs other code or ends before the work does.
     """
     if scheduler is not None:
         yield from on_cluster(work, items, scheduler, tell)
@@ -74,13 +75,25 @@ def spread(
         return
     from joblib.externals.loky.process_executor import BrokenProcessPool
 
-    try:
-        yield from on_processes(work, items, count)
-    except BrokenProcessPool as error:
-        raise ColonnadeError(
-            f"{stopped(error)}, most often because memory ran out. Finished results are kept. "
-            "Run again with fewer workers (`--workers 1` uses the least memory)."
-        ) from error
+    waiting = dict(enumerate(items))
+    for is_last in (False, True):
+        try:
+            for number, result in on_processes(partial(_numbered, work), list(waiting.items()), count):
+                del waiting[number]
+                yield result
+            return
+        except BrokenProcessPool as error:
+            if is_last:
+                raise ColonnadeError(
+                    f"{stopped(error)} twice, most often because memory ran out. Finished results are kept. "
+                    "Run again with fewer workers (`--workers 1` uses the least memory)."
+                ) from error
+            tell(f"{stopped(error)} by the system, most often because memory ran out. Its work was done again.")
+
+
+def _numbered(work: Callable[[Item], Result], numbered: tuple[int, Item]) -> tuple[int, Result]:
+    number, item = numbered
+    return number, work(item)
 
 
 def stopped(error: BaseException) -> str:
