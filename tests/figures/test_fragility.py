@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.figures.fragility import COLUMNS, Curve, fragility, rate_by_intensity, twenty_columns
+from colonnade.figures.fragility import COLUMNS, Curve, fragility, rate_by_intensity, response_spectra, twenty_columns
 
 CURVE = Curve(
     np.array([1.0, 2.0, 4.0]), np.array([0.0, 0.4, 1.0]), np.array([0.0, 0.2, 0.8]), np.array([0.1, 0.6, 1.0])
@@ -41,3 +41,11 @@ def test_the_rate_is_drawn_in_per_cent():
     [axes] = rate_by_intensity(np.array([0.1, 0.2, 0.4]), np.array([0.25, 0.75]), label="PGV (m/s)").axes
     [bars] = axes.patches
     assert bars.get_data().values == pytest.approx([25.0, 75.0])
+
+
+def test_spectra_are_drawn_with_their_median():
+    period, values = np.array([0.1, 1.0]), np.array([[0.1, 0.2], [0.3, 0.4], [0.5, 0.9]])
+    [axes] = response_spectra(period, values).axes
+    *each, median = axes.lines
+    assert [line.get_ydata().tolist() for line in each] == values.tolist()
+    assert median.get_ydata().tolist() == [0.3, 0.4]

@@ -12,7 +12,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from colonnade.arrays import Array
-from colonnade.figures.style import FIT, INK, LIMIT, MEASURED, SOFT, LineStyle, blank_figure, is_narrow, styled
+from colonnade.figures.style import FAINT, FIT, INK, LIMIT, MEASURED, SOFT, LineStyle, blank_figure, is_narrow, styled
 
 COLUMNS = 20
 """Columns that stand for all: one is 5 %."""
@@ -138,6 +138,30 @@ def rate_by_intensity(edges: Array, shares: Array, *, label: str) -> Figure:
     axes.stairs(100 * shares, edges, fill=True, color=SOFT, alpha=0.6)
     axes.set(xscale="log", xlabel=label, ylabel="share of the annual rate (%)")
     _plain_decades(axes)
+    return figure
+
+
+@styled()
+def response_spectra(period: Array, acceleration: Array) -> Figure:
+    """
+    Draw the response spectra of ground motions as recorded, with their median.
+
+    Parameters
+    ----------
+    period : ndarray, shape (k,)
+        s.
+    acceleration : ndarray, shape (n, k)
+        Pseudo-acceleration, g.
+    """
+    figure = blank_figure(2.8)
+    axes = figure.subplots()
+    lines = axes.plot(period, acceleration.T, color=FAINT, linewidth=0.6)
+    lines[0].set_label("a ground motion")
+    axes.plot(period, np.median(acceleration, axis=0), color=INK, linewidth=1.6, label="median")
+    axes.set(xscale="log", yscale="log", xlabel="period (s)", ylabel="pseudo-acceleration (g)")
+    _plain_decades(axes)
+    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper left", ncols=2)
     return figure
 
 

@@ -8,12 +8,13 @@ import numpy as np
 import xarray as xr
 
 from colonnade.arrays import Array
-from colonnade.assessment.cases.cases import AXES, COMPONENTS, Outcomes
+from colonnade.assessment.cases.cases import AXES, COMPONENTS, Outcomes, in_plane
 from colonnade.assessment.cases.prototype import UNCERTAIN
 from colonnade.assessment.cases.sliding import FrictionNeeded, friction_needed, holds
 from colonnade.assessment.fragility.summary import Fragility
 from colonnade.assessment.intensity.registry import measure_of
-from colonnade.assessment.study import judge
+from colonnade.assessment.study import Study, judge
+from colonnade.dynamics.spectra.response import response_spectrum
 from colonnade.errors import StageError
 from colonnade.findings import warning
 from colonnade.stages.assessing.answer import answer
@@ -21,6 +22,10 @@ from colonnade.stages.assessing.plan import ASSUMED, Plan
 
 CURVE = 101
 """Points at which the lognormal curve is stored, over the levels and half as far beyond either end."""
+
+
+PERIODS = np.geomspace(0.05, 5.0, 41)
+"""s, of the response spectra of the records."""
 
 
 def assessment(plan: Plan, outcomes: Mapping[str, Outcomes]) -> xr.Dataset:
@@ -93,6 +98,16 @@ def _sliding(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded) -> float | 
     return float((~holds(needed, cases.drawn("friction")) & run).sum() / run.sum())
 
 
+def _spectra(study: Study) -> Array:
+    """Pseudo-acceleration of the components as recorded, m/s², shape (records, components, periods)."""
+    found = np.full((len(study.names), len(COMPONENTS), PERIODS.size), np.nan)
+    for record, motion in enumerate(study.cases.motions):
+        for place in range(len(COMPONENTS)):
+            if (along := in_plane(motion, place, 1.0)) is not None:
+                found[record, place] = response_spectrum(along.acceleration, along.dt, PERIODS).pseudo_acceleration
+    return found
+
+
 def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: Fragility) -> xr.Dataset:
     study = plan.studies[ASSUMED]
     units = [measure_of(name).unit or "1" for name in study.values]
@@ -130,12 +145,14 @@ def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: 
             **curves,
             **disaggregated,
             **drawn,
+            "record_spectrum": (("record", "component", "period"), _spectra(study)),
             "record_measure": (("measure", "record", "component"), np.stack(list(study.values.values()))),
         },
         coords={
             "record": np.array(study.names, dtype=object),
             "level_intensity": ("level", study.levels),
             "component": np.array(COMPONENTS, dtype=object),
+            "spectrum_period": ("period", PERIODS),
             "measure": np.array(list(study.values), dtype=object),
             "measure_unit": ("measure", np.array(units, dtype=object)),
         },

@@ -254,6 +254,8 @@ VARIABLES: dict[str, Variable] = {
     "measure": Variable("measure of the intensity of a ground motion", None, COORDINATE, dtype="str"),
     "measure_unit": Variable("SI unit of each measure", None, dtype="str"),
     "level_intensity": Variable("measure to which the ground motions are scaled", "1", COORDINATE, comment=_MEASURED),
+    "spectrum_period": Variable("period of an oscillator damped by 5 %", "s", COORDINATE),
+    "record_spectrum": Variable("pseudo-acceleration of each component as recorded", "m s-2", MEASURED),
     "record_measure": Variable("measure of each component as recorded", "1", MEASURED, comment="In its measure_unit."),
     "case_outcome": Variable("outcome of each history", None, MODELLED, dtype="int8", comment=_CASES),
     "case_overturned": Variable(

@@ -20,7 +20,7 @@ def test_the_page_says_the_answer_and_shows_its_pictures(assessed):
     words = " ".join(Page(text).words.split())
     for sentence in (*shown.answer, NOT_COVERED):
         assert " ".join(sentence.split()) in words
-    assert text.count("<svg") == 3
+    assert text.count("<svg") == 4
     assert "broken.csv" in words
     assert "West" in words
     assert "ASCE 43" in words

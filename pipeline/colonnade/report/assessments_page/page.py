@@ -39,6 +39,7 @@ class AssessmentShown(NamedTuple):
     columns: Picture | None
     curves: Picture | None
     rate: Picture | None
+    spectra: Picture | None
 
     @property
     def symbol(self) -> str:
@@ -103,7 +104,7 @@ def _shown(layout: Layout, name: str, record: AssessmentSummary) -> AssessmentSh
     except StoreError:
         stored = None
     if record.status == "failed" or stored is None:
-        return AssessmentShown(name, record, sentences(record), None, None, None)
+        return AssessmentShown(name, record, sentences(record), None, None, None, None)
     return AssessmentShown(
         name,
         record,
@@ -111,6 +112,7 @@ def _shown(layout: Layout, name: str, record: AssessmentSummary) -> AssessmentSh
         _columns(name, record, stored),
         curves(name, record, stored),
         _rate(name, record, stored),
+        _spectra(name, stored),
     )
 
 
@@ -165,6 +167,14 @@ def _taken(record: AssessmentSummary, stored: xr.Dataset) -> tuple[Array, Array]
     kind, over = ("lognormal", "curve_intensity") if lognormal else ("isotonic", "stripe_intensity")
     curve = _curve(stored, kind, over, _factor(record))
     return curve.intensity, curve.probability
+
+
+def _spectra(name: str, stored: xr.Dataset) -> Picture:
+    found = from_si(1.0, "g") * stored["record_spectrum"].to_numpy().reshape(-1, stored.sizes["period"])
+    found = found[np.isfinite(found).all(axis=1)]
+    drawn = figures.response_spectra(stored["spectrum_period"].to_numpy(), found)
+    described = f"Response spectra of {len(found)} components as recorded, damped by 5 %, and their median."
+    return Picture(drawn, f"spectra-{name}", f"Response spectra of the ground motions, {name}", described)
 
 
 def _rate(name: str, record: AssessmentSummary, stored: xr.Dataset) -> Picture | None:

@@ -144,7 +144,7 @@ def _assumed(record: AssessmentSummary) -> str:
     e = record.restitution
     limits = "" if e.low is None else f", drawn between {number(e.low)} and {number(e.high)}"
     source = SOURCES[record.restitution_source or "given"]
-    sliding = "sliding is not judged" if record.sliding is None else "it does not slide"
+    sliding = "sliding is not judged" if record.sliding is None else "that it does not slide"
     return (
         f"Assumed: α {number(record.critical_angle)} rad, p {number(record.p)} rad/s, e {number(e.value)} "
         f"({source}{limits}); {sliding}. The records are scaled as they are."
