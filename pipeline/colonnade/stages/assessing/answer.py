@@ -79,6 +79,7 @@ def answer(
         restitution=Estimate(value=float(np.mean(pair(column.restitution))), low=limits[0], high=limits[1]),
         restitution_source=plan.restitution_source,
         uplift_acceleration=column.block.uplift_acceleration,
+        uplift=Estimate() if found.uplift.curve is None else _estimate(found.uplift.curve.median),
         median=_estimate(lognormal.median),
         dispersion=_estimate(lognormal.beta),
         dispersion_records=found.betas.records.value,

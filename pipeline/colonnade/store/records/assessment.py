@@ -85,12 +85,16 @@ def sentences(record: AssessmentSummary) -> list[str]:
     found = [_rocks(record), _overturns(record)]
     if record.curve_reason:
         found.append(f"This is read from a curve that only rises, not from a lognormal one: {record.curve_reason}.")
-    found += [*_restitution_matters(record), *_parts(record), *_rate(record), _assumed(record)]
+    found += [*_restitution_matters(record), *_parts(record), *_resurrected(record), *_rate(record), _assumed(record)]
     return found
 
 
 def _rocks(record: AssessmentSummary) -> str:
-    return f"It starts to rock at {quantity(record.uplift_acceleration, 'g')} of horizontal acceleration."
+    said = f"It starts to rock at {quantity(record.uplift_acceleration, 'g')} of horizontal acceleration"
+    if record.uplift.value is None:
+        return f"{said}."
+    symbol = measure_of(record.measure).symbol
+    return f"{said}, on half of the records at {symbol} {estimated(record.measure, record.uplift)}."
 
 
 def _overturns(record: AssessmentSummary) -> str:
@@ -127,6 +131,15 @@ def _parts(record: AssessmentSummary) -> list[str]:
         f"β is {number(record.dispersion.value, 2)}. From record to record it is {number(records, 2)}, within a record "
         f"{number(parameters, 2)}: the {more}. They need not add up to β: a column that overturns at one level may "
         "stand at a higher one."
+    ]
+
+
+def _resurrected(record: AssessmentSummary) -> list[str]:
+    if not record.resurrected:
+        return []
+    return [
+        f"In {percent(record.resurrected)} of the histories it stands although it overturned on the same record at a "
+        "lower level: stronger shaking is not always worse."
     ]
 
 
