@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from scipy import stats
 
 from colonnade.arrays import Array
 from colonnade.figures.style import LIMIT, SOFT, blank_figure, is_narrow, model_style, styled
@@ -96,7 +96,7 @@ def _draw_pit(axes: Axes, models: Mapping[str, Calibration]) -> None:
     tests = max(each.pit.size for each in models.values())
     count = FEW_BINS if tests < FEW else BINS
     edges = np.linspace(0.0, 1.0, count + 1)
-    low, high = (stats.binom.ppf(level, tests, 1 / count) / tests for level in (0.025, 0.975))
+    low, high = (scipy.stats.binom.ppf(level, tests, 1 / count) / tests for level in (0.025, 0.975))
     axes.axhspan(low, high, color=SOFT, alpha=0.15, linewidth=0)
     axes.axhline(1 / count, **LIMIT)
     for model, each in models.items():

@@ -25,6 +25,7 @@ from xarray.backends import NetCDF4DataStore
 from colonnade.errors import StoreError
 from colonnade.store.attributes import restored, storable
 from colonnade.store.description import describe
+from colonnade.store.loading import LABEL, loaded
 from colonnade.store.long_arrays import write_file
 from colonnade.store.own_files import own_files
 from colonnade.store.provenance import content_hash, coverage, is_long
@@ -33,7 +34,6 @@ PARTIAL = ".partial"
 """Ending of temporary names, as a killed run leaves them."""
 
 _COMPRESSION = {"zlib": True, "complevel": 4, "shuffle": True}
-_LABEL = "_name"
 
 Result = TypeVar("Result")
 
@@ -122,13 +122,11 @@ def read(path: Path) -> xr.Dataset:
     """
     try:
         with netCDF4.Dataset(path.name, memory=path.read_bytes()) as opened:
-            backend = _backend(opened)
-            stored = xr.open_dataset(backend, decode_times=False, decode_timedelta=False, mask_and_scale=False).load()
+            dataset = loaded(opened)
     except FileNotFoundError:
         raise StoreError(f"{path}: result not found. Run `colonnade run` to make it.") from None
     except (OSError, RuntimeError, ValueError, KeyError) as error:
         raise _damaged(path, f"it cannot be read as NetCDF ({error})") from error
-    dataset = _with_labels(stored)
     if dataset.attrs.get("content") != content_hash(dataset):
         raise _damaged(path, "its values differ from those that were written")
     dataset.attrs = restored(dataset.attrs)
@@ -263,18 +261,8 @@ def _without_labels(dataset: xr.Dataset) -> xr.Dataset:
     prepared = dataset.copy()
     for name in names:
         label = dataset[name].variable
-        prepared = prepared.drop_vars(name).assign_coords({f"{name}{_LABEL}": (label.dims, label.values, label.attrs)})
+        prepared = prepared.drop_vars(name).assign_coords({f"{name}{LABEL}": (label.dims, label.values, label.attrs)})
     return prepared
-
-
-def _with_labels(stored: xr.Dataset) -> xr.Dataset:
-    labels = [str(name) for name in stored.variables if str(name).endswith(_LABEL)]
-    restored = stored
-    for label in labels:
-        name, variable = label.removesuffix(_LABEL), stored[label].variable
-        if variable.dims == (name,):
-            restored = restored.drop_vars(label).assign_coords({name: (name, variable.values, variable.attrs)})
-    return restored
 
 
 def _put_long(path: Path, dataset: xr.Dataset) -> str:

@@ -78,3 +78,15 @@ def test_a_band_scales_its_axis():
     low, high = axes.get_ylim()
     assert low <= -3.0
     assert high >= 7.0
+
+
+@pytest.mark.parametrize(
+    "values",
+    [NOISE[:100], np.where(np.arange(100) % 99 < 10, np.nan, NOISE[:100]), np.full(100, np.nan)],
+    ids=["whole", "with gaps at both ends", "without a value"],
+)
+def test_axes_scale_themselves_to_a_curve_as_to_a_line_of_matplotlib(values):
+    (_, ours), (_, theirs) = panel(), panel()
+    draw_curve(ours, Curve(TIME[:100], values))
+    theirs.plot(TIME[:100], values)
+    assert (ours.get_xlim(), ours.get_ylim()) == (theirs.get_xlim(), theirs.get_ylim())

@@ -19,7 +19,7 @@ def shorter(path: str) -> str:
     Parameters
     ----------
     path : str
-        The attribute `d` with M, L and z, as matplotlib writes it.
+        The attribute `d` with M, L, Q, C and z, as matplotlib writes it.
 
     Returns
     -------
@@ -31,10 +31,9 @@ def shorter(path: str) -> str:
     >>> shorter("M 72 50.404 L 72.5 49.1 L 73 60 z")
     'M72 50.4l.5-1.3 .5 10.9z'
     """
-    try:
-        numbers = np.array(path.translate(_NUMBERS_ONLY).split(), dtype=np.float64)
-    except ValueError:  # another letter than M, L and z
+    if "C" in path or "Q" in path:
         return path
+    numbers = np.fromstring(path.translate(_NUMBERS_ONLY), sep=" ")
     return _steps(path.split("M")[1:], np.rint(100 * numbers).astype(np.int64))
 
 

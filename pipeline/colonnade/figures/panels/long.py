@@ -72,7 +72,11 @@ class LongBand(PolyCollection):
 def draw_curve(axes: Axes, curve: Curve, **look: Any) -> LongLine:
     """Draw a curve of any length into a panel; `look` is that of a line, with its `label`."""
     line = LongLine(curve.time, curve.values, **look)
-    axes.add_line(line)
+    axes.add_artist(line)
+    known = np.flatnonzero(np.isfinite(curve.values))
+    if known.size:  # as `add_line` does by way of a path of all samples
+        low, high = (float(limit(curve.values[known])) for limit in (np.min, np.max))
+        axes.update_datalim([(curve.time[known[0]], low), (curve.time[known[-1]], high)])
     _scale_later(axes)
     return line
 

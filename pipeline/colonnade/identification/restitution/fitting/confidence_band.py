@@ -57,4 +57,4 @@ def confidence_band(
     fit = problem.fit()
     at = np.column_stack((np.ones(theta.size), number))
     variance = ((at @ fit.covariance[:2, :2]) * at).sum(axis=1)
-    return np.asarray(float(scipy.stats.t.ppf((1 + level) / 2, fit.freedom)) * np.sqrt(variance))
+    return np.asarray(float(scipy.special.stdtrit(fit.freedom, (1 + level) / 2)) * np.sqrt(variance))
