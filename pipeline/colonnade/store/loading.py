@@ -43,7 +43,7 @@ def loaded(opened: netCDF4.Dataset) -> xr.Dataset:
         dimension = name.removesuffix(LABEL)
         if name != dimension and stored.dimensions == (dimension,):
             name = dimension
-        values[name] = xr.Variable(stored.dimensions, array, own)
+        values[name] = xr.Variable(stored.dimensions, array, own, fastpath=True)
         if stored.dimensions == (name,):
             coordinates.add(name)
     return xr.Dataset(

@@ -40,6 +40,29 @@ class _Renderer(RendererSVG):
         return _heights(prop)
 
 
+_OFTEN = ("open_group", "close_group", "new_gc", "draw_path", "draw_text", "points_to_pixels", "flipy")
+"""Methods of a renderer that nearly every artist calls."""
+
+
+class _Mixed(MixedModeRenderer):
+    """Has these methods at hand, of the vector renderer or of the raster's; matplotlib looks for each at each call."""
+
+    def __init__(self, *given: Any, **options: Any) -> None:
+        super().__init__(*given, **options)  # type: ignore[no-untyped-call]
+        self._share()
+
+    def _share(self) -> None:
+        vars(self).update({name: getattr(self._renderer, name) for name in _OFTEN})
+
+    def start_rasterizing(self) -> None:
+        super().start_rasterizing()  # type: ignore[no-untyped-call]
+        self._share()
+
+    def stop_rasterizing(self) -> None:
+        super().stop_rasterizing()  # type: ignore[no-untyped-call]
+        self._share()
+
+
 @lru_cache(TEXTS)
 def _size(text: str, font: FontProperties, is_math: bool | Literal["TeX"]) -> tuple[float, float, float]:
     """Return width, height and descent of a text, points."""
@@ -67,9 +90,7 @@ class FigureCanvas(FigureCanvasSVG):
         fine, figure.dpi = figure.dpi, self.fixed_dpi
         wide, high = (float(size) for size in figure.get_size_inches())
         vector = _Renderer(72 * wide, 72 * high, text, image_dpi=fine, metadata=metadata)  # type: ignore[no-untyped-call]
-        renderer: Any = MixedModeRenderer(  # type: ignore[no-untyped-call]
-            figure, wide, high, fine, vector, bbox_inches_restore=bbox_inches_restore
-        )
+        renderer: Any = _Mixed(figure, wide, high, fine, vector, bbox_inches_restore=bbox_inches_restore)
         figure.draw(renderer)
         renderer.finalize()
         filename.write(text.getvalue().encode())
