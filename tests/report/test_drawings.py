@@ -12,7 +12,7 @@ def test_a_drawing_is_kept_until_it_changes(empty_campaign, tmp_path):
     campaign, _ = empty_campaign
     made = list(drawings.files(campaign, tmp_path, "code"))
     assert [address for address, *_ in made] == [addresses.of_setup(*pair) for pair in campaign.combinations]
-    assert {address for address, *_ in made} <= {*addresses.addresses(campaign, forecasts=False)[0]}
+    assert {address for address, *_ in made} <= {*addresses.addresses(campaign, [])[0]}
     for address, text, made_from in made:
         path = tmp_path / address
         path.parent.mkdir(exist_ok=True)

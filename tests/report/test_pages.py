@@ -6,7 +6,10 @@ from colonnade.report import pages
 
 
 def test_settings_are_written_with_their_unit(filled_campaign):
-    written = {setting.key: pages._setting(setting) for setting in settings(filled_campaign[0].processing)}
+    written = {
+        setting.key: pages._setting(setting)
+        for setting in settings(filled_campaign[0].processing, filled_campaign[0].next)
+    }
     assert written["processing.lowpass"] == "25 Hz"
     assert written["processing.base_lowpass"] == "auto"
     assert written["processing.predict.models"] == "linear, nonlinear"

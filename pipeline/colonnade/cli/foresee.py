@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import rich_click as click
 
 from colonnade.cli.console import say, show_json, show_table
-from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, results_option
+from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, one_specimen_option, results_option
 from colonnade.cli.progress import work_progress
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ HEADS = (
     help='Peak acceleration of the table, "0.3 g", or a factor on a recorded motion, 1.5x. Without --test it may be '
     "repeated.",
 )
-@click.option("--specimen", metavar="ID", help="The specimen; needed if there are several and no test is named.")
+@one_specimen_option
 @click.option("--test", metavar="ID", help="The test that the forecast is for, such as one with planned = true.")
 @click.option(
     "--time-scale", type=float, metavar="FACTOR", help="On the motion's own time; by default that of the test, else 1."

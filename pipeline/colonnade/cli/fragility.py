@@ -14,6 +14,7 @@ from colonnade.cli.options import (
     LateChoice,
     campaign_argument,
     json_option,
+    one_specimen_option,
     results_option,
     scheduler_option,
     workers_option,
@@ -45,7 +46,7 @@ def _plane_models() -> Iterable[str]:
 )
 @campaign_argument
 @click.option("--name", multiple=True, metavar="NAME", help="Only this assessment of the campaign; may be repeated.")
-@click.option("--specimen", metavar="ID", help="The specimen that is a model of the column.")
+@one_specimen_option
 @click.option(
     "--records", type=click.Path(path_type=Path), metavar="DIR|FILE", help="Ground motions: a folder or a list."
 )

@@ -63,6 +63,10 @@ specimen_option = click.option(
     "--specimen", multiple=True, metavar="ID", help="Only this specimen. Repeat the option for several."
 )
 
+one_specimen_option = click.option(
+    "--specimen", metavar="ID", help="The specimen; needed if there are several and nothing else names it."
+)
+
 json_option = click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
 
 workers_option = click.option(

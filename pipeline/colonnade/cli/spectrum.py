@@ -11,7 +11,14 @@ from click import get_current_context
 from click.core import ParameterSource
 
 from colonnade.cli.console import say, show_fields, show_json, show_table
-from colonnade.cli.options import CAMPAIGN, LateChoice, campaign_argument, json_option, results_option
+from colonnade.cli.options import (
+    CAMPAIGN,
+    LateChoice,
+    campaign_argument,
+    json_option,
+    one_specimen_option,
+    results_option,
+)
 
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign
@@ -55,7 +62,7 @@ def _plane_models() -> Iterable[str]:
 @campaign_argument
 @click.option("--motion", metavar="FILE|NAME", help="A file, a test that recorded it, or one of [motions].")
 @click.option("--pulse", type=LateChoice(_pulses), help="Kind of pulse.")
-@click.option("--specimen", metavar="ID", help="The specimen; needed if there are several.")
+@one_specimen_option
 @click.option("--scale", type=float, default=1.0, help="How many times larger the column is.", metavar="FACTOR")
 @click.option("--critical-angle", metavar="ANGLE", help='Of the column, such as "0.18 rad".')
 @click.option("--p", metavar="FREQUENCY", help='Frequency parameter of the column, such as "1.26 rad/s".')
