@@ -44,8 +44,8 @@ from colonnade.store.records.stored import read_specimen
 from colonnade.store.records.summary import read_summary
 from colonnade.units import format_percent
 
-IN_A_BLOCK = 5
-"""Tests whose pages are drawn one after the other, so that templates are not read again for each."""
+IN_A_BLOCK = 2
+"""Tests whose pages are drawn one after the other: few, so that no process waits long for the last of another."""
 
 OWN = ("tests/*.html", "specimens/*.html", "data/**/*.js", "scripts/*.js", "setups/*.svg", *addresses.OPTIONAL)
 """Files of the report's folders; one that nothing of the campaign leads to any more is removed."""
