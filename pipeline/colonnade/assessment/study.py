@@ -53,7 +53,7 @@ class Study:
     drift : ndarray, shape (records,)
         Largest velocity at the end of a component over its peak velocity.
     left_out : dict of str to str
-        Records that cannot be scaled over the measure, and why.
+        Records and components that cannot be scaled over the measure, and why.
     """
 
     names: tuple[str, ...]
@@ -123,7 +123,7 @@ def plan_study(
     compared = [scaled_over, *measures_of(USUAL if measures is None else measures)]
     corrected = {name: _corrected(motion, baseline) for name, motion in motions.items()}
     values = {each.id: np.full((len(motions), len(COMPONENTS)), np.nan) for each in compared}
-    drifts, reasons = np.zeros(len(motions)), {}
+    drifts, reasons = np.zeros(len(motions)), dict[tuple[str, str], str]()
     for row, (name, motion) in enumerate(corrected.items()):
         for column, component in enumerate(COMPONENTS):
             along = getattr(motion, WITH_COMPONENT[component])
@@ -134,7 +134,7 @@ def plan_study(
             for each in compared:
                 values[each.id][row, column], reason = measured(each, ground, block, drift=drift)
                 if reason and each is scaled_over:
-                    reasons[name] = reason
+                    reasons[name, component] = reason
     usable = np.isfinite(values[scaled_over.id]).any(axis=1)
     if not usable.any():
         why = next(iter(reasons.values()), "there is no record")
@@ -152,8 +152,7 @@ def plan_study(
     factors = factors_at(found, recorded, power)
     drawn = tuple(draw(prototype, draws, seed, record=number) for number in range(len(chosen)))
     cases = Cases(prototype, drawn, chosen, factors, model)
-    left_out = {name: reasons[name] for name in corrected if name not in kept}
-    return Study(tuple(kept), cases, scaled_over, found, values, drifts[usable], left_out)
+    return Study(tuple(kept), cases, scaled_over, found, values, drifts[usable], _left_out(kept, reasons))
 
 
 def judge(
@@ -221,6 +220,14 @@ def judge(
 def counted_draws(draws: int) -> slice:
     """Give the draws that count: the first, with nothing varied, only if it is the only one."""
     return slice(1 if draws > 1 else 0, None)
+
+
+def _left_out(kept: Sequence[str], reasons: Mapping[tuple[str, str], str]) -> dict[str, str]:
+    """Name whole records, and of those that are kept the component."""
+    found: dict[str, str] = {}
+    for (name, component), reason in reasons.items():
+        found.setdefault(f"{name}, component {component}" if name in kept else name, reason)
+    return found
 
 
 def _corrected(motion: Motion, baseline: str) -> Motion:

@@ -171,6 +171,8 @@ def _show(assessed: Assessed) -> None:
         say(f"  {sentence}")
     for said in record.warnings:
         complain(f"warning: {said}")
+    for said in record.notes:
+        complain(f"note: {said}")
     if record.status == "failed":
         return
     say(f"  {NOT_COVERED}")
@@ -184,7 +186,9 @@ def _show(assessed: Assessed) -> None:
     ]
     show_table(("measure", "deviance", "AUC", "scatter of ln peak", "best in"), rows)
     if record.deciding:
-        without = (f"{each.record} (without it {level(record.measure, each.median)})" for each in record.deciding)
+        without = (
+            f"{each.record} (median without it {level(record.measure, each.median)})" for each in record.deciding
+        )
         say(f"The records that change the answer most: {', '.join(without)}.")
     if assessed.path is not None:
         say(f"result: {assessed.path}")

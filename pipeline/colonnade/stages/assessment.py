@@ -13,7 +13,7 @@ from colonnade.assessment.cases.prototype import UNCERTAIN
 from colonnade.assessment.cases.sliding import FrictionNeeded, friction_needed, holds
 from colonnade.assessment.fragility.summary import Fragility
 from colonnade.assessment.intensity.registry import measure_of
-from colonnade.assessment.study import Study, judge
+from colonnade.assessment.study import Study, counted_draws, judge
 from colonnade.dynamics.spectra.response import response_spectrum
 from colonnade.errors import StageError
 from colonnade.findings import warning
@@ -94,8 +94,9 @@ def _sliding(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded) -> float | 
     cases = plan.studies[ASSUMED].cases
     if cases.prototype.friction is None:
         return None
-    run = outcomes.is_run
-    return float((~holds(needed, cases.drawn("friction")) & run).sum() / run.sum())
+    drawn = counted_draws(cases.shape[2])
+    run = outcomes.is_run[:, :, drawn]
+    return float((~holds(needed, cases.drawn("friction")[:, drawn]) & run).sum() / run.sum())
 
 
 def _spectra(study: Study) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from colonnade.campaign.assessing.assessed import AssessmentSummary, Estimate, Variant
+from colonnade.campaign.assessing.assessed import UNCORRECTED, AssessmentSummary, Estimate, Variant
 from colonnade.store.records.assessment import sentences
 
 KNOWN = {
@@ -42,10 +42,37 @@ def test_what_is_known_is_said_with_units_and_intervals():
     assert "sliding is not judged" in text
 
 
-def test_what_is_not_reached_is_said():
-    text = " ".join(sentences(AssessmentSummary(**KNOWN, curve="isotonic", curve_reason="everything overturns")))
-    assert "is not reached within the levels" in text
-    assert "not from a lognormal one: everything overturns." in text
+def test_what_is_beyond_the_levels_is_said_on_its_side():
+    record = AssessmentSummary(
+        **KNOWN,
+        curve="isotonic",
+        curve_reason="the reason",
+        five_percent=Estimate(beyond="below"),
+        fifty_percent=Estimate(beyond="above"),
+    )
+    text = " ".join(sentences(record)).replace("\xa0", " ")
+    assert "5 % already below the lowest level, and of 50 % nowhere within the levels." in text
+    assert "not from a lognormal one: the reason." in text
+    assert "In brackets" not in text
+
+
+def test_a_correction_is_said_with_the_answer_without_it():
+    known = Variant(name="nothing varied", restitution=0.976, median=Estimate(value=4.1))
+    plain = Variant(name=UNCORRECTED, restitution=0.976, median=Estimate(value=5.1), records=3)
+    record = AssessmentSummary(**KNOWN, baseline="linear", variants=(known, plain))
+    text = " ".join(sentences(record))
+    assert "As they are, half of the histories of 3 records overturn it at 0.52 g; corrected" in text
+    assert "nothing varied either, 0.418 g" in text
+    assert "The records are scaled after a correction (linear)." in text
+    none = Variant(name=UNCORRECTED, restitution=0.976, reason="all drift")
+    text = " ".join(sentences(AssessmentSummary(**KNOWN, baseline="linear", variants=(known, none))))
+    assert "As they are, they give no curve: all drift." in text
+
+
+def test_what_was_drawn_and_what_was_not_is_said():
+    text = " ".join(sentences(AssessmentSummary(**KNOWN, p_range=(1.2, 1.3), friction=0.6)))
+    assert "α 0.186 rad, p 1.26 rad/s (drawn between 1.2 and 1.3), e 0.976 (identified" in text
+    assert "that it does not slide on friction 0.6. The records are scaled as they are." in text
 
 
 def test_a_failure_gives_its_reason_alone():

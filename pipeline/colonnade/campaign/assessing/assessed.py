@@ -6,6 +6,9 @@ from typing import Literal
 
 from colonnade.campaign.record import Known, Record
 
+UNCORRECTED = "records as they are"
+"""Name of the variant without the correction of the records that was asked for."""
+
 
 class Estimate(Record):
     """A value and its 95 % interval."""
@@ -16,6 +19,8 @@ class Estimate(Record):
     """Lower end of the interval."""
     high: Known = None
     """Upper end of the interval."""
+    beyond: Literal["below", "above"] | None = None
+    """Of a value that is null: whether it is below the lowest level or above the highest."""
 
 
 class Variant(Record):
@@ -29,6 +34,8 @@ class Variant(Record):
     """Of its lognormal curve."""
     five_percent: Estimate = Estimate()
     """Measure at which the column overturns with a probability of 5 %, by that curve."""
+    records: int | None = None
+    """Number of ground motions that were run."""
     reason: str | None = None
     """Why there is no curve."""
 
@@ -123,6 +130,16 @@ class AssessmentSummary(Record):
     """α of the column, rad."""
     p: Known = None
     """Frequency parameter of the column, rad/s."""
+    critical_angle_range: tuple[float, float] | None = None
+    """Limits between which α was drawn, rad."""
+    p_range: tuple[float, float] | None = None
+    """Limits between which p was drawn, rad/s."""
+    friction: Known = None
+    """Friction between the column and what it stands on."""
+    friction_range: tuple[float, float] | None = None
+    """Limits between which it was drawn."""
+    baseline: str = "none"
+    """Correction of the records."""
     restitution: Estimate = Estimate()
     """e that was assumed, with the limits between which it was drawn."""
     restitution_source: str | None = None
@@ -155,7 +172,9 @@ class AssessmentSummary(Record):
     sliding: Known = None
     """Share of the runs in which the friction given does not hold the column in place."""
     annual_rate: Estimate = Estimate()
-    """Overturnings a year, with the hazard that is given."""
+    """Overturnings a year, with the hazard that is given, by the lognormal curve."""
+    annual_rate_isotonic: Known = None
+    """The same by the curve that only rises: 0 below the lowest level, constant above the highest."""
     probability_50_years: Estimate = Estimate()
     """Probability of overturning within 50 years."""
     rate_outside: Known = None
@@ -172,3 +191,5 @@ class AssessmentSummary(Record):
     """Ground motions that were run."""
     records_left_out: tuple[RecordLeftOut, ...] = ()
     """Ground motions that could not be used."""
+    notes: tuple[str, ...] = ()
+    """What else is to know of the files of the ground motions, and of the measures that are not compared."""

@@ -173,7 +173,7 @@ def _spectra(name: str, stored: xr.Dataset) -> Picture:
     found = from_si(1.0, "g") * stored["record_spectrum"].to_numpy().reshape(-1, stored.sizes["period"])
     found = found[np.isfinite(found).all(axis=1)]
     drawn = figures.response_spectra(stored["spectrum_period"].to_numpy(), found)
-    described = f"Response spectra of {len(found)} components as recorded, damped by 5 %, and their median."
+    described = f"Response spectra of {len(found)} components before scaling, damped by 5 %, and their median."
     return Picture(drawn, f"spectra-{name}", f"Response spectra of the ground motions, {name}", described)
 
 
@@ -182,6 +182,7 @@ def _rate(name: str, record: AssessmentSummary, stored: xr.Dataset) -> Picture |
         return None
     edges, shares = stored["rate_edge"].to_numpy() / _factor(record), stored["rate_share"].to_numpy()
     largest = int(np.argmax(shares))
-    described = f"Most of the rate is from {number(edges[largest])} to {number(edges[largest + 1])}."
+    ends = f"{number(edges[largest])} to {number(edges[largest + 1])} {unit_of(record.measure)}".strip()
+    described = f"The largest share of the rate is from {symbol(record.measure)} {ends}."
     drawn = figures.rate_by_intensity(edges, shares, label=_label(record.measure))
     return Picture(drawn, f"rate-{name}", f"Which intensities make the annual rate, {name}", described)

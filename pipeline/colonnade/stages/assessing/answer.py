@@ -3,29 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Literal
 
 import numpy as np
 
-from colonnade.assessment.cases.cases import FALLS_AWAY, Outcomes
+from colonnade.assessment.cases.cases import Outcomes
 from colonnade.assessment.fragility.lognormal import LognormalFit
 from colonnade.assessment.fragility.resampling import Interval
 from colonnade.assessment.fragility.summary import Fragility
+from colonnade.assessment.intensity.registry import measure_of
 from colonnade.campaign.assessing.assessed import (
+    UNCORRECTED,
     AssessmentSummary,
     DecidingRecord,
     Estimate,
     JudgedMeasure,
-    RecordLeftOut,
     RecordUsed,
     Variant,
 )
 from colonnade.dynamics.block import pair
 from colonnade.stages.assessing.criteria import judged_criteria
+from colonnade.stages.assessing.doubts import MISFITS, doubts, left_out
 from colonnade.stages.assessing.plan import ASSUMED, Plan
-from colonnade.units import format_percent
-
-MISFITS = 0.05
-"""p-value below which the lognormal curve is not taken."""
 
 MOST_DECIDING = 5
 """Records that are named as those that decide."""
@@ -68,9 +67,10 @@ def answer(
     )
     limits = column.restitution_range or (None, None)
     rate = found.rate
+    variants = [_variant(plan, name, each) for name, each in fragilities.items() if name != ASSUMED]
     return AssessmentSummary(
         status="done",
-        warnings=tuple(_warnings(plan, outcomes, found, sliding)),
+        warnings=tuple(doubts(plan, outcomes, found, sliding)),
         specimen=plan.inputs.specimen,
         measure=study.measure.id,
         unit=study.measure.unit,
@@ -78,6 +78,11 @@ def answer(
         p=column.block.p,
         restitution=Estimate(value=float(np.mean(pair(column.restitution))), low=limits[0], high=limits[1]),
         restitution_source=plan.restitution_source,
+        critical_angle_range=column.critical_angle_range,
+        p_range=column.p_range,
+        friction=column.friction,
+        friction_range=column.friction_range,
+        baseline=plan.inputs.asked.baseline,
         uplift_acceleration=column.block.uplift_acceleration,
         uplift=Estimate() if found.uplift.curve is None else _estimate(found.uplift.curve.median),
         median=_estimate(lognormal.median),
@@ -93,22 +98,27 @@ def answer(
         sliding=sliding,
         annual_rate=Estimate() if rate is None else _estimate(rate.rate),
         probability_50_years=Estimate() if rate is None else _estimate(rate.in_50_years),
+        annual_rate_isotonic=None if rate is None else rate.isotonic,
         rate_outside=None if rate is None else rate.below_hazard + rate.above_hazard,
-        variants=tuple(_variant(plan, name, each) for name, each in fragilities.items() if name != ASSUMED),
+        variants=(*variants, *_without_correction(plan)),
         measures=_measures(found),
         criteria=judged_criteria(
             study, outcomes, drift=plan.inputs.asked.drift, overturned=plan.inputs.asked.overturned
         ),
         deciding=_deciding(found),
         records_used=_used(plan),
-        records_left_out=_left_out(plan),
+        records_left_out=left_out(plan),
+        notes=(*plan.records.notes, *_not_compared(plan, found)),
     )
 
 
 def _estimate(interval: Interval) -> Estimate:
     # 0 and infinity stand for what lies beyond the levels.
     value, low, high = (float(each) if 0.0 < each < np.inf else None for each in interval)
-    return Estimate(value=value, low=low, high=high)
+    beyond: Literal["below", "above"] | None = None
+    if value is None and not np.isnan(interval.value):
+        beyond = "below" if interval.value == 0.0 else "above"
+    return Estimate(value=value, low=low, high=high, beyond=beyond)
 
 
 def _why_not(found: Fragility) -> str:
@@ -132,8 +142,24 @@ def _variant(plan: Plan, name: str, found: Fragility) -> Variant:
         restitution=float(np.mean(pair(plan.studies[name].cases.prototype.restitution))),
         median=Estimate() if fit.reason else _estimate(fit.median),
         five_percent=Estimate() if fit.reason else _at_lognormal(fit, 0.05),
+        records=len(found.outcomes.records),
         reason=NO_CURVE[fit.reason] if fit.reason else None,
     )
+
+
+def _without_correction(plan: Plan) -> list[Variant]:
+    """Say why there is no answer without the correction, if there is none."""
+    if not plan.without_correction:
+        return []
+    e = float(np.mean(pair(plan.studies[ASSUMED].cases.prototype.restitution)))
+    return [Variant(name=UNCORRECTED, restitution=e, reason=plan.without_correction)]
+
+
+def _not_compared(plan: Plan, found: Fragility) -> list[str]:
+    """Say which measures are not compared; nobody asked for those that are compared by default."""
+    compared = () if found.measures is None else {each.name for each in found.measures.scores}
+    missing = [name for name in plan.studies[ASSUMED].values if name not in compared]
+    return [f"Not compared, as not all records have it: {measure_of(name).name}." for name in missing]
 
 
 def _measures(found: Fragility) -> tuple[JudgedMeasure, ...]:
@@ -176,42 +202,3 @@ def _used(plan: Plan) -> tuple[RecordUsed, ...]:
         )
         for row, name in enumerate(study.names)
     )
-
-
-def _left_out(plan: Plan) -> tuple[RecordLeftOut, ...]:
-    named = [(each.name, each.reason.removeprefix(f"{each.name}: ")) for each in plan.records.left_out]
-    return tuple(
-        RecordLeftOut(record=name, reason=reason) for name, reason in (*named, *plan.studies[ASSUMED].left_out.items())
-    )
-
-
-def _warnings(plan: Plan, outcomes: Outcomes, found: Fragility, sliding: float | None) -> list[str]:
-    """Say what is doubtful, the gravest first."""
-    said, left_out = [], _left_out(plan)
-    if sliding:
-        said.append(
-            f"In {format_percent(sliding)} of the histories the column would slide: it needs more friction than there "
-            "is. There the answer does not hold."
-        )
-    if left_out:
-        first = left_out[0]
-        others = "" if len(left_out) == 1 else f" and {len(left_out) - 1} more"
-        said.append(f"Left out: {first.record}{others}. {first.record}: {first.reason.splitlines()[0]}")
-    if (falling := int((outcomes.outcome == FALLS_AWAY).sum())) > 0:
-        said.append(
-            f"{falling} histories are not run: their base falls faster than the column. Their levels are too high."
-        )
-    rate = found.rate
-    if rate is not None and rate.is_extrapolated:
-        said.append(
-            f"{format_percent(rate.below_hazard + rate.above_hazard)} of the annual rate is from outside the hazard "
-            f"curve, and {format_percent(rate.below_levels + rate.above_levels)} from outside the levels."
-        )
-    if plan.hazard is not None and rate is None:
-        said.append("There is a hazard, and no annual rate: that needs a lognormal curve.")
-    if found.lognormal.degenerate > 0.05:
-        said.append(
-            f"{format_percent(found.lognormal.degenerate)} of the resamples of records have no curve: the intervals "
-            "are of the others. More records would help."
-        )
-    return said

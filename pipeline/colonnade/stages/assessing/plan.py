@@ -10,17 +10,19 @@ import xarray as xr
 
 from colonnade.assessment.cases.prototype import Prototype
 from colonnade.assessment.fragility.hazard import Hazard
+from colonnade.assessment.fragility.outcomes import FEWEST
 from colonnade.assessment.intensity.baselines import NONE
 from colonnade.assessment.study import Study, plan_study
 from colonnade.campaign import Campaign
+from colonnade.campaign.assessing.assessed import UNCORRECTED
 from colonnade.campaign.assessing.assessment import Assessment
 from colonnade.dynamics.block import pair
 from colonnade.errors import StageError
 from colonnade.readers.ground_motions.record_set import RecordSet
 from colonnade.stages.assessing.column import USUAL_MARGIN, ColumnInputs, real_column
 
-ASSUMED, UNCORRECTED = "as assumed", "records as they are"
-"""The columns and records of the answer; the records without the correction that was asked for."""
+ASSUMED = "as assumed"
+"""The columns and records of the answer."""
 
 
 class AssessmentInputs(ColumnInputs):
@@ -57,6 +59,9 @@ class Plan:
     restitution_source : str
     studies : dict of str to Study
         `ASSUMED`, and what is compared with it.
+    without_correction : str
+        Why there is no study of the records without the correction that was asked for; empty if there is one, or no
+        correction.
     """
 
     inputs: AssessmentInputs
@@ -64,6 +69,7 @@ class Plan:
     hazard: Hazard | None
     restitution_source: str
     studies: dict[str, Study]
+    without_correction: str = ""
 
 
 def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | None, inputs: AssessmentInputs) -> Plan:
@@ -84,12 +90,15 @@ def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | Non
     StageError
         If there are too few records for an answer.
     """
-    column, source = real_column(inputs, pooled)
+    try:
+        column, source = real_column(inputs, pooled)
+    except ValueError as error:
+        raise StageError(f"The real column cannot be: {error}") from error
     asked = inputs.asked
-    if len(records.records) < 2:
+    if len(records.records) < FEWEST:
         reasons = "; ".join(f"{each.name}: {each.reason}" for each in records.left_out[:3])
         raise StageError(
-            f"{len(records.records)} ground motions can be used; at least 2 were expected."
+            f"{len(records.records)} ground motions can be used; at least {FEWEST} were expected."
             + (f" Left out: {reasons}" if reasons else "")
         )
     motions = {each.name: each.motion for each in records.records}
@@ -110,12 +119,29 @@ def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | Non
 
     try:
         study = planned(asked.baseline)
-        studies = {ASSUMED: study} | {name: study.of(other) for name, other in _variants(column).items()}
-        if asked.baseline != NONE:
-            studies[UNCORRECTED] = planned(NONE).of(column)
     except ValueError as error:
         raise StageError(str(error)) from error
-    return Plan(inputs, records, hazard, source, studies)
+    _expect_enough(study)
+    studies = {ASSUMED: study} | {name: study.of(other) for name, other in _variants(column).items()}
+    why = ""
+    if asked.baseline != NONE:
+        # Records that are corrected because they drift may have no answer as they are.
+        try:
+            plain = planned(NONE)
+            _expect_enough(plain)
+            studies[UNCORRECTED] = plain.of(column)
+        except (ValueError, StageError) as error:
+            why = str(error)
+    return Plan(inputs, records, hazard, source, studies, why)
+
+
+def _expect_enough(study: Study) -> None:
+    if len(study.names) < FEWEST:
+        name, reason = next(iter(study.left_out.items()))
+        raise StageError(
+            f"{len(study.names)} ground motions have a {study.measure.name}; at least {FEWEST} were expected. "
+            f"Left out: {name}: {reason}"
+        )
 
 
 def _variants(column: Prototype) -> dict[str, Prototype]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from colonnade.assessment.intensity.registry import measure_of
-from colonnade.campaign.assessing.assessed import AssessmentSummary, Estimate, Variant
+from colonnade.campaign.assessing.assessed import UNCORRECTED, AssessmentSummary, Estimate, Variant
 from colonnade.store.records.wording import NOTHING, number, quantity
 from colonnade.units import PERCENT, with_minus
 
@@ -54,14 +54,16 @@ def estimated(measure: str, estimate: Estimate) -> str:
     >>> estimated("pgv", Estimate(value=1.15, low=0.92, high=1.34))
     '1.15 m/s (0.92 to 1.34)'
     >>> estimated("pgv", Estimate(value=1.15))
-    '1.15 m/s (interval beyond the levels)'
+    '1.15 m/s (no interval)'
+    >>> estimated("pgv", Estimate(beyond="below"))
+    'below the levels'
     """
     if estimate.value is None:
-        return NOTHING
+        return NOTHING if estimate.beyond is None else f"{estimate.beyond} the levels"
     ends = (estimate.low, estimate.high)
     if None in ends:
         said = [f"{word} {level(measure, end)}" for word, end in zip(("above", "below"), ends, strict=True) if end]
-        return f"{level(measure, estimate.value)} ({said[0] if said else 'interval beyond the levels'})"
+        return f"{level(measure, estimate.value)} ({said[0] if said else 'no interval'})"
     low, high = (level(measure, end).partition(" ")[0] for end in ends)
     return f"{level(measure, estimate.value)} ({low} to {high})"
 
@@ -85,12 +87,21 @@ def sentences(record: AssessmentSummary) -> list[str]:
     found = [_rocks(record), _overturns(record)]
     if record.curve_reason:
         found.append(f"This is read from a curve that only rises, not from a lognormal one: {record.curve_reason}.")
-    found += [*_restitution_matters(record), *_parts(record), *_resurrected(record), *_rate(record), _assumed(record)]
+    found += [
+        *_restitution_matters(record),
+        *_correction_matters(record),
+        *_parts(record),
+        *_resurrected(record),
+        *_rate(record),
+        _assumed(record),
+    ]
     return found
 
 
 def _rocks(record: AssessmentSummary) -> str:
-    said = f"It starts to rock at {quantity(record.uplift_acceleration, 'g')} of horizontal acceleration"
+    vertical = any("z" in used.components for used in record.records_used)
+    without = ", without vertical motion" if vertical else ""
+    said = f"It starts to rock at {quantity(record.uplift_acceleration, 'g')} of horizontal acceleration{without}"
     if record.uplift.value is None:
         return f"{said}."
     symbol = measure_of(record.measure).symbol
@@ -101,21 +112,41 @@ def _overturns(record: AssessmentSummary) -> str:
     symbol = measure_of(record.measure).symbol
     said = []
     for share, estimate in ((5, record.five_percent), (50, record.fifty_percent)):
-        if estimate.value is None:
-            said.append(f"{share}{PERCENT} is not reached within the levels")
-        else:
+        if estimate.value is not None:
             said.append(f"{share}{PERCENT} at {symbol} {estimated(record.measure, estimate)}")
-    return f"It overturns with a probability of {', and of '.join(said)}. In brackets: 95{PERCENT} over the records."
+        elif estimate.beyond == "below":
+            said.append(f"{share}{PERCENT} already below the lowest level")
+        else:
+            said.append(f"{share}{PERCENT} nowhere within the levels")
+    interval = any(each.low or each.high for each in (record.five_percent, record.fifty_percent))
+    brackets = f" In brackets: 95{PERCENT} over the records." if interval else ""
+    return f"It overturns with a probability of {', and of '.join(said)}.{brackets}"
 
 
 def _restitution_matters(record: AssessmentSummary) -> list[str]:
-    known = [each for each in record.variants if each.median.value is not None]
+    known = [each for each in record.variants if each.median.value is not None and each.name != UNCORRECTED]
     if len(known) < 2:
         return []
     first, *others = known
     said = ", ".join(f"with {each.name} ({number(each.restitution)}) {_median(record, each)}" for each in others)
     own = f"{_median(record, first)} with {first.name} (e {number(first.restitution)})"
-    return [f"Half of the records overturn it at {own}, {said}."]
+    return [f"By lognormal curves half of the histories overturn it at {own}, {said}."]
+
+
+def _correction_matters(record: AssessmentSummary) -> list[str]:
+    """Give the answer both ways, with nothing varied."""
+    by_name = {each.name: each for each in record.variants}
+    if record.baseline == "none" or UNCORRECTED not in by_name:
+        return []
+    plain, own = by_name[UNCORRECTED], by_name.get("nothing varied")
+    if plain.median.value is None:
+        return [f"The records are corrected ({record.baseline}). As they are, they give no curve: {plain.reason}."]
+    corrected = "" if own is None else f"; corrected, and with nothing varied either, {_median(record, own)}"
+    count = f" of {plain.records} records" if plain.records else ""
+    return [
+        f"The records are corrected ({record.baseline}). As they are, half of the histories{count} overturn it at "
+        f"{_median(record, plain)}{corrected}."
+    ]
 
 
 def _median(record: AssessmentSummary, variant: Variant) -> str:
@@ -155,10 +186,21 @@ def _rate(record: AssessmentSummary) -> list[str]:
 
 def _assumed(record: AssessmentSummary) -> str:
     e = record.restitution
-    limits = "" if e.low is None else f", drawn between {number(e.low)} and {number(e.high)}"
+    limits = None if e.low is None or e.high is None else (e.low, e.high)
     source = SOURCES[record.restitution_source or "given"]
-    sliding = "sliding is not judged" if record.sliding is None else "that it does not slide"
+    sliding = "sliding is not judged"
+    if record.friction is not None:
+        sliding = f"that it does not slide on friction {_within(number(record.friction), record.friction_range)}"
+    records = "as they are" if record.baseline == "none" else f"after a correction ({record.baseline})"
     return (
-        f"Assumed: α {number(record.critical_angle)} rad, p {number(record.p)} rad/s, e {number(e.value)} "
-        f"({source}{limits}); {sliding}. The records are scaled as they are."
+        f"Assumed: α {_within(quantity(record.critical_angle, 'rad'), record.critical_angle_range)}, "
+        f"p {_within(quantity(record.p, 'rad/s'), record.p_range)}, e {_within(number(e.value), limits, source)}; "
+        f"{sliding}. The records are scaled {records}."
     )
+
+
+def _within(text: str, limits: tuple[float, float] | None, source: str = "") -> str:
+    """Add to a value where it comes from, and the limits between which it was drawn."""
+    drawn = "" if limits is None else f"drawn between {number(limits[0])} and {number(limits[1])}"
+    said = ", ".join(filter(None, (source, drawn)))
+    return f"{text} ({said})" if said else text
