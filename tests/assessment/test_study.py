@@ -64,3 +64,11 @@ def test_outcomes_are_judged_as_they_are():
 def test_a_measure_that_does_not_grow_is_refused():
     with pytest.raises(ValueError, match="does not grow"):
         plan_study(COLUMN, MOTIONS, measure="d5_95")
+
+
+def test_a_component_that_drifts_is_named_while_its_record_is_run():
+    still, drifts = ground_motion(7), ground_motion(6) + 0.05
+    motions = MOTIONS | {"half": Motion(still, 1 / RATE, transverse=drifts)}
+    study = plan_study(COLUMN, motions, levels=[1.0], draws=1)
+    assert study.left_out.keys() == {"half, component y"}
+    assert "half" in study.names

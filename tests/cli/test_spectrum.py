@@ -119,3 +119,8 @@ def test_a_wrong_use_says_what_was_expected(record, arguments, message, capsys):
 def test_a_file_without_a_unit_is_named(record, capsys):
     assert invoke(["spectrum", "--motion", str(record), *COLUMN]) == 1
     assert "does not give the unit" in capsys.readouterr().err
+
+
+def test_a_scale_that_is_none_is_refused(assessed, capsys):
+    assert invoke(["spectrum", str(assessed), "--pulse", "ricker", "--scale", "-2"]) == 2
+    assert "--scale -2: a positive factor was expected" in capsys.readouterr().err

@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from colonnade.campaign.assessing.assessed import AssessmentSummary
+from colonnade.assessment.cases.cases import run_cases
+from colonnade.campaign.assessing.assessed import UNCORRECTED, AssessmentSummary
+from colonnade.dynamics.motion import Motion
 from colonnade.errors import StageError
-from colonnade.readers.ground_motions.record_set import RecordSet
+from colonnade.readers.ground_motions.record_set import GroundMotion, RecordSet
 from colonnade.stages.assessing.plan import plan_assessment
+from colonnade.stages.assessment import assessment
 from colonnade.store import files
 from colonnade.store.layout import Layout
 
@@ -71,7 +74,7 @@ def test_without_records_there_is_no_answer():
         _plan(RecordSet((), (), ()))
 
 
-def _plan(records):
+def _plan(records, restitution="rigid-body", **keys):
     from colonnade.campaign.assessing.assessment import Assessment
     from colonnade.campaign.assessing.prototype import Prototype
     from colonnade.dynamics.block import Block
@@ -79,7 +82,46 @@ def _plan(records):
     from colonnade.stages.specimen import SpecimenInputs, taken
 
     block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.1)
-    asked = Assessment.model_validate({"specimen": "prism", "records": "records"})
-    prototype = Prototype.model_validate({"restitution": "rigid-body"})
+    asked = Assessment.model_validate({"specimen": "prism", "records": "records", **keys})
+    prototype = Prototype.model_validate({"restitution": restitution})
     inputs = AssessmentInputs(block=block, scale=20.0, prototype=prototype, specimen="prism", asked=asked)
     return plan_assessment(taken(None, SpecimenInputs(block=block, given=None, level=0.95)), records, None, inputs)
+
+
+def _records(offset, count=6):
+    from assessing import RATE, ground_motion
+
+    motions = (Motion(ground_motion(seed) + offset * (seed > 0), 1 / RATE) for seed in range(count))
+    return RecordSet(
+        tuple(GroundMotion(f"r{seed}", each, ("x",), ()) for seed, each in enumerate(motions)), (), ("cut",)
+    )
+
+
+def test_records_that_drift_have_an_answer_when_corrected_and_a_reason_as_they_are():
+    keys = {"levels": ["1 m/s", "2 m/s", "4 m/s"], "draws": 1, "resamples": 100}
+    plan = _plan(_records(0.05), "identified", baseline="linear", **keys)
+    assert "1 ground motions have a" in plan.without_correction
+    outcomes = {name: run_cases(study.cases) for name, study in plan.studies.items()}
+    found = AssessmentSummary.model_validate_json(assessment(plan, outcomes).attrs["answer"])
+    assert found.baseline == "linear"
+    assert (found.variants[-1].name, found.variants[-1].reason) == (UNCORRECTED, plan.without_correction)
+    assert "cut" in found.notes
+    assert any("of a rigid body is assumed" in said for said in found.warnings)
+    assert found.variants[0].records == 6
+
+
+def test_without_enough_records_with_the_measure_there_is_no_answer():
+    with pytest.raises(StageError, match=r"1 ground motions have a .*; at least 2"):
+        _plan(_records(0.05))
+
+
+def test_what_is_beyond_the_levels_is_so_on_its_side():
+    plan = _plan(_records(0.0), levels=["0.01 m/s", "0.02 m/s"], draws=1, resamples=100)
+    outcomes = {name: run_cases(study.cases) for name, study in plan.studies.items()}
+    found = AssessmentSummary.model_validate_json(assessment(plan, outcomes).attrs["answer"])
+    assert (found.five_percent.value, found.five_percent.beyond) == (None, "above")
+    plan = _plan(_records(0.0), levels=["80 m/s", "90 m/s"], draws=1, resamples=100)
+    outcomes = {name: run_cases(study.cases) for name, study in plan.studies.items()}
+    found = AssessmentSummary.model_validate_json(assessment(plan, outcomes).attrs["answer"])
+    assert (found.five_percent.value, found.five_percent.beyond) == (None, "below")
+    assert not any("resamples" in said for said in found.warnings)

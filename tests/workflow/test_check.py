@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+
 import pytest
 
 from colonnade.campaign import load
@@ -112,3 +114,16 @@ def test_a_wrong_gain_is_found_as_a_run_finds_it(untouched):
         "free-02": "doubtful",
     }
     assert "gain" in {each.kind for each in found.tests["free-01"].findings}
+
+
+def test_ground_motions_and_hazard_of_assessments_are_read(assessed_copy):
+    found = check(load(assessed_copy))
+    assert not found.fails
+    assert [each.text.split(":")[0] for each in found.assessments["site"].findings] == ["broken.csv is left out"]
+    (assessed_copy / "hazard.csv").write_text("pga [g], rate [1/year]\n0.1,0.01\n", encoding="utf-8")
+    shutil.rmtree(assessed_copy / "records")
+    found = check(load(assessed_copy))
+    assert found.fails
+    missing, hazard = found.assessments["site"].problems
+    assert "records" in missing
+    assert '"pga"' in hazard

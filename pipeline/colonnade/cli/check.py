@@ -24,8 +24,9 @@ if TYPE_CHECKING:
     Check a campaign and its raw files; write nothing.
 
     {CAMPAIGN} Every raw file is read as `run` would read it, and each test is taken to the point where its prediction
-    would begin. Missing files and columns, units, gains, signs, swapped columns, clocks and dead channels are reported
-    for all tests at once. The exit code is 1 if a test would fail.
+    would begin. The ground motions and the hazard of assessments are read, too. Missing files and columns, units,
+    gains, signs, swapped columns, clocks and dead channels are reported for all tests at once. The exit code is 1 if a
+    test or an assessment would fail.
 
     With --drawing, specimens and transducers are drawn to scale as the campaign file places them: that is the one file
     that is written.
@@ -70,8 +71,13 @@ def _record(checked: CampaignCheck) -> dict[str, object]:
         name: {"problems": each.problems, "warnings": records_of(each.findings, each.concerning)}
         for name, each in checked.tests.items()
     }
+    assessments = {
+        name: {"problems": each.problems, "warnings": records_of(each.findings)}
+        for name, each in checked.assessments.items()
+    }
     campaign = checked.campaign
-    return {"campaign": campaign.path, "warnings": records_of(campaign.warnings), "tests": tests}
+    warnings = records_of(campaign.warnings)
+    return {"campaign": campaign.path, "warnings": warnings, "tests": tests, "assessments": assessments}
 
 
 def _show(checked: CampaignCheck, drawing: Path | None) -> None:
@@ -81,17 +87,24 @@ def _show(checked: CampaignCheck, drawing: Path | None) -> None:
         say(f"{name}: {each.status}")
         for problem in each.problems:
             say(f"  problem: {probable_cause(findings[name], where='below')}{_indented(problem)}")
+    for name, each in checked.assessments.items():
+        say(f"assessment {name}: {each.status}")
+        for problem in each.problems:
+            say(f"  problem: {_indented(problem)}")
     show_by_kind(findings)
     if drawing is not None:
         say(f"drawing: {drawing}")
     written = "Nothing was written." if drawing is None else "Only the drawing was written."
     statuses = Counter(each.status for each in checked.tests.values())
+    unanswered = sum(bool(each.problems) for each in checked.assessments.values())
+    if unanswered:
+        say(f"{count(unanswered, 'assessment')} would fail.")
     if statuses["would fail"] or statuses["doubtful"]:
         words = {"would fail": "would fail", "doubtful": "would give wrong results"}
         say(" ".join(f"{count(statuses[each], 'test')} {what}." for each, what in words.items() if statuses[each]))
-    elif checked.has_warnings:
+    elif checked.has_warnings and not unanswered:
         say(f"No test would fail, but see the findings above. {written}")
-    else:
+    elif not unanswered:
         say(f"All good. {written}")
 
 

@@ -115,10 +115,10 @@ def _assessed(
     options = {key: list(value) if isinstance(value, tuple) else value for key, value in options.items()}
     asked = {key: _number(key, value) for key, value in options.items() if value not in (None, [])}
     if specimen is None and not names and {"critical_angle", "p"} <= asked.keys():
-        from colonnade import units
+        from colonnade.workflow.spectra.asked import frequency_of, quantity_of
 
-        angle = units.to_si(asked.pop("critical_angle"), "angle")
-        return [assess_column(angle, units.to_si(asked.pop("p"), "angular_velocity"), asked, where)]
+        angle = quantity_of("--critical-angle", asked.pop("critical_angle"), "angle")
+        return [assess_column(angle, frequency_of(asked.pop("p")), asked, where)]
     loaded = load(path)
     layout = Layout.of(loaded.folder, results)
     if specimen is None and not asked:

@@ -19,7 +19,7 @@ from colonnade.identification.restitution.estimators.registry import ESTIMATORS
 from colonnade.interruption import expect_none
 from colonnade.report import addresses, drawings, methods, pages, problems, specimens_page
 from colonnade.report.asked import Asked, asked_of
-from colonnade.report.assessments_page.page import assessments_page, symbol
+from colonnade.report.assessments_page.page import AssessmentShown, assessments_page, symbol
 from colonnade.report.forecasts_page.page import forecasts_page
 from colonnade.report.interactive import tables
 from colonnade.report.interactive.scripts import scripts
@@ -180,7 +180,11 @@ def render(
         yield address, text, ""
     summary = read_summary(layout)
     foreseen, assessed = forecasts_page(layout, summary), assessments_page(campaign, layout, summary)
-    shown = _shown(campaign, tests, specimens, used) | {"groups": grouped, "maps": mapped, "forecasts": foreseen}
+    shown = _shown(campaign, tests, specimens, assessed, used) | {
+        "groups": grouped,
+        "maps": mapped,
+        "forecasts": foreseen,
+    }
     shown["advice"] = {"heads": advising.HEADS, "rows": [each.row() for each in advice]}
     shown |= {"assessments": assessed, "symbol": symbol, "not_covered": NOT_COVERED}
     shown["not_computed"] = NOT_COMPUTED
@@ -211,15 +215,25 @@ def _page(
     yield address, text, made_from
 
 
-def _shown(campaign: Campaign, tests: list[Part], specimens: list[SpecimenPage], used: Used) -> dict[str, Any]:
+def _shown(
+    campaign: Campaign,
+    tests: list[Part],
+    specimens: list[SpecimenPage],
+    assessed: list[AssessmentShown],
+    used: Used,
+) -> dict[str, Any]:
     """Give what the pages about the whole campaign show."""
     rows, models = [part.row for part in tests], campaign.processing.predict.models
-    findings, mistaken, worst = _warnings(rows, specimens), confusions(rows, models), peaks.worst(rows, models)
+    findings, mistaken, worst = (
+        _warnings(rows, specimens, assessed),
+        confusions(rows, models),
+        peaks.worst(rows, models),
+    )
     return {
         "tests": rows,
         "specimens": specimens,
         "warnings": findings,
-        "attention": attention(rows, models, findings, mistaken),
+        "attention": attention(rows, models, findings, mistaken, {one.name: one.record for one in assessed}),
         "confusions": mistaken,
         "worst": worst,
         "peaks": peaks.picture(peaks.points(rows, models, worst)),
@@ -238,9 +252,12 @@ def _shown(campaign: Campaign, tests: list[Part], specimens: list[SpecimenPage],
     }
 
 
-def _warnings(tests: list[TestRow], specimens: list[SpecimenPage]) -> list[problems.WarningGroup]:
+def _warnings(
+    tests: list[TestRow], specimens: list[SpecimenPage], assessed: list[AssessmentShown]
+) -> list[problems.WarningGroup]:
     given = [(row.id, found) for row in tests for found in row.record.warnings]
     given += [(f"specimen {specimen.id}", found) for specimen in specimens for found in specimen.warnings]
+    given += [(f"assessment {one.name}", found) for one in assessed for found in one.warned()]
     return problems.warning_groups(given)
 
 

@@ -8,8 +8,9 @@ from functools import lru_cache
 from pathlib import Path
 
 from colonnade.campaign import Campaign, Test
+from colonnade.campaign.assessing.assessment import Assessment
 from colonnade.errors import ReadError, StageError
-from colonnade.findings import Finding, Severity, at_stage, in_order, note
+from colonnade.findings import Finding, Severity, at_stage, in_order, note, warning
 from colonnade.interruption import expect_none
 from colonnade.readers.recording import Recording
 from colonnade.store.results import models_of
@@ -55,27 +56,32 @@ class CampaignCheck:
     campaign : Campaign
         With a warning of raw files that are copies.
     tests : dict of str to Checked
+    assessments : dict of str to Checked
     """
 
     campaign: Campaign
     tests: dict[str, Checked]
+    assessments: dict[str, Checked] = field(default_factory=dict)
 
     @property
     def fails(self) -> bool:
-        """Whether a test would fail."""
-        return any(each.problems for each in self.tests.values())
+        """Whether a test or an assessment would fail."""
+        return any(each.problems for each in (*self.tests.values(), *self.assessments.values()))
 
     @property
     def has_warnings(self) -> bool:
         """Whether any finding is more serious than a note."""
-        findings = [*self.campaign.warnings, *(found for each in self.tests.values() for found in each.findings)]
+        findings = [*self.campaign.warnings, *(found for _, each in self._subjects() for found in each.findings)]
         return any(found.severity is not Severity.NOTE for found in findings)
 
     @property
     def findings(self) -> dict[str, list[tuple[Finding, bool]]]:
-        """What was found, by test or "campaign file", each put in order by `in_order`."""
+        """What was found, by test, assessment or "campaign file", each put in order by `in_order`."""
         ordered = {"campaign file": in_order(self.campaign.warnings)}
-        return ordered | {name: in_order(each.findings, each.concerning) for name, each in self.tests.items()}
+        return ordered | {name: in_order(each.findings, each.concerning) for name, each in self._subjects()}
+
+    def _subjects(self) -> list[tuple[str, Checked]]:
+        return [*self.tests.items(), *((f"assessment {name}", each) for name, each in self.assessments.items())]
 
 
 Reading = Callable[[Path, str, str], Recording]
@@ -114,7 +120,8 @@ def check(campaign: Campaign, progress: Callable[[int, int], None] = lambda done
             found[name] = Checked(findings=[note("planned", f"{awaited}. This planned test has not been run yet.")])
         else:
             found[name] = _checked(campaign, test, reading)
-    return CampaignCheck(campaign, found)
+    assessments = {name: _records_checked(asked) for name, asked in campaign.assessments.items()}
+    return CampaignCheck(campaign, found, assessments)
 
 
 def _checked(campaign: Campaign, test: Test, reading: Reading) -> Checked:
@@ -130,6 +137,33 @@ def _checked(campaign: Campaign, test: Test, reading: Reading) -> Checked:
         try:
             _measure(campaign, test, recordings, checked.findings)
         except (ReadError, StageError) as error:
+            checked.problems.append(str(error))
+    return checked
+
+
+def _records_checked(asked: Assessment) -> Checked:
+    """Read the ground motions and the hazard of an assessment; no history is run."""
+    from colonnade.assessment.fragility.outcomes import FEWEST
+    from colonnade.readers.ground_motions.hazard import read_hazard_of
+    from colonnade.readers.ground_motions.record_set import read_record_set
+
+    checked = Checked()
+    try:
+        records = read_record_set(asked.records)
+    except ReadError as error:
+        checked.problems.append(str(error))
+    else:
+        if len(records.records) < FEWEST:
+            checked.problems.append(
+                f"{len(records.records)} ground motions can be used; at least {FEWEST} were expected."
+            )
+        said = (f"{each.name} is left out: {each.reason.removeprefix(f'{each.name}: ')}" for each in records.left_out)
+        checked.findings += at_stage((warning("ground motion", each) for each in said), "assessment")
+        checked.findings += at_stage((note("ground motion", each) for each in records.notes), "assessment")
+    if asked.hazard is not None:
+        try:
+            read_hazard_of(asked.hazard, asked.measure)
+        except ReadError as error:
             checked.problems.append(str(error))
     return checked
 

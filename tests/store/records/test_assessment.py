@@ -25,6 +25,7 @@ def test_what_is_known_is_said_with_units_and_intervals():
         dispersion=Estimate(value=0.4, low=0.3, high=0.5),
         dispersion_records=0.1,
         dispersion_parameters=0.2,
+        resurrected=0.031,
         five_percent=Estimate(value=2.0, high=2.4),
         fifty_percent=Estimate(value=4.0, low=3.5, high=4.5),
         curve="lognormal",
@@ -40,6 +41,7 @@ def test_what_is_known_is_said_with_units_and_intervals():
     assert "e, α and p matter more than the records" in text
     assert "identified on the model and assumed for the column, drawn between 0.95 and 0.98" in text
     assert "sliding is not judged" in text
+    assert "In 3.1 % of the histories it stands although it overturned" in text
 
 
 def test_what_is_beyond_the_levels_is_said_on_its_side():

@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from colonnade.campaign import load
+from colonnade.campaign.assessing.prototype import Prototype
 from colonnade.errors import CampaignError
 from colonnade.store.layout import Layout
 from colonnade.workflow.assessing.fragility import Where, assess_campaign, assess_column, assess_own
 
 HERE = Where(workers=1)
+
+RANGED = Prototype.model_validate(
+    {
+        "restitution": 0.9,
+        "critical_angle_range": ["0.17 rad", "0.19 rad"],
+        "friction": 0.6,
+        "friction_range": [0.5, 0.7],
+    }
+)
 
 
 def own(folder, base="site", specimen=None, **options):
@@ -75,3 +87,32 @@ def test_assessments_of_the_campaign_are_brought_up_to_date(assessed_copy):
     assert found.path.is_file()
     with pytest.raises(CampaignError, match='no assessment "sight"'):
         assess_campaign(campaign, layout, ("sight",), HERE)
+
+
+def test_limits_of_another_value_do_not_hold_for_the_one_that_is_asked(assessed):
+    campaign = replace(load(assessed), prototype={"prism": RANGED})
+    levels = {"levels": ["1 m/s", "2 m/s"], "draws": 2}
+    found = assess_own(campaign, Layout(assessed), "site", None, {"critical_angle": "0.25 rad", **levels}, HERE)
+    assert set(found.result["drawn_critical_angle"].to_numpy().ravel()) == {0.25}
+    assert found.record.friction_range == (0.5, 0.7)
+
+
+def test_a_hazard_replaces_that_of_the_campaign(assessed, tmp_path):
+    hazard = tmp_path / "other.csv"
+    hazard.write_text("pgv [m/s], rate [1/year]\n0.05,0.04\n0.3,0.004\n3,6e-6\n", encoding="utf-8")
+    same, twice = own(assessed), own(assessed, hazard=hazard)
+    assert twice.record.annual_rate.value == pytest.approx(2 * same.record.annual_rate.value)
+
+
+@pytest.mark.parametrize(
+    ("angle", "p", "options", "words"),
+    [
+        (2.0, 1.0, {}, "The column cannot be"),
+        (0.2, 1.0, {"scale": 20.0}, "--scale is for a specimen"),
+        (0.2, 1.0, {"restitution": "identified"}, "e is identified of a specimen"),
+    ],
+)
+def test_a_column_that_cannot_be_is_refused(assessed, angle, p, options, words):
+    with pytest.raises(CampaignError) as refused:
+        assess_column(angle, p, {"records": assessed / "records", **options}, HERE)
+    assert words in str(refused.value)

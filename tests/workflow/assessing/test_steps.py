@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
+from html import unescape
 from pathlib import Path
 
 import pytest
 
+from colonnade.campaign import load
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.workflow.assessing.steps import _given
+from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.run import run
 
 
@@ -53,3 +57,24 @@ def test_a_failure_is_told_and_stops_nothing(assessed_copy):
     assert summary["tests"]["free-01"]["status"] == "done"
     page = (assessed_copy / "report" / "assessments.html").read_text(encoding="utf-8")
     assert "There is no answer" in page
+    for page, heading in (
+        ("index.html", "Assessment site failed"),
+        ("problems.html", "assessments.html#assessment-site"),
+    ):
+        text = unescape((assessed_copy / "report" / page).read_text(encoding="utf-8"))
+        after = text[text.index(heading) :][:600]
+        assert 'the hazard is given for "pga"' in after, page
+
+
+def test_files_of_one_name_in_two_folders_are_two_files(assessed_copy):
+    records = assessed_copy / "records"
+    for number, name in enumerate(("a", "b")):
+        (records / name).mkdir()
+        (records / name / "x.csv").write_bytes((records / f"r{number}.csv").read_bytes())
+    listed = records / "list.csv"
+    listed.write_text("file,record\na/x.csv,a\nb/x.csv,b\n", encoding="utf-8")
+    asked = load(assessed_copy).assessments["site"].model_copy(update={"records": listed})
+    catalogue = Catalogue(Layout(assessed_copy))
+    before = _given(asked, catalogue)
+    (records / "a" / "x.csv").write_bytes((records / "r2.csv").read_bytes() + b"\n")
+    assert _given(asked, catalogue)["records"] != before["records"]

@@ -9,6 +9,7 @@ import numpy as np
 
 from colonnade import units
 from colonnade.assessment.fragility.hazard import Hazard, hazard_curve
+from colonnade.assessment.intensity.registry import measure_of
 from colonnade.errors import ReadError, UnitError, quoted
 from colonnade.readers.ground_motions.table import Head, SmallTable, read_table
 
@@ -56,6 +57,12 @@ def read_hazard(path: Path, *, measure: str, unit: str) -> Hazard:
         return hazard_curve(values[:, 0] * factor, values[:, 1])
     except ValueError as error:
         raise ReadError(f"{table.name}: {error}") from None
+
+
+def read_hazard_of(path: Path, measure: str) -> Hazard:
+    """Read a hazard curve of a measure by its id, in the unit of the registry; errors as of `read_hazard`."""
+    found = measure_of(measure)
+    return read_hazard(path, measure=found.id, unit=found.unit or "1")
 
 
 def _factor(table: SmallTable, measure: str, unit: str) -> float:

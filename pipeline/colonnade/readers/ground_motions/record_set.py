@@ -10,6 +10,7 @@ from colonnade.errors import ColonnadeError, ReadError
 from colonnade.readers.ground_motions.files import Component, components_of, in_folder
 from colonnade.readers.ground_motions.listed import LeftOut, read_list
 from colonnade.readers.refusal import in_one_line
+from colonnade.readers.registry import companions
 
 MOST_FILES = 2000
 MOST_SAMPLES = 20_000_000
@@ -66,7 +67,7 @@ class RecordSet:
 
 def files_of(path: Path) -> list[Path]:
     """
-    List the files of a set of ground motions, with the list itself; what is in them is not looked at.
+    List the files of a set of ground motions: the list itself, and the other files that a record is in, too.
 
     Raises
     ------
@@ -75,7 +76,15 @@ def files_of(path: Path) -> list[Path]:
     """
     if path.is_dir():
         return [entry.path for entry in in_folder(path, [])]
-    return [path, *(entry.path for entry in read_list(path)[0])]
+    listed = [entry.path for entry in read_list(path)[0]]
+    return list(dict.fromkeys((path, *listed, *(other for each in listed for other in _companions(each)))))
+
+
+def _companions(path: Path) -> tuple[Path, ...]:
+    try:
+        return companions(path)
+    except (ReadError, OSError):
+        return ()
 
 
 def read_record_set(path: Path | str) -> RecordSet:

@@ -13,10 +13,11 @@ from colonnade.assessment.intensity.registry import measure_of
 from colonnade.assessment.study import counted_draws
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessing.assessed import AssessmentSummary, JudgedCriterion, RecordUsed
-from colonnade.campaign.summary import Summary
+from colonnade.campaign.summary import Summary, Warned
 from colonnade.errors import StoreError
 from colonnade.figures import fragility as figures
 from colonnade.figures.files.output import Picture
+from colonnade.findings import at_stage, warning
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.assessment import estimated, level, sentences, unit_of
@@ -59,6 +60,11 @@ class AssessmentShown(NamedTuple):
         """Give the criteria of practice with what was counted."""
         known = {each.id: each for each in CRITERIA}
         return [(known[each.criterion], each) for each in self.record.criteria if each.criterion in known]
+
+    def warned(self) -> list[Warned]:
+        """Give its warnings as those of a test."""
+        found = (warning("assessment", said) for said in self.record.warnings)
+        return [Warned.of(each, explained=False) for each in at_stage(found, "assessment")]
 
     def heads(self) -> list[str]:
         """Heads of the measures in the table of records."""

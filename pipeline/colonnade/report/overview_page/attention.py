@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from colonnade.campaign.assessing.assessed import AssessmentSummary
 from colonnade.findings import Severity
 from colonnade.report.overview_page.confusion import Cell, Confusion
 from colonnade.report.problems import WarningGroup
 from colonnade.report.rows import TestRow
+from colonnade.store.records.stored import Failure
 
 
 @dataclass(frozen=True)
@@ -19,6 +21,8 @@ class Attention:
     Attributes
     ----------
     failed : list of TestRow
+    unanswered : dict of str to Failure
+        Why assessments failed.
     serious : list of WarningGroup
         Findings that make results wrong; what follows from another one is not among them.
     missed : list of (str, Cell)
@@ -31,6 +35,7 @@ class Attention:
     """
 
     failed: list[TestRow]
+    unanswered: dict[str, Failure]
     serious: list[WarningGroup]
     missed: list[tuple[str, Cell]]
     warnings: list[WarningGroup]
@@ -41,17 +46,26 @@ class Attention:
     @property
     def is_needed(self) -> bool:
         """Whether there is anything to look at."""
-        return bool(self.failed or self.serious or self.missed or self.warnings or self.outside)
+        return bool(self.failed or self.unanswered or self.serious or self.missed or self.warnings or self.outside)
 
 
 def attention(
-    tests: Sequence[TestRow], models: Sequence[str], groups: Sequence[WarningGroup], confusions: Sequence[Confusion]
+    tests: Sequence[TestRow],
+    models: Sequence[str],
+    groups: Sequence[WarningGroup],
+    confusions: Sequence[Confusion],
+    assessed: Mapping[str, AssessmentSummary] | None = None,
 ) -> Attention:
-    """Gather what needs a look; `groups` are the findings of all tests and specimens, the worst first."""
+    """Gather what needs a look; `groups` are the findings of all tests, specimens and assessments, the worst first."""
     causes = [group for group in groups if not group.first.explained]
     outside = [(model, [row.id for row in tests if row.verdict(model) == "outside"]) for model in models]
     return Attention(
         failed=[row for row in tests if row.record.status == "failed"],
+        unanswered={
+            name: Failure("assessment", each.reason or "")
+            for name, each in (assessed or {}).items()
+            if each.status == "failed"
+        },
         serious=[group for group in causes if group.first.severity == Severity.SERIOUS],
         missed=[(each.model, cell) for each in confusions for cell in each.wrong],
         warnings=[group for group in causes if group.first.severity == Severity.WARNING],

@@ -32,6 +32,9 @@ if TYPE_CHECKING:
 
 Written = TypeVar("Written", bound=Table)
 
+OPTIONS = {"levels": "level"}
+"""Options that are not called like their keys, as they are repeated."""
+
 OWN = "column"
 """Name of a question of one's own."""
 
@@ -162,10 +165,17 @@ def assess_column(critical_angle: float, p: float, options: Mapping[str, Any], w
     from colonnade.stages.assessing.plan import AssessmentInputs
     from colonnade.stages.specimen import SpecimenInputs, taken
 
+    if options.get("scale") not in (None, 1.0):
+        raise CampaignError("--scale is for a specimen. With --critical-angle and --p give those of the real column.")
+    if options.get("restitution") == "identified":
+        raise CampaignError("--restitution identified: e is identified of a specimen. Give CAMPAIGN and --specimen.")
     asked = _asked({"specimen": OWN}, options)
-    block = rectangular(critical_angle, 2 * pi / p)
+    try:
+        block = rectangular(critical_angle, 2 * pi / p)
+    except ValueError as error:
+        raise CampaignError(f"The column cannot be: {error}.") from None
     prototype = _prototype({"restitution": "rigid-body"}, options)
-    inputs = AssessmentInputs(block=block, scale=asked.scale or 1.0, prototype=prototype, specimen=OWN, asked=asked)
+    inputs = AssessmentInputs(block=block, scale=1.0, prototype=prototype, specimen=OWN, asked=asked)
     return _made(asked, inputs, taken(None, SpecimenInputs(block=block, given=None, level=0.95)), where)
 
 
@@ -175,7 +185,7 @@ def _asked(written: dict[str, Any], options: Mapping[str, Any]) -> Assessment:
         # Levels and hazard are of another measure.
         written = {key: value for key, value in written.items() if key not in ("levels", "hazard")}
     paths = {key: Path(options[key]) for key in ("records", "hazard") if options.get(key) is not None}
-    paths |= {key: written.pop(key) for key in ("records", "hazard") if key in written and key not in paths}
+    paths = {key: written.pop(key) for key in ("records", "hazard") if key in written} | paths
     if "records" not in paths:
         raise CampaignError("Say which ground motions are run, with --records DIR or a CSV list of them.")
     keys = Assessment.model_fields.keys() - {"records", "hazard"}
@@ -188,8 +198,8 @@ def _asked(written: dict[str, Any], options: Mapping[str, Any]) -> Assessment:
 def _prototype(written: dict[str, Any], options: Mapping[str, Any]) -> Prototype:
     """Put options over what a campaign says of the real column."""
     given = {key: options[key] for key in Prototype.model_fields if options.get(key) is not None}
-    if "restitution" in given:
-        written.pop("restitution_range", None)
+    # Limits of another value are none of this one.
+    written = {key: value for key, value in written.items() if key.removesuffix("_range") not in given}
     if "restitution" not in written | given:
         raise CampaignError(
             'The e of the real column is not given. Add --restitution: a number, "rigid-body", or "identified" to '
@@ -203,7 +213,8 @@ def _validated(model: type[Written], written: dict[str, Any]) -> Written:
     try:
         return model.model_validate(written)
     except ValidationError as error:
-        problems = [f"--{str(each['loc'][0]).replace('_', '-')}: {each['msg']}" for each in error.errors()]
+        named = ((str(each["loc"][0]), each["msg"]) for each in error.errors())
+        problems = [f"--{OPTIONS.get(key, key).replace('_', '-')}: {said}" for key, said in named]
         raise CampaignError("\n".join(problems)) from None
 
 

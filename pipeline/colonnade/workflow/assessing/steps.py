@@ -62,7 +62,8 @@ def _given(asked: Assessment, catalogue: Catalogue) -> dict[str, str | None]:
         records = files_of(asked.records)
     except ReadError:
         records = []
-    digests = {path.name: _digest(catalogue, path) for path in records}
+    # Files of a list may have one name, in different folders.
+    digests = [[path.name, _digest(catalogue, path)] for path in records]
     return {"records": hash_of(digests), "hazard": None if asked.hazard is None else _digest(catalogue, asked.hazard)}
 
 
@@ -95,16 +96,13 @@ def made(
     ColonnadeError
         If a file cannot be read, or the records allow no answer.
     """
-    from colonnade.assessment.intensity.registry import measure_of
-    from colonnade.readers.ground_motions.hazard import read_hazard
+    from colonnade.readers.ground_motions.hazard import read_hazard_of
     from colonnade.readers.ground_motions.record_set import read_record_set
     from colonnade.stages.assessing.plan import plan_assessment
     from colonnade.stages.assessment import assessment
     from colonnade.workflow.assessing.blocks import given, outcomes_of
 
-    measure, hazard = measure_of(asked.measure), None
-    if asked.hazard is not None:
-        hazard = read_hazard(asked.hazard, measure=measure.id, unit=measure.unit or "1")
+    hazard = None if asked.hazard is None else read_hazard_of(asked.hazard, asked.measure)
     plan = plan_assessment(upstream["specimen"], read_record_set(asked.records), hazard, inputs)
     outcomes = {}
     for number, (name, study) in enumerate(plan.studies.items()):

@@ -105,13 +105,15 @@ def column_of(asked: AskedColumn, campaign: Campaign | None, layout: Layout | No
         If it is not said, or an option is out of its range.
     """
     alpha = _quantity("--critical-angle", asked.critical_angle, "angle")
-    frequency = _frequency(asked.p)
+    frequency = None if asked.p is None else frequency_of(asked.p)
     if campaign is None or layout is None or (asked.specimen is None and alpha is not None and frequency is not None):
         return _without_specimen(asked, alpha, frequency, has_campaign=campaign is not None)
     name = _specimen(campaign, asked.specimen)
     if expected := outside(asked.scale, BETWEEN["length"]):
         raise CampaignError(f"--scale {asked.scale:g}: {expected}")
     model = campaign.specimens[name].block(campaign.gravity)
+    if not asked.scale > 0.0:
+        raise CampaignError(f"--scale {asked.scale:g}: a positive factor was expected.")
     slenderness = 1.0 if alpha is None else alpha / model.critical_angle
     size = 1.0 / sqrt(asked.scale) if frequency is None else frequency / model.p
     block = _sound(lambda: member_block(model, slenderness, size))
@@ -251,10 +253,15 @@ def quantity_of(option: str, given: str, dimension: str) -> float:
     return value
 
 
-def _frequency(given: str | None) -> float | None:
-    """Read p in rad/s."""
-    if given is None:
-        return None
+def frequency_of(given: str) -> float:
+    """
+    Read p, rad/s.
+
+    Raises
+    ------
+    CampaignError
+        If it is no positive angular frequency.
+    """
     try:
         value = units.to_si(given, "angular_velocity")
     except UnitError as error:
