@@ -72,3 +72,14 @@ def test_a_component_that_drifts_is_named_while_its_record_is_run():
     study = plan_study(COLUMN, motions, levels=[1.0], draws=1)
     assert study.left_out.keys() == {"half, component y"}
     assert "half" in study.names
+
+
+def test_a_record_whose_base_falls_away_at_all_levels_is_named_and_the_rest_is_judged():
+    motion = MOTIONS["r0"]
+    motions = MOTIONS | {"falls": Motion(motion.acceleration, motion.dt, vertical=20.0 * motion.acceleration)}
+    study = plan_study(COLUMN, motions, levels=[2.0, 4.0], draws=1)
+    assert study.left_out.keys() == {"falls"}
+    assert "falls faster" in study.left_out["falls"]
+    assert study.names == tuple(MOTIONS)
+    assert len(study.drift) == len(study.values["pgv"]) == len(study.cases.draws) == len(MOTIONS)
+    assert judge(study, run_cases(study.cases), resamples=20).outcomes.records == study.names

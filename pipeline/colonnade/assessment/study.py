@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import compress
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,6 +30,9 @@ DRAWS = 8
 
 USUAL = tuple(name for name, measure in MEASURES.items() if not measure.needs_block)
 """Measures that are compared if none are named: over one block the others are in proportion to these."""
+
+FALLS = "it does not move, or at all levels its base falls faster than the column; lower levels are needed"
+"""Why a record has no history at all."""
 
 WITH_COMPONENT = {"x": "acceleration", "y": "transverse"}
 """Attribute of a motion that holds each horizontal component."""
@@ -139,7 +143,7 @@ def plan_study(
     if not usable.any():
         why = next(iter(reasons.values()), "there is no record")
         raise ValueError(f"No record has a {scaled_over.name}: {why}")
-    kept = [name for name, is_in in zip(corrected, usable, strict=True) if is_in]
+    kept = list(compress(corrected, usable))
     chosen = tuple(corrected[name] for name in kept)
     values = {name: each[usable] for name, each in values.items()}
     recorded, power = values[scaled_over.id], scaled_over.power
@@ -150,6 +154,14 @@ def plan_study(
         if not found[0] > 0.0:
             raise ValueError(f"levels begin at {found[0]:g}; positive levels of the {scaled_over.name} were expected")
     factors = factors_at(found, recorded, power)
+    runs = np.array([_has_history(*each, block.gravity) for each in zip(chosen, factors, strict=True)])
+    if not runs.all():
+        reasons |= {(name, "z"): FALLS for name, is_in in zip(kept, runs, strict=True) if not is_in}
+        kept, chosen = list(compress(kept, runs)), tuple(compress(chosen, runs))
+        values, factors = {name: each[runs] for name, each in values.items()}, factors[runs]
+        usable[usable] = runs
+    if not kept:
+        raise ValueError(f"No record can be run: {FALLS}")
     drawn = tuple(draw(prototype, draws, seed, record=number) for number in range(len(chosen)))
     cases = Cases(prototype, drawn, chosen, factors, model)
     return Study(tuple(kept), cases, scaled_over, found, values, drifts[usable], _left_out(kept, reasons))
@@ -220,6 +232,13 @@ def judge(
 def counted_draws(draws: int) -> slice:
     """Give the draws that count: the first, with nothing varied, only if it is the only one."""
     return slice(1 if draws > 1 else 0, None)
+
+
+def _has_history(motion: Motion, factors: Array, gravity: float) -> bool:
+    """Tell whether a record is run at any level: its factors, shape (levels, components), may be too large for all."""
+    smallest = np.nanmin(factors, initial=np.inf)
+    falls = motion.vertical is not None and not smallest * motion.vertical.min() > -gravity
+    return bool(np.isfinite(smallest) and not falls)
 
 
 def _left_out(kept: Sequence[str], reasons: Mapping[tuple[str, str], str]) -> dict[str, str]:
