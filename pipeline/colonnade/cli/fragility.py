@@ -88,7 +88,10 @@ def fragility(
     """Assess, show the answers, and return the exit code."""
     from colonnade.workflow.assessing.fragility import Where
 
-    _expect_places(out, data)
+    if out is not None or data is not None:
+        from colonnade.figures.files.saving import expect_places
+
+        expect_places(out, data)
     with work_progress("Assessing") as progress:
         found = _assessed(campaign, name, options, results, Where(workers, scheduler, progress))
     if (out or data) and len(found) > 1:
@@ -137,16 +140,6 @@ def _number(key: str, value: Any) -> Any:
         return float(value)
     except ValueError:
         return value
-
-
-def _expect_places(out: Path | None, data: Path | None) -> None:
-    if out is None and data is None:
-        return
-    from colonnade.figures.files.saving import PICTURES, TABLE, expect_place
-
-    for place, endings in ((out, PICTURES), (data, (TABLE,))):
-        if place is not None:
-            expect_place(place, endings)
 
 
 def _drawn(assessed: Assessed, out: Path | None, data: Path | None) -> list[Path]:

@@ -114,7 +114,10 @@ def spectrum(campaign: Path, motion: str | None, pulse: str | None, results: Pat
     from colonnade.workflow.spectra.asked import AskedColumn, AskedMotion
 
     out, data = options.pop("out"), options.pop("data")
-    _expect_places(out, data)
+    if out is not None or data is not None:
+        from colonnade.figures.files.saving import expect_places
+
+        expect_places(out, data)
     known, layout = _campaign(campaign, results)
     column = AskedColumn(**_taken(options, "specimen", "scale", "critical_angle", "p", "restitution"))
     common = {"points": options["points"], "model": options["model"]}
@@ -164,16 +167,6 @@ def _campaign(path: Path, results: Path | None) -> tuple[Campaign | None, Layout
 
     campaign = load(path)
     return campaign, Layout.of(campaign.folder, results)
-
-
-def _expect_places(out: Path | None, data: Path | None) -> None:
-    if out is None and data is None:
-        return
-    from colonnade.figures.files.saving import PICTURES, TABLE, expect_place
-
-    for place, endings in ((out, PICTURES), (data, (TABLE,))):
-        if place is not None:
-            expect_place(place, endings)
 
 
 def _show(found: Rocking | Overturning, out: Path | None, data: Path | None, as_json: bool) -> int:

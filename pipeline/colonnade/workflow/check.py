@@ -157,7 +157,10 @@ def _records_checked(asked: Assessment) -> Checked:
             checked.problems.append(
                 f"{len(records.records)} ground motions can be used; at least {FEWEST} were expected."
             )
-        said = (f"{each.name} is left out: {each.reason.removeprefix(f'{each.name}: ')}" for each in records.left_out)
+        said = (
+            f"{each.name} is left out: {each.reason.removeprefix(f'{each.name}: ').splitlines()[0]}"
+            for each in records.left_out
+        )
         checked.findings += at_stage((warning("ground motion", each) for each in said), "assessment")
         checked.findings += at_stage((note("ground motion", each) for each in records.notes), "assessment")
     if asked.hazard is not None:

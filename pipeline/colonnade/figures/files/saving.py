@@ -51,6 +51,13 @@ def expect_place(path: Path, endings: Sequence[str] = PICTURES) -> None:
         )
 
 
+def expect_places(picture: Path | None, table: Path | None) -> None:
+    """Refuse places for a picture and its table, if they are asked for; errors as of `expect_place`."""
+    for place, endings in ((picture, PICTURES), (table, (TABLE,))):
+        if place is not None:
+            expect_place(place, endings)
+
+
 def save(picture: Picture | Movie, path: Path) -> Path:
     """
     Write a picture, or the table of what it shows, to a file.
