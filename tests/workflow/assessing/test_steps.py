@@ -78,3 +78,11 @@ def test_files_of_one_name_in_two_folders_are_two_files(assessed_copy):
     before = _given(asked, catalogue)
     (records / "a" / "x.csv").write_bytes((records / "r2.csv").read_bytes() + b"\n")
     assert _given(asked, catalogue)["records"] != before["records"]
+
+
+def test_while_tests_arrive_the_answers_wait(assessed_copy):
+    Layout(assessed_copy).stage("site", "assessment").unlink()
+    result = run(assessed_copy, workers=1, awaiting=True)
+    assert not [stage for stage in result.stages if stage.stage == "assessment"]
+    page = (assessed_copy / "report" / "assessments.html").read_text(encoding="utf-8")
+    assert "None has been made yet" in page
