@@ -84,9 +84,10 @@ def slowly(path: Path, data: bytes, chance: random.Random) -> None:
     cuts = sorted(chance.sample(range(1, len(data)), 8))
     with path.open("wb") as stream:
         for start, stop in zip([0, *cuts], [*cuts, len(data)], strict=True):
+            if start:  # after its last piece a file is whole, and may be taken before it is closed
+                time.sleep(chance.choice([0.1, 0.3, 0.6, 0.6, 2.5]))
             stream.write(data[start:stop])
             stream.flush()
-            time.sleep(chance.choice([0.1, 0.3, 0.6, 0.6, 2.5]))
 
 
 def renamed(path: Path, data: bytes, chance: random.Random) -> None:
