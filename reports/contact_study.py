@@ -24,7 +24,7 @@ from contact_model.page import page
 from contact_model.summary import summary
 
 HERE = Path(__file__).resolve().parent
-DOCUMENT = HERE.parent / "docs" / "contact.md"
+DOCUMENT = HERE.parent / "docs" / "explanation" / "contact.md"
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 NAME = "contact-study"
 

@@ -24,7 +24,7 @@ from colonnade.readers.registry import read
 from colonnade.signals.filters import default_lowpass
 from colonnade.stages import condition, ingest, restitution, rocking
 
-DOCUMENT = Path(__file__).resolve().parents[1] / "docs" / "filter.md"
+DOCUMENT = Path(__file__).resolve().parents[1] / "docs" / "explanation" / "filter.md"
 FIGURE = "filter-bias.svg"
 MARKS = "<!-- measured: begin -->", "<!-- measured: end -->"
 

@@ -18,7 +18,7 @@ from monte_carlo.integration import integrated_angle
 from monte_carlo.naive import naive_restitution
 from monte_carlo.truth import FreeRocking
 
-DOCUMENT = Path(__file__).resolve().parents[1] / "docs" / "restitution.md"
+DOCUMENT = Path(__file__).resolve().parents[1] / "docs" / "explanation" / "restitution.md"
 FIGURE = "linear-bias.svg"
 MARKS = "<!-- measured: begin -->", "<!-- measured: end -->"
 

@@ -1,11 +1,11 @@
-"""The example of docs/assessment.md runs as it is printed."""
+"""The example of docs/explanation/assessment.md runs as it is printed."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "assessment.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "explanation" / "assessment.md"
 
 
 def test_the_example_of_an_assessment_runs(capsys):

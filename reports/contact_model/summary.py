@@ -11,7 +11,7 @@ from contact_model.misfit_words import verdict
 
 
 def summary(found: dict[str, Any]) -> str:
-    """Write the measured part of `docs/contact.md`."""
+    """Write the measured part of `docs/explanation/contact.md`."""
     lines = [
         f"The paper's prism, free rocking from α/2. With a step of 10 µs it has e = {TARGET} with:",
         "",

@@ -17,7 +17,7 @@ def _row(text, cutoff):
 
 
 def test_the_biases_are_those_of_the_document_and_those_of_the_default_are_small():
-    text = (PROJECT / "docs" / "filter.md").read_text(encoding="utf-8")
+    text = (PROJECT / "docs" / "explanation" / "filter.md").read_text(encoding="utf-8")
     low, default = filter_bias.measure((RATE,), (RESTITUTION,), (5.0,))
     for bias, cutoff in ((low, "5"), (default, r"\*\*34.9\*\* \(default\)")):
         *peaks, restitution = _row(text, cutoff)

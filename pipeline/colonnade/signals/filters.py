@@ -32,7 +32,7 @@ def default_lowpass(p: float, rate: float) -> float:
     A block rocks at p / (4 acosh(1/(1 − |θ|/α))) Hz (Housner 1963). Its history is close to a row of alternating
     parabolas, whose harmonics fall with the cube of their number; five times the frequency at 0.02 α lets the third
     pass whole. The cusp of an impact lies at θ = 0, far from the peaks on this filter's scale. What it does to peaks
-    and to e is measured in docs/filter.md: less than 1e-4 α, and 1e-4 of e.
+    and to e is measured in docs/explanation/filter.md: less than 1e-4 α, and 1e-4 of e.
     """
     return min(HARMONICS * p / (4 * acosh(1 / (1 - SMALL_AMPLITUDE))), 0.4 * rate)
 
