@@ -1,6 +1,7 @@
 # make demo     writes the virtual campaign into demo/ and runs it: open demo/report/index.html
 # make demo-full  the same, and whether the real columns of its specimens stand, on synthetic ground motions
 # make test     style, types, import rules, tests, and the built wheel in a fresh environment
+# make docs    builds the documentation: open docs/build/html/index.html
 # make study    the slow tests: seeds 0-19 of the virtual campaign, MuJoCo, benchmarks, other laboratories' files
 # make drill    500 kills, full and read-only disks (as root), two runs at once, 2000 damaged files: two hours
 # make format   rewrites the sources in the project's style
@@ -20,13 +21,14 @@ BIN := .venv/bin
 DEMO_INSTALLED := .venv/installed-demo
 INSTALLED := .venv/installed
 STUDY_INSTALLED := .venv/installed-study
+DOCS_INSTALLED := .venv/installed-docs
 # Files of tests are shared out over the cores, each file to one of them, where it computes in one thread.
 SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 
 # Each command and worker starts several seconds sooner if Python keeps the bytecode of what it has imported.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo demo-full test study drill format reports restitution-study verdict-study forecast-study fragility-study contact-study clean
+.PHONY: demo demo-full test docs study drill format reports restitution-study verdict-study forecast-study fragility-study contact-study clean
 
 demo: $(DEMO_INSTALLED)
 	@$(BIN)/colonnade demo demo
@@ -40,6 +42,9 @@ test: $(INSTALLED)
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest $(SHARED) --durations=10 -m "not slow and not drill"
+
+docs: $(DOCS_INSTALLED)
+	$(BIN)/python -m sphinx -c docs -b html -W --keep-going -j 2 -q . docs/build/html
 
 study: $(STUDY_INSTALLED)
 	$(BIN)/python -m pytest -m slow
@@ -73,7 +78,7 @@ contact-study: $(INSTALLED)
 	$(BIN)/python reports/contact_study.py
 
 clean:
-	rm -rf .venv build demo dist .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	rm -rf .venv build demo dist docs/build docs/gallery docs/reference/generated .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find pipeline tests -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # An interpreter counts if it runs, is 3.11 to 3.14 and can make an environment; being on the PATH is not enough
@@ -83,7 +88,8 @@ clean:
 $(DEMO_INSTALLED): EXTRAS := demo
 $(INSTALLED): EXTRAS := demo,test
 $(STUDY_INSTALLED): EXTRAS := demo,test,bench
-$(DEMO_INSTALLED) $(INSTALLED) $(STUDY_INSTALLED): pyproject.toml
+$(DOCS_INSTALLED): EXTRAS := demo,test,docs
+$(DEMO_INSTALLED) $(INSTALLED) $(STUDY_INSTALLED) $(DOCS_INSTALLED): pyproject.toml
 	@if ! $(BIN)/python -c "$(FITS)" >/dev/null 2>&1; then \
 	  chosen=; \
 	  for python in $(PYTHONS); do \
