@@ -37,7 +37,25 @@ def spread():
     return colonnade.ensemble(BLOCK, motion, uncertainty=colonnade.Uncertainty(), restitution=0.93, count=8)
 
 
-@pytest.fixture(params=["history", "restitution", "chart", "spread"])
+@pytest.fixture(scope="module")
+def limits():
+    return colonnade.overturning_spectrum(BLOCK, "sine", frequency_ratio=[2.0, 4.0], restitution=0.93)
+
+
+@pytest.fixture(scope="module")
+def spectrum():
+    motion = colonnade.Motion(3.0 * np.sin(np.linspace(0, 2 * np.pi, 200)), 0.005)
+    return colonnade.rocking_spectrum(motion, critical_angle=[0.2, 0.4], period=[0.8, 6.0])
+
+
+@pytest.fixture(scope="module")
+def fragility():
+    pulse = np.sin(2 * np.pi * np.arange(100) / 100)
+    motions = [colonnade.Motion(np.append(pulse, 0.0), step) for step in (0.006, 0.008, 0.01, 0.012, 0.014)]
+    return colonnade.fragility(BLOCK, motions, levels=np.geomspace(0.1, 3.0, 8), draws=1, resamples=100)
+
+
+@pytest.fixture(params=["history", "restitution", "chart", "spread", "limits", "spectrum", "fragility"])
 def result(request):
     return request.getfixturevalue(request.param)
 
@@ -74,7 +92,10 @@ def test_two_histories_share_axes_that_hold_both(history):
 
 @pytest.mark.parametrize("wrong", [None, 3.0, "history", BLOCK])
 def test_what_is_no_result_is_refused(wrong):
-    with pytest.raises(ValueError, match=r"result is .*a History, a Restitution, a StabilityMap or an Ensemble"):
+    with pytest.raises(
+        ValueError,
+        match=r"result is .*a History, a Restitution, a StabilityMap, an Ensemble, a spectrum or a Fragility",
+    ):
         colonnade.plot(wrong)
     with pytest.raises(ValueError, match="history"):
         colonnade.animate(wrong)
@@ -103,3 +124,16 @@ def test_a_history_says_what_happened(history):
     assert repr(history) == (
         f"<History: outcome rocking, max |θ|/α 0.5, impacts {history.impacts}, duration 6 s, model linear>"
     )
+
+
+def test_a_fragility_is_drawn_over_its_measure_with_its_unit(fragility):
+    axes = colonnade.plot(fragility)
+    assert axes.get_xlabel() == "PGV (m/s)"
+    drawn = {line.get_label(): line for line in axes.lines}
+    assert drawn["curve that only rises"].get_xdata().tolist() == fragility.isotonic.intensity.tolist()
+
+
+def test_spectra_are_drawn_with_both_limits_and_each_slenderness(limits, spectrum):
+    drawn = {line.get_label(): line for line in colonnade.plot(limits).lines}
+    assert drawn["upper limit"].get_ydata().tolist() == limits.upper.tolist()
+    assert "α = 0.4 rad" in {line.get_label() for line in colonnade.plot(spectrum).lines}

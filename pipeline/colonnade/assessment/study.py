@@ -223,6 +223,7 @@ def judge(
         measures=_scaled(study, signs),
         magnitude=magnitude,
         distance=distance,
+        measure=study.measure.id,
         level=level,
         resamples=resamples,
         seed=seed,

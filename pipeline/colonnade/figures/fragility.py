@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -32,7 +32,13 @@ class Curve(NamedTuple):
 
 @styled()
 def fragility(
-    lognormal: Curve | None, isotonic: Curve, *, label: str, taken: str, shares: Array | None = None
+    lognormal: Curve | None,
+    isotonic: Curve,
+    *,
+    label: str,
+    taken: str,
+    shares: Array | None = None,
+    axes: Axes | None = None,
 ) -> Figure:
     """
     Draw the probability of overturning over a measure of intensity.
@@ -49,13 +55,17 @@ def fragility(
         The curve from which the answer is read: "lognormal" or "isotonic".
     shares : ndarray, shape (levels,), optional
         Shares of the histories that overturn at the levels of `isotonic`.
+    axes : Axes, optional
+        To draw into; a new figure with its legend otherwise.
 
     Returns
     -------
     figure : Figure
     """
-    figure = blank_figure(3.4)
-    axes = figure.subplots()
+    alone = axes is None
+    if axes is None:
+        axes = blank_figure(3.4).subplots()
+    figure = cast(Figure, axes.get_figure(root=True))
     own: LineStyle = {**FIT, "linewidth": 1.6 if taken == "lognormal" else 0.9}
     steps: LineStyle = {
         **MEASURED,
@@ -81,7 +91,8 @@ def fragility(
     axes.set(xscale="log", ylim=(-0.02, 1.02), xlabel=label, ylabel="probability of overturning")
     axes.set_yticks([0, 0.05, 0.25, 0.5, 0.75, 1.0], ["0", "5 %", "25 %", "50 %", "75 %", "100 %"])
     _plain_decades(axes)
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper left", ncols=1 if is_narrow() else 3)
+    if alone:
+        figure.legend(*axes.get_legend_handles_labels(), loc="outside upper left", ncols=1 if is_narrow() else 3)
     return figure
 
 

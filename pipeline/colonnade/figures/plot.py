@@ -11,9 +11,14 @@ from matplotlib.animation import FuncAnimation
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
+from colonnade.assessment.fragility.summary import Fragility
+from colonnade.assessment.intensity.registry import measure_of
 from colonnade.dynamics.ensembles.outcome import Ensemble
 from colonnade.dynamics.history import History
 from colonnade.dynamics.maps.chart import StabilityMap
+from colonnade.dynamics.spectra.overturning import OverturningSpectrum
+from colonnade.dynamics.spectra.spectrum import RockingSpectrum
+from colonnade.figures import fragility
 from colonnade.figures.drawing.parts import Body, Rocking
 from colonnade.figures.histories import SHADES, draw_angle, limit_of
 from colonnade.figures.maps.stability_map import stability_map
@@ -21,12 +26,17 @@ from colonnade.figures.moving import rocking_block
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.long import draw_band, draw_curve
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
+from colonnade.figures.spectra.overturning import overturning_spectrum
+from colonnade.figures.spectra.rocking import rocking_spectrum
 from colonnade.figures.style import MEASURED, model_style
 from colonnade.identification.restitution.result import Restitution
 from colonnade.units import format_percent
 from colonnade.validation import described, instance
 
-KINDS = "a History, a Restitution, a StabilityMap or an Ensemble"
+KINDS = "a History, a Restitution, a StabilityMap, an Ensemble, a spectrum or a Fragility"
+
+FINE = 200
+"""Points of a fragility curve."""
 
 
 @singledispatch
@@ -36,9 +46,10 @@ def plot(result: Any, ax: Axes | None = None) -> Axes:
 
     Parameters
     ----------
-    result : History, Restitution, StabilityMap or Ensemble
+    result : History, Restitution, StabilityMap, Ensemble, OverturningSpectrum, RockingSpectrum or Fragility
         A history is drawn as θ/α over time; a restitution as e of each impact over the angular velocity before it, with
-        the value identified; a map with its limits over Ω and A; an ensemble as its bands over time.
+        the value identified; a map and an overturning spectrum with their limits over Ω and A; an ensemble as its bands
+        over time; a rocking spectrum as largest angles over the size of blocks; a fragility as its curves.
     ax : matplotlib.axes.Axes, optional
         To draw into, as of several results one over the other; by default those of a new figure.
 
@@ -105,6 +116,37 @@ def _(result: Ensemble, ax: Axes | None = None) -> Axes:
     draw_curve(axes, Curve(result.time, result.central), label="nothing varied", **MEASURED)
     axes.set_xlabel("time (s)")
     axes.set_ylabel("θ (rad)")
+    axes.legend()
+    return axes
+
+
+@plot.register
+def _(result: OverturningSpectrum, ax: Axes | None = None) -> Axes:
+    axes = _axes(ax)
+    overturning_spectrum(result, axes=axes)
+    axes.legend()
+    return axes
+
+
+@plot.register
+def _(result: RockingSpectrum, ax: Axes | None = None) -> Axes:
+    axes = _axes(ax)
+    rocking_spectrum(result, axes=axes)
+    axes.legend()
+    return axes
+
+
+@plot.register
+def _(result: Fragility, ax: Axes | None = None) -> Axes:
+    axes, fitted, rising = _axes(ax), result.lognormal, result.isotonic
+    fine = np.geomspace(rising.intensity[0], rising.intensity[-1], FINE)
+    curve = None if fitted.reason else fragility.Curve(fine, *fitted.probability(fine))
+    label = "measure of intensity (SI)"
+    if result.measure:
+        measure = measure_of(result.measure)
+        label = f"{measure.symbol} ({measure.unit})" if measure.unit else measure.symbol
+    steps = fragility.Curve(rising.intensity, *rising.probability)
+    fragility.fragility(curve, steps, label=label, taken=result.taken, axes=axes)
     axes.legend()
     return axes
 

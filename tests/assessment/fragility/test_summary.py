@@ -30,3 +30,12 @@ def test_without_a_curve_the_isotonic_one_and_the_reason_remain():
     found = summarise(outcomes_of(np.full((4, 3), MEDIAN)), hazard=hazard_curve([0.1, 1.0], [1.0, 0.1]), resamples=20)
     assert (found.lognormal.reason, found.rate, found.measures) == ("separated", None, None)
     assert found.isotonic.probability.value.tolist() == [0.0] * 5 + [1.0] * 5
+    assert found.taken == "isotonic"
+    assert found.reaches(0.5) == found.isotonic.reaches(0.5)
+
+
+def test_answers_are_read_from_the_lognormal_curve_if_it_fits():
+    found = summarise(lognormal(1), measure="pgv", resamples=100)
+    assert found.taken == "lognormal"
+    assert found.reaches(0.5) == pytest.approx(found.lognormal.median, rel=1e-6)
+    assert found.digest()["median"].endswith("m/s")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 from numpy.typing import ArrayLike
 
@@ -16,10 +17,14 @@ from colonnade.assessment.fragility.measures import Comparison, compare_measures
 from colonnade.assessment.fragility.misfit import Misfit, lognormal_misfit
 from colonnade.assessment.fragility.outcomes import Outcomes
 from colonnade.assessment.fragility.rate import AnnualRate, annual_rate
-from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES
+from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES, Interval
 from colonnade.assessment.fragility.resurrection import Resurrection, resurrection
 from colonnade.assessment.fragility.uplift import Uplift, uplift
+from colonnade.assessment.intensity.registry import measure_of
 from colonnade.digest import Digested, written
+
+MISFITS = 0.05
+"""p-value of the misfit below which the lognormal curve is not taken."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -43,6 +48,8 @@ class Fragility(Digested):
         If there are measures to compare.
     rate : AnnualRate or None
         If there are a hazard and a lognormal curve.
+    measure : str
+        Id of the measure of intensity; all intensities are in its SI unit. Empty if it was not said.
     """
 
     outcomes: Outcomes
@@ -55,14 +62,39 @@ class Fragility(Digested):
     influence: Influence
     measures: Comparison | None
     rate: AnnualRate | None
+    measure: str = ""
+
+    @property
+    def taken(self) -> Literal["lognormal", "isotonic"]:
+        """The curve from which answers are read: the lognormal one, if there is one and it fits."""
+        return "isotonic" if self.lognormal.reason or self.misfit.p_value < MISFITS else "lognormal"
+
+    def reaches(self, probability: float) -> Interval:
+        """
+        Give the intensity at which so many overturn, by the curve that is `taken`.
+
+        Parameters
+        ----------
+        probability : float
+            Between 0 and 1.
+
+        Returns
+        -------
+        intensity : Interval
+            `value`, `low`, `high` in the SI unit of the measure; 0 if below the levels, inf if above.
+        """
+        if self.taken == "isotonic":
+            return self.isotonic.reaches(probability)
+        return Interval(*(float(each[0]) for each in self.lognormal.intensity([probability])))
 
     def digest(self) -> dict[str, str]:
-        """Return the curve, or why there is none, and what it rests on; in SI."""
+        """Return the curve, or why there is none, and what it rests on."""
+        unit = measure_of(self.measure).unit if self.measure else ""
         curve: dict[str, str] = {"no curve": self.lognormal.reason}
         if not self.lognormal.reason:
             median, beta = self.lognormal.median, self.lognormal.beta
             curve = {
-                "median": f"{written(median.value)} ({written(median.low)} to {written(median.high)})",
+                "median": written(median.value, f"({written(median.low)} to {written(median.high)}) {unit}"),
                 "β": f"{written(beta.value)} ({written(beta.low)} to {written(beta.high)})",
                 "p of the misfit": written(self.misfit.p_value, digits=2),
             }
@@ -78,6 +110,7 @@ def summarise(
     measures: Mapping[str, ArrayLike] | None = None,
     magnitude: ArrayLike | None = None,
     distance: ArrayLike | None = None,
+    measure: str = "",
     level: float = LEVEL,
     resamples: int = RESAMPLES,
     seed: int = 0,
@@ -95,6 +128,8 @@ def summarise(
         Of the measure of the outcomes; made by `hazard_curve`.
     measures, magnitude, distance : optional
         As of `compare_measures`.
+    measure : str, optional
+        Id of the measure of the outcomes.
     level, resamples, seed : optional
         Of all intervals; the same seed gives the same result.
 
@@ -122,4 +157,5 @@ def summarise(
         if measures
         else None,
         annual_rate(hazard, lognormal, isotonic) if hazard is not None and not lognormal.reason else None,
+        measure,
     )

@@ -26,7 +26,7 @@ def overturning_spectrum(spectrum: OverturningSpectrum, *, title: str = "", axes
     title : str, optional
         By default the pulse and what the limits depend on.
     axes : Axes, optional
-        To draw into; a new figure otherwise.
+        To draw into; a new figure with its title and legend otherwise.
 
     Returns
     -------
@@ -37,6 +37,7 @@ def overturning_spectrum(spectrum: OverturningSpectrum, *, title: str = "", axes
     Every amplitude that overturns is shaded, islands too. The lower limit is the full line, the upper one the thin
     one; where a limit is absent up to the largest A its line breaks.
     """
+    own = axes is None
     if axes is None:
         axes = blank_figure(3.8).subplots()
     ratios, largest = spectrum.frequency_ratio, spectrum.options["largest"]
@@ -74,10 +75,11 @@ def overturning_spectrum(spectrum: OverturningSpectrum, *, title: str = "", axes
         label_logarithmic(axes)
     axes.set_ylim(0.8 * lowest, largest)
     name_axes(axes)
-    small = SMALL_TEXT["legend.fontsize"] if is_narrow() else 8
-    axes.set_title(title or words_of(spectrum), fontsize=small, color=SOFT)
     figure = cast(Figure, axes.get_figure(root=True))
-    figure.legend(loc="outside lower center", ncols=3, fontsize=small)
+    if own:
+        small = SMALL_TEXT["legend.fontsize"] if is_narrow() else 8
+        axes.set_title(title or words_of(spectrum), fontsize=small, color=SOFT)
+        figure.legend(loc="outside lower center", ncols=3, fontsize=small)
     return figure
 
 

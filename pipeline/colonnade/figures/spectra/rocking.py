@@ -37,7 +37,7 @@ def rocking_spectrum(
         2π/p of a column, s, that is marked.
     title : str, optional
     axes : Axes, optional
-        To draw into; a new figure otherwise.
+        To draw into; a new figure with its title and legend otherwise.
 
     Returns
     -------
@@ -47,6 +47,7 @@ def rocking_spectrum(
     -----
     Blocks that overturn have no largest angle: the curve breaks there, and crosses above show them.
     """
+    own = axes is None
     if axes is None:
         axes = blank_figure(3.4).subplots()
     highest = float(np.nanmax(spectrum.peak_ratio, initial=0.0))
@@ -76,7 +77,8 @@ def rocking_spectrum(
     axes.set_xlabel("size 2π/p (s)")
     axes.set_ylabel("largest |θ|/α")
     figure = cast(Figure, axes.get_figure(root=True))
-    small = SMALL_TEXT["legend.fontsize"] if is_narrow() else 8
-    axes.set_title(title, fontsize=small, color=SOFT)
-    figure.legend(loc="outside lower center", ncols=2 if is_narrow() else 3, fontsize=small)
+    if own:
+        small = SMALL_TEXT["legend.fontsize"] if is_narrow() else 8
+        axes.set_title(title, fontsize=small, color=SOFT)
+        figure.legend(loc="outside lower center", ncols=2 if is_narrow() else 3, fontsize=small)
     return figure

@@ -23,7 +23,7 @@ from colonnade.campaign.assessing.assessed import (
 )
 from colonnade.dynamics.block import pair
 from colonnade.stages.assessing.criteria import judged_criteria
-from colonnade.stages.assessing.doubts import MISFITS, doubts, left_out
+from colonnade.stages.assessing.doubts import doubts, left_out
 from colonnade.stages.assessing.plan import ASSUMED, Plan
 
 MOST_DECIDING = 5
@@ -61,10 +61,7 @@ def answer(
     """
     study, found = plan.studies[ASSUMED], fragilities[ASSUMED]
     column, lognormal = study.cases.prototype, found.lognormal
-    why = _why_not(found)
-    five, fifty = (
-        _estimate(found.isotonic.reaches(share)) if why else _at_lognormal(lognormal, share) for share in (0.05, 0.5)
-    )
+    five, fifty = (_estimate(found.reaches(share)) for share in (0.05, 0.5))
     limits = column.restitution_range or (None, None)
     rate = found.rate
     variants = [_variant(plan, name, each) for name, each in fragilities.items() if name != ASSUMED]
@@ -91,8 +88,8 @@ def answer(
         dispersion_parameters=found.betas.parameters.value,
         five_percent=five,
         fifty_percent=fifty,
-        curve="isotonic" if why else "lognormal",
-        curve_reason=why or None,
+        curve=found.taken,
+        curve_reason=None if found.taken == "lognormal" else _why_not(found),
         misfit=found.misfit.p_value,
         resurrected=found.resurrection.lost,
         sliding=sliding,
@@ -122,12 +119,10 @@ def _estimate(interval: Interval) -> Estimate:
 
 
 def _why_not(found: Fragility) -> str:
-    """Say why the lognormal curve is not taken; empty if it is."""
+    """Say why the lognormal curve is not taken."""
     if found.lognormal.reason:
         return NO_CURVE[found.lognormal.reason]
-    if found.misfit.p_value < MISFITS:
-        return f"the lognormal curve does not fit (p = {found.misfit.p_value:.2g})"
-    return ""
+    return f"the lognormal curve does not fit (p = {found.misfit.p_value:.2g})"
 
 
 def _at_lognormal(fit: LognormalFit, share: float) -> Estimate:

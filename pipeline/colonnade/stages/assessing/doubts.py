@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from colonnade.assessment.cases.cases import FALLS_AWAY, NOT_RUN, Outcomes
 from colonnade.assessment.fragility.resampling import FEWEST_RECORDS
-from colonnade.assessment.fragility.summary import Fragility
+from colonnade.assessment.fragility.summary import MISFITS, Fragility
 from colonnade.campaign.assessing.assessed import RecordLeftOut
 from colonnade.stages.assessing.plan import ASSUMED, Plan
 from colonnade.units import format_percent, with_minus
-
-MISFITS = 0.05
-"""p-value below which the lognormal curve is not taken."""
 
 DEGENERATE = 0.05
 """Share of the resamples without a curve from which on that is said."""
