@@ -2,6 +2,7 @@
 # make demo-full  the same, and whether the real columns of its specimens stand, on synthetic ground motions
 # make test     style, types, import rules, tests, and the built wheel in a fresh environment
 # make docs    builds the documentation: open docs/build/html/index.html
+# make docs-test  follows the slow pages of the documentation and looks at the built site in a browser
 # make study    the slow tests: seeds 0-19 of the virtual campaign, MuJoCo, benchmarks, other laboratories' files
 # make drill    500 kills, full and read-only disks (as root), two runs at once, 2000 damaged files: two hours
 # make format   rewrites the sources in the project's style
@@ -28,7 +29,7 @@ SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope
 # Each command and worker starts several seconds sooner if Python keeps the bytecode of what it has imported.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo demo-full test docs study drill format reports restitution-study verdict-study forecast-study fragility-study contact-study clean
+.PHONY: demo demo-full test docs docs-test study drill format reports restitution-study verdict-study forecast-study fragility-study contact-study clean
 
 demo: $(DEMO_INSTALLED)
 	@$(BIN)/colonnade demo demo
@@ -41,10 +42,13 @@ test: $(INSTALLED)
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest $(SHARED) --durations=10 -m "not slow and not drill"
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest $(SHARED) --durations=10 -m "not slow and not drill and not docs"
 
 docs: $(DOCS_INSTALLED)
 	$(BIN)/python -m sphinx -c docs -b html -W --keep-going -j 2 -q . docs/build/html
+
+docs-test: docs
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest $(SHARED) -m docs
 
 study: $(STUDY_INSTALLED)
 	$(BIN)/python -m pytest -m slow

@@ -1,0 +1,99 @@
+"""What the pages of the documentation tell readers to type runs as it is printed; `page_blocks` says how."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import shutil
+from pathlib import Path
+
+import pytest
+
+from colonnade.cli import invoke
+from page_blocks import PROJECT, Block, Reader, assert_shown, assert_valid, blocks_of, is_slow
+
+SECTIONS = ("tutorial", "how-to", "explanation", "faults")
+PAGES = sorted(page for section in SECTIONS for page in (PROJECT / "docs" / section).rglob("*.md"))
+
+
+@pytest.fixture
+def instead(made_once):
+    """The short demo is made by the first page that asks for it; the others get a copy."""
+
+    def make(folder: Path) -> None:
+        folder.mkdir()
+        out = io.StringIO()
+        with contextlib.chdir(folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
+            assert invoke(["demo", "demo", "--short"]) == 0
+        (folder / "output.txt").write_text(out.getvalue(), encoding="utf-8")
+
+    def short_demo(words: list[str], folder: Path) -> str | None:
+        if words != ["demo", "demo", "--short"]:
+            return None
+        made = made_once("short-demo", make)
+        shutil.copytree(made / "demo", folder / "demo")
+        return (made / "output.txt").read_text(encoding="utf-8")
+
+    return short_demo
+
+
+@pytest.mark.parametrize(
+    "page",
+    [
+        pytest.param(page, id=str(page.relative_to(PROJECT / "docs")), marks=[pytest.mark.docs] * is_slow(page))
+        for page in PAGES
+    ],
+)
+def test_what_a_page_tells_readers_to_type_runs(page, instead, tmp_path):
+    Reader(tmp_path, instead).follow(page)
+
+
+def page_with(folder: Path, text: str) -> Path:
+    page = folder / "page.md"
+    page.write_text(text, encoding="utf-8")
+    return page
+
+
+def test_a_page_is_followed_from_file_to_output(tmp_path):
+    page = page_with(
+        tmp_path,
+        "<!-- file: a/b.txt -->\n```text\nold\n```\n\n```sh\ncd a\ncat b.txt\n```\n\n<!-- output -->\n```text\n"
+        "o…d\n```\n\n```python\nprint(open('b.txt').read())\n```\n<!-- output -->\n\n```text\nold\n```\n",
+    )
+    Reader(tmp_path).follow(page)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("```sh\nfalse\n```\n", "page.md, line 1: `false` ended with 1"),
+        ("```sh\ncolonnade shwo\n```\n", "`colonnade shwo` ended with 2"),
+        ("```sh\nmake tea\n```\n", "not a target"),
+        ("<!-- exit code: 1 -->\n```sh\ntrue\n```\n", "`true` ended with 0"),
+        ("```python\n>>> 1 + 1\n3\n```\n", "Expected:\n    3"),
+        ("```sh\necho a\n```\n<!-- output -->\n```text\nb\n```\n", "not in the output"),
+        ("```toml\n[procesing]\n```\n", "procesing"),
+        ("```toml\n[[exclude]]\ntest = 3\n```\n", "exclude"),
+    ],
+)
+def test_a_page_that_is_not_true_fails(text, reason, tmp_path):
+    with pytest.raises(AssertionError) as failed:
+        Reader(tmp_path).follow(page_with(tmp_path, text))
+    assert reason in str(failed.value)
+
+
+@pytest.mark.parametrize("remark", ["not run", "not runn: it is slow"])
+def test_a_remark_is_known_and_gives_its_reason(remark, tmp_path):
+    with pytest.raises(ValueError, match="line 2"):
+        blocks_of(page_with(tmp_path, f"<!-- {remark} -->\n```sh\nfalse\n```\n"))
+
+
+def test_a_part_of_a_campaign_is_enough():
+    assert_valid(Block("", "toml", '[processing.predict]\nmodels = ["linear"]\n'))
+    assert_valid(Block("", "toml", '[[exclude]]\ntest = "free-02"\n'))
+
+
+def test_output_is_compared_in_order():
+    assert_shown(Block("", "text", "a …\nb\n"), "x\na  1\nb\n")
+    with pytest.raises(AssertionError):
+        assert_shown(Block("", "text", "b\na\n"), "a\nb\n")
