@@ -11,11 +11,11 @@ from typing import Any
 
 from colonnade import figures, run
 from colonnade.campaign import Campaign, load
-from colonnade.campaign.summary import Summary
+from colonnade.campaign.forms.summary import Summary
 from colonnade.dynamics.block import Block
 from colonnade.figures.stored import maps, record, restitution
 from colonnade.laboratory import paper_programme, prism_programme, write_campaign
-from colonnade.laboratory.ladder import KEPT_AWAY
+from colonnade.laboratory.plans.ladder import KEPT_AWAY
 from colonnade.report.overview_page.agreement import agreement
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_test

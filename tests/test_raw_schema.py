@@ -14,7 +14,7 @@ from colonnade.campaign import load
 from colonnade.campaign import test as one_test
 from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.channel import Channel
-from colonnade.campaign.schema import json_schema, schema_text
+from colonnade.campaign.forms.schema import json_schema, schema_text
 from colonnade.campaign.setup import Setup
 from colonnade.cli.app import app
 from colonnade.errors import ReadError

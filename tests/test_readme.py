@@ -13,7 +13,7 @@ import pytest
 
 import rebuild
 from colonnade.cli import invoke
-from colonnade.laboratory.ladder import KEPT_AWAY
+from colonnade.laboratory.plans.ladder import KEPT_AWAY
 
 PROJECT = Path(__file__).parents[1]
 README = (PROJECT / "README.md").read_text(encoding="utf-8")

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from colonnade.assessment.fragility.summary import Fragility
     from colonnade.assessment.intensity.measured import IntensityMeasures, intensity_measures
-    from colonnade.assessment.library import fragility
+    from colonnade.assessment.on_motions import fragility
     from colonnade.dynamics.block import Block
     from colonnade.dynamics.ensembles.ensemble import ensemble
     from colonnade.dynamics.ensembles.outcome import Ensemble
@@ -84,7 +84,7 @@ _ROOMS = {
     "Uncertainty": "colonnade.dynamics.ensembles.uncertainty",
     "animate": "colonnade.figures.plot",
     "ensemble": "colonnade.dynamics.ensembles.ensemble",
-    "fragility": "colonnade.assessment.library",
+    "fragility": "colonnade.assessment.on_motions",
     "identify_restitution": "colonnade.identification.restitution.identify",
     "intensity_measures": "colonnade.assessment.intensity.measured",
     "overturning_spectrum": "colonnade.dynamics.spectra.overturning",

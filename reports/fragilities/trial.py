@@ -6,12 +6,12 @@ import numpy as np
 import scipy
 
 from colonnade.assessment.fragility.betas import separate_betas
-from colonnade.assessment.fragility.hazard import hazard_curve, lognormal_rate
-from colonnade.assessment.fragility.isotonic import IsotonicCurve, fit_isotonic
-from colonnade.assessment.fragility.lognormal import fit_lognormal
-from colonnade.assessment.fragility.misfit import lognormal_misfit
+from colonnade.assessment.fragility.curves.hazard import hazard_curve, lognormal_rate
+from colonnade.assessment.fragility.curves.isotonic import IsotonicCurve, fit_isotonic
+from colonnade.assessment.fragility.curves.lognormal import fit_lognormal
+from colonnade.assessment.fragility.curves.misfit import lognormal_misfit
+from colonnade.assessment.fragility.curves.rate import annual_rate
 from colonnade.assessment.fragility.outcomes import Outcomes
-from colonnade.assessment.fragility.rate import annual_rate
 from colonnade.assessment.fragility.resampling import Interval
 from fragilities.population import MEDIAN, Population
 

@@ -14,8 +14,8 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
+from colonnade.laboratory.plans.trials import LENGTH_SCALE, PEAK_PER_SPAN, SPANS
 from colonnade.laboratory.programme import PRISM_RESTITUTION, paper_prism
-from colonnade.laboratory.trials import LENGTH_SCALE, PEAK_PER_SPAN, SPANS
 from colonnade.readers.motion import read_motion
 from colonnade.readers.strong_motion.el_centro import EL_CENTRO, el_centro
 

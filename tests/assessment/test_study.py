@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from assessing import RATE, ground_motion
 from colonnade.assessment.cases.cases import in_plane, run_cases
 from colonnade.assessment.cases.prototype import Prototype
-from colonnade.assessment.fragility.hazard import hazard_curve
+from colonnade.assessment.fragility.curves.hazard import hazard_curve
 from colonnade.assessment.intensity.measured import intensity_measures
 from colonnade.assessment.study import judge, plan_study
 from colonnade.dynamics.block import Block

@@ -14,8 +14,8 @@ from scipy.integrate import solve_ivp
 
 import paper_schemes as schemes
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.plane.harmonic_march import Watch, run
-from colonnade.dynamics.plane.harmonic_nonlinear import empty_series
+from colonnade.dynamics.plane.harmonic.march import Watch, run
+from colonnade.dynamics.plane.harmonic.nonlinear import empty_series
 from colonnade.dynamics.plane.nonlinear import by_series
 from colonnade.dynamics.plane.sampled_march import propagate
 from colonnade.dynamics.plane.sides import sides_of

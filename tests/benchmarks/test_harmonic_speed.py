@@ -21,7 +21,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_outcomes, harmonic_run
+from colonnade.dynamics.plane.harmonic.motion import Harmonic, harmonic_outcomes, harmonic_run
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p

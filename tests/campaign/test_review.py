@@ -12,8 +12,8 @@ import pytest
 
 from colonnade.campaign import load
 from colonnade.campaign.decision import Review
+from colonnade.campaign.forms.schema import json_schema
 from colonnade.campaign.review import ReviewFile
-from colonnade.campaign.schema import json_schema
 from colonnade.errors import CampaignError
 
 CAMPAIGN = """\

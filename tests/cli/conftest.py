@@ -11,7 +11,8 @@ from typing import NamedTuple
 
 import pytest
 
-from colonnade.cli import invoke, progress
+from colonnade.cli import invoke
+from colonnade.cli.common import progress
 
 CAMPAIGN = """\
 schema = 1

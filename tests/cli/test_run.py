@@ -7,8 +7,8 @@ import zipfile
 
 import pytest
 
-from colonnade.cli import progress
-from colonnade.cli.findings import show_by_kind
+from colonnade.cli.common import progress
+from colonnade.cli.common.findings import show_by_kind
 from colonnade.findings import in_order, note, serious, warning
 
 

@@ -87,13 +87,18 @@ def symmetric_responses_of_the_linear_model():
 
 
 @pytest.fixture
-def interpreted(monkeypatch):
-    """Run the kernels of some modules as the Python that they are written in: nothing is compiled for a few calls."""
+def interpreted(request, monkeypatch):
+    """
+    Run the kernels of some modules as the Python that they are written in: nothing is compiled for a few calls.
+
+    The test's own names of them change too: a compiled kernel that calls interpreted ones cannot be compiled again.
+    """
 
     def run(*modules):
-        for module in modules:
+        chosen = {module.__name__ for module in modules}
+        for module in (*modules, request.module):
             for name, value in list(vars(module).items()):
-                if hasattr(value, "py_func"):
+                if hasattr(value, "py_func") and (module is not request.module or value.__module__ in chosen):
                     monkeypatch.setattr(module, name, value.py_func)
 
     return run

@@ -1,4 +1,4 @@
-from colonnade.campaign.summary import Warned
+from colonnade.campaign.forms.summary import Warned
 from colonnade.report.problems import warning_groups
 
 

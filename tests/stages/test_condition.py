@@ -10,7 +10,7 @@ from colonnade.signals.quality import Flag
 from colonnade.stages import condition as conditioning
 from colonnade.stages.condition import condition
 from colonnade.stages.ingest import IngestInputs, ingest
-from colonnade.stages.parts.clocks import ChannelOnClock
+from colonnade.stages.ingesting.clocks import ChannelOnClock
 
 
 def _conditioned(campaign, test, recordings, **changes):

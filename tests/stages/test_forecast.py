@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from colonnade.campaign.forecast import ForecastFile
+from colonnade.campaign.forms.forecast import ForecastFile
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock

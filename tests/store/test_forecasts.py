@@ -3,7 +3,7 @@ import os
 
 import pytest
 
-from colonnade.campaign.forecast import ForecastFile
+from colonnade.campaign.forms.forecast import ForecastFile
 from colonnade.errors import StoreError
 from colonnade.store.forecasts import LARGEST, read_forecasts, write_forecast
 from colonnade.store.layout import Layout

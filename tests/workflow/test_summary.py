@@ -6,7 +6,7 @@ import csv
 
 import pytest
 
-from colonnade.campaign.summary import Summary
+from colonnade.campaign.forms.summary import Summary
 from colonnade.store import files
 
 

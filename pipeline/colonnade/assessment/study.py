@@ -14,7 +14,7 @@ from colonnade.assessment.cases.cases import COMPONENTS, Cases, Outcomes, factor
 from colonnade.assessment.cases.levels import default_levels
 from colonnade.assessment.cases.prototype import Prototype, draw
 from colonnade.assessment.fragility import outcomes as counted
-from colonnade.assessment.fragility.hazard import Hazard
+from colonnade.assessment.fragility.curves.hazard import Hazard
 from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES
 from colonnade.assessment.fragility.summary import Fragility, summarise
 from colonnade.assessment.intensity.baselines import NONE, baseline_of

@@ -54,7 +54,7 @@ def invoke(arguments: Sequence[str] | None = None) -> int:
     import click
 
     from colonnade.cli.app import app
-    from colonnade.cli.console import close_output, complain
+    from colonnade.cli.common.console import close_output, complain
     from colonnade.errors import CampaignError, ColonnadeError
 
     try:

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import rich_click as click
 
-from colonnade.cli.console import say, show_json, show_table
-from colonnade.cli.options import (
+from colonnade.cli.common.console import say, show_json, show_table
+from colonnade.cli.common.options import (
     CAMPAIGN,
     LateChoice,
     campaign_argument,

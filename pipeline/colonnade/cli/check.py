@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
-from colonnade.cli.console import count, say, show_json
-from colonnade.cli.findings import probable_cause, records_of, show_by_kind
-from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, strict_option
-from colonnade.cli.progress import work_progress
+from colonnade.cli.common.console import count, say, show_json
+from colonnade.cli.common.findings import probable_cause, records_of, show_by_kind
+from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_option, strict_option
+from colonnade.cli.common.progress import work_progress
 
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign

@@ -7,8 +7,8 @@ from typing import Any
 
 import rich_click as click
 
-from colonnade.cli.console import complain, say, show_json, show_table, shown, shown_ratio
-from colonnade.cli.options import json_option, workers_option
+from colonnade.cli.common.console import complain, say, show_json, show_table, shown, shown_ratio
+from colonnade.cli.common.options import json_option, workers_option
 from colonnade.cli.run import failed_rows, run_with_progress
 
 
@@ -66,7 +66,7 @@ def demo(
 
 
 def _show(comparison: dict[str, Any]) -> None:
-    from colonnade.laboratory.ladder import KEPT_AWAY
+    from colonnade.laboratory.plans.ladder import KEPT_AWAY
     from colonnade.report.overview_page.agreement import agreement
     from colonnade.store.records.wording import restitution_text
     from colonnade.units import format_percent

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import rich_click as click
 
-from colonnade.cli.console import say, show_json, show_table
-from colonnade.cli.options import campaign_and_id, campaign_and_id_argument, json_option, results_option
+from colonnade.cli.common.console import say, show_json, show_table
+from colonnade.cli.common.options import campaign_and_id, campaign_and_id_argument, json_option, results_option
 
 
 @click.command(

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
-from colonnade.cli.console import say, show_json, show_table
-from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, one_specimen_option, results_option
-from colonnade.cli.progress import work_progress
+from colonnade.cli.common.console import say, show_json, show_table
+from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_option, one_specimen_option, results_option
+from colonnade.cli.common.progress import work_progress
 
 if TYPE_CHECKING:
     from colonnade.workflow.forecasting.foresee import Foreseen

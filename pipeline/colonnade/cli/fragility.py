@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.console import complain, say, show_json, show_table
-from colonnade.cli.options import (
+from colonnade.cli.common.console import complain, say, show_json, show_table
+from colonnade.cli.common.options import (
     CAMPAIGN,
     LateChoice,
     campaign_argument,
@@ -19,7 +19,7 @@ from colonnade.cli.options import (
     scheduler_option,
     workers_option,
 )
-from colonnade.cli.progress import work_progress
+from colonnade.cli.common.progress import work_progress
 
 if TYPE_CHECKING:
     from colonnade.workflow.assessing.fragility import Assessed, Where

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
-from colonnade.cli.console import count, say, show_json, show_table
-from colonnade.cli.options import json_option
-from colonnade.cli.progress import work_progress
+from colonnade.cli.common.console import count, say, show_json, show_table
+from colonnade.cli.common.options import json_option
+from colonnade.cli.common.progress import work_progress
 
 if TYPE_CHECKING:
     from colonnade.campaign.draft import CampaignDraft

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import rich_click as click
 
-from colonnade.cli.console import say, show_json, show_table
-from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, results_option, specimen_option
+from colonnade.cli.common.console import say, show_json, show_table
+from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_option, results_option, specimen_option
 
 
 @click.command(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import rich_click as click
 
-from colonnade.cli.console import show_json
+from colonnade.cli.common.console import show_json
 
 
 @click.command(epilog="Example: colonnade schema campaign > campaign.schema.json")
@@ -16,7 +16,7 @@ def schema(contract: str) -> int:
     Editors that know TOML schemas complete and check a campaign.toml with it; loggers and scripts in any language can
     check what they write and read with it.
     """
-    from colonnade.campaign.schema import json_schema
+    from colonnade.campaign.forms.schema import json_schema
 
     show_json(json_schema(contract))
     return 0

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.console import show_fields, show_json, show_table, shown, shown_ratio
-from colonnade.cli.findings import line_of
-from colonnade.cli.options import campaign_and_id, campaign_and_id_argument, json_option, results_option
+from colonnade.cli.common.console import show_fields, show_json, show_table, shown, shown_ratio
+from colonnade.cli.common.findings import line_of
+from colonnade.cli.common.options import campaign_and_id, campaign_and_id_argument, json_option, results_option
 
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign
-    from colonnade.campaign.summary import Summary
+    from colonnade.campaign.forms.summary import Summary
 
 Record = dict[str, Any]
 

@@ -10,8 +10,8 @@ import rich_click as click
 from click import get_current_context
 from click.core import ParameterSource
 
-from colonnade.cli.console import say, show_fields, show_json, show_table
-from colonnade.cli.options import (
+from colonnade.cli.common.console import say, show_fields, show_json, show_table
+from colonnade.cli.common.options import (
     CAMPAIGN,
     LateChoice,
     campaign_argument,

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
-from colonnade.cli.console import complain, say
-from colonnade.cli.options import CAMPAIGN, campaign_argument, json_option, results_option, workers_option
+from colonnade.cli.common.console import complain, say
+from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_option, results_option, workers_option
 
 if TYPE_CHECKING:
     from colonnade.store.records.advice import Advice

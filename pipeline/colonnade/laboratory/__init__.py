@@ -1,6 +1,6 @@
 """A virtual shake table: raw campaigns of known truth, in the file formats of real recorders."""
 
-from colonnade.laboratory.paper import paper_programme
+from colonnade.laboratory.plans.paper import paper_programme
 from colonnade.laboratory.programme import prism_programme, write_campaign
 
 __all__ = ["paper_programme", "prism_programme", "write_campaign"]

@@ -14,7 +14,7 @@ from colonnade.errors import CampaignError
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Trial, raw_path
 from colonnade.laboratory.files import FileFormat
 from colonnade.laboratory.instruments import VOLTS, Transducer
-from colonnade.laboratory.schedule import begun
+from colonnade.laboratory.plans.schedule import begun
 from colonnade.readers.irregular import irregular
 
 FILE_NAME = "campaign.toml"

@@ -14,11 +14,11 @@ from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.campaign_file import FILE_NAME, campaign_text, refuse_foreign
 from colonnade.laboratory.experiment import Plan, Specimen
 from colonnade.laboratory.files import put
+from colonnade.laboratory.plans.trials import LENGTH_SCALE, Placed, earthquakes, free_vibrations, sine
 from colonnade.laboratory.record import load_record
 from colonnade.laboratory.rig import prism_setups
 from colonnade.laboratory.runs import run_tests, write_truth
-from colonnade.laboratory.site import add_site
-from colonnade.laboratory.trials import LENGTH_SCALE, Placed, earthquakes, free_vibrations, sine
+from colonnade.laboratory.suite.site import add_site
 from colonnade.store.own_files import own_files
 
 PRISM_RESTITUTION = 0.976

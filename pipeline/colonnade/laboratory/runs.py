@@ -15,7 +15,7 @@ from colonnade.arrays import Array
 from colonnade.laboratory.experiment import MAIN, Plan, Setup, Trial, raw_path
 from colonnade.laboratory.files import Sheet, put
 from colonnade.laboratory.instruments import measure
-from colonnade.laboratory.schedule import begun
+from colonnade.laboratory.plans.schedule import begun
 from colonnade.laboratory.truth import Truth, simulate
 
 START_SCATTER = 1e-3

@@ -6,7 +6,7 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 from colonnade.campaign import Campaign
-from colonnade.campaign.summary import TestSummary
+from colonnade.campaign.forms.summary import TestSummary
 from colonnade.report.photos import NO_PHOTOS, Photos, photos_of
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import read_summary, records_of_tests

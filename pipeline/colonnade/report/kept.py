@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 import numpy as np
 
 from colonnade.campaign import Campaign
-from colonnade.campaign.summary import TestSummary
+from colonnade.campaign.forms.summary import TestSummary
 from colonnade.figures.spans import SpanPanel
 from colonnade.report.methods import Used
 from colonnade.report.overview_page.spans import SpanTest

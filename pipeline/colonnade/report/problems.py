@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from colonnade.campaign.summary import Warned
+from colonnade.campaign.forms.summary import Warned
 from colonnade.findings import Severity
 
 _NUMBER = re.compile(r"(?<![A-Za-z_-])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?: (\w+?)s?\b)?")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import nan
 
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.summary import PredictionSummary, TestSummary
+from colonnade.campaign.forms.summary import PredictionSummary, TestSummary
 from colonnade.findings import Severity
 from colonnade.identification.response.rank import is_within
 from colonnade.store.records.stored import Failure, Stored

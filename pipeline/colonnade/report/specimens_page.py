@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign
+from colonnade.campaign.forms.summary import Warned
 from colonnade.campaign.specimen import Specimen
-from colonnade.campaign.summary import Warned
 from colonnade.dynamics.block import Block, pair
 from colonnade.dynamics.similitude import at_prototype
 from colonnade.figures.files.output import Picture

@@ -1,1 +1,1 @@
-"""Records as plain arrays: clocks, filters, quality, metrics."""
+"""Records as plain arrays: filters, rest, quality, metrics, and the clocks of recorders."""

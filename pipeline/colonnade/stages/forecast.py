@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from colonnade.campaign.forecast import ForecastFile
+from colonnade.campaign.forms.forecast import ForecastFile
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import StageError
 from colonnade.identification.verification.calibration import randomised_pit

@@ -17,18 +17,19 @@ from colonnade.campaign.settings import QualitySettings
 from colonnade.errors import StageError
 from colonnade.findings import Finding
 from colonnade.readers.recording import RecordedChannel, Recording, Window
-from colonnade.signals import quality, timing
+from colonnade.signals import quality
+from colonnade.signals.clocks import timing
 from colonnade.signals.parallel import side_by_side
-from colonnade.stages.parts import dates
-from colonnade.stages.parts.columns import dimension_of, find_column, rounding, too_short, unit_findings, within
-from colonnade.stages.parts.inputs import Inputs
-from colonnade.stages.parts.quality import (
+from colonnade.stages.ingesting import dates
+from colonnade.stages.ingesting.columns import dimension_of, find_column, rounding, too_short, unit_findings, within
+from colonnade.stages.ingesting.quality import (
     ChannelInputs,
     channel_verdicts,
     clock_verdicts,
     flag_dead_on_specimen,
     reviewed,
 )
+from colonnade.stages.parts.inputs import Inputs
 from colonnade.store.description import variable_name
 
 RAW_FILE = "raw file"

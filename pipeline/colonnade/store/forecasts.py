@@ -13,7 +13,7 @@ from typing import Any, NoReturn
 
 from pydantic import ValidationError
 
-from colonnade.campaign.forecast import ForecastFile
+from colonnade.campaign.forms.forecast import ForecastFile
 from colonnade.errors import StoreError
 from colonnade.store import files
 from colonnade.store.layout import Layout

@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.forecast import ForecastFile
+from colonnade.campaign.forms.forecast import ForecastFile
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.store.forecasts import Known
 from colonnade.store.layout import Layout

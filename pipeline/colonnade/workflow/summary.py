@@ -10,7 +10,7 @@ from functools import partial
 import colonnade
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.assessing.assessed import AssessmentSummary
-from colonnade.campaign.summary import SpecimenSummary, Summary, TestSummary
+from colonnade.campaign.forms.summary import SpecimenSummary, Summary, TestSummary
 from colonnade.store import files
 from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout

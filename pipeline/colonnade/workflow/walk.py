@@ -10,7 +10,7 @@ from typing import Literal
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.assessing.assessment import Assessment
-from colonnade.campaign.summary import Summary
+from colonnade.campaign.forms.summary import Summary
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.interruption import expect_none
 from colonnade.store import files

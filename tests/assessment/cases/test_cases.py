@@ -20,7 +20,7 @@ from colonnade.assessment.cases.cases import (
 from colonnade.assessment.cases.prototype import Prototype, draw, drawn_column
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import OUTCOMES
+from colonnade.dynamics.plane.harmonic.motion import OUTCOMES
 from colonnade.dynamics.rock import rock
 
 BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)

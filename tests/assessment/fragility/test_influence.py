@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from colonnade.assessment.fragility.hazard import hazard_curve, lognormal_rate
+from colonnade.assessment.fragility.curves.hazard import hazard_curve, lognormal_rate
+from colonnade.assessment.fragility.curves.lognormal import fit_lognormal
 from colonnade.assessment.fragility.influence import influence
-from colonnade.assessment.fragility.lognormal import fit_lognormal
 from virtual_capacities import MEDIAN, lognormal, outcomes_of
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from colonnade.assessment.fragility.hazard import hazard_curve
+from colonnade.assessment.fragility.curves.hazard import hazard_curve
 from colonnade.assessment.fragility.summary import summarise
 from virtual_capacities import MEDIAN, lognormal, outcomes_of
 

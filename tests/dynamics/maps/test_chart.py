@@ -18,7 +18,7 @@ from colonnade.dynamics.models import registry
 from colonnade.dynamics.models.linear import LINEAR
 from colonnade.dynamics.models.model import Model
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import Harmonic, harmonic_outcomes
+from colonnade.dynamics.plane.harmonic.motion import Harmonic, harmonic_outcomes
 from colonnade.dynamics.restitution_law import RestitutionLaw
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)

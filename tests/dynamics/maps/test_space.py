@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.maps.space import SAMPLES_A_CYCLE, sampled
-from colonnade.dynamics.plane.harmonic import Harmonic
+from colonnade.dynamics.plane.harmonic.motion import Harmonic
 
 
 @pytest.mark.parametrize("ramp_shape", ["linear", "cosine"])

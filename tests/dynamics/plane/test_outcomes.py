@@ -9,7 +9,7 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import OUTCOMES
+from colonnade.dynamics.plane.harmonic.motion import OUTCOMES
 from colonnade.dynamics.plane.outcomes import ends_of, prepared
 from colonnade.dynamics.rock import rock
 

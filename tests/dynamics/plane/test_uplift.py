@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from colonnade.dynamics.plane.envelope import level_at, piece_between
+from colonnade.dynamics.plane.harmonic.envelope import level_at, piece_between
 from colonnade.dynamics.plane.uplift import harmonic_uplift, level_uplift, sampled_uplift
 
 TIME = np.linspace(0.0, 4.0, 400_001)

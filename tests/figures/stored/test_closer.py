@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from colonnade.campaign import Test
-from colonnade.campaign.summary import TestSummary
+from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.figures.stored import closer
 from colonnade.store.records.stored import Stored

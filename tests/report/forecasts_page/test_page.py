@@ -1,7 +1,7 @@
 import json
 
 from colonnade.campaign import load
-from colonnade.campaign.summary import Summary
+from colonnade.campaign.forms.summary import Summary
 from colonnade.report.build import build
 from colonnade.report.forecasts_page.page import forecasts_page
 from colonnade.report.paper.document import document_of

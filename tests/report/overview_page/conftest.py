@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from colonnade.campaign.summary import PredictionSummary, TestSummary
+from colonnade.campaign.forms.summary import PredictionSummary, TestSummary
 from colonnade.report.rows import TestRow
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import rebuild
-from colonnade.laboratory.ladder import KEPT_AWAY
+from colonnade.laboratory.plans.ladder import KEPT_AWAY
 from colonnade.report.overview_page.agreement import agreement
 
 

@@ -1,6 +1,6 @@
 from dataclasses import replace
 
-from colonnade.campaign.summary import Warned
+from colonnade.campaign.forms.summary import Warned
 from colonnade.report.overview_page.attention import attention
 from colonnade.report.overview_page.confusion import confusions
 from colonnade.report.pages import renderer_of

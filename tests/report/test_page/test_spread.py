@@ -1,6 +1,6 @@
 """What the page of a test says of a model's spread: the one verdict, with the horizon up to which it holds."""
 
-from colonnade.campaign.summary import PredictionSummary
+from colonnade.campaign.forms.summary import PredictionSummary
 from colonnade.report.test_page.spread import verdict_sentence
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from colonnade.campaign import load
-from colonnade.campaign import summary as form
+from colonnade.campaign.forms import summary as form
 from colonnade.errors import StoreError
 from colonnade.store.layout import Layout
 from colonnade.store.records.summary import map_points, read_summary, records_of_specimens, records_of_tests

@@ -7,7 +7,7 @@ import io
 
 import pytest
 
-from colonnade.campaign import summary as form
+from colonnade.campaign.forms import summary as form
 from colonnade.store.records.table import as_csv
 
 

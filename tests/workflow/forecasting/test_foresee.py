@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.campaign import load
-from colonnade.campaign.schema import json_schema
+from colonnade.campaign.forms.schema import json_schema
 from colonnade.errors import CampaignError
 from colonnade.stages.parts.foreseen import felt, plan_of, run_forecast
 from colonnade.store import files

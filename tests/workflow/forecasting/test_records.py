@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from colonnade.campaign.summary import Summary
+from colonnade.campaign.forms.summary import Summary
 from colonnade.workflow import run
 from colonnade.workflow.forecasting.foresee import foresee
 from foreseeing import LATER, TEST

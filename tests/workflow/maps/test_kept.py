@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.campaign import load
-from colonnade.campaign.summary import Summary
+from colonnade.campaign.forms.summary import Summary
 from colonnade.store import files
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.execution.lock import only_run

@@ -4,7 +4,13 @@ from __future__ import annotations
 
 import json
 
-from colonnade.campaign.summary import IdentifiedSummary, PredictionSummary, RestitutionSummary, TestSummary, Warned
+from colonnade.campaign.forms.summary import (
+    IdentifiedSummary,
+    PredictionSummary,
+    RestitutionSummary,
+    TestSummary,
+    Warned,
+)
 from colonnade.findings import Severity, serious
 from colonnade.workflow.watching.line import Line
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.assessment.fragility.hazard import Hazard, lognormal_rate
+from colonnade.assessment.fragility.curves.hazard import Hazard, lognormal_rate
+from colonnade.assessment.fragility.curves.parameters import fit_parameters
 from colonnade.assessment.fragility.outcomes import Outcomes
-from colonnade.assessment.fragility.parameters import fit_parameters
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
+from colonnade.assessment.fragility.curves.parameters import fit_parameters
 from colonnade.assessment.fragility.outcomes import FEWEST, Cells, Outcomes, with_axes
-from colonnade.assessment.fragility.parameters import fit_parameters
 from colonnade.assessment.fragility.peaks import residuals, scatter
 from colonnade.assessment.fragility.resampling import RESAMPLES, record_weights
 from colonnade.validation import samples

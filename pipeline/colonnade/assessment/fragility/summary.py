@@ -9,14 +9,14 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from colonnade.assessment.fragility.betas import Betas, separate_betas
-from colonnade.assessment.fragility.hazard import Hazard
+from colonnade.assessment.fragility.curves.hazard import Hazard
+from colonnade.assessment.fragility.curves.isotonic import IsotonicCurve, fit_isotonic
+from colonnade.assessment.fragility.curves.lognormal import LognormalFit, fit_lognormal
+from colonnade.assessment.fragility.curves.misfit import Misfit, lognormal_misfit
+from colonnade.assessment.fragility.curves.rate import AnnualRate, annual_rate
 from colonnade.assessment.fragility.influence import Influence, influence
-from colonnade.assessment.fragility.isotonic import IsotonicCurve, fit_isotonic
-from colonnade.assessment.fragility.lognormal import LognormalFit, fit_lognormal
 from colonnade.assessment.fragility.measures import Comparison, compare_measures
-from colonnade.assessment.fragility.misfit import Misfit, lognormal_misfit
 from colonnade.assessment.fragility.outcomes import Outcomes
-from colonnade.assessment.fragility.rate import AnnualRate, annual_rate
 from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES, Interval
 from colonnade.assessment.fragility.resurrection import Resurrection, resurrection
 from colonnade.assessment.fragility.uplift import Uplift, uplift

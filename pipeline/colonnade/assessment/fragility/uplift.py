@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from colonnade.assessment.fragility.lognormal import LognormalFit, fit_lognormal
+from colonnade.assessment.fragility.curves.lognormal import LognormalFit, fit_lognormal
 from colonnade.assessment.fragility.outcomes import Outcomes
 from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES
 

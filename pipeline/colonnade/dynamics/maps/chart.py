@@ -19,7 +19,7 @@ from colonnade.dynamics.maps.limits import islands_of
 from colonnade.dynamics.maps.plan import EDGE, WIDTH, MapPlan, plan_map
 from colonnade.dynamics.models.registry import DEFAULT
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import RAMP_SHAPES
+from colonnade.dynamics.plane.harmonic.motion import RAMP_SHAPES
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.validation import whole
 

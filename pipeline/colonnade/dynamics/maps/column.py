@@ -13,7 +13,7 @@ from colonnade.dynamics.maps.limits import Runs, limits_of
 from colonnade.dynamics.maps.plan import MapPlan
 from colonnade.dynamics.models.registry import PLANE_MODELS
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import OUTCOMES, Harmonic, harmonic_outcomes
+from colonnade.dynamics.plane.harmonic.motion import OUTCOMES, Harmonic, harmonic_outcomes
 from colonnade.dynamics.rock import rock
 
 

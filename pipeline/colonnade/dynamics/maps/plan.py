@@ -15,7 +15,7 @@ from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.models.registry import DEFAULT, model_of
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import RAMP_SHAPES, Restitution, check_ramp_shape, restitution_up_to
+from colonnade.dynamics.plane.harmonic.motion import RAMP_SHAPES, Restitution, check_ramp_shape, restitution_up_to
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.validation import instance, number, samples

@@ -14,7 +14,7 @@ from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import OUTCOMES, Harmonic
+from colonnade.dynamics.plane.harmonic.motion import OUTCOMES, Harmonic
 
 SAMPLES_A_CYCLE = 100
 """Samples of a sine for models without harmonic kernels, linear between them: error at most 5e-4 of its amplitude."""

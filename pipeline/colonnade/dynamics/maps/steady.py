@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.models.registry import DEFAULT
-from colonnade.dynamics.plane.harmonic import RAMP_SHAPES, Harmonic, harmonic_run, restitution_up_to
+from colonnade.dynamics.plane.harmonic.motion import RAMP_SHAPES, Harmonic, harmonic_run, restitution_up_to
 from colonnade.dynamics.restitution_law import RestitutionLaw
 
 AT_REST, IRREGULAR, OVERTURNED = 0, -1, -2

@@ -12,7 +12,7 @@ from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.models.registry import plane_model_of
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import OUTCOMES
+from colonnade.dynamics.plane.harmonic.motion import OUTCOMES
 from colonnade.dynamics.plane.run import series_of
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.validation import sided

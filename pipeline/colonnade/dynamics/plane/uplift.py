@@ -7,7 +7,7 @@ from math import asin, pi, sin, tan
 import numpy as np
 
 from colonnade.dynamics.kernel import kernel
-from colonnade.dynamics.plane.envelope import Piece, level_at
+from colonnade.dynamics.plane.harmonic.envelope import Piece, level_at
 from colonnade.dynamics.plane.sides import Pair
 
 HALVINGS = 60

@@ -19,7 +19,7 @@ from colonnade.dynamics.maps.limits import Limits, Runs, islands_of, limits_of
 from colonnade.dynamics.maps.plan import LARGEST_RATIO, LEAST_EDGE, STEPS_A_WIDTH, WIDTH, checked_widths
 from colonnade.dynamics.models.registry import DEFAULT, plane_model_of
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic import harmonic_outcomes
+from colonnade.dynamics.plane.harmonic.motion import harmonic_outcomes
 from colonnade.dynamics.plane.outcomes import ends_of, prepared
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.dynamics.spectra.pulses import MAVROEIDIS_PAPAGEORGIOU, MOST_CYCLES, PulseKind, pulse_of, sampled_pulse

@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from colonnade.arrays import Array
-from colonnade.dynamics.plane.harmonic import Harmonic
+from colonnade.dynamics.plane.harmonic.motion import Harmonic
 from colonnade.errors import nearest
 from colonnade.validation import text
 

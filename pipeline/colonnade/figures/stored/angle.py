@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from colonnade.campaign import Test
-from colonnade.campaign.summary import TestSummary
+from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.figures.angle import rocking_angle
 from colonnade.figures.files.output import Picture

@@ -8,7 +8,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.campaign import Test
-from colonnade.campaign.summary import TestSummary
+from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.figures.closer import Enlarged, Phase, closer_look
 from colonnade.figures.files.output import Picture

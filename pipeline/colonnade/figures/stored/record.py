@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from colonnade.campaign import Test
-from colonnade.campaign.summary import TestSummary
+from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.block import Block
 from colonnade.figures.bands import bands_over_time
 from colonnade.figures.files.output import Picture

@@ -1,1 +1,1 @@
-"""Synthetic ground motions of known origin: broad-band ones, some of them with a pulse."""
+"""A site for real columns: synthetic ground motions of known origin, broad-band, some of them with a pulse."""

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from colonnade import units
-from colonnade.assessment.fragility.hazard import Hazard, hazard_curve
+from colonnade.assessment.fragility.curves.hazard import Hazard, hazard_curve
 from colonnade.assessment.intensity.registry import measure_of
 from colonnade.errors import ReadError, UnitError, quoted
 from colonnade.readers.ground_motions.table import Head, SmallTable, read_table

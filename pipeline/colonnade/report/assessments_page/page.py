@@ -13,7 +13,7 @@ from colonnade.assessment.intensity.registry import measure_of
 from colonnade.assessment.study import counted_draws
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessing.assessed import AssessmentSummary, JudgedCriterion, RecordUsed
-from colonnade.campaign.summary import Summary, Warned
+from colonnade.campaign.forms.summary import Summary, Warned
 from colonnade.errors import StoreError
 from colonnade.figures import fragility as figures
 from colonnade.figures.files.output import Picture

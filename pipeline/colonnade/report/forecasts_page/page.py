@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from colonnade.campaign.forecast import ForecastFile
-from colonnade.campaign.foreseen import ForecastEntry, ForecastOfModel, ForecastsSummary
-from colonnade.campaign.summary import Summary, TestSummary
+from colonnade.campaign.forms.forecast import ForecastFile
+from colonnade.campaign.forms.foreseen import ForecastEntry, ForecastOfModel, ForecastsSummary
+from colonnade.campaign.forms.summary import Summary, TestSummary
 from colonnade.errors import StoreError
 from colonnade.figures.files.output import Picture
 from colonnade.figures.forecasts import Calibration, reliability_and_pit

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import isfinite
 from typing import NamedTuple
 
-from colonnade.campaign.summary import IdentifiedSummary
+from colonnade.campaign.forms.summary import IdentifiedSummary
 from colonnade.figures.restitution.estimators import trusted_half_width
 from colonnade.figures.stored.restitution import STAGE, estimate_rows
 from colonnade.store.records.stored import Stored

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import nan
 
-from colonnade.campaign.summary import PredictionSummary
+from colonnade.campaign.forms.summary import PredictionSummary
 from colonnade.figures.files.output import Picture
 from colonnade.identification.response.rank import FEWEST, is_within
 from colonnade.report.pictures.registry import picture

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from colonnade.assessment.cases.cases import Outcomes
-from colonnade.assessment.fragility.lognormal import LognormalFit
+from colonnade.assessment.fragility.curves.lognormal import LognormalFit
 from colonnade.assessment.fragility.resampling import Interval
 from colonnade.assessment.fragility.summary import Fragility
 from colonnade.assessment.intensity.registry import measure_of

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from colonnade.assessment.cases.prototype import Prototype
-from colonnade.assessment.fragility.hazard import Hazard
+from colonnade.assessment.fragility.curves.hazard import Hazard
 from colonnade.assessment.fragility.outcomes import FEWEST
 from colonnade.assessment.intensity.baselines import NONE
 from colonnade.assessment.study import Study, plan_study

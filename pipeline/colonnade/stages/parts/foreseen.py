@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from colonnade.campaign.forecast import ForecastInputs
+from colonnade.campaign.forms.forecast import ForecastInputs
 from colonnade.dynamics.ensembles.ensemble import Plan, gather, run_members
 from colonnade.dynamics.ensembles.outcome import Ensemble
 from colonnade.dynamics.motion import Motion

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from colonnade.campaign.forecast import ForecastBand, ForecastTable, ModelForecast
+from colonnade.campaign.forms.forecast import ForecastBand, ForecastTable, ModelForecast
 from colonnade.store.records.wording import number, quantity
 from colonnade.units import format_percent
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.campaign.forecast import ForecastFile
-from colonnade.campaign.foreseen import ForecastCoverage, ForecastScores, JudgedForecasts
+from colonnade.campaign.forms.forecast import ForecastFile
+from colonnade.campaign.forms.foreseen import ForecastCoverage, ForecastScores, JudgedForecasts
 from colonnade.identification.verification.calibration import coverage
 from colonnade.identification.verification.references import base_rates, skill
 from colonnade.identification.verification.responses import Forecast, Response, forecast_of_peaks

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from colonnade.campaign import Campaign
-from colonnade.campaign.summary import RestitutionSummary, SpecimenPrototype, SpecimenSummary
+from colonnade.campaign.forms.summary import RestitutionSummary, SpecimenPrototype, SpecimenSummary
 from colonnade.dynamics.similitude import at_prototype
 
 if TYPE_CHECKING:

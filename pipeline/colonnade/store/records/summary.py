@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, cast, get_args
 
 from colonnade.campaign import Campaign
-from colonnade.campaign.summary import Summary, TestSummary
+from colonnade.campaign.forms.summary import Summary, TestSummary
 from colonnade.dynamics.history import Outcome
 from colonnade.errors import StoreError
 from colonnade.identification.response.boundaries import MapPoint

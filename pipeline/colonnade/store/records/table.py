@@ -8,8 +8,8 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from colonnade.campaign.foreseen import ForecastScores
-from colonnade.campaign.summary import Summary, TestSummary
+from colonnade.campaign.forms.foreseen import ForecastScores
+from colonnade.campaign.forms.summary import Summary, TestSummary
 
 
 def as_csv(summary: Summary) -> str:

@@ -8,7 +8,7 @@ from typing import Any, cast
 import numpy as np
 
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.summary import (
+from colonnade.campaign.forms.summary import (
     HistorySummary,
     IdentifiedSummary,
     Order,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import isfinite
 
-from colonnade.campaign.summary import Order
+from colonnade.campaign.forms.summary import Order
 from colonnade.units import PERCENT, format_percent, format_quantity, format_uncertain, from_si, with_minus
 
 NOTHING = "–"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.summary import TestSummary
+from colonnade.campaign.forms.summary import TestSummary
 from colonnade.dynamics.ensembles.ensemble import ensemble
 from colonnade.dynamics.ensembles.uncertainty import Uncertainty
 from colonnade.dynamics.models.registry import MODELS

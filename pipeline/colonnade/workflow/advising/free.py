@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from colonnade.campaign import Campaign
-from colonnade.campaign.summary import TestSummary
+from colonnade.campaign.forms.summary import TestSummary
 from colonnade.identification.advice.restitution import LAST_PEAK, advise_free_vibration
 from colonnade.store.records.advice import Advice
 from colonnade.store.records.wording import number, restitution_text

@@ -9,7 +9,7 @@ from functools import partial
 from pydantic import TypeAdapter
 
 from colonnade.campaign import Campaign
-from colonnade.campaign.summary import Summary, TestSummary
+from colonnade.campaign.forms.summary import Summary, TestSummary
 from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from colonnade.campaign import Campaign, load
-from colonnade.campaign.summary import TestSummary
+from colonnade.campaign.forms.summary import TestSummary
 from colonnade.errors import CampaignError, StoreError, nearest
 from colonnade.identification.response.boundaries import SAME_FREQUENCY
 from colonnade.stages.predict import sides

@@ -14,7 +14,7 @@ import numpy as np
 import colonnade
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test, load
-from colonnade.campaign.forecast import (
+from colonnade.campaign.forms.forecast import (
     ForecastBand,
     ForecastBlock,
     ForecastFile,

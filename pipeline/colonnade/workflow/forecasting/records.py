@@ -6,8 +6,14 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from colonnade.campaign.forecast import ModelForecast
-from colonnade.campaign.foreseen import ForecastEntry, ForecastOfModel, ForecastScores, ForecastsSummary, TestForecast
+from colonnade.campaign.forms.forecast import ModelForecast
+from colonnade.campaign.forms.foreseen import (
+    ForecastEntry,
+    ForecastOfModel,
+    ForecastScores,
+    ForecastsSummary,
+    TestForecast,
+)
 from colonnade.errors import StoreError
 from colonnade.findings import Finding, warning
 from colonnade.store import files

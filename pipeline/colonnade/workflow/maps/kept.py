@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from colonnade.campaign.summary import Summary
+from colonnade.campaign.forms.summary import Summary
 from colonnade.dynamics.block import pair
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.errors import CampaignError

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from colonnade.campaign import Campaign
-from colonnade.campaign.foreseen import ForecastsSummary
+from colonnade.campaign.forms.foreseen import ForecastsSummary
 from colonnade.report.addresses import ASSESSMENTS, FORECASTS, addresses, of_data, of_test
 from colonnade.report.asked import asked_of, shows
 from colonnade.store.freshness import Recipe

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from colonnade.campaign.summary import RestitutionSummary, TestSummary, Warned
+from colonnade.campaign.forms.summary import RestitutionSummary, TestSummary, Warned
 from colonnade.findings import Finding, Severity, as_record
 from colonnade.store.records.wording import interval, listed, number
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.summary import TestSummary
+from colonnade.campaign.forms.summary import TestSummary
 from colonnade.errors import StoreError
 from colonnade.findings import Finding
 from colonnade.identification.plausibility.since_last import ChannelState, changes

@@ -1,0 +1,204 @@
+"""Lognormal fragility: binomial fit of the outcomes, with intervals over records; or why there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import scipy
+from numpy.typing import ArrayLike
+
+from colonnade.arrays import Array, Mask
+from colonnade.assessment.fragility.curves import probit
+from colonnade.assessment.fragility.curves.parameters import Parameters, fit_parameters
+from colonnade.assessment.fragility.outcomes import Cells, Outcomes
+from colonnade.assessment.fragility.resampling import (
+    FEWEST_RECORDS,
+    LEVEL,
+    RESAMPLES,
+    Band,
+    Interval,
+    checked_level,
+    record_weights,
+    studentised,
+)
+from colonnade.validation import samples
+
+Reason = Literal["", "separated", "falling", "never", "always", "one intensity"]
+"""Why there is no curve: no overlap of outcomes, fewer events at higher intensity, no event, only events."""
+
+STEP = 1e-5
+"""Of numerical derivatives with respect to ln median and ln β."""
+
+
+@dataclass(frozen=True)
+class LognormalFit:
+    """
+    P = Φ(ln(x / median) / β), or why there is none.
+
+    Attributes
+    ----------
+    reason : str
+        Empty if there is a curve.
+    rises : tuple of float
+        Up to the first intensity nothing overturned, from the second on everything: the curve rises between them.
+        If the outcomes are separated, that is all that is known. 0 or inf if there is no such intensity.
+    median, beta : Interval
+        NaN if there is no curve; their limits also of fewer than `FEWEST_RECORDS` records.
+    log_likelihood : float
+        Of the histories, taken as independent; if separated its limit.
+    level : float
+        Of the intervals.
+    records : int
+        Their number.
+    degenerate : float
+        Share of the resamples that are left out of the intervals because they have no curve.
+    fit, resampled : Parameters
+        Of all records, shape (1,), and of each resample, shape (n,).
+    """
+
+    reason: Reason
+    rises: tuple[float, float]
+    median: Interval
+    beta: Interval
+    log_likelihood: float
+    level: float
+    records: int
+    degenerate: float
+    fit: Parameters
+    resampled: Parameters
+
+    def probability(self, intensity: ArrayLike) -> Band:
+        """Give P at intensities, shape (k,), with intervals; NaN if there is no curve."""
+        x = np.log(samples("intensity", intensity))
+        band = self.band(lambda mean, log_beta: (x - mean) / np.exp(log_beta))
+        return Band(*(scipy.special.ndtr(each) for each in band))
+
+    def intensity(self, probability: ArrayLike) -> Band:
+        """Give the intensities at which P is `probability`, shape (k,), with intervals; NaN if there is no curve."""
+        z = scipy.special.ndtri(_probabilities(probability))
+        return Band(*(np.exp(each) for each in self.band(lambda mean, log_beta: mean + z * np.exp(log_beta))))
+
+    def band(self, function: Callable[[Array, Array], Array]) -> Band:
+        """
+        Give an interval of what follows from the curve.
+
+        Parameters
+        ----------
+        function : callable
+            Of ln median and ln β, shape (n, 1) each; returns shape (n, k), on a scale where it is about normal.
+        """
+        value, error = _with_errors(function, self.fit)
+        values, errors = _with_errors(function, self.resampled)
+        return studentised(value[0], error[0], values, errors, self.level, self.records)
+
+
+def fit_lognormal(
+    outcomes: Outcomes,
+    *,
+    event: Mask | None = None,
+    intensity: Array | None = None,
+    level: float = LEVEL,
+    resamples: int = RESAMPLES,
+    seed: int = 0,
+) -> LognormalFit:
+    """
+    Fit a lognormal curve to outcomes.
+
+    Parameters
+    ----------
+    outcomes : Outcomes
+    event, intensity : ndarray, optional
+        As of `Outcomes.cells`.
+    level, resamples, seed : optional
+        Of the bootstrap over records; the same seed gives the same intervals.
+
+    Returns
+    -------
+    fit : LognormalFit
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range.
+
+    Notes
+    -----
+    Maximum of the binomial likelihood on stripes (Baker 2015), which holds for any intensities. Histories of
+    one record are not independent, so the standard errors are those of records (sandwich) and the intervals are
+    studentised, of ln median and ln β.
+    """
+    cells = outcomes.cells(event, intensity)
+    weights = np.vstack((np.ones(len(outcomes.records)), record_weights(len(outcomes.records), resamples, seed)))
+    parameters, log_likelihood, status = fit_parameters(cells, weights)
+    all_records, resampled = (Parameters(*(each[part] for each in parameters)) for part in (slice(1), slice(1, None)))
+    has_curve = status[1:] == probit.FITTED
+    usable = has_curve & (len(outcomes.records) >= FEWEST_RECORDS)
+    resampled = Parameters(*(each[usable] for each in resampled))
+    median, beta = _intervals(all_records, resampled, checked_level(level), len(outcomes.records))
+    return LognormalFit(
+        _reason(int(status[0]), cells),
+        _rises(cells),
+        median,
+        beta,
+        float(log_likelihood[0]),
+        level,
+        len(outcomes.records),
+        float(1 - has_curve.mean()),
+        all_records,
+        resampled,
+    )
+
+
+def _probabilities(values: ArrayLike) -> Array:
+    given = samples("probability", values)
+    if not ((given > 0) & (given < 1)).all():
+        raise ValueError("probability is not between 0 and 1; the curve reaches 0 and 1 nowhere")
+    return given
+
+
+@np.errstate(over="ignore", invalid="ignore")  # of few records a limit may be as good as infinite
+def _intervals(fit: Parameters, resampled: Parameters, level: float, records: int) -> tuple[Interval, Interval]:
+    """Of median and β."""
+    found = []
+    for value, variance, values, variances in (
+        (fit.log_median, fit.mm, resampled.log_median, resampled.mm),
+        (fit.log_beta, fit.bb, resampled.log_beta, resampled.bb),
+    ):
+        band = studentised(value, np.sqrt(variance), values[:, None], np.sqrt(variances)[:, None], level, records)
+        found.append(Interval(*(float(np.exp(each[0])) for each in band)))
+    return found[0], found[1]
+
+
+def _with_errors(function: Callable[[Array, Array], Array], at: Parameters) -> tuple[Array, Array]:
+    """Values of a function of the parameters, and their standard errors by its derivatives, shape (n, k) each."""
+    mean, log_beta = at.log_median[:, None], at.log_beta[:, None]
+    by_mean = (function(mean + STEP, log_beta) - function(mean - STEP, log_beta)) / (2 * STEP)
+    by_beta = (function(mean, log_beta + STEP) - function(mean, log_beta - STEP)) / (2 * STEP)
+    variance = by_mean**2 * at.mm[:, None] + 2 * by_mean * by_beta * at.mb[:, None] + by_beta**2 * at.bb[:, None]
+    return function(mean, log_beta), np.sqrt(np.maximum(variance, 0.0))
+
+
+def _reason(status: int, cells: Cells) -> Reason:
+    if status == probit.ONE_OUTCOME:
+        return "never" if cells.events.sum() == 0 else "always"
+    named: dict[int, Reason] = {
+        probit.FITTED: "",
+        probit.SEPARATED: "separated",
+        probit.FALLING: "falling",
+        probit.ONE_INTENSITY: "one intensity",
+    }
+    return named[status]
+
+
+def _rises(cells: Cells) -> tuple[float, float]:
+    """Give the highest intensity below all events, and the lowest above all survivals."""
+    counted = cells.histories > 0
+    y = cells.log_intensity
+    first = y[counted & (cells.events > 0)].min(initial=np.inf)
+    last = y[counted & (cells.events < cells.histories)].max(initial=-np.inf)
+    low = y[counted & (y < first)].max(initial=-np.inf)
+    high = y[counted & (y > last)].min(initial=np.inf)
+    return float(np.exp(low)), float(np.exp(high))

@@ -1,0 +1,125 @@
+"""JSON Schemas of the contract's files, made from the models that read and write them."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from colonnade.campaign.campaign import CampaignFile
+from colonnade.campaign.forms.forecast import ForecastFile
+from colonnade.campaign.forms.summary import Summary
+from colonnade.campaign.review import ReviewFile
+from colonnade.errors import CampaignError, nearest
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+NAMES = ("campaign", "summary", "review", "forecast")
+
+
+def json_schema(name: str) -> dict[str, Any]:
+    """
+    Return the JSON Schema of a contract.
+
+    Parameters
+    ----------
+    name : {"campaign", "summary", "review", "forecast"}
+        Of campaign.toml as written, where quantities are text with a unit; of processed/summary.json; of review.toml;
+        of a file in forecasts/.
+
+    Returns
+    -------
+    schema : dict
+        Draft 2020-12.
+
+    Raises
+    ------
+    CampaignError
+        If the name is unknown.
+    """
+    if name == "campaign":
+        return _campaign()
+    if name == "summary":
+        return {"$schema": DIALECT} | Summary.model_json_schema(by_alias=True, mode="serialization")
+    if name == "forecast":
+        written = ForecastFile.model_json_schema(by_alias=True, mode="serialization")
+        written["properties"]["sha256"] = {
+            "type": "string",
+            "pattern": "^[0-9a-f]{64}$",
+            "description": "Of all the rest, written as JSON with sorted keys, without spaces, in UTF-8.",
+        }
+        written["required"] = [*written["required"], "sha256"]
+        return {"$schema": DIALECT} | written
+    if name == "review":
+        schema: dict[str, Any] = _tidied(ReviewFile.model_json_schema(by_alias=True, mode="validation"))
+        for kind in ("exclude", "trim", "flag", "correct"):
+            schema["properties"][kind].pop("default", None)
+        return {"$schema": DIALECT} | schema
+    raise CampaignError(f'Unknown schema "{name}".{nearest(name, NAMES)}')
+
+
+def schema_text(name: str) -> str:
+    """Give a schema as the text of its file in raw_schema; `name` as for `json_schema`."""
+    return json.dumps(json_schema(name), indent=2, ensure_ascii=False) + "\n"
+
+
+def _campaign() -> dict[str, Any]:
+    schema = CampaignFile.model_json_schema(by_alias=True, mode="validation", ref_template="#/$defs/{model}")
+    schema["$defs"]["FileOptions"] = _file_options()
+    for recorder in ("Setup", "Recorder"):
+        file = schema["$defs"][recorder]["properties"]["file"]
+        schema["$defs"][recorder]["properties"]["file"] = {
+            "$ref": "#/$defs/FileOptions",
+            "description": file["description"],
+        }
+    tests = schema["properties"]["tests"]
+    log = {"type": "string", "description": "path of the test log, CSV or Excel"}
+    schema["properties"]["tests"] = {
+        "description": tests["description"],
+        "anyOf": [{"type": "array", "items": tests["items"]}, log],
+    }
+    for table in (schema, *schema["$defs"].values()):
+        for key in table.get("properties", {}).values():
+            _as_written(key)
+    tidied: dict[str, Any] = _tidied(schema)
+    return {"$schema": DIALECT} | tidied
+
+
+def _tidied(node: Any) -> Any:
+    """Leave out what TOML does not have (null) and titles that only repeat the key; close tables whose keys are ids."""
+    if isinstance(node, list):
+        return [_tidied(item) for item in node]
+    if not isinstance(node, dict):
+        return node
+    tidied = {key: _tidied(value) for key, value in node.items() if not (key == "title" and isinstance(value, str))}
+    choices = tidied.get("anyOf")
+    if isinstance(choices, list):
+        kept = [choice for choice in choices if choice != {"type": "null"}]
+        if len(kept) == 1:
+            tidied.pop("anyOf")
+            tidied = kept[0] | tidied
+        else:
+            tidied["anyOf"] = kept
+    if "patternProperties" in tidied:
+        tidied["additionalProperties"] = False
+    return tidied
+
+
+def _as_written(key: dict[str, Any]) -> None:
+    """Turn the default of a parsed value into what would be written, or leave it out."""
+    default = key.get("default")
+    if isinstance(default, (dict, list)) or default is None:
+        key.pop("default", None)
+    elif key.get("type") == "string" and not isinstance(default, str):
+        key["default"] = f"{default:g} {key.get('unit', '')}".rstrip()
+
+
+def _file_options() -> dict[str, Any]:
+    from colonnade.readers.registry import formats
+
+    kinds = []
+    for format in formats().values():
+        options = format.options.model_json_schema(by_alias=True, mode="validation")
+        options["title"] = format.name
+        options["description"] = format.summary
+        options["properties"] = {"format": {"const": format.name}} | options.get("properties", {})
+        kinds.append(options)
+    return {"title": "FileOptions", "description": "How a raw file is read; every key is optional.", "anyOf": kinds}

@@ -1,0 +1,92 @@
+"""Findings on a terminal: by kind, the worst first, causes before symptoms."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from colonnade.cli.common.console import count, say
+from colonnade.findings import Finding, Severity, in_order
+
+IN_FULL = 3
+"""Findings of one kind that are written in full; of the others only their subjects."""
+
+NAMED = 8
+"""Tests that are named after them."""
+
+Findings = Mapping[str, Sequence[tuple[Finding, bool]]]
+"""By subject, in order, each with whether it follows from one before it."""
+
+
+def records_of(findings: Iterable[Finding], known: Iterable[Finding] = ()) -> list[dict[str, Any]]:
+    """Give findings as JSON shows them, in order: severity, kind, text, and whether one before explains it."""
+    return [_record(each, explained) for each, explained in in_order(findings, known)]
+
+
+def all_records(findings: Findings) -> list[dict[str, Any]]:
+    """Give the findings of many subjects as JSON shows them."""
+    return [
+        {"subject": subject, **_record(each, explained)}
+        for subject, ordered in findings.items()
+        for each, explained in ordered
+    ]
+
+
+def _record(finding: Finding, explained: bool) -> dict[str, Any]:
+    record = {"severity": str(finding.severity), "kind": finding.kind, "text": finding.text}
+    return record | ({"stage": finding.stage} if finding.stage else {}) | {"explained": explained}
+
+
+def line_of(record: Mapping[str, Any]) -> str:
+    """Write a finding of the summary as a line, marked if it follows from another."""
+    follows = " (follows from the above)" if record.get("explained") else ""
+    return f"{record['severity']}{follows}: {record['text']}"
+
+
+def probable_cause(findings: Sequence[tuple[Finding, bool]], *, where: str) -> str:
+    """Name the serious findings about a failed test, and where on the screen they are."""
+    kinds = dict.fromkeys(each.kind for each, explained in findings if each.severity == "serious" and not explained)
+    return f"probably because of the serious findings {where} ({', '.join(kinds)}): " if kinds else ""
+
+
+def show_by_kind(findings: Findings) -> None:
+    """
+    Write findings by kind, the worst first: a few in full, the others by their subjects alone.
+
+    What another finding explains is only counted after it; of notes, one is written in full.
+    """
+    groups: dict[tuple[Severity, str], list[tuple[str, str]]] = {}
+    behind: dict[str, list[str]] = {}
+    for subject, ordered in findings.items():
+        for each, explained in ordered:
+            if explained:
+                behind.setdefault(each.kind, []).append(subject)
+            else:
+                groups.setdefault((each.severity, each.kind), []).append((subject, each.text))
+    for severity, kind in sorted(groups, key=lambda key: key[0].rank):
+        members = groups[severity, kind]
+        shown = members[: 1 if severity is Severity.NOTE else IN_FULL]
+        for subject, text in shown:
+            say(f"{severity} ({kind}): {subject}: {text}")
+        rest = [subject for subject, _ in members[len(shown) :]]
+        if rest:
+            say(f"  and {len(rest)} more of this kind: {_named(rest)}")
+    for kind, subjects in behind.items():
+        say(f"follows from the above: {kind}: {_named(subjects)}")
+    _show_counts(groups)
+
+
+def _show_counts(groups: Mapping[tuple[Severity, str], Sequence[tuple[str, str]]]) -> None:
+    counts = Counter[Severity]()
+    for (severity, _), members in groups.items():
+        counts[severity] += len(members)
+    words = {Severity.SERIOUS: "serious finding", Severity.WARNING: "warning", Severity.NOTE: "note"}
+    if counts:
+        say(", ".join(count(counts[each], word) for each, word in words.items() if counts[each]))
+
+
+def _named(subjects: Sequence[str]) -> str:
+    unique = list(dict.fromkeys(subjects))
+    more = f" and {len(unique) - NAMED} more" if len(unique) > NAMED else ""
+    return ", ".join(unique[:NAMED]) + more

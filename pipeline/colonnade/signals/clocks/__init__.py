@@ -1,0 +1,1 @@
+"""Clocks of recorders: time columns, delays and rates."""

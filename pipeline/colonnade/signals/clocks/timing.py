@@ -1,0 +1,219 @@
+"""Time columns: the reliable stamps, the even clock behind rounded ones, and their faults."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colonnade.arrays import Array
+from colonnade.signals.clocks.clock import sampling_interval
+from colonnade.signals.quality import Flag, Verdict, blocks, counted, first_at
+
+ROUNDING = 0.75
+"""Of the last digit; times that lie closer to an even clock than this were rounded (or cut off) from it."""
+
+COARSEST = 0.01
+"""Of a record's length; from times of fewer digits its interval cannot be told."""
+
+EXACT = 1e-7
+"""Of an interval; times that lie closer than this to an even clock are on it."""
+
+LAG = 200
+"""Samples over which the interval of rounded times is first taken."""
+
+
+@dataclass(frozen=True)
+class Clock:
+    """
+    What a time column says.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s, increasing; NaN where a sample's stamp cannot be relied on.
+    interval : float
+        s; NaN where no two times increase.
+    resolution : float
+        Last digit that the stamps were rounded to, s, where `time` is the even clock behind them; otherwise 0.
+    is_exact : bool
+        Whether no stamp is further than `EXACT` from an even clock; its order, steps and gaps are then known.
+    """
+
+    time: Array
+    interval: float
+    resolution: float
+    is_exact: bool = False
+
+
+def read_clock(stamps: Array) -> Clock:
+    """
+    Find the times of a record from its time column.
+
+    Parameters
+    ----------
+    stamps : ndarray, shape (n,)
+        s, as in the file; NaN where missing.
+
+    Returns
+    -------
+    clock : Clock
+
+    Notes
+    -----
+    Kept is the longest run of stamps in order, so that one wild stamp costs one sample. A line through the kept stamps
+    over their sample numbers, with a step at each gap, replaces them where it meets all of them within their rounding.
+
+    Examples
+    --------
+    >>> read_clock(np.array([0.0, 0.1, 99.0, 0.3])).time.tolist()
+    [0.0, 0.1, nan, 0.3]
+    """
+    if _is_exact(stamps):
+        return Clock(stamps, float(np.diff(stamps).mean()), 0.0, is_exact=True)
+    kept = _in_order(stamps, repeats=True)
+    resolution = _resolution(stamps[kept])
+    if kept.size > 2 and 0 < resolution <= COARSEST * np.ptp(stamps[kept]):
+        even, interval = _even(kept, stamps[kept], resolution)
+        misfit = float(np.abs(even - stamps[kept]).max())
+        if 1e-6 * interval < misfit <= ROUNDING * resolution and (np.diff(even) > 0).all():
+            return Clock(_in_place(kept, even, stamps.size), interval, resolution)
+    kept = _in_order(stamps, repeats=False)
+    return Clock(_in_place(kept, stamps[kept], stamps.size), sampling_interval(stamps[kept]), 0.0)
+
+
+def check_order(stamps: Array, clock: Clock) -> Verdict:
+    """Flag samples whose stamp does not fit in with the others."""
+    if clock.is_exact:
+        return Verdict.good(stamps.size)
+    where = np.isfinite(stamps) & ~np.isfinite(clock.time)
+    if not where.any():
+        return Verdict.good(stamps.size)
+    return Verdict(
+        Flag.FAIL,
+        where,
+        f"{counted(where)} whose time is out of order; the first is sample {int(np.argmax(where)) + 1}",
+        "time column",
+    )
+
+
+def check_gaps(clock: Clock, *, factor: float) -> Verdict:
+    """Flag the samples on either side of a step of the clock longer than `factor` intervals, lost stamps apart."""
+    if clock.is_exact and factor > 1 + 4 * EXACT:
+        return Verdict.good(clock.time.size)
+    kept, steps, counts = _steps(clock)
+    longer = steps - (counts - 1)
+    after = np.flatnonzero(longer > factor)
+    if after.size == 0:
+        return Verdict.good(clock.time.size)
+    where = np.zeros(clock.time.size, dtype=bool)
+    where[kept[after]] = where[kept[after + 1]] = True
+    lost = int(np.rint(longer[after] - 1).sum())
+    gaps = f"{after.size} gap{'s' if after.size > 1 else ''} in time"
+    return Verdict(
+        Flag.SUSPECT, where, f"{gaps}, about {lost} samples lost{first_at(clock.time, where)}", "lost samples"
+    )
+
+
+def check_jitter(clock: Clock, *, share: float, factor: float) -> Verdict:
+    """Flag samples whose step differs from the interval by more than `share` of it, gaps (`factor`) apart."""
+    if clock.is_exact and share > 4 * EXACT:
+        return Verdict.good(clock.time.size)
+    kept, steps, counts = _steps(clock)
+    # Where a stamp is lost, its sample may be lost with it or not.
+    off = np.minimum(np.abs(steps - 1), np.abs(steps - counts))
+    uneven = (off > share) & (steps - (counts - 1) <= factor)
+    if not uneven.any():
+        return Verdict.good(clock.time.size)
+    where = np.zeros(clock.time.size, dtype=bool)
+    where[kept[1:][uneven]] = True
+    largest = 1e3 * clock.interval * float(off[uneven].max())
+    reason = f"{counted(where)} up to {largest:.3g} ms off an even clock of {1e3 * clock.interval:.6g} ms"
+    return Verdict(Flag.SUSPECT, where, reason, "time column")
+
+
+def _is_exact(stamps: Array) -> bool:
+    """Whether all stamps lie on the line through the first and the last, within `EXACT` of its step."""
+    if stamps.size < 3:
+        return False
+    first, interval = float(stamps[0]), float(stamps[-1] - stamps[0]) / (stamps.size - 1)
+    if not 0 < interval < np.inf:
+        return False
+    return all(
+        np.abs(stamps[part] - first - interval * np.arange(part.start, part.stop)).max() <= EXACT * interval
+        for part in blocks(stamps.size)
+    )
+
+
+def _steps(clock: Clock) -> tuple[NDArray[np.intp], Array, NDArray[np.intp]]:
+    """Indices of the samples with a time, and the steps between them in intervals and in samples."""
+    kept = np.flatnonzero(np.isfinite(clock.time))
+    return kept, np.diff(clock.time[kept]) / clock.interval, np.diff(kept)
+
+
+def _in_place(kept: NDArray[np.intp], times: Array, size: int) -> Array:
+    time = np.full(size, np.nan)
+    time[kept] = times
+    return time
+
+
+def _in_order(stamps: Array, *, repeats: bool) -> NDArray[np.intp]:
+    """Indices of the longest increasing (or, with `repeats`, not decreasing) subsequence of the finite stamps."""
+    finite = np.flatnonzero(np.isfinite(stamps))
+    steps = np.diff(stamps[finite])
+    if (steps < 0).any() or not (repeats or (steps > 0).all()):
+        finite = finite[_longest_increasing(stamps[finite].tolist(), repeats=repeats)]
+    # A wild stamp at an end is in order all the same, but further off than all others reach.
+    if finite.size > 8:
+        first, second, last_but_one, last = stamps[finite[[0, 1, -2, -1]]]
+        reach = last_but_one - second
+        finite = finite[int(second - first > reach) : finite.size - int(last - last_but_one > reach)]
+    return finite
+
+
+def _longest_increasing(values: list[float], *, repeats: bool) -> NDArray[np.intp]:
+    """Indices of the longest subsequence in order, by patience sorting."""
+    place = bisect_right if repeats else bisect_left
+    tops: list[float] = []
+    on_top: list[int] = []
+    before: list[int] = []
+    for index, value in enumerate(values):
+        pile = place(tops, value)
+        before.append(on_top[pile - 1] if pile else -1)
+        tops[pile : pile + 1] = [value]
+        on_top[pile : pile + 1] = [index]
+    chain = []
+    index = on_top[-1]
+    while index >= 0:
+        chain.append(index)
+        index = before[index]
+    return np.array(chain[::-1], dtype=np.intp)
+
+
+def _resolution(times: Array) -> float:
+    """Largest power of ten, s, that all times are multiples of; 0 if it has none."""
+    largest = float(np.abs(times).max(initial=0.0))
+    for decimals in range(10):
+        scaled = times * 10.0**decimals
+        tolerance = 1e-6 + 4 * np.finfo(np.float64).eps * largest * 10.0**decimals
+        if tolerance < 1e-2 and np.abs(scaled - np.round(scaled)).max(initial=0.0) < tolerance:
+            return float(10.0**-decimals)
+    return 0.0
+
+
+def _even(numbers: NDArray[np.intp], times: Array, resolution: float) -> tuple[Array, float]:
+    """Line of one slope through times over sample numbers, with a step at each gap; and the slope, s."""
+    interval = 0.0
+    for lag in (min(LAG, numbers.size - 1), numbers.size // 2):
+        if interval <= 0:
+            interval = float(np.median((times[lag:] - times[:-lag]) / (numbers[lag:] - numbers[:-lag])))
+    gaps = np.diff(times) > (np.diff(numbers) + 0.5) * interval + resolution
+    stretch = np.concatenate(([0], np.cumsum(gaps)))
+    sizes = np.bincount(stretch)
+    middle_number = (np.bincount(stretch, numbers) / sizes)[stretch]
+    middle_time = (np.bincount(stretch, times) / sizes)[stretch]
+    across, along = numbers - middle_number, times - middle_time
+    slope = float(across @ along / max(float(across @ across), 1.0))
+    return middle_time + slope * across, slope

@@ -1,0 +1,1 @@
+"""From columns to channels that can be used: clocks, quality, zeros, plausibility."""

@@ -1,0 +1,210 @@
+"""Clocks of a test: its channels on even clocks of their own, and how late and how fast each recorder is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from colonnade.arrays import Array
+from colonnade.campaign import Channel
+from colonnade.campaign.setup import Align, Recorder
+from colonnade.errors import StageError
+from colonnade.findings import Finding, note, serious, warning
+from colonnade.signals.clocks.alignment import Offset, link
+from colonnade.signals.clocks.clock import uniform_clock
+from colonnade.signals.record import Record, even_record
+from colonnade.stages.parts.inputs import Inputs
+from colonnade.store.description import variable_name
+
+TOGETHER = Offset(0.0, np.nan, 0.0)
+"""A recorder that starts with the main one."""
+
+FEWEST_SAMPLES = 16
+"""That the channels of a test have to share."""
+
+MOST_SAMPLES = 20_000_000
+"""Of a test on its one clock, where fewer than half as many were recorded."""
+
+
+class ChannelOnClock(Inputs):
+    """
+    What is known of a channel before it is conditioned.
+
+    Attributes
+    ----------
+    quantity : str
+    on : str or None
+        "specimen", "table" or "ground".
+    recorder : str
+    delay : float
+        s.
+    resting : float
+        What it shows at rest on the upright specimen, SI: gravity's part along an accelerometer, 0 for all else.
+    """
+
+    quantity: str
+    on: str | None
+    recorder: str
+    delay: float = 0.0
+    resting: float = 0.0
+
+
+Links = Mapping[str, tuple[str, str, float]]
+"""
+By recorder: its link to the main one, (channel of the main recorder, own channel, sign).
+
+The sign is -1 if the two point against each other. A recorder without a link starts with the main one.
+"""
+
+
+def find_links(recorders: Mapping[str, Recorder], channels: Mapping[str, Channel]) -> dict[str, tuple[str, str, float]]:
+    """Find the channels of a test that link its recorders to the main one."""
+    aligned = {name: recorder.clock for name, recorder in recorders.items() if isinstance(recorder.clock, Align)}
+    return {
+        name: _link(channels, clock)
+        for name, clock in aligned.items()
+        if clock.channel in channels and clock.own_channel in channels
+    }
+
+
+def _link(channels: Mapping[str, Channel], clock: Align) -> tuple[str, str, float]:
+    one, other = channels[clock.channel].direction, channels[clock.own_channel].direction
+    against = one is not None and other is not None and float(np.dot(one, other)) < 0
+    return clock.channel, clock.own_channel, -1.0 if against else 1.0
+
+
+def own_records(
+    recorded: xr.Dataset, channels: Mapping[str, ChannelOnClock], warnings: list[Finding]
+) -> dict[str, Record]:
+    """Put each channel on an even clock of its own, without its delay; unusable ones are left out and reported."""
+    records = {}
+    for name, channel in channels.items():
+        variable = recorded[variable_name(name)]
+        stamps = recorded[str(variable.dims[0])].to_numpy() - channel.delay
+        flags = recorded[f"{variable_name(name)}_quality"].to_numpy()
+        try:
+            records[name] = even_record(stamps, variable.to_numpy(), flags)
+        except ValueError as error:
+            warnings.append(serious("channel left out", f"channel {name} is left out: it {error}."))
+    return records
+
+
+def recorder_offsets(
+    records: Mapping[str, Record],
+    channels: Mapping[str, ChannelOnClock],
+    links: Links,
+    longest: float,
+    warnings: list[Finding],
+) -> dict[str, Offset]:
+    """
+    Find the delays of the recorders relative to the main one, if they can be found.
+
+    Parameters
+    ----------
+    records : mapping of str to Record
+        By channel.
+    channels : mapping of str to ChannelOnClock
+    links : Links
+    longest : float
+        Largest delay that is searched for, s.
+    warnings : list of Finding
+        What is in doubt is added to it.
+
+    Raises
+    ------
+    StageError
+        If two linked channels share no time.
+    """
+    offsets = {"main": Offset(0.0, 0.0, 1.0)}
+    for recorder, (channel, own_channel, sign) in links.items():
+        if channel not in records or own_channel not in records:
+            reason = f"recorder {recorder} could not be aligned because {channel} or {own_channel} is not usable."
+            warnings.append(serious("clock", reason, follows=("dead channel", "channel left out")))
+            continue
+        try:
+            found = link(
+                records[channel],
+                records[own_channel],
+                quantities=(channels[channel].quantity, channels[own_channel].quantity),
+                longest=longest,
+                sign=sign,
+            )
+        except ValueError as error:
+            raise StageError(
+                f"channels {channel} and {own_channel} {error}, but recorders are aligned on what both recorded. "
+                "Check the times in their files."
+            ) from error
+        if found.is_determined:
+            offsets[recorder] = found
+        if found.doubt:
+            state = "aligned" if found.is_determined else "assumed to start with the main one"
+            weight = warning if found.is_determined else serious
+            doubt = f"recorder {recorder} was {state} with {channel} and {own_channel}: {found.doubt}."
+            warnings.append(weight("clock", doubt, follows=("dead channel", "table motion", "gain", "sign")))
+        if found.drift is not None:
+            warnings.append(
+                note(
+                    "clock drift",
+                    f"recorder {recorder}: its clock runs {found.drift} against the main recorder's, by {channel} and "
+                    f"{own_channel}; the delay changes by {1e3 * abs(found.drift.change):.2g} ms over the motion. This "
+                    "was corrected. A common sampling clock or trigger line avoids this.",
+                )
+            )
+    return offsets
+
+
+def _expect_room(leader: Record, interval: float, start: float, stop: float) -> None:
+    """Refuse a sampling rate that gives far more samples than were recorded and would only fill the memory."""
+    count, most = (stop - start) / interval, max(MOST_SAMPLES, 2 * leader.time.size)
+    if count > most:
+        raise StageError(
+            f"At {1 / interval:.4g} Hz the {stop - start:.4g} s of this test are {count:.3g} samples; at most "
+            f"{most:.3g} were expected. It was recorded at {1 / leader.interval:.4g} Hz: see `sampling_rate`."
+        )
+
+
+def common_clock(
+    records: Mapping[str, Record],
+    offsets: Mapping[str, Offset],
+    channels: Mapping[str, ChannelOnClock],
+    rate: float | str,
+) -> Array:
+    """
+    Clock of the main recorder's fastest channel over the stretch that all channels share.
+
+    Parameters
+    ----------
+    records, offsets, channels
+        By channel: its record, the delay of its recorder, what is known of it.
+    rate : float or "auto"
+        Hz.
+
+    Raises
+    ------
+    StageError
+        If the channels share no time.
+    """
+    start = max(_on_main(record.time[0], offsets[name]) for name, record in records.items())
+    stop = min(_on_main(record.time[-1], offsets[name]) for name, record in records.items())
+    of_main = [name for name in records if channels[name].recorder == "main"]
+    shortest = min(records[name].interval for name in of_main or records)
+    fastest = [name for name in of_main or records if records[name].interval < 1.01 * shortest]
+    leading = min(fastest, key=lambda name: abs(channels[name].delay))
+    leader = records[leading]
+    interval = leader.interval if isinstance(rate, str) else 1 / rate
+    _expect_room(leader, interval, start, stop)
+    steps = np.ceil((start - leader.time[0]) / interval - 1e-6)
+    clock = uniform_clock(leader.time[0] + steps * interval, stop, interval)
+    if clock.size < FEWEST_SAMPLES:
+        raise StageError(
+            f"The channels share {max(stop - start, 0.0):.3g} s, {clock.size} samples; at least {FEWEST_SAMPLES} were "
+            "expected. Check the start times of the recorders and the test's `window`."
+        )
+    return clock
+
+
+def _on_main(time: float, offset: Offset) -> float:
+    """Time of the main recorder at a recorder's own time, s; the delay changes too little to be solved for."""
+    return time - float(offset.at(np.asarray(time - offset.seconds)))

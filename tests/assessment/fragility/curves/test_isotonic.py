@@ -1,0 +1,52 @@
+"""The curve that only rises: pooled shares, with intervals that do not vanish where nothing happened."""
+
+import numpy as np
+import pytest
+
+from colonnade.assessment.fragility.curves.isotonic import IsotonicCurve, fit_isotonic
+from colonnade.assessment.fragility.outcomes import gather
+from colonnade.assessment.fragility.resampling import Band
+from virtual_capacities import lognormal, names
+
+
+def test_shares_that_rise_are_kept():
+    outcomes = lognormal(1)
+    curve = fit_isotonic(outcomes, resamples=50)
+    np.testing.assert_allclose(curve.probability.value, outcomes.overturned.mean(axis=(0, 2, 3)))
+    np.testing.assert_allclose(curve.intensity, outcomes.intensity[0, :, 0])
+
+
+def test_neighbours_that_fall_are_pooled():
+    peak = np.array([[0.5, 2, 0.5, 2], [0.5, 2, 2, 2], [0.5, 0.5, 0.5, 2], [0.5, 0.5, 0.5, 2]])
+    curve = fit_isotonic(gather(names(4), np.tile([1.0, 2, 3, 4], (4, 1)), peak), resamples=50)
+    np.testing.assert_allclose(curve.probability.value, [0, 0.375, 0.375, 1])
+
+
+def test_of_n_records_without_an_event_the_limit_is_about_that_of_n_trials():
+    peak = np.tile([0.5, 0.5, 2.0], (20, 1))
+    curve = fit_isotonic(gather(names(20), np.tile([1.0, 2, 3], (20, 1)), peak), resamples=50)
+    assert curve.probability.low[:2].tolist() == pytest.approx([0, 0], abs=1e-12)
+    assert curve.probability.high[1] == pytest.approx(1 - 0.025 ** (1 / 20), abs=0.02)  # Clopper and Pearson
+
+
+def test_limits_rise_and_hold_the_curve():
+    band = fit_isotonic(lognormal(2), resamples=200).probability
+    assert (np.diff(band.low) >= 0).all()
+    assert (np.diff(band.high) >= 0).all()
+    assert ((band.low <= band.value) & (band.value <= band.high)).all()
+
+
+def test_the_intensity_of_a_probability_is_between_its_stripes():
+    band = Band(*(np.array(each) for each in ([0.0, 0.2, 0.6], [0.0, 0.1, 0.4], [0.1, 0.5, 0.9])))
+    curve = IsotonicCurve(np.array([1.0, 2.0, 4.0]), band, 0.95)
+    assert curve.reaches(0.4) == pytest.approx((2 * 2**0.5, 2**0.75, 4.0))
+    assert curve.reaches(0.05) == pytest.approx((2**0.25, 0.0, 2**0.5))
+    assert curve.reaches(0.95) == (np.inf, np.inf, np.inf)
+
+
+def test_many_different_intensities_are_binned():
+    outcomes = lognormal(3)
+    own = outcomes.intensity[:, :, 0] * np.exp(np.random.default_rng(4).normal(0, 0.3, (30, 1)))
+    curve = fit_isotonic(gather(outcomes.records, own, outcomes.peak), resamples=50)
+    assert (curve.intensity.size, (np.diff(curve.intensity) > 0).all()) == (20, True)
+    assert own.min() < curve.intensity[0] < curve.intensity[-1] < own.max()

@@ -1,0 +1,96 @@
+"""Lognormal curves: near the truth, with intervals over records; and no curve if outcomes do not give one."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from colonnade.assessment.fragility.curves.lognormal import fit_lognormal
+from colonnade.assessment.fragility.outcomes import gather
+from virtual_capacities import BETA, MEDIAN, lognormal, names, outcomes_of
+
+
+def single(peaks, intensity=(1.0, 2.0, 3.0)):
+    peaks = np.asarray(peaks, dtype=float)
+    return gather(names(len(peaks)), np.tile(intensity, (len(peaks), 1)), peaks)
+
+
+def test_median_beta_and_probabilities_are_near_the_truth_and_inside_their_intervals():
+    fit = fit_lognormal(lognormal(5, records=200), resamples=500)
+    assert (fit.median.low < MEDIAN < fit.median.high, fit.beta.low < BETA < fit.beta.high) == (True, True)
+    assert (fit.median.value, fit.beta.value) == pytest.approx((MEDIAN, BETA), rel=0.1)
+    at = fit.probability([fit.median.value, MEDIAN * np.exp(BETA)])
+    assert at.value == pytest.approx([0.5, 0.841], abs=0.03)
+    assert ((at.low < at.value) & (at.value < at.high)).all()
+    assert (fit.reason, fit.degenerate) == ("", 0.0)
+
+
+def test_the_intensity_of_a_probability_has_that_probability():
+    fit = fit_lognormal(lognormal(5), resamples=100)
+    found = fit.intensity([0.05, 0.5, 0.95])
+    assert fit.probability(found.value).value == pytest.approx([0.05, 0.5, 0.95])
+    assert (found.low[1], found.high[1]) == pytest.approx((fit.median.low, fit.median.high))
+    assert (found.low < found.value).all()
+    with pytest.raises(ValueError, match="between 0 and 1"):
+        fit.intensity([1.0])
+
+
+def test_a_record_at_more_levels_or_draws_does_not_narrow_the_interval_as_more_records_do():
+    """32 records with 10 draws of hardly any scatter: the median's error is that of 32 capacities."""
+    random = np.random.default_rng(8)
+    capacity = MEDIAN * np.exp(random.normal(0, 0.5, (32, 1)) + random.normal(0, 0.01, (32, 10)))
+    fit = fit_lognormal(outcomes_of(capacity, MEDIAN * np.exp(np.linspace(-1.5, 1.5, 31))), resamples=1000)
+    assert np.log(fit.median.high / fit.median.low) == pytest.approx(2 * 2.04 * 0.5 / np.sqrt(32), rel=0.25)
+
+
+def test_the_same_seed_gives_the_same_interval():
+    outcomes = lognormal(6)
+    first, same, other = (fit_lognormal(outcomes, resamples=100, seed=seed).median for seed in (3, 3, 4))
+    assert (first == same, first == other) == (True, False)
+
+
+@pytest.mark.parametrize(
+    ("peaks", "reason", "rises"),
+    [
+        pytest.param([[0.5, 0.5, 2], [0.5, 0.5, 2]], "separated", (2, 3), id="no overlap"),
+        pytest.param([[0.5, 0.5, 2], [0.5, 2, 2]], "separated", (1, 3), id="overlap at one level alone"),
+        pytest.param([[0.5, 0.5, 0.5], [0.5, 0.2, 0.1]], "never", (3, np.inf), id="nothing overturns"),
+        pytest.param([[2, 2, 2], [2, 2, 2]], "always", (0, 1), id="everything overturns"),
+        pytest.param([[2, 0.5, 0.5], [2, 0.5, 2]], "falling", (0, np.inf), id="less at more"),
+    ],
+)
+def test_no_curve_is_given_if_the_outcomes_have_none(peaks, reason, rises):
+    fit = fit_lognormal(single(peaks), resamples=20)
+    assert (fit.reason, fit.rises) == (reason, pytest.approx(rises))
+    assert np.isnan([*fit.median, *fit.beta, *fit.probability([1.0]).low]).all()
+
+
+def test_of_four_records_no_interval_is_given():
+    fit = fit_lognormal(lognormal(5, records=4), resamples=50)
+    assert (fit.reason, fit.median.value) == ("", pytest.approx(MEDIAN, rel=0.5))
+    assert np.isnan([fit.median.low, fit.beta.high, fit.probability([MEDIAN]).low[0]]).all()
+    assert np.isfinite(fit_lognormal(lognormal(5, records=5), resamples=50).median.low)
+
+
+def test_one_intensity_gives_no_curve():
+    assert fit_lognormal(single([[0.5], [2.0]], [1.0]), resamples=20).reason == "one intensity"
+
+
+@settings(deadline=None, max_examples=10)
+@given(factor=st.floats(1e-6, 1e6))
+def test_the_unit_of_the_intensity_does_not_matter(factor):
+    outcomes = lognormal(7)
+    scaled = gather(outcomes.records, outcomes.intensity[:, :, 0] * factor, outcomes.peak)
+    one, other = (fit_lognormal(each, resamples=50) for each in (outcomes, scaled))
+    assert np.array(other.median) == pytest.approx(np.array(one.median) * factor)
+    assert np.array(other.beta) == pytest.approx(np.array(one.beta))
+
+
+def test_thousand_resamples_take_well_below_a_second():
+    from time import perf_counter
+
+    outcomes = lognormal(9, records=40)
+    fit_lognormal(outcomes, resamples=2)
+    start = perf_counter()
+    fit_lognormal(outcomes, resamples=1000)
+    assert perf_counter() - start < 2.0

@@ -1,0 +1,59 @@
+"""Findings on a terminal: by kind, the worst first, a few in full, what follows from others only counted."""
+
+from __future__ import annotations
+
+import pytest
+
+from colonnade.cli.common.findings import IN_FULL, NAMED, all_records, line_of, probable_cause, records_of, show_by_kind
+from colonnade.findings import in_order, note, serious, warning
+
+GAIN = serious("gain", "The gain is wrong.")
+ARC = warning("no arc", "No arc was found.", follows=("gain",))
+SPIKE = note("spikes", "Spikes on 2 samples.")
+
+
+def shown(capsys, findings):
+    show_by_kind({subject: in_order(each) for subject, each in findings.items()})
+    return capsys.readouterr().out.splitlines()
+
+
+def test_the_worst_is_first_and_what_follows_is_named_after_it(capsys):
+    assert shown(capsys, {"a": [SPIKE, ARC, GAIN]}) == [
+        "serious (gain): a: The gain is wrong.",
+        "note (spikes): a: Spikes on 2 samples.",
+        "follows from the above: no arc: a",
+        "1 serious finding, 1 note",
+    ]
+
+
+def test_many_of_one_kind_are_counted(capsys):
+    names = [f"t{number}" for number in range(IN_FULL + NAMED + 2)]
+    lines = shown(capsys, {name: [warning("unit", f"Unit of {name}.")] for name in names})
+    assert len(lines) == IN_FULL + 2
+    assert lines[IN_FULL] == f"  and {NAMED + 2} more of this kind: {', '.join(names[IN_FULL:-2])} and 2 more"
+    assert lines[-1] == f"{len(names)} warnings"
+
+
+def test_of_notes_one_is_in_full(capsys):
+    lines = shown(capsys, {"a": [SPIKE], "b": [SPIKE]})
+    assert lines == ["note (spikes): a: Spikes on 2 samples.", "  and 1 more of this kind: b", "2 notes"]
+
+
+def test_nothing_found_is_nothing_said(capsys):
+    assert shown(capsys, {"a": []}) == []
+
+
+@pytest.mark.parametrize(
+    ("findings", "cause"),
+    [([GAIN, ARC], "probably because of the serious findings above (gain): "), ([ARC], ""), ([], "")],
+    ids=["a serious one", "a warning", "none"],
+)
+def test_a_failure_names_the_serious_findings(findings, cause):
+    assert probable_cause(in_order(findings), where="above") == cause
+
+
+def test_records_say_what_explains_what():
+    records = records_of([ARC, GAIN])
+    assert [(each["kind"], each["explained"]) for each in records] == [("gain", False), ("no arc", True)]
+    assert line_of(records[1]) == "warning (follows from the above): No arc was found."
+    assert [each["subject"] for each in all_records({"a": in_order([GAIN]), "b": in_order([ARC])})] == ["a", "b"]

@@ -1,0 +1,58 @@
+"""Options that commands share are declared once and mean the same everywhere."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from colonnade.campaign.settings import MESHES
+from colonnade.cli.app import app
+from colonnade.cli.common.options import meshes, models
+from colonnade.dynamics.models.registry import MODELS
+
+
+def options(command):
+    return {option for each in app.commands[command].params for option in each.opts}
+
+
+@pytest.mark.parametrize("command", ["run", "ingest", "identify", "predict", "report"])
+def test_commands_that_run_stages_have_the_same_options(command):
+    shared = {"--only", "--workers", "--scheduler", "--results", "--verify", "--strict", "--json"}
+    assert shared <= options(command)
+
+
+def test_an_option_has_the_same_help_everywhere():
+    said = {}
+    for command in app.commands.values():
+        for each in command.params:
+            if each.opts[0] in ("--json", "--workers", "--scheduler", "--results", "--specimen"):
+                # Some commands take one specimen, others several.
+                said.setdefault((each.opts[0], each.multiple), set()).add(each.help)
+    assert ("--specimen", False) in said
+    assert all(len(texts) == 1 for texts in said.values())
+
+
+def test_the_names_of_models_and_meshes_are_those_of_their_registries():
+    assert list(models()) == list(MODELS)
+    assert tuple(meshes()) == MESHES
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("map", "--model", "liner"), "'liner' is not one of 'linear', 'nonlinear', 'contact'"),
+        (("calibrate", "--mesh", "x"), "'x' is not one of 'rigid', 'coarse', 'medium', 'fine'"),
+        (("run", "--workers", "0"), "x>=1"),
+    ],
+)
+def test_a_value_that_is_none_of_the_choices_is_refused_with_them(colonnade, arguments, told):
+    result = colonnade(*arguments)
+    assert result.returncode == 2
+    assert told in " ".join(result.stderr.split())
+
+
+def test_names_are_read_only_when_they_are_needed():
+    code = "import sys, colonnade.cli.app; sys.exit('numpy' in sys.modules or 'pydantic' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

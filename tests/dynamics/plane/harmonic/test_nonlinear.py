@@ -1,0 +1,89 @@
+"""One arc of the full equation under a sine, by its series, against SciPy's DOP853."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from colonnade.dynamics.plane import landing
+from colonnade.dynamics.plane.harmonic import envelope
+from colonnade.dynamics.plane.harmonic import nonlinear as harmonic_nonlinear
+from colonnade.dynamics.plane.harmonic.nonlinear import empty_series
+
+ALPHA, P, OMEGA = 0.2, 4.0, 11.0
+STEADY = 0.3, 0.0, 0.0, 0.0
+RISING = 0.1, 0.8, 0.0, 0.0
+"""Level of a/g at the start of a piece and its slope, 1/s."""
+
+
+@pytest.fixture(autouse=True)
+def as_python(interpreted):
+    interpreted(envelope, harmonic_nonlinear, landing)
+
+
+def arc(height, rate, *, side=1.0, angle=0.4, piece=STEADY, since=0.05, remaining=0.5, top=False):
+    work = empty_series()
+    return harmonic_nonlinear.series_arc(
+        height, rate, side, ALPHA, P, OMEGA, angle, piece, since, None, remaining, top, work
+    )
+
+
+def integrated(height, rate, x, *, side=1.0, angle=0.4, piece=STEADY, since=0.05, times=None):
+    """u'' = sin u + q sin φ cos u by SciPy, as h = α − u and its rate in x = p t."""
+
+    def rates(x, state):
+        level = side * (piece[0] + piece[1] * (since + x / P))
+        lean = ALPHA - state[0]
+        return [state[1], -sin(lean) - level * sin(angle + OMEGA / P * x) * cos(lean)]
+
+    found = solve_ivp(rates, (0.0, x), [height, rate], method="DOP853", rtol=1e-13, atol=1e-16, t_eval=times)
+    return found.y if times is not None else found.y[:, -1]
+
+
+@pytest.mark.parametrize("piece", [STEADY, RISING], ids=["steady", "rising"])
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+@pytest.mark.parametrize(("height", "rate"), [(0.15, 0.0), (0.1, 0.05), (0.0, 0.1)])
+def test_an_arc_is_that_of_another_integrator(piece, side, height, rate):
+    landed, x, _, last, speed = arc(height, rate, side=side, piece=piece)
+    np.testing.assert_allclose((last, speed), integrated(height, rate, x, side=side, piece=piece), atol=1e-12)
+    assert landed == (last == 0.0)
+    assert 0.0 < x <= 0.5
+
+
+def test_an_impact_is_where_the_height_first_comes_to_nothing():
+    landed, x, _, last, speed = arc(0.05, -0.2, angle=0.5 * pi)
+    assert landed
+    assert last == 0.0
+    heights = integrated(0.05, -0.2, x, angle=0.5 * pi, times=np.linspace(0.0, x, 50))[0]
+    assert heights[-1] == pytest.approx(0.0, abs=1e-12)
+    assert (heights[:-1] > 0.0).all()
+    assert speed < 0.0
+
+
+def test_a_block_on_the_table_that_moves_down_has_landed_at_once():
+    landed, x, _, _, speed = arc(0.0, -0.1)
+    assert (landed, x, speed) == (True, 0.0, -0.1)
+
+
+def test_the_top_inside_an_arc_is_given_where_it_is_asked_for():
+    given = {"angle": 0.5 * pi, "remaining": 0.4}
+    _, x, top, last, speed = arc(0.1, 0.05, top=True, **given)
+    assert speed < 0.0
+    heights = integrated(0.1, 0.05, x, angle=0.5 * pi, times=np.linspace(0.0, x, 2001))[0]
+    assert top == pytest.approx(heights.max(), rel=1e-7)
+    assert arc(0.1, 0.05, **given)[2] == last < top
+
+
+def test_the_ramp_of_half_a_cosine_adds_its_two_sines():
+    """level(t) = c + b cos(r t): its product with sin φ is two more sines; against the same by differences."""
+    work, step = empty_series(), 1e-3
+    piece = 0.0, 0.0, 0.4, 3.0
+    since, phase = 0.2, 0.7
+    harmonic_nonlinear._swing(True, work.forcing, 1.0, P, piece, since, OMEGA / P, phase)
+    series = sum(work.forcing[k] * step**k for k in range(5))
+    later = 0.4 * cos(3.0 * (since + step / P)) * sin(phase + OMEGA / P * step)
+    assert work.forcing[0] == pytest.approx(0.4 * cos(3.0 * since) * sin(phase))
+    assert series == pytest.approx(later, rel=1e-13)

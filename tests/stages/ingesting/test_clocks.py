@@ -1,0 +1,262 @@
+"""Channels on even clocks of their own, delays between recorders, and the one clock that a test is put on."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from colonnade.campaign import Channel
+from colonnade.campaign.setup import Align, Recorder
+from colonnade.errors import StageError
+from colonnade.findings import Severity
+from colonnade.signals.clocks.alignment import Offset
+from colonnade.signals.clocks.rate import ClockRate
+from colonnade.signals.quality import Flag
+from colonnade.signals.record import Record
+from colonnade.stages.ingesting import clocks
+from colonnade.stages.ingesting.clocks import ChannelOnClock, common_clock, find_links, own_records, recorder_offsets
+
+TOGETHER = Offset(0.0, np.nan, 0.0)
+LATE = 0.03
+"""s, by which the second recorder is late."""
+
+
+def channel(direction=(1, 0, 0), recorder="main"):
+    """A channel of the table; without a direction it is one of force."""
+    given = {"column": "a", "quantity": "acceleration", "unit": "g", "on": "table", "recorder": recorder}
+    if direction is None:
+        return Channel.model_validate({"column": "a", "quantity": "force", "unit": "N", "recorder": recorder})
+    return Channel.model_validate(given | {"direction": direction})
+
+
+def on_clock(recorder="main", delay=0.0):
+    return ChannelOnClock(quantity="acceleration", on="table", recorder=recorder, delay=delay)
+
+
+def record(start, stop, rate, values=None):
+    """A record without fault from `start` up to `stop` (s)."""
+    time = start + np.arange(round((stop - start) * rate) + 1) / rate
+    fine = np.zeros(time.size, dtype=bool)
+    values = np.zeros(time.size) if values is None else values(time)
+    return Record(time, values, fine, 1 / rate, time, np.full(time.size, Flag.GOOD, dtype=np.int8), fine)
+
+
+def shaking(time):
+    """A motion of several frequencies that begins and ends within the record."""
+    envelope = np.clip(np.minimum(time - 1.0, 7.0 - time), 0.0, 1.0)
+    return envelope * (np.sin(2 * np.pi * 2.3 * time) + 0.6 * np.sin(2 * np.pi * 3.7 * time + 1.0))
+
+
+ALIGNED = {"main": Recorder(), "second": Recorder.model_construct(clock=Align(channel="one", own_channel="other"))}
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "sign"),
+    [
+        ([1, 0, 0], [1, 0, 0], 1.0),
+        ([1, 0, 0], [-1, 0, 0], -1.0),
+        ([1, 0, 0], [0, 1, 0], 1.0),
+        (None, [-1, 0, 0], 1.0),
+        (None, None, 1.0),
+    ],
+)
+def test_linked_channels_have_the_sign_of_their_directions(first, second, sign):
+    channels = {"one": channel(first), "other": channel(second, "second")}
+    assert find_links(ALIGNED, channels) == {"second": ("one", "other", sign)}
+
+
+@pytest.mark.parametrize("missing", ["one", "other"])
+def test_a_test_without_one_of_the_linked_channels_has_no_link(missing):
+    channels = {"one": channel(), "other": channel(recorder="second")}
+    del channels[missing]
+    assert find_links(ALIGNED, channels) == {}
+
+
+def test_a_recorder_on_the_same_trigger_needs_no_link():
+    assert find_links({"main": Recorder(), "second": Recorder()}, {"one": channel(), "other": channel()}) == {}
+
+
+def recorded(values, flags=None, name="top"):
+    """One channel as the result of `ingest`, at 100 Hz from 5 s on."""
+    values = np.asarray(values, dtype=float)
+    flags = np.full(values.size, Flag.GOOD) if flags is None else flags
+    return xr.Dataset(
+        {name: ("elapsed", values), f"{name}_quality": ("elapsed", np.asarray(flags, dtype=np.int8))},
+        coords={"elapsed": ("elapsed", 5.0 + 0.01 * np.arange(values.size))},
+    )
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.004, -0.1])
+def test_the_delay_of_a_channel_is_taken_off_its_times(delay):
+    values = np.sin(np.arange(50.0))
+    warnings = []
+    found = own_records(recorded(values), {"top": on_clock(delay=delay)}, warnings)["top"]
+    np.testing.assert_allclose(found.time, 5.0 - delay + 0.01 * np.arange(50), atol=1e-9)
+    np.testing.assert_allclose(found.values, values, atol=1e-9)
+    assert warnings == []
+
+
+def test_a_channel_is_found_by_the_name_of_its_variable():
+    assert list(own_records(recorded(np.arange(9.0), name="top_left"), {"top-left": on_clock()}, [])) == ["top-left"]
+
+
+def test_a_failed_sample_is_bridged_and_not_believed():
+    values, flags = np.arange(20.0), np.full(20, Flag.GOOD)
+    values[7], flags[7] = 1e6, Flag.FAIL
+    found = own_records(recorded(values, flags), {"top": on_clock()}, [])["top"]
+    np.testing.assert_allclose(found.values, np.arange(20.0), atol=1e-6)
+    assert np.flatnonzero(found.bad).tolist() == [7]
+
+
+@pytest.mark.parametrize(
+    ("values", "flags"),
+    [(np.full(20, np.nan), np.full(20, Flag.MISSING)), (np.arange(20.0), np.full(20, Flag.FAIL))],
+    ids=["missing", "failed"],
+)
+def test_a_channel_without_a_usable_sample_is_left_out_and_the_others_stay(values, flags):
+    both = xr.merge([recorded(values, flags, "top"), recorded(np.arange(20.0), name="bottom")])
+    warnings = []
+    assert list(own_records(both, {"top": on_clock(), "bottom": on_clock()}, warnings)) == ["bottom"]
+    (finding,) = warnings
+    assert (finding.kind, finding.severity) == ("channel left out", Severity.SERIOUS)
+    assert finding.text.startswith("channel top is left out: it has no usable sample among its 20")
+
+
+LINKED = {"one": on_clock(), "other": on_clock("second")}
+
+
+def offsets_of(records, sign=1.0, longest=0.5):
+    warnings = []
+    found = recorder_offsets(records, LINKED, {"second": ("one", "other", sign)}, longest, warnings)
+    assert found["main"] == Offset(0.0, 0.0, 1.0)
+    return found, warnings
+
+
+@pytest.mark.parametrize("late", [-0.11, 0.0, LATE])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_recorder_is_as_late_as_its_linked_channel(late, sign):
+    other = record(0, 9, 250, lambda time: sign * shaking(time - late))
+    found, warnings = offsets_of({"one": record(0, 9, 500, shaking), "other": other}, sign)
+    assert found["second"].seconds == pytest.approx(late, abs=2e-4)
+    assert warnings == []
+
+
+def test_a_link_of_the_wrong_sign_is_warned_of_and_still_aligned():
+    other = record(0, 9, 250, lambda time: -shaking(time - LATE))
+    found, warnings = offsets_of({"one": record(0, 9, 500, shaking), "other": other})
+    assert found["second"].seconds == pytest.approx(LATE, abs=2e-4)
+    (finding,) = warnings
+    assert (finding.kind, finding.severity) == ("clock", Severity.WARNING)
+    assert "recorder second was aligned with one and other" in finding.text
+    assert "sign" in finding.follows
+
+
+@pytest.mark.parametrize("dead", ["one", "other"])
+def test_a_link_that_was_left_out_leaves_the_recorder_unaligned(dead):
+    records = {"one": record(0, 9, 500, shaking), "other": record(0, 9, 250, shaking)}
+    del records[dead]
+    found, warnings = offsets_of(records)
+    assert list(found) == ["main"]
+    assert (warnings[0].severity, warnings[0].follows) == (Severity.SERIOUS, ("dead channel", "channel left out"))
+
+
+def test_channels_that_do_not_move_align_nothing_and_that_is_serious():
+    found, warnings = offsets_of({"one": record(0, 9, 500), "other": record(0, 9, 250)})
+    assert list(found) == ["main"]
+    assert warnings[0].severity == Severity.SERIOUS
+    assert "recorder second was assumed to start with the main one" in warnings[0].text
+
+
+def test_linked_channels_that_share_no_time_are_refused():
+    with pytest.raises(StageError, match=r"channels one and other share 0 samples.*Check the times in their files"):
+        offsets_of({"one": record(0, 9, 500, shaking), "other": record(20, 29, 250, shaking)})
+
+
+def test_a_clock_that_runs_fast_is_noted_with_its_rate():
+    rate = 500e-6
+    one = record(0, 9, 500, shaking)
+    other = record(0, 9, 500, lambda time: shaking(time / (1 + rate)))
+    found, warnings = offsets_of({"one": one, "other": other})
+    assert found["second"].drift.rate == pytest.approx(rate, rel=0.1)
+    assert [(each.kind, each.severity) for each in warnings] == [("clock drift", Severity.NOTE)]
+    assert "ppm fast against the main recorder's, by one and other" in warnings[0].text
+
+
+def common(records, rate="auto", channels=None, offsets=None):
+    channels = channels or {name: on_clock() for name in records}
+    offsets = dict.fromkeys(records, TOGETHER) | (offsets or {})
+    return common_clock(records, offsets, channels, rate)
+
+
+def test_the_clock_is_that_of_the_fastest_channel_over_the_shared_time():
+    clock = common({"fast": record(0.0, 8.0, 500), "slow": record(1.0, 9.0, 100)})
+    np.testing.assert_allclose(clock, 1.0 + np.arange(3501) / 500)
+
+
+def test_the_clock_falls_on_samples_of_the_leading_channel():
+    fast = record(0.0, 8.0, 500)
+    clock = common({"fast": fast, "slow": record(1.0007, 9.0, 100)})
+    assert clock[0] == pytest.approx(1.002)
+    np.testing.assert_allclose(np.interp(clock, fast.time, fast.time), clock)
+
+
+def test_the_main_recorder_leads_even_if_another_is_faster():
+    channels = {"own": on_clock(), "other": on_clock("second")}
+    clock = common({"own": record(0, 4, 100), "other": record(0, 4, 1000)}, channels=channels)
+    assert np.diff(clock) == pytest.approx(0.01)
+
+
+def test_without_a_channel_of_the_main_recorder_the_fastest_leads():
+    channels = {"a": on_clock("second"), "b": on_clock("third")}
+    assert np.diff(common({"a": record(0, 4, 100), "b": record(0, 4, 200)}, channels=channels)) == pytest.approx(0.005)
+
+
+def test_of_channels_of_one_rate_the_one_with_the_least_delay_leads():
+    records = {"late": record(-0.004, 4, 100), "prompt": record(0.0, 4, 100)}
+    channels = {"late": on_clock(delay=0.004), "prompt": on_clock()}
+    clock = common(records, channels=channels)
+    assert clock[0] == 0.0
+
+
+def test_a_rate_that_is_asked_for_is_that_of_the_clock():
+    clock = common({"a": record(0, 4, 500)}, rate=125.0)
+    np.testing.assert_allclose(clock, np.arange(501) / 125)
+
+
+@pytest.mark.parametrize("late", [0.5, -0.5])
+def test_the_shared_time_counts_on_the_clock_of_the_main_recorder(late):
+    records = {"own": record(0, 4, 100), "other": record(0, 4, 100)}
+    channels = {"own": on_clock(), "other": on_clock("second")}
+    clock = common(records, channels=channels, offsets={"other": Offset(late, 0.001, 0.99)})
+    assert (clock[0], clock[-1]) == pytest.approx((max(0.0, -late), min(4.0, 4.0 - late)))
+
+
+def test_a_drift_moves_the_ends_of_the_shared_time():
+    drift = ClockRate(rate=0.01, standard_error=1e-6, seconds=0.0, seconds_error=1e-6, middle=0.0, change=0.04)
+    channels = {"own": on_clock(), "other": on_clock("second")}
+    records = {"own": record(0, 4, 100), "other": record(0, 4, 100)}
+    clock = common(records, channels=channels, offsets={"other": Offset(0.0, 0.001, 0.99, drift=drift)})
+    assert clock[-1] == pytest.approx(4.0 * (1 - 0.01))
+
+
+@pytest.mark.parametrize(("stop", "words"), [(0.14, "share 0.14 s, 15 samples"), (-0.5, "share 0 s, 0 samples")])
+def test_channels_that_share_too_little_are_refused(stop, words):
+    with pytest.raises(StageError, match=f"{words}; at least 16 were expected"):
+        common({"a": record(-1.0, stop, 100), "b": record(0.0, 4, 100)})
+
+
+def test_the_fewest_samples_are_enough():
+    assert common({"a": record(0, 0.15, 100)}).size == clocks.FEWEST_SAMPLES
+
+
+def test_a_rate_that_would_fill_the_memory_is_refused_with_both_rates():
+    with pytest.raises(StageError, match=r"At 1e\+07 Hz the 4 s of this test are 4e\+07 samples.*recorded at 100 Hz"):
+        common({"a": record(0, 4, 100)}, rate=1e7)
+
+
+def test_a_long_record_may_be_sampled_twice_as_finely(monkeypatch):
+    monkeypatch.setattr(clocks, "MOST_SAMPLES", 10)
+    assert common({"a": record(0, 4, 100)}, rate=200.0).size == 801
+    with pytest.raises(StageError, match="at most 802 were expected"):
+        common({"a": record(0, 4, 100)}, rate=201.0)

@@ -1,0 +1,45 @@
+"""An uncertain zero is reported in the units of the result, with a better stretch if there is one."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from colonnade.dynamics.block import Block
+from colonnade.signals.rest import RestWindow
+from colonnade.stages.ingesting.zero_error import find_zero_error, on_angle, on_base
+
+BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+CLOCK = np.arange(0.0, 10.0, 0.01)
+WINDOW = RestWindow(0.0, 1.0, quiet=False)
+LEVER = 0.4
+
+
+def _found(drift, *, free_vibration=False):
+    """A displacement that drifts by `drift` (m) in the first second and is still afterwards."""
+    values = {"top": np.minimum(CLOCK, 1.0) * drift}
+    return find_zero_error(CLOCK, values, {"top": on_angle(LEVER, BLOCK)}, WINDOW, free_vibration=free_vibration)
+
+
+def test_a_small_drift_is_not_reported():
+    assert _found(1e-5) == []
+
+
+def test_a_drift_is_reported_in_radians_with_a_stretch_without_it():
+    (found,) = _found(0.002)
+    error = 0.002 * 3 / 8 / LEVER  # from the mean of the last quarter to that of the window
+    assert f"uncertain by {error:.2g} rad" in found.text
+    assert 'zero = ["1' in found.text
+    assert found.severity == "warning"
+
+
+def test_a_drift_ten_times_as_large_is_serious():
+    assert _found(0.02)[0].severity == "serious"
+
+
+def test_a_free_vibration_is_not_advised_a_stretch_in_which_it_is_held_tilted():
+    assert "Record until the specimen is still" in _found(0.002, free_vibration=True)[0].text
+
+
+def test_an_accelerometer_across_the_shaking_weighs_more():
+    assert on_base(0.5, BLOCK).factor == 2.0
+    assert on_base(1.0, BLOCK).scale == BLOCK.uplift_acceleration
