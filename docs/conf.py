@@ -25,6 +25,7 @@ extensions = [
     "mathml",
     "front_page",
     "external_links",
+    "reference",
 ]
 
 root_doc = "docs/index"
@@ -48,7 +49,9 @@ myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 
 autodoc_typehints = "none"
-numpydoc_class_members_toctree = False
+numpydoc_show_class_members = False
+smartquotes = False
+default_role = "code"
 
 sphinx_gallery_conf = {
     "examples_dirs": "examples",
@@ -65,5 +68,6 @@ html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sphinx = False
+html_show_copyright = False
 html_theme_options = {"navigation_with_keys": True}
 html_math_renderer = "mathml"

@@ -120,6 +120,7 @@ def _file_options() -> dict[str, Any]:
         options = format.options.model_json_schema(by_alias=True, mode="validation")
         options["title"] = format.name
         options["description"] = format.summary
-        options["properties"] = {"format": {"const": format.name}} | options.get("properties", {})
+        named = {"const": format.name, "description": "The format; recognised from the file if it is not given."}
+        options["properties"] = {"format": named} | options.get("properties", {})
         kinds.append(options)
     return {"title": "FileOptions", "description": "How a raw file is read; every key is optional.", "anyOf": kinds}

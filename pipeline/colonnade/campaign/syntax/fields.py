@@ -10,7 +10,7 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, WithJsonSchema
 
 from colonnade import units
-from colonnade.campaign.syntax.bounds import BETWEEN, PLAIN, SCALE, UNITS, outside, too_large
+from colonnade.campaign.syntax.bounds import AT_MOST, BETWEEN, CONVERSION, PLAIN, SCALE, UNITS, outside, too_large
 from colonnade.errors import UnitError, nearest, quoted
 
 Vector = tuple[float, float, float]
@@ -87,8 +87,18 @@ def quantity(
         "pattern": _QUANTITY_PATTERN,
         "description": f"{dimension}, with its unit",
         "examples": [example],
+        "unit": UNITS[dimension],
+        "between": _limits(dimension, between, above_zero=above_zero),
     }
     return BeforeValidator(convert), WithJsonSchema(schema)
+
+
+def _limits(dimension: str, between: tuple[float, float] | None, *, above_zero: bool) -> str:
+    """Write the least and the largest value of a quantity."""
+    if not above_zero:
+        largest = AT_MOST.get(dimension, CONVERSION[1])
+        between = (-largest, largest)
+    return " and ".join(f"{bound:g} {UNITS[dimension]}" for bound in between or BETWEEN[dimension])
 
 
 def number(value: object) -> float:

@@ -1,0 +1,129 @@
+"""The generated reference names all that there is, once, with what it says."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import reference
+from colonnade.campaign import test
+from colonnade.campaign.review import ReviewFile
+from colonnade.campaign.settings import NextSettings, Processing, settings
+from colonnade.campaign.specimen import Measured, Prism
+from colonnade.cli.app import COMMANDS
+from colonnade.store.results import STAGES
+from reference import commands, files, keys, library, messages, schemas, sources
+from reference.markdown import table
+
+
+@pytest.fixture(scope="module")
+def pages():
+    return reference.all_pages()
+
+
+def test_every_link_of_a_page_leads_to_a_page_or_a_place(pages):
+    places = {place for text in pages.values() for place in re.findall(r"^\(([\w-]+)\)=$", text, re.MULTILINE)}
+    for name, text in pages.items():
+        for target in re.findall(r"\]\(([^)#\s]+)\)", text):
+            assert (Path(name).parent / target).as_posix() in pages, (name, target)
+        assert set(re.findall(r"\]\(#([^)]+)\)", text)) <= places, name
+
+
+def test_every_setting_has_its_place_default_and_unit(pages):
+    for setting in settings(Processing(), NextSettings()):
+        table_of, _, key = setting.key.rpartition(".")
+        page = pages[f"campaign/{keys.page_of(table_of)}.md"]
+        section = page.partition(f"({keys.place('campaign', setting.key)})=\n## `{key}`")[2].partition("\n(")[0]
+        assert setting.description in section, setting.key
+        assert setting.unit in section, setting.key
+        assert "| default |" in section, setting.key
+
+
+@pytest.mark.parametrize(
+    ("page", "path", "model"),
+    [
+        ("tests", "tests", test.Test),
+        ("specimens", "specimens.<id>", Prism),
+        ("specimens", "specimens.<id>", Measured),
+    ],
+)
+def test_every_key_of_a_model_has_its_place(pages, page, path, model):
+    for key, purpose in model.purposes().items():
+        assert f"({keys.place('campaign', f'{path}.{key}')})=" in pages[f"campaign/{page}.md"], key
+        assert " ".join(purpose.split()) in pages[f"campaign/{page}.md"]
+
+
+def test_every_entry_of_a_review_has_its_page(pages):
+    entries = set(ReviewFile.purposes()) - {"schema"}
+    assert {f"review/{entry}.md" for entry in entries} <= pages.keys()
+
+
+def test_a_key_without_a_description_is_refused():
+    with pytest.raises(ValueError, match=r"top\.key has no description"):
+        schemas._key("top.key", {"type": "string"}, {}, False, "")
+
+
+@pytest.mark.parametrize(
+    ("node", "form", "bounds"),
+    [
+        ({"type": "number", "exclusiveMinimum": 0, "maximum": 1}, "number", "above 0, at most 1"),
+        ({"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}, "list of 2 × text", ""),
+        ({"anyOf": [{"enum": ["auto"]}, {"type": "integer", "minimum": 1}]}, '`"auto"` or whole number', "at least 1"),
+        ({"type": "string", "unit": "m", "between": "1 m and 2 m"}, "quantity", "1 m and 2 m"),
+    ],
+)
+def test_a_schema_is_put_into_words(node, form, bounds):
+    assert schemas.form(node, {}) == form
+    assert schemas.bounds(node) == bounds
+
+
+def test_every_command_has_its_page_with_an_example(pages):
+    for command in COMMANDS:
+        page = pages[f"commands/colonnade-{command.name}.md"]
+        assert "## Options" in page
+        assert "130" in page
+        assert f"```sh\ncolonnade {command.name}" in page or command.name == "show"
+
+
+def test_a_default_is_written_and_its_absence_is_not():
+    text = commands.pages()["commands/colonnade-figure.md"]
+    assert "| `--width` | `single` `double` | `double` |" in text
+    assert "| `--list` | flag |  |" in text
+
+
+def test_every_stage_has_its_file(pages):
+    assert [name for name in STAGES if f"(file-{name})=" not in pages["files.md"]] == []
+    assert "| `rocking_angle` | `rad` |" in files.pages()["files.md"]
+
+
+def test_every_kind_of_finding_has_advice(monkeypatch):
+    monkeypatch.setitem(messages.ACTIONS[messages.NOTHING], "a kind that nothing makes", "Nothing.")
+    with pytest.raises(ValueError, match="a kind that nothing makes"):
+        messages.pages()
+
+
+def test_every_public_name_has_its_group(monkeypatch):
+    monkeypatch.setitem(library.GROUPS, "Pictures", ("plot",))
+    with pytest.raises(ValueError, match="animate"):
+        library.pages()
+
+
+def test_messages_are_read_from_the_sources(pages):
+    gain = [each for each in sources.findings() if each.kind == "gain"]
+    assert {each.severity for each in gain} == {"serious", "warning"}
+    assert any(each.text.startswith("channel … is … times") for each in gain)
+    assert "Unknown shape" not in pages["messages.md"]
+    assert "not one uniform" not in pages["errors/StageError.md"]
+    assert "A free vibration without a measured angle" in pages["errors/StageError.md"]
+
+
+def test_a_docstrings_bars_are_escaped_outside_of_examples():
+    lines = ["Largest |θ|/α.", ">>> a | b", "1 | 2", "", "Of |ω| too."]
+    library.keep_bars(None, None, None, None, None, lines)
+    assert lines == [r"Largest \|θ\|/α.", ">>> a | b", "1 | 2", "", r"Of \|ω\| too."]
+
+
+def test_a_bar_in_a_table_is_escaped():
+    assert table(("a",), [("|θ| in\ntwo lines",)]).splitlines()[2] == r"| \|θ\| in two lines |"
