@@ -155,7 +155,7 @@ def _lifted(time: Array, uplift: Array, block: Block, series: ArcSeries) -> Depa
 def _paused(time: Array, angle: Array, series: ArcSeries) -> Departure | None:
     noise = noise_level(angle)
     pauses, errors, limits = [], [], []
-    speed, duration = series.speed, series.duration
+    speed, duration, steps = series.speed, series.duration, np.diff(time)
     for index in range(1, series.number.size):
         if series.number[index] != series.number[index - 1] + 1:
             continue
@@ -164,7 +164,7 @@ def _paused(time: Array, angle: Array, series: ArcSeries) -> Departure | None:
         inside = slice(*np.searchsorted(time, middle))
         if low < NOISE_MARGIN * noise or inside.stop - inside.start < 8:
             continue
-        step = float(np.median(np.diff(time[inside])))
+        step = float(np.sort(steps[inside.start : inside.stop - 1])[(inside.stop - inside.start - 1) // 2])
         near = float((np.abs(angle[inside]) < low).sum()) * step
         # Between upright and `low` on either side the speed falls by little; both sides share the mean of the two.
         expected = sum(_passing(series, float(speed[one]), one, low) for one in (index - 1, index))

@@ -7,6 +7,7 @@ from math import exp, isfinite
 
 import numpy as np
 import scipy
+from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.identification.restitution.estimators.estimator import Estimator
@@ -166,7 +167,7 @@ class ScatteredHistory(Estimator[ScatteredFit]):
         transformed = SpectralModel(_linear(path, stretch, names))
         reduction = reduced(transformed.all_products(), _along_speed(path.decay))
         parts, best = solve(reduction.of_columns(np.arange(len(names) + 1)))
-        own, of_all = transformed.products_with(_own_columns(path, stretch), best.products.knee)
+        own, of_all = transformed.products_by_stretch(*_own_times(path, stretch), best.products.knee)
         if from_release and explained(best, own[:1, :1], of_all[:1]) < RELEASE_UNLIKELY:
             return self._fitted(record, replace(path, decay=without_first(path.decay)), from_release=False)
         probability = explained(best, own, of_all)
@@ -256,11 +257,11 @@ def _least(path: RockingPath) -> float:
     return float((LEAST_NOISE * path.decay.critical.min()) ** 2)
 
 
-def _own_columns(path: RockingPath, stretch: Stretch) -> Array:
-    """A time of its own for each arc, shape (n, count): what no e of an impact can bring about."""
+def _own_times(path: RockingPath, stretch: Stretch) -> tuple[Array, NDArray[np.int_]]:
+    """Derivative of the angle by a time of its own for each arc, which no e can bring about, and where arcs start."""
     angle, arc = path.decay.followed(stretch.time)
-    inside = (arc[:, None] == np.arange(path.decay.count)) & np.isfinite(path.residual(stretch))[:, None]
-    return np.asarray(inside * np.gradient(angle, stretch.time)[:, None])
+    _, starts = np.unique(arc, return_index=True)
+    return np.where(np.isfinite(path.residual(stretch)), np.gradient(angle, stretch.time), 0.0), starts
 
 
 def _along_speed(decay: Decay) -> Array | None:

@@ -121,9 +121,10 @@ class SpectralModel:
         duration = self.linear.values.size * self.linear.interval
         knees = np.geomspace(0.5 / duration, 0.15 / self.linear.interval, KNEES)
         edges, middle = self._bands
-        shapes = 1 + knees[:, None] / middle
+        # Without a knee: white noise.
+        shapes = 1 + np.append(0.0, knees)[:, None] / middle
         count = self._rows.shape[0]
-        sums, some = np.zeros((KNEES, count * count)), np.empty((AT_ONCE, count, count))
+        sums, some = np.zeros((1 + KNEES, count * count)), np.empty((AT_ONCE, count, count))
         for first in range(0, middle.size, AT_ONCE):
             bands = edges[first : first + AT_ONCE + 1]
             for product, (low, high) in zip(some, pairwise((2 * bands).tolist()), strict=False):
@@ -132,9 +133,17 @@ class SpectralModel:
             sums += (1 / shapes[:, first : first + AT_ONCE]) @ some[: bands.size - 1].reshape(bands.size - 1, -1)
         weight = np.add.reduceat(_shares(self._size)[: edges[-1]], edges[:-1])
         volumes = self._freedom * (np.log(shapes) @ weight) / weight.sum()
-        matrices = sums.reshape(KNEES, count, count)
-        coloured = [self._split(*each) for each in zip(knees.tolist(), matrices, volumes.tolist(), strict=True)]
-        return [self.white(), *coloured]
+        matrices = sums.reshape(1 + KNEES, count, count)
+        return [self._split(*each) for each in zip([0.0, *knees.tolist()], matrices, volumes.tolist(), strict=True)]
+
+    def products_by_stretch(self, values: Array, starts: NDArray[np.int_], knee: float) -> tuple[Array, Array]:
+        """As `products_with`, of values, shape (n,), cut into columns where stretches start, shape (j,)."""
+        if self._is_plain(knee):
+            return np.diag(np.add.reduceat(values**2, starts)), np.add.reduceat(self._rows * values, starts, axis=1).T
+        columns = np.zeros((values.size, starts.size))
+        number = np.searchsorted(starts, np.arange(values.size), side="right") - 1
+        columns[np.arange(values.size), number] = values
+        return self.products_with(columns, knee)
 
     def products_with(self, columns: Array, knee: float) -> tuple[Array, Array]:
         """Products of further columns, shape (n, j), with themselves, (j, j), and all others, (j, 1 + k + m)."""
@@ -192,7 +201,9 @@ class SpectralModel:
         from scipy.fft import rfft
 
         size = self._size
-        transforms = np.asarray(rfft(rows * np.sqrt(2.0 / size), n=size)).view(np.float64)
+        padded = np.zeros((rows.shape[0], size))
+        np.multiply(rows, np.sqrt(2.0 / size), out=padded[:, : rows.shape[1]])
+        transforms = np.asarray(rfft(padded, overwrite_x=True)).view(np.float64)
         alone = [0, 1] if size % 2 else [0, 1, -2, -1]
         transforms[:, alone] *= np.sqrt(0.5)
         return transforms[:, : 2 * self._power.size]
