@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +9,7 @@ from pathlib import Path
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.setup import FileOptions
 from colonnade.errors import ReadError, StoreError
-from colonnade.readers.irregular import irregular
+from colonnade.readers.hashing import sha256_of
 from colonnade.readers.registry import companions
 from colonnade.workflow.catalogue import Catalogue, Mark, mark_of
 
@@ -62,17 +61,6 @@ def expect_unchanged(folder: Path, raw: RawFiles) -> None:
             raise StoreError(
                 f"{name}: this file changed while it was being read. Is the recorder still writing? Run again later."
             )
-
-
-def sha256_of(path: Path) -> str | None:
-    """Hash a file; None if it is a pipe, a device or unreadable, which `ingest` reports."""
-    try:
-        if irregular(path):
-            return None
-        with path.open("rb") as stream:
-            return hashlib.file_digest(stream, "sha256").hexdigest()
-    except OSError:
-        return None
 
 
 def _name(campaign: Campaign, path: Path) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -12,6 +11,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.errors import ReadError
 from colonnade.readers.ground_motions.listed import Entry, LeftOut, inside
 from colonnade.readers.ground_motions.names import direction_of, named
+from colonnade.readers.hashing import sha256_of
 from colonnade.readers.irregular import irregular
 from colonnade.readers.motion import read_motions
 from colonnade.readers.refusal import unreachable
@@ -67,7 +67,7 @@ def components_of(entry: Entry, notes: list[str]) -> Iterator[Component]:
         column = int(entry.column) if entry.column.isdecimal() else entry.column or None
         motions = read_motions(path, unit=entry.unit, dt=entry.interval, column=column)
     notes += dict.fromkeys(str(each.message) for each in told)
-    files = tuple((each.name, _sha256(each)) for each in (path, *companions(path)))
+    files = tuple((each.name, _hashed(each)) for each in (path, *companions(path)))
     record, direction = named(path.name)
     if len(motions) > 1 and (entry.component or not all(direction_of(head)[0] for head in motions)):
         heads = ", ".join(f'"{head}"' for head in motions)
@@ -98,6 +98,8 @@ def _usable(motion: Motion, scale: float) -> Motion:
     return scaled
 
 
-def _sha256(path: Path) -> str:
-    with path.open("rb") as stream:
-        return hashlib.file_digest(stream, "sha256").hexdigest()
+def _hashed(path: Path) -> str:
+    digest = sha256_of(path)
+    if digest is None:
+        raise ReadError(f"{path.name}: this file cannot be read.")
+    return digest

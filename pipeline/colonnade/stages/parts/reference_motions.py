@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from colonnade.campaign import Campaign
 from colonnade.errors import ReadError
 from colonnade.findings import Finding, warning
-from colonnade.readers.irregular import irregular
+from colonnade.readers.hashing import sha256_of
 from colonnade.readers.registry import companions
 from colonnade.readers.strong_motion import el_centro
 from colonnade.signals.named_motion import Series
@@ -93,8 +93,6 @@ def _digest_now(path: Path) -> str:
         status = path.stat()
     except OSError:
         return ""
-    if irregular(path):
-        return ""
     return _digest_of(path, status.st_size, status.st_mtime_ns)
 
 
@@ -109,7 +107,4 @@ def _companions(path: Path, digest: str) -> tuple[Path, ...]:
 
 @functools.lru_cache(maxsize=64)
 def _digest_of(path: Path, size: int, changed: int) -> str:
-    try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()
-    except OSError:
-        return ""
+    return sha256_of(path) or ""

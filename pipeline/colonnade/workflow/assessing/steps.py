@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 from colonnade.campaign.assessing.assessment import Assessment
 from colonnade.errors import ReadError
 from colonnade.readers.ground_motions.record_set import files_of
+from colonnade.readers.hashing import sha256_of
 from colonnade.store.freshness import Recipe
 from colonnade.store.provenance import hash_of
 from colonnade.store.results import ResultId
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.execution.blocks import Spread
-from colonnade.workflow.raw_files import sha256_of
 from colonnade.workflow.steps import FORMATS, Graph, Step
 
 if TYPE_CHECKING:

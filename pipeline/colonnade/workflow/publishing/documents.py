@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from pathlib import Path
 
 from colonnade.campaign import Campaign, load
 from colonnade.errors import StoreError
+from colonnade.readers.hashing import sha256_of
 from colonnade.report import addresses, who_and_when
 from colonnade.report.interactive.state import UNWATCHED
 from colonnade.store import bundle, files, stamps
@@ -87,12 +87,8 @@ def _recipe(campaign: Campaign, layout: Layout, folder: Path) -> Recipe:
     every = addresses.addresses(campaign, [page for page in addresses.OPTIONAL if (folder / page).is_file()])
     pages = {page: stamps.key_of(folder / page) for found in every for page in found}
     shown = [campaign.title, campaign.campaign, who_and_when.of_campaign(campaign)]
-    pictures = {path.name: _hash(path) for pattern in SHOWN for path in sorted(folder.glob(pattern))}
+    pictures = {path.name: sha256_of(path) for pattern in SHOWN for path in sorted(folder.glob(pattern))}
     return Recipe("pdf", Catalogue(layout).code(MADE_BY), json.dumps(shown), pages | pictures)
-
-
-def _hash(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def _there(layout: Layout) -> Path:

@@ -13,6 +13,7 @@ from colonnade.campaign.syntax.rawpath import inside
 from colonnade.errors import ReadError
 from colonnade.findings import Finding, warning
 from colonnade.interruption import expect_none
+from colonnade.readers.hashing import sha256_of
 from colonnade.readers.photo import Pixels, read_photo
 from colonnade.report.photos import KIND, address_of
 from colonnade.store import files
@@ -96,7 +97,7 @@ def _source(campaign: Campaign, written: str) -> Path:
 
 def _bring_up_to_date(source: Path, target: Path, within: Path, catalogue: Catalogue, code: str) -> None:
     """Write a photo unless it is there, made from this file by this code; ReadError where it cannot be shown."""
-    known = catalogue.lookup("photos", target, _sha256)
+    known = catalogue.lookup("photos", target, sha256_of)
     made: list[bytes] = []
 
     def ask(path: Path) -> dict[str, str]:
@@ -116,7 +117,7 @@ def _bring_up_to_date(source: Path, target: Path, within: Path, catalogue: Catal
         raise ReadError(answer[1]["refusal"])
     if known is None or known[1] != answer[1]["sha256"]:
         files.write_bytes(target, made[0] if made else as_jpeg(read_photo(source, within=within)))
-        catalogue.lookup("photos", target, _sha256)
+        catalogue.lookup("photos", target, sha256_of)
 
 
 def as_jpeg(pixels: Pixels) -> bytes:
@@ -126,7 +127,3 @@ def as_jpeg(pixels: Pixels) -> bytes:
     written = BytesIO()
     Image.fromarray(pixels).save(written, "JPEG", quality=QUALITY, optimize=True)
     return written.getvalue()
-
-
-def _sha256(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
