@@ -73,7 +73,10 @@ def test_a_specimen_of_a_campaign_is_taken_at_its_scale(campaign, record, capsys
     assert invoke(asked) == 2
     assert '--peak "0.3 g"' in capsys.readouterr().err
     found = {}
-    for name, options in {"model": [], "real": ["--scale", "4", "--baseline", "linear"]}.items():
+    for name, options in {
+        "model": [],
+        "real": ["--scale", "4", "--restitution", "identified", "--baseline", "linear"],
+    }.items():
         assert invoke([*asked, "--peak", "0.1 g", *options]) == 0
         found[name] = json.loads(capsys.readouterr().out)
     model, real = found["model"], found["real"]
@@ -94,15 +97,18 @@ def test_a_specimen_of_a_campaign_is_taken_at_its_scale(campaign, record, capsys
         (["--pulse", "sine"], "The column is not known"),
         (["--pulse", "sine", "--specimen", "prism"], "there is no campaign here"),
         (["--pulse", "sine", *COLUMN, "--scale", "2"], "--scale is for a specimen"),
-        (["--pulse", "sine", *COLUMN, "--restitution", "2"], "--restitution 2: a number between 0 and 1"),
+        (
+            ["--pulse", "sine", *COLUMN, "--restitution", "2"],
+            "--restitution: 2.0 was found. A coefficient of",
+        ),
         (["--pulse", "sine", *COLUMN, "--restitution", "identified"], "e is identified of a specimen"),
         (["--pulse", "sine", *COLUMN, "--omega", "3", "1"], "--omega 3 1: two positive values in rising order"),
         (["--pulse", "sine", *COLUMN, "--points", "1"], "--points 1"),
         (["--pulse", "sine", *COLUMN, "--largest", "-1"], "largest is -1.0"),
         (["--pulse", "sine", *COLUMN, "--out", "x.txt"], "unknown ending"),
         (["--pulse", "sine", "--critical-angle", "2 rad", "--p", "2 rad/s"], "The column cannot be"),
-        (["--pulse", "sine", "--critical-angle", "0.2", "--p", "2 rad/s"], "--critical-angle 0.2"),
-        (["--pulse", "sine", "--critical-angle", "0.2 rad", "--p", "2 m"], "--p 2 m"),
+        (["--pulse", "sine", "--critical-angle", "0.2", "--p", "2 rad/s"], "--critical-angle: "),
+        (["--pulse", "sine", "--critical-angle", "0.2 rad", "--p", "2 m"], "--p: "),
         (["--motion", "nowhere.csv", *COLUMN], "there is no such file and no campaign"),
         (["--motion", "record.csv", *COLUMN, "--unit", "g", "--baseline", "cubic"], "--baseline Unknown baseline"),
         (["--motion", "record.csv", *COLUMN, "--unit", "g", "--peak", "strong"], "--peak strong"),
@@ -123,4 +129,12 @@ def test_a_file_without_a_unit_is_named(record, capsys):
 
 def test_a_scale_that_is_none_is_refused(assessed, capsys):
     assert invoke(["spectrum", str(assessed), "--pulse", "ricker", "--scale", "-2"]) == 2
-    assert "--scale -2: a positive factor was expected" in capsys.readouterr().err
+    assert "--scale: -2.0 was found" in capsys.readouterr().err
+
+
+def test_the_e_of_a_real_column_has_to_be_said(campaign, record, capsys):
+    asked = ["spectrum", str(campaign), "--motion", str(record), "--unit", "g", "--points", "2", "--scale", "20"]
+    assert invoke(asked) == 2
+    assert "The e of the real column is not given. Add --restitution" in capsys.readouterr().err
+    assert invoke([*asked, "--restitution", "0.9"]) == 0
+    assert "0.9 (given)" in capsys.readouterr().out

@@ -13,8 +13,8 @@ from colonnade.cli.common.options import (
     CAMPAIGN,
     LateChoice,
     campaign_argument,
+    column_options,
     json_option,
-    one_specimen_option,
     results_option,
     scheduler_option,
     workers_option,
@@ -46,14 +46,10 @@ def _plane_models() -> Iterable[str]:
 )
 @campaign_argument
 @click.option("--name", multiple=True, metavar="NAME", help="Only this assessment of the campaign; may be repeated.")
-@one_specimen_option
+@column_options
 @click.option(
     "--records", type=click.Path(path_type=Path), metavar="DIR|FILE", help="Ground motions: a folder or a list."
 )
-@click.option("--scale", type=float, metavar="FACTOR", help="How many times larger the column is.")
-@click.option("--critical-angle", metavar="ANGLE", help='Of the column, such as "0.18 rad".')
-@click.option("--p", metavar="FREQUENCY", help='Frequency parameter of the column, such as "1.26 rad/s".')
-@click.option("--restitution", metavar="E", help="Its e: a number, rigid-body, or identified.")
 @click.option("--restitution-range", type=float, nargs=2, metavar="LOW HIGH", help="Limits between which e is drawn.")
 @click.option("--friction", type=float, metavar="MU", help="Friction between the column and what it stands on.")
 @click.option("--measure", metavar="ID", help="Measure of intensity over which the records are scaled, such as pgv.")
@@ -112,34 +108,22 @@ def _assessed(
 ) -> list[Assessed]:
     from colonnade.campaign import load
     from colonnade.store.layout import Layout
-    from colonnade.workflow.assessing.fragility import assess_campaign, assess_column, assess_own
+    from colonnade.workflow.assessing.fragility import assess_campaign, assess_own
+    from colonnade.workflow.real_column import AskedColumn
 
-    specimen = options.pop("specimen")
-    options = {key: list(value) if isinstance(value, tuple) else value for key, value in options.items()}
-    asked = {key: _number(key, value) for key, value in options.items() if value not in (None, [])}
-    if specimen is None and not names and {"critical_angle", "p"} <= asked.keys():
-        from colonnade.workflow.spectra.asked import frequency_of, quantity_of
-
-        angle = quantity_of("--critical-angle", asked.pop("critical_angle"), "angle")
-        return [assess_column(angle, frequency_of(asked.pop("p")), asked, where)]
+    column = AskedColumn.of(options)
+    given = {key: value for key, value in options.items() if value is not None and value != ()}
+    asked = {key: list(value) if isinstance(value, tuple) else value for key, value in given.items()}
+    if not names and not column.needs_specimen:
+        return [assess_own(None, None, None, column, asked, where)]
     loaded = load(path)
     layout = Layout.of(loaded.folder, results)
-    if specimen is None and not asked:
+    if not asked:
         return assess_campaign(loaded, layout, names, where)
     if len(names) > 1:
         raise click.UsageError("Options are for one assessment. Name one.")
     base = names[0] if names else next(iter(loaded.assessments)) if len(loaded.assessments) == 1 else None
-    return [assess_own(loaded, layout, base, specimen, asked, where)]
-
-
-def _number(key: str, value: Any) -> Any:
-    """Take an e that is a number as one."""
-    if key != "restitution":
-        return value
-    try:
-        return float(value)
-    except ValueError:
-        return value
+    return [assess_own(loaded, layout, base, column, asked, where)]
 
 
 def _drawn(assessed: Assessed, out: Path | None, data: Path | None) -> list[Path]:

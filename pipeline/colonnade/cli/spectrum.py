@@ -15,15 +15,15 @@ from colonnade.cli.common.options import (
     CAMPAIGN,
     LateChoice,
     campaign_argument,
+    column_options,
     json_option,
-    one_specimen_option,
     results_option,
 )
 
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign
     from colonnade.store.layout import Layout
-    from colonnade.workflow.spectra.asked import AskedColumn
+    from colonnade.workflow.real_column import AskedColumn
     from colonnade.workflow.spectra.spectrum import Overturning, Rocking
 
 OF_MOTION = ("unit", "interval", "column", "peak", "baseline", "drift", "slenderness", "periods")
@@ -55,22 +55,16 @@ def _plane_models() -> Iterable[str]:
     with the intensity measures of the motion. --pulse gives the overturning spectrum of a pulse: the amplitudes from
     which it overturns the column, and up to which it may not, over frequency.
 
-    The column is a specimen of CAMPAIGN, or is given by --critical-angle and --p; then no campaign is needed.
+    The column is a specimen of CAMPAIGN, or is given by --critical-angle and --p; then no campaign is needed. A
+    specimen has the e that its predictions use. Of the real column, or with another α or p, say it: by --restitution
+    or [prototype.ID].
     {CAMPAIGN}
     """,
 )
 @campaign_argument
 @click.option("--motion", metavar="FILE|NAME", help="A file, a test that recorded it, or one of [motions].")
 @click.option("--pulse", type=LateChoice(_pulses), help="Kind of pulse.")
-@one_specimen_option
-@click.option("--scale", type=float, default=1.0, help="How many times larger the column is.", metavar="FACTOR")
-@click.option("--critical-angle", metavar="ANGLE", help='Of the column, such as "0.18 rad".')
-@click.option("--p", metavar="FREQUENCY", help='Frequency parameter of the column, such as "1.26 rad/s".')
-@click.option(
-    "--restitution",
-    metavar="E",
-    help="A value, rigid-body or identified; by default identified for a specimen, else rigid-body.",
-)
+@column_options
 @click.option(
     "--model", type=LateChoice(_plane_models), default="nonlinear", show_default=True, help="Model of rocking."
 )
@@ -111,7 +105,8 @@ def spectrum(campaign: Path, motion: str | None, pulse: str | None, results: Pat
     _refuse(OF_MOTION if pulse else OF_PULSE, "--motion" if pulse else "--pulse")
     if pulse != "mavroeidis-papageorgiou":
         _refuse(SHAPE, "--pulse mavroeidis-papageorgiou")
-    from colonnade.workflow.spectra.asked import AskedColumn, AskedMotion
+    from colonnade.workflow.real_column import AskedColumn
+    from colonnade.workflow.spectra.asked import AskedMotion
 
     out, data = options.pop("out"), options.pop("data")
     if out is not None or data is not None:
@@ -119,7 +114,7 @@ def spectrum(campaign: Path, motion: str | None, pulse: str | None, results: Pat
 
         expect_places(out, data)
     known, layout = _campaign(campaign, results)
-    column = AskedColumn(**_taken(options, "specimen", "scale", "critical_angle", "p", "restitution"))
+    column = AskedColumn.of(options)
     common = {"points": options["points"], "model": options["model"]}
     if motion is not None:
         from colonnade.workflow.spectra.spectrum import rocking_of

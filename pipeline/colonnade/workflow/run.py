@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from colonnade.campaign import Campaign, load
+from colonnade.campaign.forms.summary import Summary
 from colonnade.errors import CampaignError, nearest
 from colonnade.store.forecasts import read_forecasts
 from colonnade.store.layout import Layout
@@ -78,10 +79,9 @@ def run(
     StoreError
         If another run is in progress, or results cannot be written.
     """
-    stages = {"until": until, "start_from": start_from}
     check_run(
         campaign,
-        stages=stages,
+        stages={"until": until, "start_from": start_from},
         only=only,
         workers=workers,
         scheduler=scheduler,
@@ -91,11 +91,7 @@ def run(
         progress=progress,
     )
     loaded = load(Path(campaign)).awaiting() if awaiting else load(Path(campaign))
-    _expect_stage("start_from", start_from)
-    _expect_stage("until", until)
-    last = until or "report"
-    if start_from is not None and RUN_STAGES.index(start_from) > RUN_STAGES.index(last):
-        raise CampaignError(f"from {start_from} until {last}: the last stage comes before the first.")
+    last = _last_stage(start_from, until)
     tests = _chosen(loaded, (only,) if isinstance(only, str) else only)
     layout, notices = Layout.of(loaded.folder, results), list[str]()
     with only_run(layout) as run_id:
@@ -110,40 +106,61 @@ def run(
         graph = Graph(loaded, layout, catalogue)
         walk = Walk(graph, run_id, raw, start_from, last, workers, scheduler, progress, notices.append)
         walk.through(tests)
-        outdated = (walk.stale() - walk.failed_tests.keys()) | (loaded.tests.keys() - set(walk.included))
-        forecasts = read_forecasts(layout)
-        loaded = replace(loaded, warnings=(*loaded.warnings, *map(finding_of, forecasts.refused)))
-        chosen = choose(loaded, forecasts, raw)
-        if last == "report":
-            walk.score(chosen.scored, outdated)
-            if not awaiting:  # while tests arrive, the answers about real columns wait for the last of them
-                walk.assess(loaded.assessments)
-        left_out = outdated | walk.failed_tests.keys()
-        foreseen = foreseen_of(layout, forecasts, chosen, left_out)
-        summary = write_summary(
-            loaded,
-            layout,
-            catalogue,
-            outdated=outdated,
-            failed=walk.failed_tests,
-            failed_assessments=walk.failed_assessments,
-            foreseen=foreseen,
-            workers=workers,
-        )
+        loaded, outdated, summary = _summed_up(walk, awaiting=awaiting)
         report = None
         if last == "report":
-            walk.map(summary)
-            loaded = with_photos(loaded, layout, catalogue)
-            advice = advice_shown(loaded, layout, catalogue, summary, workers)
-            report = update_report(loaded, layout, catalogue, outdated, summary.forecasts, advice, workers)
+            loaded, report = _reported(walk, loaded, outdated, summary)
         catalogue.save(is_whole=last == "report")
     concerning = {name: loaded.concerning(name) for name in loaded.tests}
     return RunResult(tuple(walk.stages), layout.summary_json, report, loaded.warnings, concerning, tuple(notices))
 
 
-def _expect_stage(name: str, stage: str | None) -> None:
-    if stage is not None and stage not in RUN_STAGES:
-        raise CampaignError(f'{name}: unknown stage "{stage}".{nearest(stage, RUN_STAGES)}')
+def _summed_up(walk: Walk, *, awaiting: bool) -> tuple[Campaign, set[str], Summary]:
+    """
+    Write the summary; before it, if the run goes to the report, score forecasts and assess real columns.
+
+    Return the campaign with what is wrong with forecasts, and the tests whose results are out of date.
+    """
+    campaign, layout = walk.graph.campaign, walk.graph.layout
+    outdated = (walk.stale() - walk.failed_tests.keys()) | (campaign.tests.keys() - set(walk.included))
+    forecasts = read_forecasts(layout)
+    campaign = replace(campaign, warnings=(*campaign.warnings, *map(finding_of, forecasts.refused)))
+    chosen = choose(campaign, forecasts, walk.raw)
+    if walk.until == "report":
+        walk.score(chosen.scored, outdated)
+        if not awaiting:  # while tests arrive, the answers about real columns wait for the last of them
+            walk.assess(campaign.assessments)
+    summary = write_summary(
+        campaign,
+        layout,
+        walk.graph.catalogue,
+        outdated=outdated,
+        failed=walk.failed_tests,
+        outdated_assessments=walk.stale_assessments(),
+        failed_assessments=walk.failed_assessments,
+        foreseen=foreseen_of(layout, forecasts, chosen, outdated | walk.failed_tests.keys()),
+        workers=walk.workers,
+    )
+    return campaign, outdated, summary
+
+
+def _reported(walk: Walk, campaign: Campaign, outdated: set[str], summary: Summary) -> tuple[Campaign, Path]:
+    """Bring maps, photos, advice and pages up to date; return the campaign with what is wrong with photos."""
+    layout, catalogue = walk.graph.layout, walk.graph.catalogue
+    walk.map(summary)
+    campaign = with_photos(campaign, layout, catalogue)
+    advice = advice_shown(campaign, layout, catalogue, summary, walk.workers)
+    return campaign, update_report(campaign, layout, catalogue, outdated, summary.forecasts, advice, walk.workers)
+
+
+def _last_stage(start_from: str | None, until: str | None) -> str:
+    for name, stage in {"start_from": start_from, "until": until}.items():
+        if stage is not None and stage not in RUN_STAGES:
+            raise CampaignError(f'{name}: unknown stage "{stage}".{nearest(stage, RUN_STAGES)}')
+    last = until or "report"
+    if start_from is not None and RUN_STAGES.index(start_from) > RUN_STAGES.index(last):
+        raise CampaignError(f"from {start_from} until {last}: the last stage comes before the first.")
+    return last
 
 
 def _chosen(campaign: Campaign, only: Sequence[str]) -> list[str]:

@@ -35,6 +35,7 @@ def write_summary(
     *,
     outdated: Collection[str] = (),
     failed: Mapping[str, str] | None = None,
+    outdated_assessments: Collection[str] = (),
     failed_assessments: Mapping[str, str] | None = None,
     foreseen: Foreseen = NOTHING_FORESEEN,
     workers: int | None = 1,
@@ -52,8 +53,10 @@ def write_summary(
         Tests whose stored results are out of date; they are reported as pending.
     failed : mapping of str to str, optional
         Why tests failed in this run, whether stored or not.
+    outdated_assessments : collection of str, optional
+        Assessments whose stored results are out of date; they are left out, as those that were never made.
     failed_assessments : mapping of str to str, optional
-        The same of assessments.
+        Why assessments failed in this run, whether stored or not.
     foreseen : Foreseen, optional
         What was forecast.
     workers : int, optional
@@ -76,18 +79,20 @@ def write_summary(
         specimens={name: _of_specimen(campaign, layout, catalogue, name) for name in campaign.specimens},
         tests={name: each.model_copy(update={"forecast": foreseen.tests.get(name)}) for name, each in records.items()},
         forecasts=foreseen.together,
-        assessments=_assessments(campaign, layout, failed_assessments or {}),
+        assessments=_assessments(campaign, layout, outdated_assessments, failed_assessments or {}),
     )
     files.write_text(layout.summary_json, summary.text())
     files.write_text(layout.summary_csv, as_csv(summary))
     return summary
 
 
-def _assessments(campaign: Campaign, layout: Layout, failed: Mapping[str, str]) -> dict[str, AssessmentSummary]:
+def _assessments(
+    campaign: Campaign, layout: Layout, outdated: Collection[str], failed: Mapping[str, str]
+) -> dict[str, AssessmentSummary]:
     """Return the records of assessments that were made or failed."""
     found = {}
     for name, asked in campaign.assessments.items():
-        stored = stored_attributes(layout.stage(name, "assessment"))
+        stored = {} if name in outdated else stored_attributes(layout.stage(name, "assessment"))
         if name in failed or stored.get("status") == "failed":
             reason = failed.get(name) or str(stored["reason"])
             found[name] = AssessmentSummary(

@@ -169,11 +169,8 @@ class Walk:
 
     def assess(self, assessments: Mapping[str, Assessment], tell: Counted | None = None) -> None:
         """Bring assessments up to date, their histories in blocks on all processes."""
-        from colonnade.workflow.assessing.steps import assessing
-
-        spread = partial(in_blocks, workers=self.workers, scheduler=self.scheduler, progress=tell)
         for name, asked in assessments.items():
-            step = assessing(self.graph, name, asked, spread)
+            step = self._assessing(name, asked, tell)
             if reason := self.failed_specimens.get(asked.specimen):
                 files.remove(step.path)
                 self.failed_assessments[name] = f"specimen {asked.specimen}: {reason}"
@@ -181,6 +178,18 @@ class Walk:
             chain = self.chain([step])
             self._note(if_up_to_date(chain, self.graph.catalogue.attributes) or bring_up_to_date(chain))
             forget(self.graph.layout.blocks(step.result))
+
+    def stale_assessments(self) -> set[str]:
+        """Names of the assessments whose result is missing or outdated."""
+        look = self.graph.catalogue.attributes
+        steps = {name: self._assessing(name, asked) for name, asked in self._campaign.assessments.items()}
+        return {name for name, step in steps.items() if if_up_to_date(self.chain([step], redo=False), look) is None}
+
+    def _assessing(self, name: str, asked: Assessment, tell: Counted | None = None) -> Step:
+        from colonnade.workflow.assessing.steps import assessing
+
+        spread = partial(in_blocks, workers=self.workers, scheduler=self.scheduler, progress=tell)
+        return assessing(self.graph, name, asked, spread)
 
     def score(self, forecasts: Mapping[str, Known], outdated: Collection[str]) -> None:
         """

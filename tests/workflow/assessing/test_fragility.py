@@ -10,7 +10,8 @@ from colonnade.campaign import load
 from colonnade.campaign.assessing.prototype import Prototype
 from colonnade.errors import CampaignError
 from colonnade.store.layout import Layout
-from colonnade.workflow.assessing.fragility import Where, assess_campaign, assess_column, assess_own
+from colonnade.workflow.assessing.fragility import Where, assess_campaign, assess_own
+from colonnade.workflow.real_column import AskedColumn
 
 HERE = Where(workers=1)
 
@@ -24,8 +25,12 @@ RANGED = Prototype.model_validate(
 )
 
 
-def own(folder, base="site", specimen=None, **options):
-    return assess_own(load(folder), Layout(folder), base, specimen, options, HERE)
+def own(folder, base="site", **options):
+    return assess_own(load(folder), Layout(folder), base, AskedColumn.of(options), options, HERE)
+
+
+def without_campaign(**options):
+    return assess_own(None, None, None, AskedColumn.of(options), options, HERE)
 
 
 def test_options_replace_keys_and_store_nothing(assessed):
@@ -51,7 +56,7 @@ def test_a_column_without_a_campaign_is_the_same_column(assessed):
         "measures": ["pga", "pgv"],
         "levels": ["0.5 m/s", "1 m/s", "1.5 m/s", "2.5 m/s", "4 m/s"],
     }
-    alone = assess_column(block.critical_angle, block.p / 20**0.5, options, HERE)
+    alone = without_campaign(critical_angle=f"{block.critical_angle} rad", p=f"{block.p / 20**0.5} rad/s", **options)
     same = own(assessed, restitution=0.9, restitution_range=[0.85, 0.95])
     assert alone.record.median.value == pytest.approx(same.record.median.value, rel=1e-6)
 
@@ -67,8 +72,8 @@ def test_another_measure_leaves_the_hazard_of_the_old_one(assessed):
     [
         ({"base": "sight"}, 'no assessment "sight"'),
         ({"specimen": "prsm"}, 'no specimen "prsm"'),
-        ({"base": None}, "--specimen ID"),
-        ({"base": None, "specimen": "prism"}, "--records"),
+        ({"base": None, "restitution": 0.9}, "--records"),
+        ({"base": None, "specimen": "prism", "restitution": 0.9}, "--records"),
         ({"draws": 0}, "--draws: "),
         ({"restitution": 1.5}, "--restitution: "),
     ],
@@ -92,7 +97,8 @@ def test_assessments_of_the_campaign_are_brought_up_to_date(assessed_copy):
 def test_limits_of_another_value_do_not_hold_for_the_one_that_is_asked(assessed):
     campaign = replace(load(assessed), prototype={"prism": RANGED})
     levels = {"levels": ["1 m/s", "2 m/s"], "draws": 2}
-    found = assess_own(campaign, Layout(assessed), "site", None, {"critical_angle": "0.25 rad", **levels}, HERE)
+    column = AskedColumn.of({"critical_angle": "0.25 rad"})
+    found = assess_own(campaign, Layout(assessed), "site", column, levels, HERE)
     assert set(found.result["drawn_critical_angle"].to_numpy().ravel()) == {0.25}
     assert found.record.friction_range == (0.5, 0.7)
 
@@ -102,17 +108,3 @@ def test_a_hazard_replaces_that_of_the_campaign(assessed, tmp_path):
     hazard.write_text("pgv [m/s], rate [1/year]\n0.05,0.04\n0.3,0.004\n3,6e-6\n", encoding="utf-8")
     same, twice = own(assessed), own(assessed, hazard=hazard)
     assert twice.record.annual_rate.value == pytest.approx(2 * same.record.annual_rate.value)
-
-
-@pytest.mark.parametrize(
-    ("angle", "p", "options", "words"),
-    [
-        (2.0, 1.0, {}, "The column cannot be"),
-        (0.2, 1.0, {"scale": 20.0}, "--scale is for a specimen"),
-        (0.2, 1.0, {"restitution": "identified"}, "e is identified of a specimen"),
-    ],
-)
-def test_a_column_that_cannot_be_is_refused(assessed, angle, p, options, words):
-    with pytest.raises(CampaignError) as refused:
-        assess_column(angle, p, {"records": assessed / "records", **options}, HERE)
-    assert words in str(refused.value)

@@ -45,6 +45,22 @@ def test_only_what_changed_makes_it_again(assessed_copy):
     assert not list(Layout(assessed_copy).processed.glob("assessments/.*"))
 
 
+def test_an_answer_that_is_out_of_date_is_not_in_the_summary(assessed_copy):
+    def told():
+        return json.loads(Layout(assessed_copy).summary_json.read_text(encoding="utf-8"))["assessments"]
+
+    before = told()
+    run(assessed_copy, until="compare", workers=1)
+    assert told() == before
+    campaign_file = assessed_copy / "campaign.toml"
+    text = campaign_file.read_text(encoding="utf-8")
+    campaign_file.write_text(text.replace("[0.85, 0.95]", "[0.86, 0.95]"), encoding="utf-8")
+    run(assessed_copy, until="compare", workers=1)
+    assert told() == {}
+    run(assessed_copy, workers=1)
+    assert told()["site"]["restitution"]["low"] == 0.86
+
+
 def test_a_failure_is_told_and_stops_nothing(assessed_copy):
     (assessed_copy / "hazard.csv").write_text("pga [g], rate [1/year]\n0.1,0.01\n0.5,0.001\n", encoding="utf-8")
     result = run(assessed_copy, workers=1)

@@ -67,6 +67,26 @@ one_specimen_option = click.option(
     "--specimen", metavar="ID", help="The specimen; needed if there are several and nothing else names it."
 )
 
+
+def column_options(command: Command) -> Command:
+    """Add the options that say which column is asked about; `workflow.real_column` reads them."""
+    options = (
+        one_specimen_option,
+        click.option("--scale", type=float, metavar="FACTOR", help="How many times larger the column is."),
+        click.option("--critical-angle", metavar="ANGLE", help='Of the column, such as "0.18 rad".'),
+        click.option("--p", metavar="FREQUENCY", help='Frequency parameter of the column, such as "1.26 rad/s".'),
+        click.option(
+            "--restitution",
+            metavar="E",
+            help="Its e: a number, rigid-body, or identified for that of the model. Without a specimen rigid-body if "
+            "it is not given.",
+        ),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
 json_option = click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
 
 workers_option = click.option(

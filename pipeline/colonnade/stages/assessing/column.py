@@ -43,7 +43,7 @@ def real_column(inputs: ColumnInputs, pooled: xr.Dataset) -> tuple[Prototype, st
         Of its e: "given", "identified" or "rigid-body".
     """
     given = inputs.prototype
-    block = _enlarged(inputs.block, inputs.scale)
+    block = inputs.block if inputs.scale == 1.0 else _enlarged(inputs.block, inputs.scale)
     factors = (
         (1.0 if given.critical_angle is None else given.critical_angle / block.critical_angle),
         (1.0 if given.p is None else given.p / block.p),

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from math import pi, sqrt
 from pathlib import Path
 
 from colonnade import units
@@ -13,38 +11,11 @@ from colonnade.assessment.intensity.ground import Ground
 from colonnade.campaign import Campaign
 from colonnade.campaign.syntax.bounds import BETWEEN, outside
 from colonnade.dynamics.block import Block, pair
-from colonnade.dynamics.ensembles.uncertainty import member_block
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.spectra.spectrum import rectangular
-from colonnade.errors import CampaignError, UnitError, nearest
+from colonnade.errors import CampaignError, UnitError
+from colonnade.stages.assessing.column import real_column
 from colonnade.store.layout import Layout
-
-IDENTIFIED, RIGID_BODY = "identified", "rigid-body"
-"""Words for e in place of its value."""
-
-
-@dataclass(frozen=True)
-class AskedColumn:
-    """
-    What says which column.
-
-    Attributes
-    ----------
-    specimen : str or None
-        Id; the only one of a campaign if neither it nor α and p are given.
-    scale : float
-        How many times larger than the specimen it is.
-    critical_angle, p : str or None
-        With their units; in place of those of the specimen.
-    restitution : str or None
-        A value, "rigid-body" or "identified"; by default the latter for a specimen, else the former.
-    """
-
-    specimen: str | None = None
-    scale: float = 1.0
-    critical_angle: str | None = None
-    p: str | None = None
-    restitution: str | None = None
+from colonnade.workflow.real_column import AskedColumn, find_column
 
 
 @dataclass(frozen=True)
@@ -97,87 +68,24 @@ class AskedMotion:
 
 def column_of(asked: AskedColumn, campaign: Campaign | None, layout: Layout | None) -> Column:
     """
-    Make the column that is asked for.
+    Make the column that is asked for; a specimen stands for itself unless options make it another column.
 
     Raises
     ------
     CampaignError
         If it is not said, or an option is out of its range.
     """
-    alpha = _quantity("--critical-angle", asked.critical_angle, "angle")
-    frequency = None if asked.p is None else frequency_of(asked.p)
-    if campaign is None or layout is None or (asked.specimen is None and alpha is not None and frequency is not None):
-        return _without_specimen(asked, alpha, frequency, has_campaign=campaign is not None)
-    name = _specimen(campaign, asked.specimen)
-    if expected := outside(asked.scale, BETWEEN["length"]):
-        raise CampaignError(f"--scale {asked.scale:g}: {expected}")
-    model = campaign.specimens[name].block(campaign.gravity)
-    if not asked.scale > 0.0:
-        raise CampaignError(f"--scale {asked.scale:g}: a positive factor was expected.")
-    slenderness = 1.0 if alpha is None else alpha / model.critical_angle
-    size = 1.0 / sqrt(asked.scale) if frequency is None else frequency / model.p
-    block = _sound(lambda: member_block(model, slenderness, size))
-    words = name if asked.scale == 1.0 else f"{name}, {asked.scale:g} times larger"
-    given = asked.restitution or IDENTIFIED
-    if given == IDENTIFIED:
-        from colonnade.workflow.maps.plans import restitution_of
-
-        e, source = restitution_of(campaign, layout, name)
-        return Column(words, block, pair(e), source)
-    return Column(words, block, *_restitution(given, block))
-
-
-def _without_specimen(
-    asked: AskedColumn, alpha: float | None, frequency: float | None, *, has_campaign: bool
-) -> Column:
-    if asked.specimen is not None:
-        raise CampaignError(
-            f"--specimen {asked.specimen}: there is no campaign here. Give CAMPAIGN, or --critical-angle and --p."
-        )
-    if alpha is None or frequency is None:
-        raise CampaignError(
-            'The column is not known. Give --critical-angle "0.2 rad" and --p "2 rad/s", or a CAMPAIGN with --specimen.'
-        )
-    if asked.scale != 1.0:
-        raise CampaignError("--scale is for a specimen. With --critical-angle and --p give those of the real column.")
-    block = _sound(lambda: rectangular(alpha, 2 * pi / frequency))
-    given = asked.restitution or RIGID_BODY
-    if given == IDENTIFIED:
-        where = "name it with --specimen" if has_campaign else "give CAMPAIGN and --specimen"
-        raise CampaignError(f"--restitution identified: e is identified of a specimen; {where}.")
-    return Column(f"α = {alpha:.4g} rad, p = {frequency:.4g} rad/s", block, *_restitution(given, block))
-
-
-def _sound(make: Callable[[], Block]) -> Block:
+    found = find_column(asked, campaign, layout)
     try:
-        return make()
+        column, source = real_column(found.inputs, found.pooled)
     except ValueError as error:
         raise CampaignError(f"The column cannot be: {error}.") from None
-
-
-def _restitution(given: str, block: Block) -> tuple[tuple[float, float], str]:
-    if given == RIGID_BODY:
-        return pair(block.restitution), RIGID_BODY
-    try:
-        value = float(given)
-    except ValueError:
-        value = -1.0
-    if not 0.0 <= value <= 1.0:
-        raise CampaignError(
-            f'--restitution {given}: a number between 0 and 1, "{RIGID_BODY}" or "{IDENTIFIED}" was expected.'
-        )
-    return pair(value), "given"
-
-
-def _specimen(campaign: Campaign, name: str | None) -> str:
-    known = list(campaign.specimens)
-    if name is None and len(known) == 1:
-        return known[0]
-    if name is None:
-        raise CampaignError(f"The campaign has several specimens. Name one with --specimen.{nearest('', known)}")
-    if name not in known:
-        raise CampaignError(f'{campaign.path.name} has no specimen "{name}".{nearest(name, known)}')
-    return name
+    block, scale = column.block, found.inputs.scale
+    if found.specimen is None:
+        name = f"α = {block.critical_angle:.4g} rad, p = {block.p:.4g} rad/s"
+    else:
+        name = found.specimen if scale == 1.0 else f"{found.specimen}, {scale:g} times larger"
+    return Column(name, block, pair(column.restitution), source)
 
 
 def motion_of(asked: AskedMotion, campaign: Campaign | None, layout: Layout | None) -> tuple[Motion, str]:
@@ -250,22 +158,4 @@ def quantity_of(option: str, given: str, dimension: str) -> float:
         raise CampaignError(f"{option} {given}: {expected}")
     if not value > 0.0:
         raise CampaignError(f"{option} {given}: a positive {dimension} was expected.")
-    return value
-
-
-def frequency_of(given: str) -> float:
-    """
-    Read p, rad/s.
-
-    Raises
-    ------
-    CampaignError
-        If it is no positive angular frequency.
-    """
-    try:
-        value = units.to_si(given, "angular_velocity")
-    except UnitError as error:
-        raise CampaignError(f"--p {given}: {error}") from None
-    if not BETWEEN["frequency"][0] <= value <= BETWEEN["frequency"][1]:
-        raise CampaignError(f'--p {given}: a positive angular frequency was expected, such as "2 rad/s".')
     return value

@@ -23,7 +23,8 @@ from colonnade.dynamics.spectra.overturning import OverturningSpectrum, overturn
 from colonnade.dynamics.spectra.spectrum import RockingSpectrum, rocking_spectrum
 from colonnade.errors import CampaignError
 from colonnade.store.layout import Layout
-from colonnade.workflow.spectra.asked import AskedColumn, AskedMotion, Column, column_of, motion_of, quantity_of
+from colonnade.workflow.real_column import AskedColumn
+from colonnade.workflow.spectra.asked import AskedMotion, Column, column_of, motion_of, quantity_of
 
 if TYPE_CHECKING:
     from colonnade.figures.files.output import Picture

@@ -1,0 +1,212 @@
+"""The column that a command asks about: a specimen, the real column of one, or one given by α and p."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import pi
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from pydantic import ValidationError
+
+from colonnade.campaign import Campaign
+from colonnade.campaign.assessing.prototype import Prototype
+from colonnade.campaign.syntax.fields import Scale
+from colonnade.campaign.syntax.table import Table
+from colonnade.dynamics.spectra.spectrum import rectangular
+from colonnade.errors import CampaignError, nearest
+from colonnade.stages.assessing.column import ColumnInputs
+from colonnade.store.layout import Layout
+from colonnade.workflow.pooling import restitution_taken
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Written = TypeVar("Written", bound=Table)
+
+IDENTIFIED, RIGID_BODY = "identified", "rigid-body"
+"""Words for e in place of its value."""
+
+
+@dataclass(frozen=True)
+class AskedColumn:
+    """
+    What says which column.
+
+    Attributes
+    ----------
+    specimen : str or None
+        Id; the only one of a campaign if neither it nor α and p are given.
+    scale : float or None
+        How many times larger than the specimen it is.
+    properties : dict
+        Keys of [prototype.<specimen>], as in a campaign file, that replace what the campaign says.
+    """
+
+    specimen: str | None = None
+    scale: float | None = None
+    properties: Mapping[str, Any] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, options: Mapping[str, Any]) -> AskedColumn:
+        """Pick from the options of a command those that are about the column; None and () are not given."""
+        given = {key: value for key, value in options.items() if value is not None and value != ()}
+        properties = {key: _with_number(key, given[key]) for key in Prototype.model_fields if key in given}
+        return cls(given.get("specimen"), given.get("scale"), properties)
+
+    @property
+    def needs_specimen(self) -> bool:
+        """Whether it is not said by α and p alone."""
+        return self.specimen is not None or not {"critical_angle", "p"} <= self.properties.keys()
+
+
+@dataclass(frozen=True)
+class FoundColumn:
+    """
+    A column with all that its properties follow from, for `stages.assessing.column.real_column`.
+
+    Attributes
+    ----------
+    specimen : str or None
+        Id; None of a column given by α and p.
+    inputs : ColumnInputs
+    pooled : xr.Dataset
+        The e of the model, as of `stages.specimen`.
+    """
+
+    specimen: str | None
+    inputs: ColumnInputs
+    pooled: xr.Dataset
+
+
+def find_column(
+    asked: AskedColumn, campaign: Campaign | None, layout: Layout | None, *, is_real: bool = False
+) -> FoundColumn:
+    """
+    Find the column that is asked about.
+
+    Parameters
+    ----------
+    asked : AskedColumn
+    campaign, layout : optional
+        None without a campaign.
+    is_real : bool, optional
+        A specimen stands for its real column, at the scale of the campaign file if none is given. Else it stands for
+        itself, with the e of its predictions, unless a scale, α or p make it another column.
+
+    Returns
+    -------
+    found : FoundColumn
+
+    Raises
+    ------
+    CampaignError
+        If it is not said which, an option is out of its range, or the e of a real column is not said.
+    """
+    if campaign is None or layout is None or not asked.needs_specimen:
+        return _without_specimen(asked, has_campaign=campaign is not None)
+    name = _specimen(campaign, asked.specimen)
+    known = campaign.specimens[name]
+    scale = checked(_Size, {"scale": asked.scale}).scale or (known.scale if is_real else None) or 1.0
+    if is_real or scale != 1.0 or {"critical_angle", "p"} & asked.properties.keys():
+        own = campaign.prototype.get(name)
+        written = {} if own is None else own.model_dump(exclude_none=True)
+    else:
+        written = {"restitution": IDENTIFIED}
+    inputs = ColumnInputs(
+        block=known.block(campaign.gravity), scale=scale, prototype=_prototype(written, asked.properties)
+    )
+    return FoundColumn(name, inputs, restitution_taken(campaign, layout, name))
+
+
+class _Size(Table):
+    """Option that is not a key of [prototype.<specimen>]."""
+
+    scale: Scale | None = None
+
+
+def _without_specimen(asked: AskedColumn, *, has_campaign: bool) -> FoundColumn:
+    from colonnade.stages.specimen import SpecimenInputs, taken
+
+    if asked.specimen is not None:
+        raise CampaignError(
+            f"--specimen {asked.specimen}: there is no campaign here. Give CAMPAIGN, or --critical-angle and --p."
+        )
+    if asked.scale not in (None, 1.0):
+        raise CampaignError("--scale is for a specimen. With --critical-angle and --p give those of the real column.")
+    if asked.properties.get("restitution") == IDENTIFIED:
+        where = "name it with --specimen" if has_campaign else "give CAMPAIGN and --specimen"
+        raise CampaignError(f"--restitution identified: e is identified of a specimen; {where}.")
+    prototype = _prototype({"restitution": RIGID_BODY}, asked.properties)
+    if prototype.critical_angle is None or prototype.p is None:
+        raise CampaignError(
+            'The column is not known. Give --critical-angle "0.2 rad" and --p "2 rad/s", or a CAMPAIGN with --specimen.'
+        )
+    try:
+        block = rectangular(prototype.critical_angle, 2 * pi / prototype.p)
+    except ValueError as error:
+        raise CampaignError(f"The column cannot be: {error}.") from None
+    inputs = ColumnInputs(
+        block=block, scale=1.0, prototype=prototype.model_copy(update={"critical_angle": None, "p": None})
+    )
+    return FoundColumn(None, inputs, taken(None, SpecimenInputs(block=block, given=None, level=0.95)))
+
+
+def _specimen(campaign: Campaign, name: str | None) -> str:
+    known = list(campaign.specimens)
+    if name is None and len(known) == 1:
+        return known[0]
+    if name is None:
+        raise CampaignError(f"The campaign has several specimens. Name one with --specimen ID.{nearest('', known)}")
+    if name not in known:
+        raise CampaignError(f'{campaign.path.name} has no specimen "{name}".{nearest(name, known)}')
+    return name
+
+
+def _prototype(written: dict[str, Any], given: Mapping[str, Any]) -> Prototype:
+    """Put options over what a campaign says of the real column."""
+    # Limits of another value are none of this one.
+    written = {key: value for key, value in written.items() if key.removesuffix("_range") not in given}
+    if "restitution" not in {**written, **given}:
+        raise CampaignError(
+            'The e of the real column is not given. Add --restitution: a number, "rigid-body", or "identified" to '
+            "assume that of the model."
+        )
+    new = checked(Prototype, {"restitution": written.get("restitution"), **given})
+    return new.model_copy(update={key: value for key, value in written.items() if key not in given})
+
+
+def checked(model: type[Written], written: Mapping[str, Any], names: Mapping[str, str] | None = None) -> Written:
+    """
+    Check options as the keys of a table of the campaign file.
+
+    Parameters
+    ----------
+    model : type
+    written : mapping
+    names : mapping, optional
+        Names of options that are not called like their keys.
+
+    Raises
+    ------
+    CampaignError
+        If a value cannot be used; the message names the option.
+    """
+    try:
+        return model.model_validate(written)
+    except ValidationError as error:
+        named = ((str(each["loc"][0]), each["msg"]) for each in error.errors())
+        problems = [f"--{(names or {}).get(key, key).replace('_', '-')}: {said}" for key, said in named]
+        raise CampaignError("\n".join(problems)) from None
+
+
+def _with_number(key: str, value: Any) -> Any:
+    """Take an e that is a number as one; a pair as a list, as in a campaign file."""
+    if isinstance(value, tuple):
+        return list(value)
+    if key == "restitution" and isinstance(value, str):
+        try:
+            return float(value)
+        except ValueError:
+            pass
+    return value

@@ -1,0 +1,113 @@
+"""The column that a command asks about: which it is, its size, and what must be said of its e."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from colonnade.campaign import load
+from colonnade.campaign.assessing.prototype import Prototype
+from colonnade.errors import CampaignError
+from colonnade.stages.assessing.column import real_column
+from colonnade.store.layout import Layout
+from colonnade.workflow.real_column import AskedColumn, find_column
+
+
+@pytest.fixture
+def campaign(assessed):
+    """Campaign of one specimen, of which nothing is assumed about the real column."""
+    return replace(load(assessed), prototype={})
+
+
+def found(campaign, is_real=False, **options):
+    """Column and source of its e."""
+    layout = None if campaign is None else Layout(campaign.folder)
+    asked = find_column(AskedColumn.of(options), campaign, layout, is_real=is_real)
+    return real_column(asked.inputs, asked.pooled)
+
+
+def test_a_specimen_stands_for_itself_with_the_e_of_its_predictions(campaign):
+    column, source = found(campaign)
+    assert column.block == campaign.block("prism")
+    assert source != "given"
+
+
+@pytest.mark.parametrize(
+    "options", [{"scale": 20.0}, {"critical_angle": "0.2 rad"}, {"p": "2 rad/s"}, {"is_real": True}], ids=str
+)
+def test_of_another_column_e_is_not_that_of_the_model_unless_it_is_said(campaign, options):
+    with pytest.raises(CampaignError, match="The e of the real column is not given"):
+        found(campaign, **options)
+    assert found(campaign, **options, restitution="0.9")[1] == "given"
+    assert found(campaign, **options, restitution="identified")[0].restitution == found(campaign)[0].restitution
+    assert found(campaign, **options, restitution="rigid-body")[1] == "rigid-body"
+
+
+def test_what_the_campaign_says_of_the_real_column_holds_for_it_alone(campaign):
+    said = replace(campaign, prototype={"prism": Prototype.model_validate({"restitution": 0.8, "p": "1 rad/s"})})
+    real = found(said, scale=20.0)[0]
+    assert real.restitution == 0.8
+    assert real.block.p == pytest.approx(1.0)
+    assert found(said)[0].restitution != 0.8
+
+
+def test_a_column_is_smaller_in_p_by_the_root_of_its_scale(campaign):
+    model, real = campaign.block("prism"), found(campaign, scale=4.0, restitution=0.9)[0].block
+    assert real.p == pytest.approx(model.p / 2)
+    assert real.critical_angle == pytest.approx(model.critical_angle)
+    other = found(campaign, critical_angle="0.15 rad", p="3 rad/s", specimen="prism", restitution=0.9)[0].block
+    assert (other.critical_angle, other.p) == pytest.approx((0.15, 3.0))
+
+
+def test_an_assessment_takes_the_scale_of_the_campaign_file(campaign):
+    assert campaign.specimens["prism"].scale == 20.0
+    real = found(campaign, is_real=True, restitution=0.9)[0].block
+    assert real.p == pytest.approx(campaign.block("prism").p / 20**0.5)
+
+
+def test_alpha_and_p_need_no_campaign_and_leave_its_specimens_aside(campaign):
+    said = {"critical_angle": "0.2 rad", "p": "2 rad/s"}
+    alone, source = found(None, **said)
+    assert (alone.block.critical_angle, alone.block.p) == pytest.approx((0.2, 2.0))
+    assert source == "rigid-body"
+    assert found(campaign, **said)[0] == alone
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({}, "The column is not known"),
+        ({"specimen": "prism"}, "there is no campaign here"),
+        ({"critical_angle": "0.2 rad", "p": "2 rad/s", "scale": 2.0}, "--scale is for a specimen"),
+        ({"critical_angle": "0.2 rad", "p": "2 rad/s", "restitution": "identified"}, "give CAMPAIGN and --specimen"),
+        ({"critical_angle": "2 rad", "p": "2 rad/s"}, "The column cannot be"),
+        ({"critical_angle": "0.2", "p": "2 rad/s"}, "--critical-angle: "),
+        ({"critical_angle": "0.2 rad", "p": "2 m"}, "--p: "),
+    ],
+)
+def test_a_column_without_a_campaign_that_cannot_be_is_refused(options, words):
+    with pytest.raises(CampaignError) as refused:
+        found(None, **options)
+    assert words in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"specimen": "prsm"}, 'no specimen "prsm"'),
+        ({"scale": -2.0}, "--scale: -2"),
+        ({"restitution": "1.5", "scale": 2.0}, "--restitution: 1.5"),
+        ({"restitution": "soft", "scale": 2.0}, "--restitution: "),
+    ],
+)
+def test_an_option_that_cannot_be_is_named(campaign, options, words):
+    with pytest.raises(CampaignError) as refused:
+        found(campaign, **options)
+    assert words in str(refused.value)
+
+
+def test_one_of_several_specimens_is_named(campaign):
+    two = replace(campaign, specimens={**campaign.specimens, "second": campaign.specimens["prism"]})
+    with pytest.raises(CampaignError, match="several specimens"):
+        found(two)
