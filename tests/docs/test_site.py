@@ -1,0 +1,129 @@
+"""The built site in a browser, from its folder: no complaint, no dead link, search, a telephone, paper."""
+
+from __future__ import annotations
+
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urldefrag
+
+import pytest
+
+from browsing import TELEPHONE, own_chromium, visiting
+
+pytestmark = pytest.mark.docs
+
+SITE = Path(__file__).resolve().parents[2] / "docs" / "build" / "html"
+PRINTED = ("docs/index.html", "docs/explanation/restitution.html", "docs/reference/generated/library/rock.html")
+"""Pages of three kinds."""
+
+PAPER = (718, 1000)
+"""Width of A4 within its margins."""
+
+WIDER = """() => [...document.querySelectorAll('article *')].filter(element => {
+  const box = element.closest('.table-wrapper, pre, div.math, .sphx-glr-thumbnails, svg');
+  return (!box || box === element) && element.getBoundingClientRect().right > document.documentElement.clientWidth + 1;
+}).map(element => element.outerHTML.slice(0, 200))"""
+
+
+class Links(HTMLParser):
+    """Ids of a page, and what it refers to."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.ids: set[str] = set()
+        self.targets: list[str] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+        given = dict(attributes)
+        self.ids |= {given[name] for name in ("id", "name") if given.get(name)}
+        self.targets += [given[name] for name in ("href", "src") if given.get(name)]
+
+
+@pytest.fixture(scope="module")
+def pages() -> list[Path]:
+    found = sorted(SITE.rglob("*.html"))
+    assert found, "the site is not built: run `make docs`"
+    return found
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with own_chromium() as opened:
+        yield opened
+
+
+@pytest.fixture
+def visit(browser):
+    with visiting(browser, SITE) as open_page:
+        yield open_page
+
+
+def test_every_link_leads_to_a_file_and_a_place_in_it(pages):
+    read = {page: Links(page.read_text(encoding="utf-8")) for page in pages}
+    dead = []
+    for page, links in read.items():
+        for target in links.targets:
+            if "://" in target or target.startswith(("data:", "mailto:")):
+                continue
+            path, place = urldefrag(target)
+            there = (page.parent / unquote(path.partition("?")[0])).resolve() if path else page
+            if not there.is_file() or (place and there in read and unquote(place) not in read[there].ids):
+                dead.append(f"{page.relative_to(SITE)} leads to {target}")
+    assert dead == []
+
+
+def test_no_page_loads_anything_from_elsewhere(pages):
+    for page in pages:
+        assert 'src="http' not in page.read_text(encoding="utf-8"), page
+
+
+def test_no_page_complains_or_is_wider_than_a_telephone(pages, visit):
+    page = visit("docs/index.html", screen=TELEPHONE)
+    wider = {}
+    for path in pages:
+        if path == SITE / "index.html":  # leads away while the next page is opened
+            continue
+        page.goto(path.as_uri())
+        if page.evaluate("document.documentElement.scrollWidth") > TELEPHONE[0]:
+            wider[str(path.relative_to(SITE))] = page.evaluate(WIDER)[:3]
+    assert wider == {}
+
+
+@pytest.mark.parametrize(
+    ("words", "found"), [("restitution", "explanation/restitution.html"), ("calibrate", "colonnade-calibrate.html")]
+)
+def test_search_finds(words, found, visit):
+    page = visit("search.html")
+    page.fill("article input[name=q], input.sidebar-search", words)
+    page.keyboard.press("Enter")
+    page.wait_for_selector("#search-results ul.search li a")
+    links = page.eval_on_selector_all("#search-results li a", "links => links.map(link => link.href)")
+    assert any(found in link for link in links)
+
+
+def test_the_root_leads_to_the_first_page(visit):
+    page = visit("index.html")
+    page.wait_for_url("**/docs/index.html")
+    assert page.locator("h1").inner_text().startswith("colonnade")
+
+
+def test_equations_are_drawn_by_the_browser_and_can_be_read_aloud(pages, visit):
+    with_equations = [path for path in pages if "<math" in path.read_text(encoding="utf-8")]
+    page = visit(with_equations[0].relative_to(SITE).as_posix(), scripts=False)
+    boxes = page.eval_on_selector_all(
+        "math", "all => all.map(one => [one.getBoundingClientRect().width, one.getAttribute('alttext')])"
+    )
+    assert boxes
+    assert all(width > 4 and text for width, text in boxes)
+
+
+@pytest.mark.parametrize("address", PRINTED)
+def test_on_paper_a_page_is_its_text_alone(address, visit):
+    page = visit(address, screen=PAPER)
+    page.emulate_media(media="print")
+    assert page.locator("article h1").is_visible()
+    assert not page.locator(".sidebar-drawer").is_visible()
+    assert page.evaluate("document.documentElement.scrollWidth") <= PAPER[0]
+    colour = page.evaluate("getComputedStyle(document.querySelector('article')).backgroundColor")
+    assert colour in ("rgb(255, 255, 255)", "rgba(0, 0, 0, 0)")

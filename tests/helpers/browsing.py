@@ -1,0 +1,88 @@
+"""
+A real browser, and pages that must not complain.
+
+Playwright drives the machine's own chromium. Without one these tests are skipped; with CI=true that is a failure.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page, Request
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+QUIET = ("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking")
+DESK, TELEPHONE = (1200, 900), (380, 700)
+"""Widths and heights of a screen."""
+
+Visit = Callable[..., "Page"]
+
+
+@contextmanager
+def own_chromium() -> Iterator[Browser]:
+    """
+    Start the machine's own chromium.
+
+    One a module: while Playwright is on, its event loop counts as running, and no later test could start one.
+    """
+    if CHROMIUM is None:
+        if os.environ.get("CI") == "true":
+            pytest.fail("no chromium on this machine: `apt-get install chromium`", pytrace=False)
+        pytest.skip("no chromium on this machine: `apt-get install chromium`")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        opened = playwright.chromium.launch(executable_path=CHROMIUM, args=list(QUIET))
+        yield opened
+        opened.close()
+
+
+@contextmanager
+def visiting(browser: Browser, home: Path) -> Iterator[Visit]:
+    """Give `visit`; close its pages and complain in the end."""
+    contexts, complaints = [], []
+
+    def open_page(
+        address: str,
+        *,
+        folder: Path = home,
+        screen: tuple[int, int] = DESK,
+        scripts: bool = True,
+        dark: bool = False,
+    ) -> Page:
+        context = browser.new_context(
+            viewport={"width": screen[0], "height": screen[1]},
+            java_script_enabled=scripts,
+            color_scheme="dark" if dark else "light",
+            accept_downloads=True,
+        )
+        contexts.append(context)
+        page = context.new_page()
+        inside = folder.resolve().as_uri() + "/"
+
+        def check(request: Request) -> None:
+            if not request.url.startswith((inside, "data:", "blob:")):
+                complaints.append(f"{address} asks for {request.url}")
+
+        page.on("request", check)
+        page.on("requestfailed", lambda request: complaints.append(f"{address}: {request.url} was not found"))
+        page.on("pageerror", lambda error: complaints.append(f"{address}: {error}"))
+        page.on(
+            "console",
+            lambda message: message.type in ("error", "warning") and complaints.append(f"{address}: {message.text}"),
+        )
+        page.goto((folder / address).resolve().as_uri())
+        return page
+
+    yield open_page
+    for context in contexts:
+        context.close()
+    assert complaints == []
