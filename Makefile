@@ -65,6 +65,7 @@ reports: $(INSTALLED)
 	$(BIN)/python reports/filter_bias.py
 	$(BIN)/python reports/convergence.py
 	$(BIN)/python reports/linear_bias.py
+	$(BIN)/python reports/fault_atlas.py
 
 restitution-study: $(INSTALLED)
 	$(BIN)/python reports/restitution_study.py

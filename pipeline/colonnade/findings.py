@@ -84,7 +84,7 @@ def note(kind: str, text: str, *, follows: tuple[str, ...] = ()) -> Finding:
 
 MEASUREMENT = (
     *("specimen", "geometry", "gain", "unit", "sign"),
-    *("swapped channels", "dead channel", "channel left out", "clock"),
+    *("swapped channels", "dead channel", "channel left out", "clock", "late recorder"),
 )
 """Kinds of errors of the measurement itself: if one is found, odd results follow from it."""
 

@@ -128,6 +128,7 @@ def dead(interval: float, acceleration: TableChannel, displacement: TableChannel
             f"channels {acceleration.name} and {displacement.name} both move, but not like one table (correlation "
             f"{_correlation(recorded, derived):.2f}): one of them was read from another column or recorder, or "
             "measures another component of the motion",
+            follows=("late recorder",),
         )
     return None
 

@@ -142,7 +142,9 @@ def recorder_offsets(
             state = "aligned" if found.is_determined else "assumed to start with the main one"
             weight = warning if found.is_determined else serious
             doubt = f"recorder {recorder} was {state} with {channel} and {own_channel}: {found.doubt}."
-            warnings.append(weight("clock", doubt, follows=("dead channel", "table motion", "gain", "sign")))
+            # Records that agree at a longer delay are of one motion: that they differ here follows from the delay.
+            kind, others = ("clock", ("table motion",)) if found.beyond is None else ("late recorder", ())
+            warnings.append(weight(kind, doubt, follows=("dead channel", "gain", "sign", *others)))
         if found.drift is not None:
             warnings.append(
                 note(

@@ -1,0 +1,92 @@
+"""The campaign in which faults are planted: one prism, four tests, two recorders, and nothing wrong."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from colonnade import units
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
+from colonnade.laboratory.files import COMMAS
+from colonnade.laboratory.instruments import Transducer
+from colonnade.laboratory.programme import write
+from colonnade.laboratory.table import ramped_sine, recorded
+from colonnade.signals.filters import lowpass
+
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+SHAPE = {"shape": "prism", "width": "86 mm", "depth": "86 mm", "height": "456 mm", "mass": "26.10 kg"}
+RESTITUTION = 0.976
+TIME_SCALE = 0.25
+RATE, SECOND_RATE = 500.0, 400.0
+"""Hz, of the two recorders."""
+RELEASE = 1.5
+"""s: until then nothing moves."""
+SEED = 3
+
+
+def earthquake(seed: int) -> Motion:
+    """Make an earthquake of a minute, m/s², at 0.02 s."""
+    rng = np.random.default_rng(seed)
+    time = 0.02 * np.arange(3000)
+    shape = np.clip(time / 4, 0, 1) * np.exp(-np.clip(time - 12, 0, None) / 15)
+    values = lowpass(rng.normal(size=time.size), 0.02, 4.0) * shape
+    values = values - lowpass(values, 0.02, 0.2)
+    return Motion(6.0 * PRISM.uplift_acceleration * values / np.abs(values).max(), 0.02)
+
+
+def plan() -> Plan:
+    """Plan a free vibration on a table at rest and on one that moves, a sine test and an earthquake."""
+    gravity = units.factor_to_si("g", "acceleration")
+    frame = (
+        Transducer("top", "LVDT 1", "displacement", "specimen", 0.150, "mm", at=(0.043, 0.0, 0.440)),
+        Transducer("bottom", "LVDT 2", "displacement", "specimen", 0.050, "mm", at=(0.043, 0.0, 0.040)),
+    )
+    table = Transducer("table_displacement", "ACT", "displacement", "table", 0.050, "mm")
+    acceleration = Transducer("table_acceleration", "ACC", "acceleration", "table", 2 * gravity, "g")
+    aligned = ("table_displacement", "table_acceleration")
+    second = Recorder((acceleration,), SECOND_RATE, COMMAS, late=0.02, align=aligned)
+    shaken = recorded(Motion(0.45 * earthquake(1).acceleration, TIME_SCALE * earthquake(1).dt), start=RELEASE)
+    sine = ramped_sine(5.0, 1.5 * PRISM.uplift_acceleration, start=RELEASE, cycles=25, ramp=3)
+    disturbance = Motion(0.06 * earthquake(2).acceleration[:1400], TIME_SCALE * earthquake(2).dt)
+    held = {"theta0": 0.55 * PRISM.critical_angle, "release": RELEASE}
+    return Plan(
+        campaign="sound",
+        title="A sound campaign",
+        specimens={"prism": Specimen(SHAPE, PRISM, RESTITUTION)},
+        setups={
+            "frame": Setup({MAIN: Recorder(frame, RATE, COMMAS)}, catch=0.28),
+            "rig": Setup({MAIN: Recorder((*frame, table), RATE, COMMAS), "daq2": second}, catch=0.28),
+        },
+        trials=(
+            Trial("free", "free-vibration", "frame", 22.0, **held),
+            Trial("shaken", "free-vibration", "rig", 16.0, table=recorded(disturbance, start=RELEASE), **held),
+            Trial("sine", "sine", "rig", sine.stop + 4.0, table=sine, entry={"frequency": "5 Hz"}),
+            Trial(
+                "quake",
+                "earthquake",
+                "rig",
+                shaken.stop + 5.0,
+                table=shaken,
+                entry={"motion": "Valley", "time_scale": TIME_SCALE},
+            ),
+        ),
+    )
+
+
+def write_motion(path: Path, motion: Motion) -> None:
+    """Write a record that the table was to follow."""
+    rows = "".join(f"{k * motion.dt:.2f},{value:.6f}\n" for k, value in enumerate(motion.acceleration))
+    path.write_text("time (s),acceleration (m/s^2)\n" + rows, encoding="utf-8")
+
+
+def write_sound(folder: Path) -> None:
+    """Write the campaign."""
+    write(plan(), folder, seed=SEED)
+    write_motion(folder / "valley.csv", earthquake(1))
+    write_motion(folder / "hill.csv", earthquake(2))
+    path = folder / "campaign.toml"
+    motions = '\n[motions]\nValley = "valley.csv"\nHill = "hill.csv"\n\n[setups.'
+    path.write_text(path.read_text(encoding="utf-8").replace("\n[setups.", motions, 1), encoding="utf-8")
