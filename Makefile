@@ -66,6 +66,7 @@ reports: $(INSTALLED)
 	$(BIN)/python reports/convergence.py
 	$(BIN)/python reports/linear_bias.py
 	$(BIN)/python reports/fault_atlas.py
+	$(BIN)/python reports/verification.py
 
 restitution-study: $(INSTALLED)
 	$(BIN)/python reports/restitution_study.py

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from colonnade.units import format_percent
 from faults.registry import FAULTS
 from faults.unseen import UNSEEN
+from monte_carlo.page import FACTORS
 
 HERE = Path(__file__).resolve().parent
 DOCUMENT = HERE.parent / "docs" / "explanation" / "verification.md"
@@ -41,7 +42,7 @@ class Study(NamedTuple):
 
 def _restitution(found: Found) -> list[Row]:
     [whole] = [row for row in found["levels"] if row["level"] == "all"]
-    levels = [row["coverage"] for row in found["levels"]]
+    levels = [row["coverage"] for row in found["levels"] if row["factor"] in FACTORS]
     return [
         Row(
             f"e of {found['records']} random records with known truth: bias",
@@ -79,7 +80,7 @@ def _verdict(found: Found) -> list[Row]:
         Row(
             f"the same with e wrong by {found['wrong']:g}: called outside",
             format_percent(whole["found"], 1),
-            "Most of such errors are not seen, above all in short records: a verdict \"within\" proves little.",
+            'Most of such errors are not seen, above all in short records: a verdict "within" proves little.',
         ),
     ]
 
@@ -146,9 +147,7 @@ def _contact(found: Found) -> list[Row]:
 def _convergence(found: Found) -> list[Row]:
     def error(scheme: str, case: str, refinement: int, step: float) -> float:
         [row] = [
-            each
-            for each in found
-            if (each["scheme"], each["case"], each["refinement"]) == (scheme, case, refinement)
+            each for each in found if (each["scheme"], each["case"], each["refinement"]) == (scheme, case, refinement)
         ]
         return float(row["errors"][row["steps"].index(step)])
 

@@ -1,0 +1,26 @@
+"""The explanation pages: the files that they name exist, and the figures of the verification page are the studies'."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+import verification
+from page_blocks import PROJECT
+
+PAGES = sorted((PROJECT / "docs" / "explanation").glob("*.md"))
+PLACES = (PROJECT, PROJECT / "pipeline" / "colonnade")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_the_files_that_a_page_names_exist(page):
+    named = re.findall(r"`((?:\w+/)+[\w.-]*)`", page.read_text(encoding="utf-8"))
+    assert [name for name in named if not any((place / name).exists() for place in PLACES)] == []
+
+
+def test_the_figures_of_the_verification_page_are_those_of_the_studies():
+    document = verification.DOCUMENT.read_text(encoding="utf-8")
+    assert verification.renewed(document, verification.measured()) == document
+    changed = document.replace("93.9", "99.9")
+    assert verification.renewed(changed, verification.measured()) == document
