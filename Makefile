@@ -11,6 +11,7 @@
 # make verdict-study  1000 tests with known truth judged by their spread: reports/verdict-study.md, a quarter of an hour
 # make forecast-study  480 tests with known truth, forecast and scored: reports/forecast-study.md, five minutes and more
 # make fragility-study  3000 sets of virtual records with known truth: reports/fragility-study.md, ten minutes and more
+# make reproduce  repeats the paper on the virtual shake table, statement by statement: reports/manos, half an hour
 # make contact-study  measures the contact model again: reports/contact-study.md, half an hour
 # make clean    removes what the other targets made
 #
@@ -29,7 +30,7 @@ SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope
 # Each command and worker starts several seconds sooner if Python keeps the bytecode of what it has imported.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo demo-full test docs docs-test study drill format reports restitution-study verdict-study forecast-study fragility-study contact-study clean
+.PHONY: demo demo-full test docs docs-test study drill format reports restitution-study verdict-study forecast-study fragility-study contact-study reproduce clean
 
 demo: $(DEMO_INSTALLED)
 	@$(BIN)/colonnade demo demo
@@ -82,6 +83,9 @@ fragility-study: $(INSTALLED)
 
 contact-study: $(INSTALLED)
 	$(BIN)/python reports/contact_study.py
+
+reproduce: $(INSTALLED)
+	$(BIN)/python reports/reproduce.py
 
 clean:
 	rm -rf .venv build demo dist docs/build docs/gallery docs/reference/generated .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache

@@ -12,7 +12,6 @@ from typing import Any
 from colonnade import figures, run
 from colonnade.campaign import Campaign, load
 from colonnade.campaign.forms.summary import Summary
-from colonnade.dynamics.block import Block
 from colonnade.figures.stored import maps, record, restitution
 from colonnade.laboratory import paper_programme, prism_programme, write_campaign
 from colonnade.laboratory.plans.ladder import KEPT_AWAY
@@ -26,23 +25,6 @@ PICTURE = HERE.parent / "docs" / "demo.png"
 
 COLUMNS = ("true", "measured", "linear", "nonlinear")
 
-TABLE_1 = {
-    "prism": (
-        Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10),
-        {"critical_angle": 0.1886, "pole_distance": 0.232, "inertia": 1.873, "p": 5.631},
-    ),
-    "cylinder": (
-        Block.cylinder(diameter=0.097, height=0.455, mass=26.30),
-        {"critical_angle": 0.2132, "pole_distance": 0.227, "inertia": 1.883, "p": 5.631},
-    ),
-    "truncated cone": (
-        Block.cone(base_diameter=0.097, top_diameter=0.0755, height=0.480, mass=21.94),
-        {"critical_angle": 0.2203, "pole_distance": 0.220, "inertia": 1.527, "p": 5.631},
-    ),
-}
-"""The paper's specimens (its Table 1) from their dimensions, and what the table prints."""
-
-
 TITLES = {
     "short": "The ten tests of `colonnade demo --short`",
     "demo": "The paper's programme, as `colonnade demo` performs it",
@@ -52,7 +34,6 @@ TITLES = {
 def rebuild(folder: Path, picture: Path | None = None) -> None:
     """Write the reference reports into a folder, and the picture of the README where one is wanted."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "table-1.md").write_text(table_1(), encoding="utf-8")
     for name, programme in (("short", prism_programme), ("demo", paper_programme)):
         with tempfile.TemporaryDirectory() as scratch:
             written = write_campaign(Path(scratch) / "demo", seed=0, programme=programme, workers=None)
@@ -70,29 +51,6 @@ def tell(path: Path, folder: Path, name: str, picture: Path | None = None) -> No
     (folder / f"{name}.json").write_text(json.dumps(numbers, indent=1) + "\n", encoding="utf-8")
     drawn = draw(campaign, summary, folder, name, picture)
     (folder / f"{name}.md").write_text(demo_table(numbers, TITLES[name], drawn), encoding="utf-8")
-
-
-def table_1() -> str:
-    """Lay the paper's Table 1 beside what the dimensions give."""
-    lines = [
-        "# The paper's Table 1, recomputed from its dimensions",
-        "",
-        "Printed by Manos, Petalas and Demosthenous, and computed here with g = 9.81 m/s². The printed critical angles",
-        "are tangents; the printed pole distances of cylinder and cone are heights of the centre of mass.",
-        "",
-        "| specimen | quantity | printed | computed | difference |",
-        "|---|---|---|---|---|",
-    ]
-    units = {"critical_angle": "rad", "pole_distance": "m", "inertia": "kg m²", "p": "rad/s"}
-    for specimen, (block, printed) in TABLE_1.items():
-        for quantity, value in printed.items():
-            computed = getattr(block, quantity)
-            words = quantity.replace("_", " ")
-            lines.append(
-                f"| {specimen} | {words}, {units[quantity]} | {value} | {computed:.4f} | {value / computed - 1:+.2%} |"
-            )
-        lines.append(f"| {specimen} | rigid-body restitution | – | {block.restitution:.4f} | – |")
-    return "\n".join(lines) + "\n"
 
 
 def demo_numbers(truth: dict[str, Any], summary: dict[str, Any]) -> dict[str, Any]:

@@ -15,9 +15,5 @@ def test_the_whole_demo_gives_the_numbers_of_its_report_and_every_outcome_is_rig
     as_reported(tmp_path, "demo")
 
 
-def test_table_1_is_the_one_that_the_dimensions_give():
-    assert rebuild.table_1() == (REPORTS / "table-1.md").read_text(encoding="utf-8")
-
-
 def test_the_reports_are_small():
     assert sum(path.stat().st_size for path in REPORTS.rglob("*") if path.is_file()) < 5_000_000

@@ -1,0 +1,89 @@
+"""The virtual campaign of the reproduction: the demo's programme, the paper's three levels at 3 Hz, three models."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import pi
+from pathlib import Path
+
+import numpy as np
+
+from colonnade import run
+from colonnade.arrays import Array
+from colonnade.dynamics.motion import Motion
+from colonnade.laboratory import paper_programme, write_campaign
+from colonnade.laboratory.campaign_file import FILE_NAME
+from colonnade.laboratory.experiment import Plan
+from colonnade.laboratory.plans.ladder import LASTING, PRISM, RAMP
+from colonnade.laboratory.plans.trials import Placed, sine
+from colonnade.store.files import write_text
+from colonnade.workflow.maps.plans import Wanted
+from colonnade.workflow.maps.stability import make_maps
+from reproduction.printed import FREQUENCIES, SHOWN, SHOWN_FREQUENCY, TABLE_1
+
+SEED = 0
+SPECIMEN = "prism"
+
+ANALYTICAL, PLANE, NUMERICAL = "linear", "nonlinear", "contact"
+"""Our models: that of the paper's own program, that of the virtual table's truth, and the one nearest to its finite
+elements."""
+
+STEP = "20 us"
+"""Of the contact model; the paper takes 10 µs. A rigid body's e changes by 1e-5 from the one to the other."""
+
+SETTINGS = f"""
+# Added for the reproduction: the contact model is the nearest to the paper's finite elements.
+[processing.predict]
+models = ["{ANALYTICAL}", "{PLANE}", "{NUMERICAL}"]
+
+[processing.predict.contact]
+step = "{STEP}"
+"""
+
+CYCLES, MAP_RAMP = 20, RAMP
+"""Of the sine of all maps, as the tests' ramps; the paper does not give its own."""
+
+MAP_LEVELS = (0.8, 5.0)
+"""A of the maps of all three models."""
+
+MAP_POINTS = 49
+"""Levels of these maps at each of the tests' frequencies."""
+
+
+def programme(name: str, record: Motion, *, seed: int = SEED) -> Plan:
+    """Plan the demo's programme and, at its end, the histories that the paper shows and the demo leaves out."""
+    plan = paper_programme(name, record, seed=seed)
+    placed = Placed(SPECIMEN, plan.specimens[SPECIMEN].block, f"{SPECIMEN}-bench", f"{SPECIMEN}-table")
+    missing = [level for level in SHOWN if level not in PRISM[SHOWN_FREQUENCY]]
+    added = (
+        sine(placed, f"sine-{SHOWN_FREQUENCY:g}Hz-{level:.2f}", SHOWN_FREQUENCY, level, cycles=LASTING, ramp=RAMP)
+        for level in missing
+    )
+    return replace(plan, trials=(*plan.trials, *added))
+
+
+def frequency_ratios(count: int) -> Array:
+    """Give so many Ω from the lowest to the highest frequency of the sine tests, shape (count,)."""
+    first, last = (2 * pi * frequency / TABLE_1[SPECIMEN].block.p for frequency in (FREQUENCIES[0], FREQUENCIES[-1]))
+    return np.linspace(first, last, count)
+
+
+def perform(folder: Path, workers: int | None = None) -> Path:
+    """Write the campaign, run it and make the maps of the prism; what is up to date stays. Return campaign.toml."""
+    path = folder / FILE_NAME
+    write_campaign(folder, seed=SEED, programme=programme, workers=workers)
+    write_text(path, path.read_text(encoding="utf-8") + SETTINGS)
+    result = run(path, workers=workers)
+    if result.failed:
+        raise SystemExit(f"{path}: tests failed. Look at {folder / 'report' / 'index.html'}.")
+    first, *_, last = frequency_ratios(len(FREQUENCIES)).tolist()
+    wanted = Wanted(
+        (ANALYTICAL, PLANE, NUMERICAL),
+        (first, last),
+        MAP_LEVELS,
+        (len(FREQUENCIES), MAP_POINTS),
+        cycles=CYCLES,
+        ramp=MAP_RAMP,
+    )
+    make_maps(path, wanted, specimens=(SPECIMEN,), workers=workers)
+    return path

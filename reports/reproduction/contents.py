@@ -1,0 +1,283 @@
+"""What each page of the reproduction holds besides its statements: words, figures and tables of numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from reproduction import table_page
+from reproduction.drawings import FIGURES
+from reproduction.markdown import figure, fixed, table
+from reproduction.printed import FREQUENCIES, LAST_DIGIT, SHOWN, SPANS
+from reproduction.slips import SLIPS
+from reproduction.statement import Numbers
+from reproduction.statements import answers
+from reproduction.statements.sines import shown as test_shown
+
+
+class Page(NamedTuple):
+    """A page: its title, the numbers of the paper's tables and figures on it, and what it holds of the numbers."""
+
+    title: str
+    of: str
+    contents: Callable[[Numbers], list[str]]
+
+
+def _figures(*numbers: str) -> list[str]:
+    return [figure(entry.number, entry.title) for entry in FIGURES if entry.number in numbers]
+
+
+def _setting(numbers: Numbers) -> list[str]:
+    made = numbers["made"]
+    contact = made["contact"]
+    return [
+        f"The virtual campaign is the demo's programme (seed {made['seed']}, {made['tests']} tests) with the two "
+        "levels at 3 Hz that the paper shows and the demo leaves out. Its true motions are the nonlinear model's; "
+        "its instruments are imperfect. colonnade reads its raw files like those of any laboratory.",
+        "The paper's *analytical* results are those of the linearised equation: our model `linear`, exact between "
+        "impacts. Its *numerical* results are those of elastic finite elements on a contact: the nearest that we "
+        f"have is our model `contact`, here a {contact['body']}, with friction {contact['friction']:g}, a step of "
+        f"{1e6 * contact['step']:g} µs and the damping fraction {contact['damping_fraction']:.3f} that gives free "
+        "rocking the identified e. Our elastic meshes are in [Table 2](tables.md).",
+        "That a computed response agrees with a virtual test shows that both follow from one plane equation. It does "
+        "not show that the real prism did.",
+    ]
+
+
+def _free(numbers: Numbers) -> list[str]:
+    rows = [
+        [
+            test,
+            *(
+                fixed(each[model][when], 3)
+                for model in ("linear", "nonlinear", "contact")
+                for when in ("early", "late")
+            ),
+        ]
+        for test, each in numbers["free_vibrations"].items()
+    ]
+    found = numbers["restitution"]
+    values = [
+        [
+            specimen,
+            f"{each['true']:g}",
+            f"{each['value']:.5f}",
+            f"± {(each['high'] - each['low']) / 2:.0e}",
+            ", ".join(fixed(value, 4) for value in each["by_the_linear_model"]),
+        ]
+        for specimen, each in found.items()
+    ]
+    return [
+        *_figures("3", "10"),
+        "## Coefficient of restitution",
+        "By the peaks, as colonnade identifies it, and by the paper's way: the e with which the linear model follows "
+        "the whole history best.",
+        table(("specimen", "true e", "identified", "95 % interval", "by the linear model, each record"), values),
+        "## Misfit, large and small amplitudes",
+        "RMS of predicted less measured θ over α, in the first four predicted arcs (early) and in the twelve after "
+        "them (late). The virtual prism cannot leave its plane: what the linear model misses here is the equation's "
+        "own.",
+        table(
+            (
+                "test",
+                *(f"{model}, {when}" for model in ("linear", "nonlinear", "contact") for when in ("early", "late")),
+            ),
+            rows,
+        ),
+        "What turns a real release three-dimensional is answered by [the study of the contact "
+        "model](../contact-study.md#what-turns-rocking-three-dimensional).",
+    ]
+
+
+def _sines(numbers: Numbers) -> list[str]:
+    rows = []
+    for level in SHOWN:
+        name, test = test_shown(numbers, level)
+        rows.append(
+            [
+                name,
+                f"{test['frequency_ratio']:.2f}",
+                f"{test['amplitude_ratio']:.3f}",
+                *(
+                    each["outcome"] if each["peak_ratio"] is None else f"{each['outcome']}, {each['peak_ratio']:.2f}"
+                    for each in (test, *(test["predicted"][model] for model in ("linear", "nonlinear", "contact")))
+                ),
+                numbers["sines"][name]["first_order"] or "–",
+                test["order"] or "–",
+            ]
+        )
+    return [
+        *_figures("4"),
+        "Outcome and largest |θ|/α; order of the measured response (1: harmonic, n: sub-harmonic 1/n) in the first "
+        "ten periods of the steady sine, and settled.",
+        table(
+            (
+                "test",
+                *("Ω", "A", "measured", "linear", "nonlinear", "contact", "order at first", "settled"),
+            ),
+            rows,
+        ),
+        "## In space",
+        "The contact model on recorded motions of four tests, from a rotation about x of 1 mrad: largest slide of the "
+        "base and rotations about x and about the vertical, up to the angle of 0.28 rad at which the frame catches the "
+        "prism. The last column is what the balance of energy misses.",
+        table(
+            (
+                "test",
+                *("friction", "outcome", "slide, mm", "out of plane, % of α", "turn, °", "energy missing, %"),
+            ),
+            _in_space(numbers),
+        ),
+    ]
+
+
+def _in_space(numbers: Numbers) -> list[list[str]]:
+    return [
+        [
+            each["test"],
+            f"{each['friction']:g}",
+            each["outcome"],
+            f"{1e3 * each['slide']:.2g}",
+            f"{100 * each['out_of_plane']:.1f}",
+            f"{57.29578 * each['yaw']:.2g}",
+            f"{100 * each['energy_residual']:.2g}",
+        ]
+        for each in numbers["in_space"]
+    ]
+
+
+def _maps(numbers: Numbers) -> list[str]:
+    charts = numbers["maps"]
+    rows = []
+    for place, each in enumerate(numbers["boundaries"]):
+        rows.append(
+            [
+                f"{FREQUENCIES[place]:g}",
+                f"{each['frequency_ratio']:.3f}",
+                _bracket(each["rocking"]),
+                _bracket(each["overturning"]),
+                ", ".join(f"{level:.2f}" for level in each["stood_above"]) or "–",
+                *(
+                    fixed(charts[model][limit][place])
+                    for model in ("linear", "contact")
+                    for limit in ("lower", "upper")
+                ),
+            ]
+        )
+    width, levels = charts["contact"]["width"], charts["contact"]["levels"]
+    off = [
+        [model, *(_off(each[f"{name}_off"]) for name in ("no_rocking", "lower", "upper"))]
+        for model, each in {"linear, finely scanned": numbers["fine_map"], **charts}.items()
+    ]
+    made = numbers["made"]["map"]
+    return [
+        *_figures("5", "7", "12", "13"),
+        f"All maps: sine of {made['cycles']} cycles, ramps of {made['ramp']}; the paper states neither. A limit "
+        "depends on both, and on how finely A is scanned. Figure 7 is scanned finely: an interval of A that "
+        f"overturns counts from {numbers['fine_map']['width']:g} on. The contact model is too slow for that. The "
+        f"maps of figures 12 and 13 have {levels} levels, {width:.4f} apart, at the seven frequencies of the tests. "
+        "Their limits are read from these levels, as the measured boundary is read from tests: the lower one is "
+        "halfway between the first level that overturns and the one before it, the upper one halfway between the "
+        "last level that stands and the next. A dash: nothing overturns, or the largest level stands.",
+        "## Measured brackets and computed limits",
+        "A bracket is the largest A short of a boundary and the smallest beyond it.",
+        table(
+            (
+                "Hz",
+                *("Ω", "onset of rocking", "overturning", "stands again at", "linear: lower", "upper"),
+                *("contact: lower", "upper"),
+            ),
+            rows,
+        ),
+        "Computed limit over the middle of the measured bracket, less one: mean and RMS over the frequencies that "
+        "have both.",
+        table(("model", "onset of rocking", "lower limit", "upper limit"), off),
+    ]
+
+
+def _bracket(bracket: list[float | None]) -> str:
+    return f"{fixed(bracket[0])} to {fixed(bracket[1])}"
+
+
+def _off(found: Numbers) -> str:
+    if found["rms"] is None:
+        return "–"
+    return f"{100 * found['mean']:+.1f} %, {100 * found['rms']:.1f} % ({found['frequencies']})"
+
+
+def _earthquakes(numbers: Numbers) -> list[str]:
+    rows = []
+    for span in SPANS:
+        each = numbers["earthquakes"][f"{span:.1f}"]
+        test = numbers["tests"][each["test"]]
+        rows.append(
+            [
+                f"{span:.1f}",
+                fixed(test["pga"]),
+                *(
+                    found["outcome"]
+                    if found["peak_ratio"] is None
+                    else f"{found['outcome']}, {found['peak_ratio']:.3f}"
+                    for found in (test, *(test["predicted"][model] for model in ("linear", "nonlinear", "contact")))
+                ),
+                *(fixed(test["predicted"][model]["nrmse"], 3) for model in ("linear", "nonlinear", "contact")),
+                fixed(each["numerical_to_analytical"], 3),
+            ]
+        )
+    steps = [
+        [
+            row["span"],
+            {"runge-kutta": "Runge–Kutta", "hamming": "Hamming"}[row["scheme"]],
+            f"{row['step']:.0e}",
+            f"{100 * row['rms_error']:.2f} %",
+            f"{100 * row['largest_error']:.2f} %",
+        ]
+        for row in numbers["schemes"]
+    ]
+    return [
+        *_figures("8", "14", "15"),
+        "Table's peak acceleration, m/s²; outcome and largest |θ|/α; RMS of predicted less measured θ over α, and of "
+        "contact less linear model.",
+        table(
+            (
+                "Span",
+                *("peak, m/s²", "measured", "linear", "nonlinear", "contact"),
+                *("misfit: linear", "nonlinear", "contact", "contact − linear"),
+            ),
+            rows,
+        ),
+        "## The paper's own time step",
+        "Its two schemes, with the step divided by ten around each contact, against the exact solution of the linear "
+        "equation on the same recorded motion: error of θ over α. A contact is taken at the end of the step in which "
+        "θ changes its sign; how the paper's program takes it is not stated.",
+        table(("Span", "scheme", "DT, s", "RMS error", "largest error"), steps),
+        "How often a prediction misbehaves as at the paper's Span 2.5, and of which cause, is [a study of its "
+        "own](span-2.5-design.md).",
+    ]
+
+
+def _slips(numbers: Numbers) -> list[str]:
+    found = answers(numbers)
+    rows = [
+        [slip.where, slip.printed, slip.meant, found[slip.statement].ours if slip.statement else "seen in the text"]
+        for slip in SLIPS
+    ]
+    printed = ", ".join(f"{quantity.replace('_', ' ')} {digit:g}" for quantity, digit in LAST_DIGIT.items())
+    return [
+        "Where the paper contradicts itself, or its own dimensions. None of them changes what it observed. The "
+        "printed “angle” even is the right number to divide an acceleration by: see [the setting](setting.md).",
+        table(("where", "printed", "what it is", "arithmetic"), rows),
+        f"One unit of the last printed digit, in SI units: {printed}.",
+    ]
+
+
+PAGES: dict[str, Page] = {
+    "setting": Page("The setting, and what stands for what", "", _setting),
+    "tables": Page("Tables 1 and 2", "Table 1, Table 2", table_page.lines),
+    "free-vibration": Page("Free vibration", "figures 3 and 10", _free),
+    "sines": Page("Sine tests", "figures 4a–c", _sines),
+    "maps": Page("Maps of outcomes", "figures 5, 7, 12, 13", _maps),
+    "earthquakes": Page("Earthquake tests", "figures 8a–c, 14a–c, 15a–c", _earthquakes),
+    "slips": Page("Slips, with the arithmetic", "", _slips),
+}
+"""By the name of the file, in the order of the index."""

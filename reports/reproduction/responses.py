@@ -1,0 +1,177 @@
+"""Numbers of the virtual campaign's tests: read from its results, as they are stored."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from colonnade.arrays import Array
+from colonnade.campaign import Campaign
+from colonnade.campaign.forms.summary import Summary, TestSummary
+from colonnade.dynamics.block import Block
+from colonnade.figures.stored.curves import measured_ratio, predicted_ratios
+from colonnade.identification.response.boundaries import MapPoint, bracket_boundaries
+from colonnade.identification.response.order import response_order
+from colonnade.signals.metrics import nrmse
+from colonnade.store.records.stored import Stored
+from reproduction.campaign import ANALYTICAL, NUMERICAL
+from reproduction.printed import SPANS
+from span_two_and_a_half.criterion import Criterion, Response, place_of_growth
+
+Numbers = dict[str, Any]
+
+LARGE_ARCS = 4
+"""Arcs after the start of a prediction whose amplitudes are the initial large ones."""
+
+STAGE = 10
+"""Periods of the table at the beginning of a steady sine whose response has an order of its own."""
+
+
+def restitution(summary: Summary, truth: Mapping[str, Any]) -> Numbers:
+    """Give e of each specimen: true, pooled, and by the paper's way, which fits the linear model to whole "
+    "histories."""
+    found: Numbers = {}
+    for name, true in truth["specimens"].items():
+        pooled = summary.specimens[name].restitution
+        fitted = [
+            each.restitution.whole_history[ANALYTICAL].value
+            for each in summary.tests.values()
+            if each.specimen == name and each.restitution and ANALYTICAL in each.restitution.whole_history
+        ]
+        found[name] = {
+            "true": true["restitution"],
+            **pooled.model_dump(include={"value", "low", "high", "source"}),
+            "by_the_linear_model": fitted,
+        }
+    return found
+
+
+def tests(summary: Summary, truth: Mapping[str, Any]) -> Numbers:
+    """Give of each test what was true, measured and predicted."""
+    return {name: _test(each, truth["tests"][name]) for name, each in summary.tests.items()}
+
+
+def _test(record: TestSummary, true: Mapping[str, Any]) -> Numbers:
+    predicted = {
+        model: each.model_dump(include={"outcome", "peak_ratio", "nrmse"}) for model, each in record.predicted.items()
+    }
+    fields = {"kind", "specimen", "span", "outcome", "peak_ratio", "impacts", "order", "pga", "duration", "peak_slide"}
+    fields |= {"frequency", "frequency_ratio", "amplitude_ratio"}
+    return {
+        **record.model_dump(include=fields),
+        "true": {key: true[key] for key in ("outcome", "peak_ratio")},
+        "predicted": predicted,
+    }
+
+
+def free_vibration(stored: Stored, block: Block) -> Numbers:
+    """Give how far each model is from the measured angle, in its first large arcs and after them, RMS over α."""
+    measured, predicted = measured_ratio(stored, block), predicted_ratios(stored, block)
+    assert measured is not None
+    found: Numbers = {}
+    impacts = stored.array("predict", "impact_time", ANALYTICAL)
+    for model, curve in predicted.items():
+        early = curve.time < impacts[LARGE_ARCS]
+        late = (curve.time >= impacts[LARGE_ARCS]) & (curve.time < impacts[4 * LARGE_ARCS])
+        found[model] = {
+            "early": nrmse(measured.values[early], curve.values[early], 1.0),
+            "late": nrmse(measured.values[late], curve.values[late], 1.0),
+        }
+    one, other = predicted[ANALYTICAL], predicted[NUMERICAL]
+    return found | {"numerical_to_analytical": nrmse(one.values, other.values, 1.0)}
+
+
+def sine(stored: Stored, block: Block) -> Numbers:
+    """Give how a test built up, the order of its response to the first periods, and what the contact model adds."""
+    measured = measured_ratio(stored, block)
+    assert measured is not None
+    frequency, begin = (stored.value("compare", name) for name in ("forcing_frequency", "steady_start"))
+    impacts, fall = stored.array("rocking", "impact_time"), stored.value("rocking", "overturning_time")
+    first = response_order(
+        measured.time,
+        measured.values,
+        frequency,
+        start=begin,
+        stop=begin + STAGE / frequency,
+        threshold=stored.value("rocking", "noise_threshold") / block.critical_angle,
+    )
+    slide = stored.array("predict", "slide", NUMERICAL)
+    angle = predicted_ratios(stored, block)[NUMERICAL].values
+    standing = np.isfinite(angle) & (np.abs(angle) < 1.0)
+    return {
+        "impacts_before_overturning": None if np.isnan(fall) else int((impacts < fall).sum()),
+        "cycles_to_overturning": None if np.isnan(fall) or not impacts.size else float((fall - impacts[0]) * frequency),
+        "first_order": first.order,
+        "driven_by": stored.text("predict", "driven_by", NUMERICAL),
+        "computed_slide": float(np.nanmax(np.abs(slide[standing]), initial=0.0)),
+        "computed_top": float(2 * block.pole_distance * np.nanmax(np.abs(np.sin(block.critical_angle * angle)))),
+    }
+
+
+def boundaries(points: list[MapPoint]) -> list[Numbers]:
+    """Give both measured boundaries at each frequency."""
+    return [
+        {
+            "frequency_ratio": each.frequency_ratio,
+            "rocking": [each.rocking.below, each.rocking.above],
+            "overturning": [each.overturning.below, each.overturning.above],
+            "stood_above": list(each.overturning.exceptions),
+            "rocked_below": any(
+                point.outcome == "rocking" and abs(point.frequency_ratio / each.frequency_ratio - 1) < 0.02
+                for point in points
+            ),
+        }
+        for each in bracket_boundaries(points)
+    ]
+
+
+def earthquake(stored: Stored, block: Block) -> Numbers:
+    """Give what an earthquake test recorded, and how far the two computed responses are from each other."""
+    predicted = predicted_ratios(stored, block)
+    one, other = predicted[ANALYTICAL], predicted[NUMERICAL]
+    return {
+        "pattern": {model: _pattern(stored, block, model) for model in (ANALYTICAL, NUMERICAL)},
+        "recorded": [
+            name for name in ("rocking_angle", "base_acceleration", "base_displacement") if _has(stored, name)
+        ],
+        "numerical_to_analytical": nrmse(one.values, other.values, 1.0),
+        "restitution_source": stored.text("predict", "restitution_source", ANALYTICAL),
+        "driven_by": stored.text("predict", "driven_by", ANALYTICAL),
+    }
+
+
+def _pattern(stored: Stored, block: Block, model: str) -> Numbers:
+    """Look for the paper's misfit: the computed response is large where the measured one has died down."""
+    criterion = Criterion()
+    time = stored.array("rocking", "elapsed")
+    dt = float(time[1] - time[0])
+    measured, computed = (
+        Response(
+            np.nan_to_num(stored.array(stage, "rocking_angle", which)),
+            dt,
+            stored.value(stage, "overturning_time", which),
+            block,
+        )
+        for stage, which in (("rocking", None), ("predict", model))
+    )
+    place = place_of_growth(measured, computed, criterion)
+    calm = measured.largest_before(criterion.before) < criterion.quiet
+    calm &= measured.largest_so_far >= criterion.quiet
+    later = computed.largest_after(criterion.after)[calm]
+    return {"is_there": bool(np.isfinite(place)), "place": place, "largest_after_calm": later.max(initial=0.0)}
+
+
+def _has(stored: Stored, name: str) -> bool:
+    values: Array = stored.array("rocking", name)
+    return bool(np.isfinite(values).any())
+
+
+def span_tests(campaign: Campaign, specimen: str) -> dict[str, str]:
+    """Give the earthquake test of each of the paper's Spans, by "2.0", "2.5", "3.0"."""
+    return {
+        f"{test.span:.1f}": test.id
+        for test in campaign.tests.values()
+        if test.specimen == specimen and test.span in SPANS
+    }

@@ -1,0 +1,212 @@
+"""The reproduction of the paper: pages follow from numbers, statements are answered by rules, and rules can fail."""
+
+from __future__ import annotations
+
+import copy
+import json
+from math import pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import reproduce
+from colonnade.laboratory import paper_programme
+from colonnade.laboratory.record import load_record
+from reproduction import campaign, computed, drawings, printed, tables
+from reproduction.contents import PAGES
+from reproduction.markdown import VIRTUAL
+from reproduction.pages import pages
+from reproduction.results import STUDY, rounded
+from reproduction.slips import SLIPS
+from reproduction.statement import WORDS
+from reproduction.statements import STATEMENTS, answers
+
+REPORTS = Path(__file__).resolve().parents[2] / "reports"
+FOLDER = REPORTS / "manos"
+IDS = [statement.id for statement in STATEMENTS]
+
+
+@pytest.fixture(scope="module")
+def kept():
+    return json.loads((FOLDER / "results.json").read_text(encoding="utf-8"))
+
+
+def test_the_pages_are_written_from_the_numbers(kept):
+    for name, text in pages(kept).items():
+        assert (FOLDER / name).read_text(encoding="utf-8") == text, name
+
+
+def test_each_page_says_first_that_nothing_real_was_measured():
+    for name in ("index", *PAGES):
+        assert (FOLDER / f"{name}.md").read_text(encoding="utf-8").startswith(f"{VIRTUAL}\n"), name
+
+
+def test_every_statement_has_the_answer_that_its_rule_gives(kept):
+    assert len(IDS) == len(set(IDS))
+    found = answers(kept)
+    assert kept["answers"] == {name: {"verdict": each.verdict, "ours": each.ours} for name, each in found.items()}
+    assert list(found) == IDS
+    for name, each in found.items():
+        assert each.verdict in WORDS, name
+        assert each.ours, name
+
+
+def test_every_statement_is_on_its_page():
+    for statement in STATEMENTS:
+        assert statement.says in (FOLDER / f"{statement.page}.md").read_text(encoding="utf-8"), statement.id
+
+
+def test_figures_and_tables_of_the_paper_are_all_there(kept):
+    written = pages(kept)
+    everything = "\n".join(written.values())
+    assert {path.name for path in FOLDER.glob("figure-*.svg")} == {drawings.file_of(each) for each in drawings.FIGURES}
+    for entry in drawings.FIGURES:
+        assert f"]({drawings.file_of(entry)})" in everything
+        assert (FOLDER / drawings.file_of(entry)).read_text(encoding="utf-8").startswith("<svg")
+    sections = " ".join(statement.section for statement in STATEMENTS)
+    for number in ("3", "4a", "4b", "4c", "5", "7", "8a", "8b", "8c", "10", "12", "13", "14a", "14b", "14c", "15"):
+        assert f"fig. {number}" in sections
+    assert {"Table 1", "Table 2"} <= {statement.section for statement in STATEMENTS}
+
+
+def test_what_needs_no_test_is_computed_again(kept):
+    study = json.loads((REPORTS / STUDY).read_text(encoding="utf-8"))
+    again = {
+        "specimens": tables.specimens(),
+        "table_2": tables.table_2(study),
+        "stable_steps": tables.stable_steps(),
+    }
+    for name, value in again.items():
+        assert rounded(value) == kept[name], name
+
+
+def test_the_fine_map_has_its_limits_again(kept):
+    chart = kept["fine_map"]
+    for place in (0, 20, 40):
+        again = computed.fine_map(kept["restitution"]["prism"]["value"], [chart["frequency_ratio"][place]])
+        assert again.lower[0] == pytest.approx(chart["lower"][place], abs=2e-4)
+
+
+def test_the_tests_of_the_demo_have_the_numbers_of_its_own_report(kept):
+    demo = json.loads((REPORTS / "demo.json").read_text(encoding="utf-8"))
+    assert set(demo["tests"]) < set(kept["tests"])
+    for name, theirs in demo["tests"].items():
+        ours = kept["tests"][name]
+        for model in ("linear", "nonlinear"):
+            assert ours["predicted"][model]["outcome"] == theirs["outcome"][model], name
+        assert ours["outcome"] == theirs["outcome"]["measured"], name
+        if theirs["peak_ratio"]["measured"] is not None:
+            assert ours["peak_ratio"] == pytest.approx(theirs["peak_ratio"]["measured"], abs=2e-4), name
+
+
+def test_the_campaign_is_the_demo_and_the_levels_that_the_paper_shows():
+    name, record = load_record(None)
+    demo = paper_programme(name, record, seed=campaign.SEED)
+    plan = campaign.programme(name, record)
+    assert [trial.name for trial in plan.trials[: len(demo.trials)]] == [trial.name for trial in demo.trials]
+    assert [trial.name for trial in plan.trials[len(demo.trials) :]] == ["sine-3Hz-1.05", "sine-3Hz-1.10"]
+
+
+def test_a_slip_is_where_the_paper_differs(kept):
+    found = answers(kept)
+    for slip in SLIPS:
+        assert not slip.statement or found[slip.statement].verdict == "differs", slip.printed
+
+
+CHANGES = {
+    "table-1-prism-inertia": ("specimens.prism.inertia", 1.9),
+    "critical-angles-are-angles": ("specimens.prism.tangent", 0.1864),
+    "one-p-for-all": ("specimens.cone.p", 5.6312),
+    "e-by-best-fit": ("restitution.prism.by_the_linear_model", [0.97]),
+    "prism-correlates": ("tests.free-02.predicted.linear.nrmse", 0.2),
+    "numerical-free-vibration": ("free_vibrations.free-01.numerical_to_analytical", 0.3),
+    "rocking-in-space": ("three_dimensional.disturbances", {"push": {"size": None, "prism": 0.3}}),
+    "small-amplitudes": ("tests.sine-5Hz-0.98.outcome", "rocking"),
+    "figure-4c": ("tests.sine-3Hz-1.80.outcome", "no-rocking"),
+    "one-of-three": ("tests.sine-5Hz-0.98.outcome", None),
+    "boundary-rises": ("boundaries.6.overturning", [1.0, 1.1]),
+    "onset-at-one": ("boundaries.2.rocking", [1.1, 1.2]),
+    "one-line-measured": ("boundaries.*.stood_above", []),
+    "analytical-overturning": ("fine_map.lower_off.rms", 0.6),
+    "numerical-is-better": ("maps.contact.lower_off.rms", 0.2),
+    "sliding-at-overturning": ("in_space", [{"test": "a", "friction": 0.6, "outcome": "overturned", "slide": 0.01}]),
+    "span-2-analytical": ("tests.span-2.0.predicted.linear.nrmse", 0.11),
+    "span-2.5-analytical": ("earthquakes.2.5.pattern.linear.is_there", True),
+    "span-3-numerical": ("tests.span-3.0.predicted.contact.nrmse", 0.05),
+    "numerical-and-analytical-spans": ("earthquakes.2.0.numerical_to_analytical", 0.3),
+    "step-of-10us-is-possible": ("stable_steps.*.step", 2e-5),
+    "table-2-coarse-10us": ("table_2.1.fraction", 0.26),
+}
+"""A number that turns the verdict of a statement over, by where it is in results.json."""
+
+
+def put(numbers, place, value):
+    """Put a value into a copy of the numbers; `*` is every entry of a list."""
+    changed = copy.deepcopy(numbers)
+    keys = _keys(changed, place)
+    holders = [changed]
+    for key in keys[:-1]:
+        holders = [each for holder in holders for each in (holder if key == "*" else [_at(holder, key)])]
+    for holder in holders:
+        holder[int(keys[-1]) if isinstance(holder, list) else keys[-1]] = value
+    return changed
+
+
+def _keys(numbers, place):
+    """Split a place at its dots; ids hold dots of their own."""
+    parts, found, here = place.split("."), [], numbers
+    while parts:
+        length = next(n for n in range(1, len(parts) + 1) if _holds(here, ".".join(parts[:n])))
+        found.append(".".join(parts[:length]))
+        parts = parts[length:]
+        here = here[0] if found[-1] == "*" else _at(here, found[-1])
+    return found
+
+
+def _holds(holder, key):
+    return key == "*" or (key.isdigit() if isinstance(holder, list) else key in holder)
+
+
+def _at(holder, key):
+    return holder[int(key)] if isinstance(holder, list) else holder[key]
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_another_number_turns_the_verdict_over(kept, name):
+    statement = next(each for each in STATEMENTS if each.id == name)
+    before = statement.answer(kept).verdict
+    after = statement.answer(put(kept, *CHANGES[name])).verdict
+    assert {before, after} == {"agrees", "differs"}
+
+
+def test_what_was_put_in_is_never_called_agreement(kept):
+    for name in ("e-of-the-prism", "span-is-intensity", "record", "scale"):
+        assert kept["answers"][name]["verdict"] == "undecided"
+
+
+def test_the_schemes_of_the_paper_follow_a_sine():
+    block = printed.TABLE_1["prism"].block
+    time = np.arange(301) * 0.01
+    motion = computed.Motion(1.5 * block.uplift_acceleration * np.sin(2 * pi * 4 * time), 0.01)
+    rows = computed.schemes(block, {"test": motion})
+    assert len(rows) == 4
+    assert all(row["largest_error"] < 0.02 for row in rows)
+    assert rows[1]["step"] == pytest.approx(1e-5)
+
+
+def test_numbers_are_rounded_to_what_is_shown():
+    assert rounded({"a": [1.23456789, float("nan"), None, True, 3]}) == {"a": [1.234568, None, None, True, 3]}
+
+
+@pytest.mark.slow
+def test_the_whole_reproduction_gives_its_numbers_again(kept, tmp_path):
+    found = reproduce.read(campaign.perform(tmp_path / "campaign"))
+    again = json.loads(json.dumps(reproduce.gather(found, REPORTS)))
+    assert {name: each.verdict for name, each in answers(again).items()} == {
+        name: each["verdict"] for name, each in kept["answers"].items()
+    }
+    for name, test in again["tests"].items():
+        assert test["outcome"] == kept["tests"][name]["outcome"], name
+        if test["peak_ratio"] is not None:
+            assert test["peak_ratio"] == pytest.approx(kept["tests"][name]["peak_ratio"], abs=1e-3), name
