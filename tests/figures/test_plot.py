@@ -110,6 +110,7 @@ def test_a_history_is_animated_and_can_be_written(history, tmp_path):
     moving = colonnade.animate(history)
     moving.save(tmp_path / "rocking.gif", writer="pillow", dpi=30)
     assert (tmp_path / "rocking.gif").read_bytes().startswith(b"GIF89a")
+    assert moving._fig is pyplot.gcf()
 
 
 def test_a_result_shows_itself_in_a_line_and_as_a_small_table(result):

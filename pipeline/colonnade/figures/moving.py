@@ -27,7 +27,13 @@ SIZE = (3.6, 4.0)
 
 @styled()
 def rocking_block(
-    angles: Mapping[str, Curve], body: Body, base: Curve | None, *, title: str, description: str
+    angles: Mapping[str, Curve],
+    body: Body,
+    base: Curve | None,
+    *,
+    title: str,
+    description: str,
+    figure: Figure | None = None,
 ) -> Movie:
     """
     Draw the rocking block, one outline for each history.
@@ -41,6 +47,8 @@ def rocking_block(
     base : Curve or None
         Displacement of the base, m, over time; None if it was not recorded: the base is then drawn at rest.
     title, description : str
+    figure : Figure, optional
+        To draw into, empty; a new one otherwise.
 
     Returns
     -------
@@ -60,7 +68,7 @@ def rocking_block(
     speed = (last - first) * RATE / frames
     shift = np.zeros(frames) if base is None else _at(base, times)
     shift = shift - shift[0]
-    figure = Figure(figsize=SIZE)
+    figure = figure or Figure(figsize=SIZE)
     axes = figure.add_axes((0.0, 0.0, 1.0, 0.86))
     axes.set_axis_off()
     axes.set_aspect("equal")

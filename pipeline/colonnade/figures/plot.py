@@ -22,7 +22,7 @@ from colonnade.figures import fragility
 from colonnade.figures.drawing.parts import Body, Rocking
 from colonnade.figures.histories import SHADES, draw_angle, limit_of
 from colonnade.figures.maps.stability_map import stability_map
-from colonnade.figures.moving import rocking_block
+from colonnade.figures.moving import SIZE, rocking_block
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.panels.long import draw_band, draw_curve
 from colonnade.figures.restitution.impacts import ImpactSeries, Level, impact_restitution
@@ -163,8 +163,9 @@ def animate(history: History) -> FuncAnimation:
     Returns
     -------
     animation : matplotlib.animation.FuncAnimation
-        `animation.to_jshtml()` shows it in a notebook, `animation.save("rocking.gif", writer="pillow")` writes it. It
-        has at most 250 frames: a long history is shown faster.
+        `pyplot.show()` plays it in a script, `IPython.display.HTML(animation.to_jshtml())` in a notebook, and
+        `animation.save("rocking.gif", writer="pillow")` writes it. It has at most 250 frames: a long history is shown
+        faster.
 
     Raises
     ------
@@ -177,7 +178,9 @@ def animate(history: History) -> FuncAnimation:
     shape = "rectangle" if solid is None else solid.base
     body = Body(shape, (wide, wide), (wide, wide), 2 * rocking.centre[1], is_known=False, rocking=rocking)
     curve = Curve(history.time, history.angle)
-    movie = rocking_block({history.model: curve}, body, None, title="", description="")
+    # A figure of pyplot: `pyplot.show()` plays it in a script.
+    figure = pyplot.figure(figsize=SIZE)
+    movie = rocking_block({history.model: curve}, body, None, title="", description="", figure=figure)
 
     def show(frame: int) -> list[Artist]:
         movie.show(frame)
