@@ -13,6 +13,7 @@
 # make fragility-study  3000 sets of virtual records with known truth: reports/fragility-study.md, ten minutes and more
 # make reproduce  repeats the paper on the virtual shake table, statement by statement: reports/manos, half an hour
 # make contact-study  measures the contact model again: reports/contact-study.md, half an hour
+# make release VERSION=1.2.3  checks and builds a release, commits and tags it here; uploads nothing
 # make clean    removes what the other targets made
 #
 # Written for GNU make 3.81 (macOS) and later. README.md says what to type without make.
@@ -24,13 +25,14 @@ DEMO_INSTALLED := .venv/installed-demo
 INSTALLED := .venv/installed
 STUDY_INSTALLED := .venv/installed-study
 DOCS_INSTALLED := .venv/installed-docs
+RELEASE_INSTALLED := .venv/installed-release
 # Files of tests are shared out over the cores, each file to one of them, where it computes in one thread.
 SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 
 # Each command and worker starts several seconds sooner if Python keeps the bytecode of what it has imported.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo demo-full test docs docs-test study drill format reports restitution-study verdict-study forecast-study fragility-study contact-study reproduce clean
+.PHONY: demo demo-full test docs docs-test study drill format reports restitution-study verdict-study forecast-study fragility-study contact-study reproduce release clean
 
 demo: $(DEMO_INSTALLED)
 	@$(BIN)/colonnade demo demo
@@ -87,6 +89,9 @@ contact-study: $(INSTALLED)
 reproduce: $(INSTALLED)
 	$(BIN)/python reports/reproduce.py
 
+release: $(RELEASE_INSTALLED)
+	@$(BIN)/python tools/release.py "$(VERSION)" $(PYTHONS) --fits "$(FITS)"
+
 clean:
 	rm -rf .venv build demo dist docs/build docs/gallery docs/reference/generated .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find pipeline tests -name __pycache__ -type d -prune -exec rm -rf {} +
@@ -99,7 +104,8 @@ $(DEMO_INSTALLED): EXTRAS := demo
 $(INSTALLED): EXTRAS := demo,test
 $(STUDY_INSTALLED): EXTRAS := demo,test,bench
 $(DOCS_INSTALLED): EXTRAS := demo,test,docs
-$(DEMO_INSTALLED) $(INSTALLED) $(STUDY_INSTALLED) $(DOCS_INSTALLED): pyproject.toml
+$(RELEASE_INSTALLED): EXTRAS := demo,test,release
+$(DEMO_INSTALLED) $(INSTALLED) $(STUDY_INSTALLED) $(DOCS_INSTALLED) $(RELEASE_INSTALLED): pyproject.toml
 	@if ! $(BIN)/python -c "$(FITS)" >/dev/null 2>&1; then \
 	  chosen=; \
 	  for python in $(PYTHONS); do \

@@ -56,6 +56,8 @@ default_role = "code"
 sphinx_gallery_conf = {
     "examples_dirs": "examples",
     "gallery_dirs": "docs/gallery",
+    "within_subsection_order": "FileNameSortKey",
+    "image_scrapers": ("moving_pictures.animations", "matplotlib"),
     "filename_pattern": r"\.py$",
     "parallel": 2,
     "show_memory": False,

@@ -68,7 +68,8 @@ def test_the_version_is_the_same_wherever_it_is_written():
     citation = (PROJECT / "CITATION.cff").read_text(encoding="utf-8")
     changelog = (PROJECT / "CHANGELOG.md").read_text(encoding="utf-8")
     assert re.search(r"^version: (\S+)$", citation, re.MULTILINE)[1] == colonnade.__version__
-    assert re.search(r"^## (\S+)", changelog, re.MULTILINE)[1] == colonnade.__version__
+    released = re.search(r"^## (\d\S*)", changelog, re.MULTILINE)
+    assert released is None or released[1] == colonnade.__version__
 
 
 def test_the_import_contract_names_every_room():

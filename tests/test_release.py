@@ -1,0 +1,117 @@
+"""What a release writes, whom it installs for, and that it leaves nothing behind where it fails."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import release
+from release import ReleaseError, checked_version, cited, cut, interpreters, versioned
+
+PROJECT = Path(__file__).parents[1]
+CHANGELOG = "# Changelog\n\nWords.\n\n## Unreleased\n\n- New.\n\n## 0.1.0 · 2026-01-02\n\n- Old.\n"
+FITS = re.search(r"^FITS := (.*)$", (PROJECT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)[1]
+
+
+def test_the_changelog_is_cut_where_it_is_unreleased():
+    assert cut(CHANGELOG, "0.2.0", "2026-03-04") == CHANGELOG.replace("## Unreleased", "## 0.2.0 · 2026-03-04")
+
+
+@pytest.mark.parametrize(
+    ("changelog", "reason"),
+    [
+        (CHANGELOG.replace("## Unreleased", "## 0.2.0 · 2026-03-04"), "section 0.2.0 already"),
+        (CHANGELOG.replace("## Unreleased\n\n- New.\n\n", ""), 'has 0 headings "## Unreleased"'),
+        (CHANGELOG.replace("- New.\n", ""), "Nothing is listed"),
+        (CHANGELOG.replace("- Old.\n", "## Unreleased\n"), "has 2 headings"),
+    ],
+)
+def test_a_changelog_that_cannot_be_cut_is_refused(changelog, reason):
+    with pytest.raises(ReleaseError, match=reason):
+        cut(changelog, "0.2.0", "2026-03-04")
+
+
+def test_version_and_citation_are_set_in_the_files_of_this_project():
+    source = (PROJECT / release.VERSION_FILE).read_text(encoding="utf-8")
+    citation = (PROJECT / "CITATION.cff").read_text(encoding="utf-8")
+    assert '\n__version__ = "9.8.7"\n' in versioned(source, "9.8.7")
+    once = cited(citation, "9.8.7", "2026-03-04")
+    assert "\nversion: 9.8.7\ndate-released: 2026-03-04\n" in once
+    assert cited(once, "9.8.8", "2026-03-05").count("date-released") == 1
+    with pytest.raises(ReleaseError, match="gives its version 0 times"):
+        versioned("", "9.8.7")
+
+
+@pytest.mark.parametrize("text", ["", "1.2", "1.2.3.4", "v1.2.3", "1.2.3rc1", "01.2.3", "1.2.3\n"])
+def test_what_is_no_version_is_refused(text):
+    with pytest.raises(ReleaseError, match="three numbers were expected"):
+        checked_version(text)
+
+
+def test_only_interpreters_that_fit_are_found_each_once(capsys):
+    mine = f"{sys.version_info[0]}.{sys.version_info[1]}"
+    assert list(interpreters([sys.executable, "no-such-python", sys.executable], FITS)) == [mine]
+    with pytest.raises(ReleaseError, match="starts a Python that fits"):
+        interpreters([sys.executable, "no-such-python"], "import sys; sys.exit(1)")
+
+
+@pytest.fixture
+def tree(tmp_path, monkeypatch):
+    """A repository with the files that a release changes, committed."""
+    for name in ("CHANGELOG.md", release.VERSION_FILE, "CITATION.cff"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(PROJECT / name, tmp_path / name)
+    (tmp_path / "CHANGELOG.md").write_text(CHANGELOG, encoding="utf-8")
+    (tmp_path / ".gitignore").write_text("/dist/\n", encoding="utf-8")
+    for words in (["init", "-q"], ["config", "user.name", "a"], ["config", "user.email", "a@b"], ["add", "."]):
+        git(tmp_path, *words)
+    git(tmp_path, "commit", "-q", "-m", "before")
+    monkeypatch.setattr(release, "PROJECT", tmp_path)
+    return tmp_path
+
+
+def git(tree: Path, *words: str) -> str:
+    return subprocess.run(["git", *words], cwd=tree, check=True, capture_output=True, text=True).stdout
+
+
+def built(folder: Path) -> Path:
+    folder.mkdir()
+    (folder / "colonnade-0.2.0.tar.gz").write_text("built")
+    return folder
+
+
+def test_a_release_is_a_commit_and_a_tag_with_what_was_built(tree, monkeypatch, capsys):
+    monkeypatch.setattr(release, "build", built)
+    monkeypatch.setattr(release, "install", lambda *arguments: None)
+    release.release("0.2.0", [sys.executable], FITS)
+    assert git(tree, "tag").split() == ["v0.2.0"]
+    assert git(tree, "status", "--porcelain") == ""
+    assert '__version__ = "0.2.0"' in (tree / release.VERSION_FILE).read_text(encoding="utf-8")
+    assert (tree / "dist" / "colonnade-0.2.0.tar.gz").read_text() == "built"
+    with pytest.raises(ReleaseError, match=r"tag v0\.2\.0 is there already"):
+        release.release("0.2.0", [sys.executable], FITS)
+
+
+def test_a_release_that_fails_leaves_the_tree_as_before(tree, monkeypatch, capsys):
+    def interrupted(*arguments):
+        raise KeyboardInterrupt
+
+    before = git(tree, "rev-parse", "HEAD")
+    monkeypatch.setattr(release, "build", built)
+    monkeypatch.setattr(release, "install", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        release.release("0.2.0", [sys.executable], FITS)
+    assert (git(tree, "rev-parse", "HEAD"), git(tree, "status", "--porcelain"), git(tree, "tag")) == (before, "", "")
+    assert (tree / "CHANGELOG.md").read_text(encoding="utf-8") == CHANGELOG
+    assert not (tree / "dist").exists()
+
+
+def test_a_tree_with_changes_is_not_released(tree):
+    (tree / "CHANGELOG.md").write_text("changed", encoding="utf-8")
+    with pytest.raises(ReleaseError, match="Commit them first"):
+        release.release("0.2.0", [sys.executable], FITS)
+    assert (tree / "CHANGELOG.md").read_text(encoding="utf-8") == "changed"
