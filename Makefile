@@ -70,6 +70,7 @@ reports: $(INSTALLED)
 	$(BIN)/python reports/linear_bias.py
 	$(BIN)/python reports/fault_atlas.py
 	$(BIN)/python reports/verification.py
+	$(BIN)/python reports/explanation_figures.py
 
 restitution-study: $(INSTALLED)
 	$(BIN)/python reports/restitution_study.py

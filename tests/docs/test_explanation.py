@@ -6,7 +6,10 @@ import re
 
 import pytest
 
+import colonnade
 import verification
+from explanation_figures import STRENGTH
+from faults.sound import PRISM, earthquake
 from page_blocks import PROJECT
 
 PAGES = sorted((PROJECT / "docs" / "explanation").glob("*.md"))
@@ -24,3 +27,10 @@ def test_the_figures_of_the_verification_page_are_those_of_the_studies():
     assert verification.renewed(document, verification.measured()) == document
     changed = document.replace("93.9", "99.9")
     assert verification.renewed(changed, verification.measured()) == document
+
+
+@pytest.mark.parametrize(("change", "outcome"), [(0.0, "overturned"), (1e-3, "rocking")])
+def test_a_motion_that_is_stronger_by_a_thousandth_does_not_overturn_the_block(change, outcome):
+    motion = earthquake(1)
+    shaken = colonnade.Motion(STRENGTH * (1 + change) * motion.acceleration, 0.25 * motion.dt)
+    assert colonnade.rock(PRISM, shaken, restitution=0.976).outcome == outcome
