@@ -1,6 +1,6 @@
 """Equations as MathML, made while the site is built: browsers draw and read them without a script."""
 
-from html import escape
+from html import escape, unescape
 from xml.etree.ElementTree import tostring
 
 from docutils import nodes
@@ -38,5 +38,12 @@ def markup(node, display):
     except Exception as reason:
         LOGGER.warning("no MathML for the equation %r: %r", latex, reason, location=node)
         return f"<code>{escape(latex)}</code>"
+    for part in element.iter():
+        # Its signs are written as references, which would be escaped once more.
+        part.text = unescape(part.text) if part.text else part.text
+        if part.tag == "mi" and part.text and len(part.text) > 1 and part.text.isalpha():
+            # The name of a function, which has a thin space around it, as in LaTeX.
+            part.tag = "mo"
+            part.attrib.update(lspace="0.17em", rspace="0.17em")
     element.set("alttext", latex)
     return tostring(element, encoding="unicode")
