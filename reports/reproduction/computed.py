@@ -63,16 +63,15 @@ def limits(chart: StabilityMap, points: Sequence[MapPoint]) -> Numbers:
     """Give the limits of a map, and how far they are from the measured boundaries."""
     measured = bracket_boundaries(points)
     omega = chart.frequency_ratio
-    onset = _first_rocking(chart) if model_of(str(chart.options["model"])).in_space else chart.no_rocking
     found: Numbers = {
         "frequency_ratio": omega,
-        "no_rocking": onset,
+        "no_rocking": chart.no_rocking,
         "lower": chart.lower,
         "upper": chart.upper,
         "width": chart.options["width"],
         "levels": chart.amplitude_ratio.size,
     }
-    for name, limit in (("no_rocking", onset), ("lower", chart.lower), ("upper", chart.upper)):
+    for name, limit in (("no_rocking", chart.no_rocking), ("lower", chart.lower), ("upper", chart.upper)):
         brackets = [each.rocking if name == "no_rocking" else each.overturning for each in measured]
         rows = [
             (_at(each.frequency_ratio, omega, limit), bracket.middle)
@@ -109,7 +108,7 @@ def by_level(chart: StabilityMap) -> StabilityMap:
 
     The lower limit is halfway between the first level that overturns and the one before it; the upper one halfway
     between the last level that stands and the next, NaN if the largest level stands. Without a level that overturns
-    both are NaN.
+    both are NaN. In space the onset of rocking has no formula and is read from the levels too.
     """
     levels = chart.amplitude_ratio
     middles = 0.5 * (levels[1:] + levels[:-1])
@@ -119,7 +118,14 @@ def by_level(chart: StabilityMap) -> StabilityMap:
             lower[column] = middles[max(int(np.argmax(outcomes)) - 1, 0)]
             stands = int(np.flatnonzero(~outcomes)[-1])
             upper[column] = middles[stands] if stands < middles.size else np.nan
-    return replace(chart, lower=lower, upper=upper, options=chart.options | {"width": float(levels[1] - levels[0])})
+    in_space = model_of(str(chart.options["model"])).in_space
+    return replace(
+        chart,
+        no_rocking=_first_rocking(chart) if in_space else chart.no_rocking,
+        lower=lower,
+        upper=upper,
+        options=chart.options | {"width": float(levels[1] - levels[0])},
+    )
 
 
 def schemes(block: Block, motions: Mapping[str, Motion]) -> list[Numbers]:

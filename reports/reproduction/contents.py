@@ -11,6 +11,7 @@ from reproduction.markdown import figure, fixed, table
 from reproduction.printed import FREQUENCIES, LAST_DIGIT, SHOWN, SPANS
 from reproduction.slips import SLIPS
 from reproduction.statement import Numbers
+from reproduction.statement_table import of_figure, statement_table
 from reproduction.statements import answers
 from reproduction.statements.sines import shown as test_shown
 
@@ -23,8 +24,14 @@ class Page(NamedTuple):
     contents: Callable[[Numbers], list[str]]
 
 
-def _figures(*numbers: str) -> list[str]:
-    return [figure(entry.number, entry.title) for entry in FIGURES if entry.number in numbers]
+def _figures(numbers: Numbers, *chosen: str) -> list[str]:
+    """Show figures of the paper, each with what the paper says of it."""
+    return [
+        part
+        for entry in FIGURES
+        if entry.number in chosen
+        for part in (figure(entry.number, entry.title), statement_table(of_figure(entry.number), numbers))
+    ]
 
 
 def _setting(numbers: Numbers) -> list[str]:
@@ -68,7 +75,7 @@ def _free(numbers: Numbers) -> list[str]:
         for specimen, each in found.items()
     ]
     return [
-        *_figures("3", "10"),
+        *_figures(numbers, "3", "10"),
         "## Coefficient of restitution",
         "By the peaks, as colonnade identifies it, and by the paper's way: the e with which the linear model follows "
         "the whole history best.",
@@ -107,7 +114,8 @@ def _sines(numbers: Numbers) -> list[str]:
             ]
         )
     return [
-        *_figures("4"),
+        *_figures(numbers, "4"),
+        "## In numbers",
         "Outcome and largest |θ|/α; order of the measured response (1: harmonic, n: sub-harmonic 1/n) in the first "
         "ten periods of the steady sine, and settled.",
         table(
@@ -171,7 +179,8 @@ def _maps(numbers: Numbers) -> list[str]:
     ]
     made = numbers["made"]["map"]
     return [
-        *_figures("5", "7", "12", "13"),
+        *_figures(numbers, "5", "7", "12", "13"),
+        "## How they are made",
         f"All maps: sine of {made['cycles']} cycles, ramps of {made['ramp']}; the paper states neither. A limit "
         "depends on both, and on how finely A is scanned. Figure 7 is scanned finely: an interval of A that "
         f"overturns counts from {numbers['fine_map']['width']:g} on. The contact model is too slow for that. The "
@@ -235,7 +244,8 @@ def _earthquakes(numbers: Numbers) -> list[str]:
         for row in numbers["schemes"]
     ]
     return [
-        *_figures("8", "14", "15"),
+        *_figures(numbers, "8", "14", "15"),
+        "## In numbers",
         "Table's peak acceleration, m/s²; outcome and largest |θ|/α; RMS of predicted less measured θ over α, and of "
         "contact less linear model.",
         table(

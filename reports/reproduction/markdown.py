@@ -25,5 +25,5 @@ def fixed(value: float | None, digits: int = 2) -> str:
 
 
 def figure(number: str, title: str) -> str:
-    """Write a figure of the paper with its caption."""
-    return f"![Figure {number}: {title}](figure-{number}.svg)\n\nThe paper's figure {number}. {title}."
+    """Write a figure of the paper under its heading."""
+    return f"## Figure {number}: {title[0].lower()}{title[1:]}\n\n![Figure {number}: {title}](figure-{number}.svg)"

@@ -5,10 +5,9 @@ from __future__ import annotations
 from colonnade.report.references import REFERENCES
 from reproduction.contents import PAGES
 from reproduction.markdown import VIRTUAL, table
-from reproduction.statement import HISTORIES, WORDS, Numbers, Statement
+from reproduction.statement import HISTORIES, WORDS, Numbers
+from reproduction.statement_table import figure_of, statement_table
 from reproduction.statements import STATEMENTS, answers
-
-HEADS = ("where", "the paper says", "examined", "agrees if", "we find", "verdict")
 
 
 def pages(numbers: Numbers) -> dict[str, str]:
@@ -19,22 +18,10 @@ def pages(numbers: Numbers) -> dict[str, str]:
 def _page(name: str, numbers: Numbers) -> str:
     page = PAGES[name]
     parts = [VIRTUAL, f"# {page.title}", *page.contents(numbers)]
-    mine = [statement for statement in STATEMENTS if statement.page == name]
-    if mine:
-        parts += ["## Statement by statement", table(HEADS, _rows(mine, numbers))]
+    others = [statement for statement in STATEMENTS if statement.page == name and figure_of(statement) is None]
+    if others:
+        parts += ["## Further statements", statement_table(others, numbers)]
     return "\n\n".join([*parts, "[All pages](index.md)"]) + "\n"
-
-
-def _rows(statements: list[Statement], numbers: Numbers) -> list[list[str]]:
-    found = answers(numbers)
-    return [
-        [each.section, each.says, each.examined, each.rule, found[each.id].ours, _verdict(found[each.id].verdict)]
-        for each in statements
-    ]
-
-
-def _verdict(verdict: str) -> str:
-    return f"**{verdict}**" if verdict == "differs" else WORDS[verdict]  # type: ignore[index]
 
 
 def _index(numbers: Numbers) -> str:

@@ -13,7 +13,7 @@ Verdict = Literal["agrees", "differs", "undecided"]
 WORDS: dict[Verdict, str] = {
     "agrees": "agrees",
     "differs": "differs",
-    "undecided": "cannot be decided with synthetic data",
+    "undecided": "cannot be decided",
 }
 
 
@@ -40,7 +40,7 @@ class Statement:
     examined : str
         How we examine it.
     rule : str
-        When it agrees, in words.
+        When it agrees, in words: "it agrees if …"; empty if no number can decide it.
     answer : callable
         Applies the rule to the numbers of results.json.
     page : str
