@@ -12,7 +12,18 @@ from collections.abc import Iterable
 
 
 class ColonnadeError(Exception):
-    """A problem that the user can fix; its text is shown without a traceback."""
+    """
+    A problem that the user can fix; its text is shown without a traceback.
+
+    Examples
+    --------
+    >>> import colonnade
+    >>> try:
+    ...     colonnade.run("no-such-folder")
+    ... except colonnade.ColonnadeError as error:
+    ...     print(str(error)[:14])
+    no-such-folder
+    """
 
 
 class UnitError(ColonnadeError):

@@ -8,11 +8,12 @@ from math import pi
 
 import numpy as np
 
-from colonnade.dynamics.block import Block, Side
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.ensembles.uncertainty import member_block, member_restitution
 from colonnade.dynamics.maps.chart import stability_map
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
+from colonnade.dynamics.side import Side
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 RESTITUTION = 0.976

@@ -52,7 +52,8 @@ def page(name):
     found = getattr(colonnade, name)
     if not inspect.isclass(found):
         return f"{name}\n{'=' * len(name)}\n\n.. autofunction:: colonnade.{name}\n"
-    return f"{name}\n{'=' * len(name)}\n\n.. autoclass:: colonnade.{name}\n   :members:\n"
+    options = "   :members:\n   :inherited-members: object, BaseException\n"
+    return f"{name}\n{'=' * len(name)}\n\n.. autoclass:: colonnade.{name}\n{options}"
 
 
 def keep_bars(app, what, name, found, options, lines):

@@ -3,82 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from math import atan2, cos, hypot, pi, sin, sqrt
-from typing import Literal
+from math import atan2, hypot, pi
 
-import numpy as np
-from numpy.typing import ArrayLike
-
-from colonnade.arrays import Array
 from colonnade.dynamics.density import cone_volume, expect_inertia, expect_metres, prism_volume
-from colonnade.validation import described, instance, number, samples, sided
+from colonnade.dynamics.side import Side, Solid, TwoSided, expect_positive
+from colonnade.validation import instance, sided
 
 STANDARD_GRAVITY = 9.81
 """Default gravity of a campaign, m/s²; a laboratory's own value may be given."""
-
-LEAST, LARGEST = 1e-60, 1e60
-"""Of a length, a mass or an inertia in SI: products of several stay in the range of floating-point numbers."""
 
 Sided = float | tuple[float, float]
 """One value for both sides, or a pair (for θ < 0, for θ > 0)."""
 
 
 @dataclass(frozen=True)
-class Side:
-    """
-    The block as it rocks about one edge of its base.
-
-    Attributes
-    ----------
-    critical_angle : float
-        α, rad: the rotation that brings the centre of mass above the pole.
-    pole_distance : float
-        R, m, from the pole to the centre of mass.
-    inertia : float
-        I₀, kg m², about the pole.
-    """
-
-    critical_angle: float
-    pole_distance: float
-    inertia: float
-
-    def __post_init__(self) -> None:
-        number("critical_angle", self.critical_angle, "an angle between 0 and π/2 rad", above=0.0, below=pi / 2)
-        _positive(pole_distance=self.pole_distance, inertia=self.inertia)
-
-    @property
-    def half_width(self) -> float:
-        """Distance b = R sin α of the pole from the vertical through the centre of mass, m."""
-        return self.pole_distance * sin(self.critical_angle)
-
-
-@dataclass(frozen=True)
-class Solid:
-    """
-    What plane rocking does not ask of a block, but motion in space does.
-
-    Attributes
-    ----------
-    base : {"rectangle", "circle"}
-    half_depth : float
-        m, along y; of a round base its radius.
-    inertia_x, inertia_z : float
-        kg m², about the axes through the centre of mass.
-    """
-
-    base: Literal["rectangle", "circle"]
-    half_depth: float
-    inertia_x: float
-    inertia_z: float
-
-    def __post_init__(self) -> None:
-        if self.base not in ("rectangle", "circle"):
-            raise ValueError(f'base is {described(self.base)}; "rectangle" or "circle" was expected')
-        _positive(half_depth=self.half_depth, inertia_x=self.inertia_x, inertia_z=self.inertia_z)
-
-
-@dataclass(frozen=True)
-class Block:
+class Block(TwoSided):
     """
     A rigid block that rocks in the plane x–z about the two edges of its base.
 
@@ -97,16 +36,27 @@ class Block:
     -----
     `critical_angle`, `pole_distance`, `inertia`, `p` and `restitution` are those of the governing side, the one with
     the smaller critical angle; for a symmetric block both are the same.
+
+    Examples
+    --------
+    >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> round(block.critical_angle, 4), round(block.pole_distance, 4), round(block.inertia, 4)
+    (0.1864, 0.232, 1.8734)
+    >>> round(block.p, 3), round(block.restitution, 4), round(block.uplift_acceleration, 3), block.is_symmetric
+    (5.631, 0.9485, 1.85, True)
+    >>> uneven = Block.measured(mass=26.1, pole_distance=0.232, critical_angle=(0.18, 0.19), inertia=1.873)
+    >>> uneven.governing.critical_angle, uneven.critical_angle_at([-0.1, 0.1]).tolist()
+    (0.18, [0.18, 0.19])
+    >>> uneven.sides == (uneven.negative, uneven.positive), round(uneven.side_p(uneven.positive), 3)
+    (True, 5.632)
+    >>> uneven.pole_distance_at([-0.1]).tolist(), uneven.p_at([-0.1, 0.1]).round(3).tolist()
+    ([0.232], [5.632, 5.632])
     """
 
-    mass: float
-    gravity: float
-    negative: Side
-    positive: Side
     solid: Solid | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
-        _positive(mass=self.mass, gravity=self.gravity)
+        expect_positive(mass=self.mass, gravity=self.gravity)
         instance("negative", self.negative, Side)
         instance("positive", self.positive, Side)
         if self.solid is not None:
@@ -128,6 +78,10 @@ class Block:
         gravity : float, optional
             m/s².
 
+        Returns
+        -------
+        block : Block
+
         Raises
         ------
         ValueError
@@ -138,7 +92,7 @@ class Block:
         UnlikelyBlockWarning
             If the lengths look as if they were in millimetres or centimetres.
         """
-        _positive(width=width, depth=depth, height=height, mass=mass, gravity=gravity)
+        expect_positive(width=width, depth=depth, height=height, mass=mass, gravity=gravity)
         expect_metres(mass / prism_volume(width, depth, height), width / height, width=width, height=height)
         half_width, centre_height = width / 2, height / 2
         inertia = mass * (width**2 + height**2) / 12 + mass * (half_width**2 + centre_height**2)
@@ -148,14 +102,32 @@ class Block:
     @classmethod
     def cylinder(cls, *, diameter: float, height: float, mass: float, gravity: float = STANDARD_GRAVITY) -> Block:
         """
-        Build a solid upright cylinder that rocks about its base circle; lengths in m, mass in kg.
+        Build a solid upright cylinder that rocks about its base circle.
+
+        Parameters
+        ----------
+        diameter, height : float
+            m.
+        mass : float
+            kg.
+        gravity : float, optional
+            m/s².
+
+        Returns
+        -------
+        block : Block
 
         Raises
         ------
         ValueError
             If a dimension, the mass or gravity is not positive.
+
+        Examples
+        --------
+        >>> round(Block.cylinder(diameter=0.097, height=0.456, mass=26.0).restitution, 4)
+        0.9349
         """
-        _positive(diameter=diameter, height=height, mass=mass, gravity=gravity)
+        expect_positive(diameter=diameter, height=height, mass=mass, gravity=gravity)
         expect_metres(
             mass / cone_volume(diameter, diameter, height), diameter / height, diameter=diameter, height=height
         )
@@ -166,7 +138,20 @@ class Block:
         cls, *, base_diameter: float, top_diameter: float, height: float, mass: float, gravity: float = STANDARD_GRAVITY
     ) -> Block:
         """
-        Build a solid truncated cone, standing on the circle of `base_diameter`; lengths in m, mass in kg.
+        Build a solid truncated cone, standing on the circle of `base_diameter`.
+
+        Parameters
+        ----------
+        base_diameter, top_diameter, height : float
+            m.
+        mass : float
+            kg.
+        gravity : float, optional
+            m/s².
+
+        Returns
+        -------
+        block : Block
 
         Raises
         ------
@@ -177,8 +162,15 @@ class Block:
         -----
         Moments of the cross-sections are integrated over the height, where the radius changes linearly:
         centre of mass ∫z r² / ∫r², transverse inertia about the base ∫(r⁴/4 + z² r²) / ∫r².
+
+        Examples
+        --------
+        >>> round(Block.cone(base_diameter=0.12, top_diameter=0.08, height=0.456, mass=26.0).p, 3)
+        5.812
         """
-        _positive(base_diameter=base_diameter, top_diameter=top_diameter, height=height, mass=mass, gravity=gravity)
+        expect_positive(
+            base_diameter=base_diameter, top_diameter=top_diameter, height=height, mass=mass, gravity=gravity
+        )
         density = mass / cone_volume(base_diameter, top_diameter, height)
         expect_metres(density, base_diameter / height, base_diameter=base_diameter, height=height)
         return cls._turned(base_diameter, top_diameter, height, mass, gravity)
@@ -217,13 +209,17 @@ class Block:
         gravity : float, optional
             m/s².
 
+        Returns
+        -------
+        block : Block
+
         Raises
         ------
         ValueError
             If a value is not positive, an angle is not below π/2, or the inertia is smaller than that of the mass
             alone at the pole distance, which no body has.
         """
-        _positive(mass=mass, gravity=gravity)
+        expect_positive(mass=mass, gravity=gravity)
         angles = sided("critical_angle", critical_angle, "an angle between 0 and π/2 rad", above=0.0, below=pi / 2)
         distances = sided("pole_distance", pole_distance, "a positive number", above=0.0)
         inertias = sided("inertia", inertia, "a positive number", above=0.0)
@@ -246,7 +242,24 @@ class Block:
         pole_distance: Sided | None = None,
         inertia: Sided | None = None,
     ) -> Block:
-        """Return a block in which measured values, where given, replace the ones computed from dimensions."""
+        """
+        Return a block in which measured values, where given, replace the ones computed from dimensions.
+
+        Parameters
+        ----------
+        critical_angle, pole_distance, inertia : float or pair of float, optional
+            α in rad, R in m, I₀ in kg m² about the pole; a pair is (for θ < 0, for θ > 0).
+
+        Returns
+        -------
+        block : Block
+
+        Examples
+        --------
+        >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+        >>> round(block.override(inertia=1.9).p, 3)
+        5.592
+        """
         sides = []
         for index, side in enumerate(self.sides):
             given = {"critical_angle": critical_angle, "pole_distance": pole_distance, "inertia": inertia}
@@ -257,74 +270,6 @@ class Block:
             }
             sides.append(replace(side, **changed))
         return replace(self, negative=sides[0], positive=sides[1])
-
-    @property
-    def sides(self) -> tuple[Side, Side]:
-        """`negative` and `positive`, in this order."""
-        return self.negative, self.positive
-
-    @property
-    def governing(self) -> Side:
-        """The side with the smaller critical angle."""
-        return min(self.sides, key=lambda side: side.critical_angle)
-
-    @property
-    def is_symmetric(self) -> bool:
-        """Whether both sides are the same."""
-        return self.negative == self.positive
-
-    @property
-    def critical_angle(self) -> float:
-        """Critical angle α of the governing side, rad."""
-        return self.governing.critical_angle
-
-    @property
-    def pole_distance(self) -> float:
-        """Pole distance R of the governing side, m."""
-        return self.governing.pole_distance
-
-    @property
-    def inertia(self) -> float:
-        """Inertia I₀ about the pole of the governing side, kg m²."""
-        return self.governing.inertia
-
-    @property
-    def p(self) -> float:
-        """Frequency parameter p = sqrt(m g R / I₀) of the governing side, rad/s."""
-        return self.side_p(self.governing)
-
-    def side_p(self, side: Side) -> float:
-        """Frequency parameter of one side, rad/s."""
-        instance("side", side, Side)
-        return sqrt(self.mass * self.gravity * side.pole_distance / side.inertia)
-
-    def critical_angle_at(self, angle: ArrayLike) -> Array:
-        """Critical angle α of the side that each angle is on, rad; an angle of 0 or NaN counts as θ > 0."""
-        return self._at(angle, *(side.critical_angle for side in self.sides))
-
-    def pole_distance_at(self, angle: ArrayLike) -> Array:
-        """Pole distance R of the side that each angle is on, m; as `critical_angle_at`."""
-        return self._at(angle, *(side.pole_distance for side in self.sides))
-
-    def p_at(self, angle: ArrayLike) -> Array:
-        """Frequency parameter p of the side that each angle is on, rad/s; as `critical_angle_at`."""
-        return self._at(angle, *(self.side_p(side) for side in self.sides))
-
-    @staticmethod
-    def _at(angle: ArrayLike, negative: float, positive: float) -> Array:
-        plain = samples("angle", angle, dimensions=(0, 1, 2), fewest=0, finite=False)
-        return np.where(plain < 0, negative, positive)
-
-    @property
-    def restitution(self) -> float:
-        """Rigid-body coefficient of restitution without bounce, e = 1 − (2 m R b / I₀) sin α (Housner 1963)."""
-        side = self.governing
-        return 1 - 2 * self.mass * side.pole_distance * side.half_width / side.inertia * sin(side.critical_angle)
-
-    @property
-    def uplift_acceleration(self) -> float:
-        """Base acceleration g tan α above which the block starts to rock, m/s²."""
-        return self.gravity * sin(self.critical_angle) / cos(self.critical_angle)
 
 
 def pair(value: Sided) -> tuple[float, float]:
@@ -337,10 +282,3 @@ def pair(value: Sided) -> tuple[float, float]:
     ((0.2, 0.2), (0.2, 0.3))
     """
     return sided("value", value, "a number")
-
-
-def _positive(**values: float) -> None:
-    for name, value in values.items():
-        number(name, value, "a positive number", above=0.0)
-        if not LEAST <= value <= LARGEST:
-            raise ValueError(f"{name} is {value:g}; a number from {LEAST:g} to {LARGEST:g} was expected")

@@ -34,6 +34,18 @@ class History(Digested):
         s, when |θ| passed α for good; NaN if the block does not overturn.
     model : str
         Whose equation it solves.
+
+    Examples
+    --------
+    >>> import colonnade
+    >>> block = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> history = colonnade.rock(block, theta0=0.5 * block.critical_angle, restitution=0.9, duration=5.0)
+    >>> history.outcome, history.peak_ratio, history.peak_time, history.impacts
+    ('rocking', 0.5, 0.0, 28)
+    >>> float(history.amplitude[0]), float(history.energy[0])
+    (0.5, 0.75)
+    >>> history.digest()["duration"]
+    '5 s'
     """
 
     block: Block
@@ -47,7 +59,14 @@ class History(Digested):
     model: str = DEFAULT
 
     def digest(self) -> dict[str, str]:
-        """Return outcome, largest angle, impacts, duration and model."""
+        """
+        Return outcome, largest angle, impacts, duration and model.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
         fell = np.isfinite(self.overturning_time)
         name, size = ("at", written(self.overturning_time, "s")) if fell else ("max |θ|/α", written(self.peak_ratio))
         return {
@@ -60,7 +79,7 @@ class History(Digested):
 
     @property
     def amplitude(self) -> Array:
-        """|θ|/α with the critical angle of the side rocked on, shape (n,)."""
+        """|θ|/α with the critical angle of the side rocked on, shape (n,), dimensionless."""
         return amplitude(self.angle, self.block)
 
     @property

@@ -35,6 +35,12 @@ class Motion:
     ------
     ValueError
         If the motion is empty, a sample is not finite, the lengths differ or `dt` is not positive.
+
+    Examples
+    --------
+    >>> motion = Motion([0.0, 2.0, -1.0], 0.01)
+    >>> motion.time.tolist(), motion.duration, motion.peak
+    ([0.0, 0.01, 0.02], 0.02, 2.0)
     """
 
     def __init__(

@@ -34,6 +34,9 @@ class RestitutionLaw:
     >>> law = RestitutionLaw.table([0.0, 1.0], [1.0, 0.9])
     >>> float(law(0.5)), float(law(3.0))
     (0.95, 0.9)
+    >>> falling = RestitutionLaw.of(lambda speed: 0.95 - 0.01 * speed, largest_speed=2.0)
+    >>> round(float(falling(1.0)), 3), float(falling.reaching(np.array([3.0])).speeds[-1])
+    (0.94, 6.0)
     """
 
     speeds: Array
@@ -65,6 +68,17 @@ class RestitutionLaw:
         """
         Build a law from points.
 
+        Parameters
+        ----------
+        speeds : array_like, shape (m,)
+            |ω| just before an impact, rad/s, rising.
+        values : array_like, shape (m,)
+            e at these speeds, between 0 and 1.
+
+        Returns
+        -------
+        law : RestitutionLaw
+
         Raises
         ------
         ValueError
@@ -75,7 +89,18 @@ class RestitutionLaw:
     @classmethod
     def of(cls, function: Callable[[float], float], *, largest_speed: float) -> RestitutionLaw:
         """
-        Sample a function of |ω| (rad/s) at `POINTS` equal steps from 0 to `largest_speed`.
+        Sample a function of the speed at `POINTS` equal steps.
+
+        Parameters
+        ----------
+        function : callable
+            Gives e, between 0 and 1, of |ω| just before an impact, rad/s.
+        largest_speed : float
+            Up to which it is sampled from 0, rad/s.
+
+        Returns
+        -------
+        law : RestitutionLaw
 
         Raises
         ------
@@ -94,7 +119,19 @@ class RestitutionLaw:
         return cls(speeds, np.array(values), function)
 
     def reaching(self, velocities: Array) -> RestitutionLaw:
-        """Return this law, or the same function sampled to twice the largest of `velocities` where that is beyond."""
+        """
+        Return this law, or the same function sampled further if a velocity is beyond its last point.
+
+        Parameters
+        ----------
+        velocities : ndarray, shape (n,)
+            ω just before impacts, rad/s.
+
+        Returns
+        -------
+        law : RestitutionLaw
+            It reaches to twice the largest of them.
+        """
         largest = float(np.abs(samples("velocities", velocities, fewest=0)).max(initial=0.0))
         if self.function is None or not largest > self.speeds[-1]:
             return self

@@ -83,6 +83,11 @@ def rock(
     ValueError
         If an argument is out of its range or the model is not known.
 
+    Notes
+    -----
+    The equations are Housner's (1963): nonlinear, θ̈ = −p² [sin(α sgn θ − θ) + (a/g) cos(α sgn θ − θ)], and linear,
+    θ̈ = p² (θ − α sgn θ − a/g). Each impact multiplies the angular velocity by e.
+
     Examples
     --------
     >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)

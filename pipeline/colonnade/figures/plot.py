@@ -171,6 +171,19 @@ def animate(history: History) -> FuncAnimation:
     ------
     ValueError
         If it is not a history.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from colonnade.dynamics.block import Block
+    >>> from colonnade.dynamics.rock import rock
+    >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> movie = animate(rock(block, theta0=0.09, restitution=0.95, duration=0.3))
+    >>> with TemporaryDirectory() as folder:
+    ...     movie.save(Path(folder, "rocking.gif"), writer="pillow")
+    ...     Path(folder, "rocking.gif").read_bytes()[:3]
+    b'GIF'
     """
     instance("history", history, History)
     rocking = Rocking.of(history.block)

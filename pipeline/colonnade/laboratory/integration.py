@@ -19,7 +19,8 @@ from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
 from colonnade.arrays import Array
-from colonnade.dynamics.block import Block, Side
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.side import Side
 
 Acceleration = Callable[[float], float]
 Curve = Callable[[Any], Array]

@@ -71,6 +71,16 @@ def read_motion(
     -----
     UserWarning
         If the file is not as its own header says, for example shorter.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder, "table.txt")
+    ...     _ = path.write_text("0.00 0.0\\n0.01 0.1\\n0.02 -0.1\\n0.03 0.0\\n")
+    ...     motion = read_motion(path, unit="g")
+    >>> motion.dt, round(motion.peak, 3)
+    (0.01, 0.981)
     """
     path = _checked(path, unit, dt, column, layout)
     recording = registry.read(path) if layout is None else registry.read(path, "delimited", {"layout": layout})

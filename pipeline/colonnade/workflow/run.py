@@ -78,6 +78,15 @@ def run(
         If the campaign file is not usable, or a stage or test is unknown.
     StoreError
         If another run is in progress, or results cannot be written.
+
+    Examples
+    --------
+    >>> from colonnade.errors import CampaignError
+    >>> try:
+    ...     run("no-such-folder", until="restitution")
+    ... except CampaignError as error:
+    ...     print(str(error)[:25])
+    no-such-folder: not found
     """
     check_run(
         campaign,

@@ -50,6 +50,21 @@ class Fragility(Digested):
         If there are a hazard and a lognormal curve.
     measure : str
         Id of the measure of intensity; all intensities are in its SI unit. Empty if it was not said.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import colonnade
+    >>> block = colonnade.Block.prism(width=1.7, depth=1.7, height=9.1, mass=40e3)
+    >>> time = np.arange(0.0, 6.0, 0.02)
+    >>> taper = np.sin(np.pi * time / 6.0) ** 2
+    >>> waves = [3.0 * taper * np.sin(2 * np.pi * f * (time - 3.0)) for f in (0.4, 0.5, 0.6, 0.7)]
+    >>> motions = [colonnade.Motion(wave, 0.02) for wave in waves]
+    >>> found = colonnade.fragility(block, motions, restitution=0.95, levels=[0.5, 1.0, 2.0, 4.0], draws=1)
+    >>> found.measure, found.taken, 0.5 < found.reaches(0.5).value < 4.0
+    ('pgv', 'isotonic', True)
+    >>> found.digest()["records"]
+    '4'
     """
 
     outcomes: Outcomes
@@ -76,7 +91,7 @@ class Fragility(Digested):
         Parameters
         ----------
         probability : float
-            Between 0 and 1.
+            Share that overturns, between 0 and 1.
 
         Returns
         -------
@@ -88,7 +103,14 @@ class Fragility(Digested):
         return Interval(*(float(each[0]) for each in self.lognormal.intensity([probability])))
 
     def digest(self) -> dict[str, str]:
-        """Return the curve, or why there is none, and what it rests on."""
+        """
+        Return the curve, or why there is none, and what it rests on.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
         unit = measure_of(self.measure).unit if self.measure else ""
         curve: dict[str, str] = {"no curve": self.lognormal.reason}
         if not self.lognormal.reason:

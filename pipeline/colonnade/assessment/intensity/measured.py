@@ -31,11 +31,22 @@ class IntensityMeasures(Digested):
     reasons : dict of str to str
         Why a measure has no value, by id.
     drift : float
-        Velocity at the end over the largest one, after the correction.
+        Ratio of the velocity at the end to the largest one, after the correction.
     largest_drift : float
-        Up to which the motion counts as one without drift.
+        Ratio up to which the motion counts as one without drift.
     baseline : str
         Name of the correction that was asked for.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import colonnade
+    >>> wave = 3.0 * np.sin(np.pi * np.arange(101) / 50)
+    >>> found = colonnade.intensity_measures(colonnade.Motion(wave, 0.01))
+    >>> round(found.values["pgv"], 3), found.drift < found.largest_drift, found.baseline
+    (0.955, True, 'none')
+    >>> found.digest()["PGA"]
+    '3 m/s²'
     """
 
     values: dict[str, float]
@@ -45,7 +56,14 @@ class IntensityMeasures(Digested):
     baseline: str
 
     def digest(self) -> dict[str, str]:
-        """Return all measures with their units."""
+        """
+        Return all measures with their units.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
         measures = [measure_of(name) for name in self.values]
         return {each.symbol: written(self.values[each.id], each.unit) for each in measures}
 

@@ -8,9 +8,10 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from colonnade.campaign.forms.record import Record
-from colonnade.dynamics.block import Block, Side
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.ensembles.uncertainty import Uncertainty
 from colonnade.dynamics.models.registry import MODELS
+from colonnade.dynamics.side import Side
 
 MOST_MEMBERS = 1_000_000
 """Of an ensemble; as many as the settings allow."""

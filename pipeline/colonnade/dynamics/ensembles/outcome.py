@@ -39,14 +39,36 @@ class Ensemble(Digested):
     central : ndarray, shape (n,)
         rad, θ with nothing varied.
     levels : ndarray, shape (q,)
+        Shares of the members, 0 to 1, that the bands are for.
     bands : ndarray, shape (q, n)
         rad, quantiles of θ at each time.
-    inputs, peak_ratio, overturning_time : ndarray
-        Of each member, see `ensemble.Part`.
+    inputs : ndarray, shape (members, inputs)
+        Of each member: what is added to e (dimensionless) and θ₀ (rad), and factors on the others.
+    peak_ratio : ndarray, shape (members,)
+        max |θ|/α of each member up to overturning.
+    overturning_time : ndarray, shape (members,)
+        s, on the record's clock; NaN for a member that stands.
     histories : ndarray of float32, shape (k, n)
         rad, θ of the first members, at most `KEPT`, up to ±α: one that overturned stays there.
     names : tuple of str
         Of the inputs.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import colonnade
+    >>> block = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> motion = colonnade.Motion(3.0 * np.sin(np.arange(600) * 0.2), 0.005)
+    >>> inputs = colonnade.Uncertainty(restitution=0.005, gain=0.02)
+    >>> found = colonnade.ensemble(block, motion, restitution=0.95, uncertainty=inputs, count=50)
+    >>> found.overturning_probability, tuple(round(end, 3) for end in found.overturning_interval())
+    (0.0, (0.0, 0.071))
+    >>> found.peak_quantiles([0.5]).round(2).tolist(), found.horizon(0.5 * block.critical_angle)
+    ([0.13], 2.995)
+    >>> sorted(found.sensitivity()), found.sensitivity() == found.correlations(found.peak_ratio)
+    (['gain', 'restitution'], True)
+    >>> list(found.digest())
+    ['members', 'overturned', 'median of max |θ|/α', 'duration']
     """
 
     time: Array
@@ -60,7 +82,14 @@ class Ensemble(Digested):
     names: tuple[str, ...] = INPUTS
 
     def digest(self) -> dict[str, str]:
-        """Return the number of members, the share that overturns, the median peak and the duration."""
+        """
+        Return the number of members, the share that overturns, the median peak and the duration.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
         median = float(self.peak_quantiles([0.5])[0])
         return {
             "members": str(self.overturning_time.size),
@@ -70,7 +99,19 @@ class Ensemble(Digested):
         }
 
     def horizon(self, width: float) -> float:
-        """Return the first time (s) at which the widest band is wider than `width` (rad), else the last one."""
+        """
+        Return the first time at which the widest band is wider than this, else the last one.
+
+        Parameters
+        ----------
+        width : float
+            rad.
+
+        Returns
+        -------
+        horizon : float
+            s, on the record's clock.
+        """
         wide = self.bands[-1] - self.bands[0] > number("width", width, "a positive angle in rad", above=0.0)
         return float(self.time[int(np.argmax(wide)) if wide.any() else -1])
 
@@ -80,7 +121,19 @@ class Ensemble(Digested):
         return float(np.isfinite(self.overturning_time).mean())
 
     def overturning_interval(self, z: float = 1.959964) -> tuple[float, float]:
-        """Return the interval (Wilson 1927) of the probability that the finite number of members leaves; 95 %."""
+        """
+        Return the interval (Wilson 1927) of the probability of overturning that the finite number of members leaves.
+
+        Parameters
+        ----------
+        z : float, optional
+            Half of its width in standard deviations, dimensionless; by default it has 95 %.
+
+        Returns
+        -------
+        low, high : float
+            Probabilities, 0 to 1.
+        """
         z = number("z", z, "a positive number of standard deviations", above=0.0, high=LARGEST_Z)
         members, share = self.overturning_time.size, self.overturning_probability
         middle = (share + z**2 / (2 * members)) / (1 + z**2 / members)
@@ -88,7 +141,19 @@ class Ensemble(Digested):
         return max(middle - half, 0.0), min(middle + half, 1.0)
 
     def peak_quantiles(self, levels: Sequence[float] = LEVELS) -> Array:
-        """Quantiles of max |θ|/α over the members; those that overturn are above all others, inf."""
+        """
+        Quantiles of max |θ|/α over the members.
+
+        Parameters
+        ----------
+        levels : sequence of float, optional
+            Shares of the members, 0 to 1.
+
+        Returns
+        -------
+        quantiles : ndarray, shape of `levels`
+            Dimensionless; members that overturn are above all others, inf.
+        """
         wanted = samples("levels", levels)
         if not ((wanted >= 0.0) & (wanted <= 1.0)).all():
             raise ValueError(f"levels go from {wanted.min():g} to {wanted.max():g}; numbers from 0 to 1 were expected")
@@ -99,12 +164,29 @@ class Ensemble(Digested):
         """
         Rank correlation (Spearman 1904) of the peak with each input that varies.
 
-        Members that overturn share the highest rank. Inputs that do not vary are left out; NaN if all peaks are equal.
+        Members that overturn share the highest rank. Inputs that do not vary are left out.
+
+        Returns
+        -------
+        sensitivity : dict of str to float
+            −1 to 1, by input; NaN if all peaks are equal.
         """
         return self.correlations(np.where(np.isfinite(self.overturning_time), inf, self.peak_ratio))
 
     def correlations(self, values: Array) -> dict[str, float]:
-        """Rank correlation of the members' values, shape (members,), NaN being highest, with each input that varies."""
+        """
+        Rank correlation (Spearman 1904) of values of the members with each input that varies.
+
+        Parameters
+        ----------
+        values : ndarray, shape (members,)
+            In any unit; NaN is the highest.
+
+        Returns
+        -------
+        correlations : dict of str to float
+            −1 to 1, by input.
+        """
         given = samples("values", values, finite=False)
         if given.size != len(self.inputs):
             raise ValueError(f"values has {given.size} numbers; {len(self.inputs)}, one a member, were expected")

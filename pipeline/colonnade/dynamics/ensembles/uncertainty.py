@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.dynamics.block import Block, Side, Sided, pair
+from colonnade.dynamics.block import Block, Sided, pair
 from colonnade.dynamics.motion import MOST_SAMPLES, Motion
+from colonnade.dynamics.side import Side
 from colonnade.validation import number, whole
 
 INPUTS = ("restitution", "critical_angle", "p", "gain", "clock", "cutoff", "theta0")
@@ -51,6 +52,11 @@ class Uncertainty:
     ------
     ValueError
         If a deviation is negative or not finite, or the filter is uncertain but no filter was used.
+
+    Examples
+    --------
+    >>> Uncertainty(restitution=0.005, gain=0.01).deviations.tolist()
+    [0.005, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0]
     """
 
     restitution: float = 0.0

@@ -47,6 +47,16 @@ class StabilityMap(Digested):
     options : dict
         All that the limits depend on: model, cycles, phase, ramp and its shape, scan step, width, edge,
         restitution, rest rule.
+
+    Examples
+    --------
+    >>> import colonnade
+    >>> block = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> chart = colonnade.stability_map(block, frequency_ratio=[2.0, 4.0], amplitude_ratio=[0.5, 2.0, 4.0])
+    >>> chart.no_rocking.round(2).tolist(), chart.islands.shape[1]
+    ([0.99, 0.99], 3)
+    >>> chart.digest()["Ω"]
+    '2 to 4 in 2'
     """
 
     frequency_ratio: Array
@@ -62,7 +72,14 @@ class StabilityMap(Digested):
     options: dict[str, Any]
 
     def digest(self) -> dict[str, str]:
-        """Return model, axes, and the range of the lower limit."""
+        """
+        Return model, axes, and the range of the lower limit.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
         known = self.lower[np.isfinite(self.lower)]
         omegas, amplitudes = self.frequency_ratio, self.amplitude_ratio
         lower = f"A = {known.min():.3g} to {known.max():.3g}" if known.size else "above the largest A"
@@ -107,11 +124,11 @@ def stability_map(
     restitution : float, pair of float, RestitutionLaw or function, optional
         e, see `rock`; default the rigid-body value.
     cycles : float, optional
-        Cycles at full amplitude, at least 1.
+        Number of cycles at full amplitude, at least 1.
     phase : float, optional
         rad: the base acceleration is a sin(ω t + phase).
     ramp : float, optional
-        Cycles over which the amplitude rises before, and falls after.
+        Number of cycles over which the amplitude rises before, and falls after.
     ramp_shape : {"linear", "cosine"}
         How it rises and falls: in proportion to time, or as half a cosine.
     model : str, optional

@@ -30,7 +30,18 @@ class Reactions:
     impact_times, impact_friction : ndarray, shape (m,)
         s; ratio of the horizontal to the vertical impulse of each impact.
     friction : float or None
-        The coefficient that the flags are for.
+        The coefficient of friction that the flags are for.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import colonnade
+    >>> block = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> time = np.arange(200) * 0.01
+    >>> motion = colonnade.Motion(3.0 * np.sin(4 * np.pi * time) * (time < 0.5), 0.01)
+    >>> forces = colonnade.reactions(colonnade.rock(block, motion, restitution=0.9), motion, friction=0.2)
+    >>> forces.first_break, int(forces.slides.sum()), bool(forces.impacts_slide.any()), bool(forces.loses_contact.any())
+    (0.08, 34, True, True)
     """
 
     time: Array

@@ -43,6 +43,16 @@ class OverturningSpectrum(Digested):
         Every interval of A that overturns, islands included, by its Ω.
     options : dict
         What the limits depend on: restitution, γ and ν, largest A, width, edge, rest rule.
+
+    Examples
+    --------
+    >>> import colonnade
+    >>> block = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> limits = colonnade.overturning_spectrum(block, "half-sine", frequency_ratio=[2.0, 4.0])
+    >>> limits.lower.round(2).tolist(), limits.islands.shape
+    ([1.78, 2.76], (0, 3))
+    >>> limits.digest()["lower limit"]
+    'A = 1.78 to 2.76'
     """
 
     pulse: str
@@ -56,7 +66,14 @@ class OverturningSpectrum(Digested):
     options: dict[str, Any]
 
     def digest(self) -> dict[str, str]:
-        """Return pulse, model and the range of the lower limit."""
+        """
+        Return pulse, model and the range of the lower limit.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
         known = self.lower[np.isfinite(self.lower)]
         return {
             "pulse": self.pulse,

@@ -38,9 +38,20 @@ class RockingSpectrum(Digested):
     peak_velocity_ratio : ndarray, shape (n, m)
         Largest |θ'|/p, rad, up to overturning.
     overturned : ndarray of bool, shape (n, m)
+        Whether the block overturns.
     restitution : ndarray, shape (n, 2)
         e of each α, of impacts that end an arc at θ < 0, and at θ > 0.
     model : str
+        Its name.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import colonnade
+    >>> motion = colonnade.Motion(3.0 * np.sin(np.pi * np.arange(51) / 25), 0.01)
+    >>> found = colonnade.rocking_spectrum(motion, critical_angle=[0.2], period=[1.0, 2.0])
+    >>> found.overturned.tolist(), found.digest()["overturned"]
+    ([[True, False]], '1 of 2')
     """
 
     critical_angle: Array
@@ -52,7 +63,14 @@ class RockingSpectrum(Digested):
     model: str
 
     def digest(self) -> dict[str, str]:
-        """Return model, axes and how many blocks overturn."""
+        """
+        Return model, axes and how many blocks overturn.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
         angles, periods = self.critical_angle, self.period
         return {
             "model": self.model,

@@ -43,6 +43,14 @@ def rocking_angle(displacements: ArrayLike, at: ArrayLike, direction: ArrayLike,
     -----
     Lasers, string pots, inclinometers and the other unknowns of a pose:
     `colonnade.identification.fusion.pose.fit_pose`.
+
+    Examples
+    --------
+    >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> readings = [[0.0, 4.4e-3], [0.0, 0.4e-3]]  # m, at 440 mm and at 40 mm
+    >>> points = [[0.043, 0.0, 0.44], [0.043, 0.0, 0.04]]
+    >>> rocking_angle(readings, points, [[1, 0, 0], [1, 0, 0]], block).round(5).tolist()
+    [0.0, 0.01]
     """
     return fit_rocking(displacements, at, direction, block).angle
 

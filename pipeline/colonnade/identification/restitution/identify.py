@@ -53,7 +53,7 @@ def identify_restitution(
         s, increasing; rad, about the rest position. Missing samples are NaN.
     block : Block
     level : float, optional
-        Of the interval of confidence.
+        Probability of the interval of confidence, 0 to 1.
     lowest_amplitude : float, optional
         Peaks with |θ|/α below it are left out, as are those that do not stand out of the noise.
     noise : float, optional
@@ -83,7 +83,16 @@ def identify_restitution(
 
     Notes
     -----
-    Each `Estimate` says what its estimator assumes. All are made; one is recommended (`choice.RULE`).
+    Each `Estimate` says what its estimator assumes. All are made; one is recommended (`choice.RULE`). Each impact
+    multiplies the energy of the peaks by e² (Housner 1963).
+
+    Examples
+    --------
+    >>> from colonnade.dynamics.rock import rock
+    >>> block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> history = rock(block, theta0=0.09, restitution=0.9, duration=5.0)
+    >>> round(identify_restitution(history.time, history.angle, block).value, 3)
+    0.9
     """
     free = check_settings(
         block, level=level, lowest_amplitude=lowest_amplitude, noise=noise, lowpass=lowpass, free=free

@@ -150,8 +150,11 @@ class Restitution(Digested):
     value, low, high : float or None
         The recommended e and its interval of confidence at `level`; None if refused.
     standard_error : float or None
+        Of e.
     level : float
+        Probability of the interval.
     method : str
+        In words.
     reason : str
         Why refused; empty otherwise.
     zero_offset : float
@@ -168,6 +171,17 @@ class Restitution(Digested):
         Name of the estimate whose value this is; empty if refused.
     constancy : Constancy
         Of e from impact to impact.
+
+    Examples
+    --------
+    >>> import colonnade
+    >>> block = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    >>> history = colonnade.rock(block, theta0=0.09, restitution=0.9, duration=5.0)
+    >>> found = colonnade.identify_restitution(history.time, history.angle, block)
+    >>> round(found.value, 3), found.low < 0.9 < found.high, found.recommended, found.reason
+    (0.9, True, 'peaks', '')
+    >>> sorted(found.digest())
+    ['e', 'method', 'peaks used']
     """
 
     value: float | None
@@ -187,7 +201,14 @@ class Restitution(Digested):
     constancy: Constancy = field(default_factory=Constancy)
 
     def digest(self) -> dict[str, str]:
-        """Return e with its interval, the method and the peaks that it is from, or why it is missing."""
+        """
+        Return e with its interval, the method and the peaks that it is from, or why it is missing.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
         if self.value is None:
             return {"e": written(None), "reason": self.reason}
         e = written(self.value, digits=5)

@@ -1,0 +1,107 @@
+"""Every public name says what it is, in which units, and shows it with an example that doctest runs."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import re
+from functools import cached_property
+
+import pytest
+
+import colonnade
+
+pytest.importorskip("numpydoc", reason="of the extra `docs`; `make docs-test` installs it")
+from numpydoc.docscrape import ClassDoc, FunctionDoc
+
+pytestmark = pytest.mark.docs
+
+PUBLIC = sorted(set(colonnade.__all__) - {"__version__"})
+CLASSES = [name for name in PUBLIC if inspect.isclass(getattr(colonnade, name))]
+FUNCTIONS = [name for name in PUBLIC if name not in CLASSES]
+OF_PYTHON = ("args", "with_traceback", "add_note")
+NUMBERS = re.compile(r"\b(float|ndarray(?! of bool)|array_like|ArrayLike)\b")
+UNITS = re.compile(
+    r"(?<![\w/])(rad|m|s|kg|N|Hz|m/s²|rad/s|s/rad|kg m²|SI|NaN|dimensionless|relative|"
+    r"[0-9] (to|and) [0-9π]|Ω|A|α|θ\|?/α|e|[Ss]hares?|[Ff]actors?|[Ff]raction|[Pp]robabilit(y|ies)|[Uu]nit|width|"
+    r"as of|as for|\|H\|/N|ratio|velocity at the end|friction|standard deviations|number)(?![\w/])"
+)
+"""A unit, or a word that says that there is none."""
+
+
+def sections(name: str):
+    found = getattr(colonnade, name)
+    return ClassDoc(found) if inspect.isclass(found) else FunctionDoc(found)
+
+
+def names_of(parameters) -> set[str]:
+    return {each.strip().lstrip("*") for one in parameters for each in one.name.split(",")}
+
+
+def without_unit(parameters) -> list[str]:
+    """Numbers of which it is not said in which unit they are."""
+    return [
+        one.name for one in parameters if NUMBERS.search(one.type) and not UNITS.search(" ".join([one.type, *one.desc]))
+    ]
+
+
+def members_of(name: str) -> dict[str, object]:
+    """Public methods and properties of a class, with those of its own bases."""
+    found = getattr(colonnade, name)
+    fields = {each.name for each in dataclasses.fields(found)} if dataclasses.is_dataclass(found) else set()
+    listed = {member for member in dir(found) if not member.startswith("_")} - fields - set(OF_PYTHON)
+    return {member: inspect.getattr_static(found, member) for member in sorted(listed)}
+
+
+def method_of(member):
+    """The function behind a method; None of a property."""
+    if isinstance(member, (property, cached_property)):
+        return None
+    return member.__func__ if isinstance(member, (classmethod, staticmethod)) else member
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_it_has_a_summary_and_an_example(name):
+    found = sections(name)
+    assert found["Summary"]
+    assert any(line.strip().startswith(">>>") for line in found["Examples"])
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_function_says_what_it_takes_gives_and_refuses(name):
+    found = sections(name)
+    assert set(inspect.signature(getattr(colonnade, name)).parameters) == names_of(found["Parameters"])
+    assert found["Returns"]
+    assert found["Raises"]
+    assert without_unit(found["Parameters"]) == []
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_a_class_says_what_it_holds(name):
+    found, given = getattr(colonnade, name), sections(name)
+    documented = names_of(given["Attributes"]) | names_of(given["Parameters"])
+    if dataclasses.is_dataclass(found):
+        assert {each.name for each in dataclasses.fields(found)} <= documented
+        assert without_unit(given["Attributes"]) == []
+    assert without_unit(given["Parameters"]) == []
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_every_method_and_property_is_described_and_shown(name):
+    shown = inspect.getdoc(getattr(colonnade, name))
+    for member, found in members_of(name).items():
+        method = method_of(found)
+        text = inspect.getdoc(getattr(found, "fget", None) or getattr(found, "func", None) or method)
+        assert text, member
+        assert f".{member}" in shown or ">>>" in text, f"{name}.{member} has no example"
+        if method is not None:
+            described = FunctionDoc(method)
+            taken = set(inspect.signature(method).parameters) - {"self", "cls"}
+            assert taken == names_of(described["Parameters"]), member
+            assert described["Returns"], member
+            assert without_unit(described["Parameters"]) == [], member
+
+
+def test_a_number_without_a_unit_is_found():
+    found = FunctionDoc(None, doc="Give it.\n\nParameters\n----------\nx : float\n    Of it.\ny : float\n    m.\n")
+    assert without_unit(found["Parameters"]) == ["x"]
