@@ -21,6 +21,10 @@ FREE = colonnade.rock(BLOCK, theta0=0.5 * BLOCK.critical_angle, duration=4.0, re
 LAW = colonnade.RestitutionLaw.table([0.0, 1.0], [1.0, 0.9])
 SURE = colonnade.Uncertainty()
 ENSEMBLE = colonnade.ensemble(BLOCK, MOTION, uncertainty=SURE, count=2)
+ASKED = {"block": BLOCK, "motions": [MOTION, MOTION], "measure": "pga", "levels": [1.0, 4.0, 9.0], "draws": 1} | {
+    "resamples": 20,
+    "measures": ["pga"],
+}
 
 DAY = np.datetime64("2024-01-01")
 NUMBERS: dict[str, Any] = {
@@ -201,13 +205,13 @@ CALLS = {
     ),
     "fragility": Call(
         colonnade.fragility,
-        {"block": BLOCK, "motions": [MOTION, MOTION], "measure": "pga", "levels": [1.0, 4.0, 9.0], "draws": 1}
-        | {"resamples": 20, "measures": ["pga"]},
+        ASKED,
         {"block": "object", "motions": "object", "restitution": "e", "measure": "name", "levels": "array"}
         | {"restitution_range": "limits", "critical_angle_range": "limits", "p_range": "limits", "draws": "whole"}
         | {"overturned": "positive", "hazard": "object or none", "measures": "names", "model": "name"}
         | {"drift": "positive", "baseline": "name", "level": "share", "resamples": "whole", "seed": "seed"},
     ),
+    "Fragility.reaches": Call(colonnade.fragility(**ASKED).reaches, {"probability": 0.5}, {"probability": "share"}),
     "rocking_spectrum": Call(
         colonnade.rocking_spectrum,
         {"motion": MOTION, "critical_angle": [0.2, 0.3], "period": [1.0, 2.0]},

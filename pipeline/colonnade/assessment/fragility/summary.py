@@ -22,6 +22,7 @@ from colonnade.assessment.fragility.resurrection import Resurrection, resurrecti
 from colonnade.assessment.fragility.uplift import Uplift, uplift
 from colonnade.assessment.intensity.registry import measure_of
 from colonnade.digest import Digested, written
+from colonnade.validation import number
 
 MISFITS = 0.05
 """p-value of the misfit below which the lognormal curve is not taken."""
@@ -97,7 +98,13 @@ class Fragility(Digested):
         -------
         intensity : Interval
             `value`, `low`, `high` in the SI unit of the measure; 0 if below the levels, inf if above.
+
+        Raises
+        ------
+        ValueError
+            If the probability is not between 0 and 1.
         """
+        number("probability", probability, "a number between 0 and 1", above=0.0, below=1.0)
         if self.taken == "isotonic":
             return self.isotonic.reaches(probability)
         return Interval(*(float(each[0]) for each in self.lognormal.intensity([probability])))
