@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from colonnade.units import format_percent
+from colonnade.units.writing import with_minus
 from faults.registry import FAULTS
 from faults.unseen import UNSEEN
 from monte_carlo.page import FACTORS
@@ -46,7 +47,7 @@ def _restitution(found: Found) -> list[Row]:
     return [
         Row(
             f"e of {found['records']} random records with known truth: bias",
-            f"{whole['bias']:+.1e} ± {whole['bias_error']:.0e}",
+            f"{_power(whole['bias'])} ± {_power(whole['bias_error'])}",
             "The truth is the plane equation with one law of e: not a real contact.",
         ),
         Row(
@@ -63,7 +64,7 @@ def _restitution(found: Found) -> list[Row]:
         ),
         Row(
             "RMS error of e; of an unweighted line through the highest samples",
-            f"{whole['scatter']:.1e}; {whole['naive_scatter']:.1e}",
+            f"{_power(whole['scatter'])}; {_power(whole['naive_scatter'])}",
             "The naive way is ours; no program of others was compared.",
         ),
     ]
@@ -215,6 +216,10 @@ def measured(folder: Path = HERE) -> str:
         "[The atlas](../faults/index.md), made by `python reports/fault_atlas.py`; `make test` plants each again.",
     ]
     return "\n\n".join(parts)
+
+
+def _power(value: float) -> str:
+    return with_minus(f"{value:.1e}")
 
 
 def _table(rows: Iterable[Row]) -> str:

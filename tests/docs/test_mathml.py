@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import sys
 from xml.etree import ElementTree
 
 import pytest
@@ -11,12 +10,12 @@ import pytest
 from page_blocks import PROJECT
 
 pytest.importorskip("latex2mathml", reason="the extra `docs` is not installed")
+pytestmark = pytest.mark.docs
 SPACE = "{http://www.w3.org/1998/Math/MathML}"
 
 
 @pytest.fixture
-def markup(monkeypatch):
-    monkeypatch.setattr(sys, "path", [str(PROJECT / "docs" / "extensions"), *sys.path])
+def markup():
     from docutils import nodes
 
     import mathml
