@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import json
+import os
+import signal
+import subprocess
+import sys
 import time
+from contextlib import suppress
 from typing import Any
+
+import pytest
 
 from colonnade.workflow.execution.lock import only_run
 from colonnade.workflow.watching.behind import Behind, Ended
 
 
 def ended(behind: Behind) -> Ended:
-    until = time.monotonic() + 120
+    until = time.monotonic() + 600
     while (found := behind.ended()) is None:
         assert time.monotonic() < until
         time.sleep(0.05)
@@ -32,3 +40,45 @@ def test_it_gives_way_and_then_says_what_failed_and_when_it_was_refused(small: A
     with only_run(small.layout):
         behind.start()
         assert ended(behind).was_refused
+
+
+LONG = "[processing.predict.ensemble]\nmembers = 10000\n"
+"""A run of minutes."""
+
+WATCH = """
+import sys, time
+from pathlib import Path
+from colonnade.workflow.watching.behind import Behind
+
+Behind(Path(sys.argv[1]), None, 1).start()
+time.sleep(600)
+"""
+
+
+def wait_until(condition: Any) -> None:
+    until = time.monotonic() + 600
+    while not condition():
+        assert time.monotonic() < until
+        time.sleep(0.05)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a process is killed as only POSIX does")
+def test_it_ends_in_order_when_the_watch_is_killed(small: Any) -> None:
+    toml = small.folder / "campaign.toml"
+    toml.write_text(toml.read_text(encoding="utf-8") + LONG, encoding="utf-8")
+    holder = small.layout.lock_holder
+    watch = subprocess.Popen([sys.executable, "-c", WATCH, str(toml)])
+    run = 0
+    try:
+        wait_until(holder.exists)
+        run = json.loads(holder.read_text(encoding="utf-8"))["process"]
+        time.sleep(1.0)
+        assert holder.exists()
+        watch.kill()
+        watch.wait()
+        wait_until(lambda: not holder.exists())  # a run that was killed itself would leave it
+    finally:
+        watch.kill()
+        if run:
+            with suppress(ProcessLookupError):
+                os.killpg(run, signal.SIGKILL)

@@ -1,4 +1,4 @@
-"""The rest of the work, in a process of its own at lower priority, which gives way to the next file."""
+"""The rest of the work, in a process of its own at lower priority: it gives way to a file, and ends with the watch."""
 
 from __future__ import annotations
 
@@ -64,12 +64,12 @@ class Behind:
     def start(self) -> None:
         """Begin a run."""
         self._output = tempfile.TemporaryFile()  # noqa: SIM115 — closed by `_end`
-        command = [sys.executable, "-m", "colonnade", "run", str(self.campaign_file), "--await", "--json"]
+        command = [sys.executable, "-m", f"{__package__}.led", "run", str(self.campaign_file), "--await", "--json"]
         command += [] if self.results is None else ["--results", str(self.results)]
         command += [] if self.workers is None else ["--workers", str(self.workers)]
         options = {"process_group": 0} if os.name == "posix" else {"creationflags": _windows_flags()}
         self._process = subprocess.Popen(  # type: ignore[call-overload]
-            command, stdin=subprocess.DEVNULL, stdout=self._output, stderr=subprocess.DEVNULL, **options
+            command, stdin=subprocess.PIPE, stdout=self._output, stderr=subprocess.DEVNULL, **options
         )
         if os.name == "posix":
             with contextlib.suppress(OSError):
@@ -101,7 +101,9 @@ class Behind:
     def _end(self) -> Ended:
         assert self._process is not None
         assert self._output is not None
+        assert self._process.stdin is not None
         code = self._process.wait()
+        self._process.stdin.close()
         self._output.seek(0)
         try:
             stages = json.loads(self._output.read() or b"{}").get("stages")
