@@ -14,13 +14,13 @@ from colonnade.identification.restitution.choice import RULE, choose
 from colonnade.identification.restitution.departures.departure import Departure
 from colonnade.identification.restitution.departures.findings import find_departures
 from colonnade.identification.restitution.departures.free_rocking import objection
-from colonnade.identification.restitution.departures.single_impacts import found_by_impact
+from colonnade.identification.restitution.departures.single_impacts import found_by_impact, scatters
 from colonnade.identification.restitution.estimators.history import NonlinearHistory
 from colonnade.identification.restitution.estimators.history_scatter import ScatteredHistory
 from colonnade.identification.restitution.estimators.impact_by_impact import ImpactByImpact
 from colonnade.identification.restitution.estimators.peaks import PeakDecay
 from colonnade.identification.restitution.estimators.registry import CANDIDATES, ESTIMATORS
-from colonnade.identification.restitution.fitting.driven_decay import moving_base
+from colonnade.identification.restitution.fitting.driven_decay import BaseMotion, moving_base
 from colonnade.identification.restitution.fitting.samples import thinned
 from colonnade.identification.restitution.free_vibration import FreeVibration
 from colonnade.identification.restitution.result import Peaks, Restitution
@@ -67,8 +67,9 @@ def identify_restitution(
         Rotation about x (rad), displacement of the pole and height of the base (m), if measured: departures from
         plane rocking are then seen directly.
     base_acceleration : array_like, shape (n,), optional
-        Of the base along x, m/s², at even steps. If it moves the table (`base_motion.table_moves`) it drives the
-        history; only the whole history with an e of its own at each impact can follow that.
+        Of the base along x, m/s², at even steps. If it moves the table (`base_motion.table_moves`), and the angle is
+        explained better so than by a table at rest and a noisy accelerometer, it drives the history; only the whole
+        history with an e of its own at each impact can follow that.
 
     Returns
     -------
@@ -109,7 +110,7 @@ def identify_restitution(
     if reason := _no_free_rocking(record):
         return _refused(reason, level, record.peaks)
     try:
-        record = replace(record, base=moving_base(times, base_acceleration, block))
+        record = _driven(record, moving_base(times, base_acceleration, block))
     except ValueError as error:
         return _refused(str(error), level, record.peaks)
     zero = record.fitted(ScatteredHistory()).zero_offset
@@ -123,6 +124,23 @@ def identify_restitution(
         record = record.without_first(max((departure.left_out for departure in departures), default=0))
     whole = record.fitted(ScatteredHistory())
     return _result(record, departures + found_by_impact(whole, driven=record.base is not None))
+
+
+def _driven(record: FreeVibration, base: BaseMotion | None) -> FreeVibration:
+    """
+    Let the recorded motion of the table drive the history, unless a table at rest explains the angle better.
+
+    An accelerometer may have more noise than a table at rest may move. A motion that did not happen spoils the history;
+    one that did, and is left out, makes e of single impacts scatter.
+    """
+    if base is None:
+        return record
+    driven = replace(record, base=base, fits={})
+    at_rest = record.fitted(ScatteredHistory())
+    if at_rest.estimate.residual is None or scatters(at_rest):
+        return driven
+    with_motion = driven.fitted(ScatteredHistory()).estimate.residual
+    return driven if with_motion is not None and with_motion < at_rest.estimate.residual else record
 
 
 def _departures(

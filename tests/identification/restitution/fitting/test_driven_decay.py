@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
+from colonnade.identification.response.base_motion import table_moves
 from colonnade.identification.restitution.fitting.driven_decay import BaseMotion, DrivenDecay
 from colonnade.identification.restitution.fitting.free_decay import ALWAYS, Decay
 from colonnade.identification.restitution.identify import identify_restitution
@@ -20,13 +21,13 @@ VALUES = {"restitution": np.log(E), "peak": 0.5 * ALPHA, "time": 0.3, "zero_offs
 DECAY = Decay(VALUES | {"critical_angle": 0.0, "p": 0.0}, 1, 12, PRISM, linearised=False)
 
 
-def shaken(amplitude, frequency, phase=0.0):
+def shaken(amplitude, frequency, phase=0.0, restitution=E):
     """Base acceleration, m/s², and the angle by the laboratory's own adaptive integration of it."""
 
     def acceleration(instant):
         return amplitude * PRISM.gravity * ALPHA * np.sin(2 * np.pi * frequency * instant + phase)
 
-    run = Integration(PRISM, TIME, E, np.pi / 2, 0.6 * ALPHA)
+    run = Integration(PRISM, TIME, restitution, np.pi / 2, 0.6 * ALPHA)
     run.move_to(0.5)
     run.release(0.6 * ALPHA, 0.0)
     run.go(0.5, float(TIME[-1]), acceleration)
@@ -85,3 +86,30 @@ def test_a_moving_table_with_samples_missing_is_refused_with_the_reason():
     result = identify_restitution(TIME, angle, PRISM, base_acceleration=acceleration)
     assert result.value is None
     assert "missing 20 of 3500 samples" in result.reason
+
+
+@pytest.mark.parametrize("e", [0.90, 0.95])
+@pytest.mark.parametrize("noise", [0.06, 0.2])
+def test_noise_of_an_accelerometer_moves_no_table(e, noise):
+    _, angle = shaken(0.0, 1.0, restitution=e)
+    random = np.random.default_rng(6)
+    angle = angle + random.normal(0.0, 1e-4 * ALPHA, TIME.size)
+    recorded = random.normal(0.0, noise, TIME.size) + noise * np.sin(2 * np.pi * 50.0 * TIME)
+    recorded += 0.2 * noise * np.cumsum(random.normal(0.0, STEP**0.5, TIME.size))
+    assert table_moves(recorded, STEP, PRISM)
+    result = identify_restitution(TIME, angle, PRISM, base_acceleration=recorded)
+    assert result.low <= e <= result.high
+    assert not result.departures
+
+
+@pytest.mark.parametrize("amplitude", [0.03, 0.05, 0.1])
+def test_a_table_that_moves_is_not_taken_for_noise(amplitude):
+    acceleration, angle = shaken(amplitude, 1.3, 1.0)
+    random = np.random.default_rng(7)
+    angle = angle + random.normal(0.0, 5e-4 * ALPHA, TIME.size)
+    noisy = acceleration + random.normal(0.0, 0.05, TIME.size)
+    result = identify_restitution(TIME, angle, PRISM, base_acceleration=noisy)
+    assert result.recommended in ("", "history-scatter")
+    assert result.value is None or result.low <= E <= result.high
+    for wrong in (-acceleration, random.normal(0.0, 0.2, TIME.size)):
+        assert identify_restitution(TIME, angle, PRISM, base_acceleration=wrong).value is None

@@ -44,11 +44,16 @@ def found_by_impact(fit: ScatteredFit, *, driven: bool = False) -> tuple[Departu
         "moving table": its size is the scatter of e from impact to impact beyond the noise, whatever its spectrum;
         threshold `LARGEST_SCATTER`; it refuses. Else "speed-dependent restitution".
     """
-    if fit.restitution.size >= FEWEST_IMPACTS and min(fit.scatter, _seen_scatter(fit)) > LARGEST_SCATTER:
+    if scatters(fit):
         trend = abs(fit.change) if isfinite(fit.change) and abs(fit.change) > SURE * fit.change_error else 0.0
         if fit.scatter > trend:
             return (_moving(fit, fit.scatter, driven=driven),)
     return speed_dependence(fit)
+
+
+def scatters(fit: ScatteredFit) -> bool:
+    """Whether e of single impacts scatters more than impacts alone explain."""
+    return fit.restitution.size >= FEWEST_IMPACTS and min(fit.scatter, _seen_scatter(fit)) > LARGEST_SCATTER
 
 
 def _seen_scatter(fit: ScatteredFit) -> float:
