@@ -9,7 +9,7 @@ from itertools import compress
 import numpy as np
 from numpy.typing import ArrayLike
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 from colonnade.assessment.cases.cases import COMPONENTS, Cases, Outcomes, factors_at
 from colonnade.assessment.cases.levels import default_levels
 from colonnade.assessment.cases.prototype import Prototype, draw
@@ -21,6 +21,7 @@ from colonnade.assessment.intensity.baselines import NONE, baseline_of
 from colonnade.assessment.intensity.ground import LARGEST_DRIFT, Ground
 from colonnade.assessment.intensity.measured import measured, measures_of
 from colonnade.assessment.intensity.registry import MEASURES, Measure, measure_of
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.models.nonlinear import NONLINEAR
 from colonnade.dynamics.motion import Motion
 from colonnade.validation import number, samples
@@ -126,20 +127,8 @@ def plan_study(
     drift = number("drift", drift, "a positive share of the peak velocity", above=0.0)
     compared = [scaled_over, *measures_of(USUAL if measures is None else measures)]
     corrected = {name: _corrected(motion, baseline) for name, motion in motions.items()}
-    values = {each.id: np.full((len(motions), len(COMPONENTS)), np.nan) for each in compared}
-    drifts, reasons = np.zeros(len(motions)), dict[tuple[str, str], str]()
-    for row, (name, motion) in enumerate(corrected.items()):
-        for column, component in enumerate(COMPONENTS):
-            along = getattr(motion, WITH_COMPONENT[component])
-            if along is None:
-                continue
-            ground = Ground(along, motion.dt, block.gravity)
-            drifts[row] = max(drifts[row], ground.drift)
-            for each in compared:
-                values[each.id][row, column], reason = measured(each, ground, block, drift=drift)
-                if reason and each is scaled_over:
-                    reasons[name, component] = reason
-    usable = np.isfinite(values[scaled_over.id]).any(axis=1)
+    values, drifts, reasons = _measured(corrected, compared, block, drift)
+    usable: Mask = np.asarray(np.isfinite(values[scaled_over.id]).any(axis=1))
     if not usable.any():
         why = next(iter(reasons.values()), "there is no record")
         raise ValueError(f"No record has a {scaled_over.name}: {why}")
@@ -150,9 +139,7 @@ def plan_study(
     if levels is None:
         found = default_levels(prototype, chosen, recorded, power=power, model=model)
     else:
-        found = np.unique(samples("levels", levels))
-        if not found[0] > 0.0:
-            raise ValueError(f"levels begin at {found[0]:g}; positive levels of the {scaled_over.name} were expected")
+        found = _checked_levels(levels, scaled_over)
     factors = factors_at(found, recorded, power)
     runs = np.array([_has_history(*each, block.gravity) for each in zip(chosen, factors, strict=True)])
     if not runs.all():
@@ -165,6 +152,39 @@ def plan_study(
     drawn = tuple(draw(prototype, draws, seed, record=number) for number in range(len(chosen)))
     cases = Cases(prototype, drawn, chosen, factors, model)
     return Study(tuple(kept), cases, scaled_over, found, values, drifts[usable], _left_out(kept, reasons))
+
+
+def _measured(
+    motions: Mapping[str, Motion], compared: Sequence[Measure], block: Block, drift: float
+) -> tuple[dict[str, Array], Array, dict[tuple[str, str], str]]:
+    """
+    Measure each horizontal component of the records.
+
+    Returns the values by measure, shape (records, components), the largest drift of each record, and by record and
+    component why it does not have the first of the measures.
+    """
+    values = {each.id: np.full((len(motions), len(COMPONENTS)), np.nan) for each in compared}
+    drifts, reasons = np.zeros(len(motions)), dict[tuple[str, str], str]()
+    for row, (name, motion) in enumerate(motions.items()):
+        for column, component in enumerate(COMPONENTS):
+            along = getattr(motion, WITH_COMPONENT[component])
+            if along is None:
+                continue
+            ground = Ground(along, motion.dt, block.gravity)
+            drifts[row] = max(drifts[row], ground.drift)
+            for each in compared:
+                values[each.id][row, column], reason = measured(each, ground, block, drift=drift)
+                if reason and each is compared[0]:
+                    reasons[name, component] = reason
+    return values, drifts, reasons
+
+
+def _checked_levels(levels: ArrayLike, measure: Measure) -> Array:
+    """Return levels, rising and each once."""
+    found = np.unique(samples("levels", levels))
+    if not found[0] > 0.0:
+        raise ValueError(f"levels begin at {found[0]:g}; positive levels of the {measure.name} were expected")
+    return found
 
 
 def judge(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, MutableMapping, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Mapping, MutableMapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -52,6 +52,9 @@ OWN = ("tests/*.html", "specimens/*.html", "data/**/*.js", "scripts/*.js", "setu
 
 Block = tuple[Campaign, list[Asked]]
 """Some tests whose pages are asked for, and their campaign."""
+
+Rendered = tuple[str, str | None, str]
+"""A page: its address, its text, and a hash of what it is made from; see `render`."""
 
 Spread = Callable[[Callable[[Block], list[Part]], list[Block]], Iterable[list[Part]]]
 
@@ -124,7 +127,7 @@ def render(
     code: str = "",
     kept: MutableMapping[str, str] | None = None,
     spread: Spread = map,
-) -> Iterator[tuple[str, str | None, str]]:
+) -> Iterator[Rendered]:
     """
     Render the pages, the overview last.
 
@@ -139,13 +142,51 @@ def render(
     """
     renderer = pages.renderer_of(campaign)
     yield from drawings.files(campaign, layout.report.parent, code)
-    kept = {} if kept is None else kept
-    every = asked_of(campaign, layout, outdated)
-    found = _known(campaign, every, kept)
+    asked = asked_of(campaign, layout, outdated)
+    tests = yield from _tests(campaign, layout, code, asked, {} if kept is None else kept, spread)
+    rows, used = [part.row for part in tests], Used()
+    for part in tests:
+        used.add(part.used)
+    grouped, mapped = groups.by_specimen(campaign, rows), maps.measured_maps(campaign, layout, rows)
+    specimens = yield from _specimens(campaign, layout, code, renderer, tests, grouped, mapped)
+    for page in specimens:
+        used.versions |= page.subject.pooled.versions
+    for address, text in scripts().items():
+        yield address, text, ""
+    summary = read_summary(layout)
+    foreseen, assessed = forecasts_page(layout, summary), assessments_page(campaign, layout, summary)
+    shown = _shown(campaign, tests, specimens, assessed, used) | {
+        "groups": grouped,
+        "maps": mapped,
+        "forecasts": foreseen,
+        "advice": {"heads": advising.HEADS, "rows": [each.row() for each in advice]},
+        "assessments": assessed,
+        "symbol": symbol,
+        "not_covered": NOT_COVERED,
+        "not_computed": NOT_COMPUTED,
+    }
+    if campaign.assessments:
+        yield from _page(renderer, "assessments", addresses.ASSESSMENTS, shown)
+    if foreseen is not None:
+        yield from _page(renderer, "forecasts", addresses.FORECASTS, shown)
+    for template, address in addresses.WHOLE.items():
+        yield from _page(renderer, template, address, shown)
+
+
+def _tests(
+    campaign: Campaign,
+    layout: Layout,
+    code: str,
+    asked: Sequence[Asked],
+    kept: MutableMapping[str, str],
+    spread: Spread,
+) -> Generator[Rendered, None, list[Part]]:
+    """Draw the pages of tests whose parts are not kept, and return the parts of all tests."""
+    found = _known(campaign, asked, kept)
     for part in found.values():
         yield addresses.of_test(part.row.id), None, part.made_from
         yield addresses.of_data(addresses.of_test(part.row.id)), None, part.made_from
-    missing = [asked for asked in every if asked.test not in found]
+    missing = [each for each in asked if each.test not in found]
     blocks = [missing[start : start + IN_A_BLOCK] for start in range(0, len(missing), IN_A_BLOCK)]
     for parts in spread(partial(_drawn, layout, code), [(_with(campaign, block), block) for block in blocks]):
         for part in parts:
@@ -153,19 +194,24 @@ def render(
             yield addresses.of_data(addresses.of_test(part.row.id)), part.data, part.made_from
             found[part.row.id] = replace(part, text=None, data=None)
             kept[part.row.id] = to_text(part)
-    tests = [found[name] for name in campaign.tests]
-    rows = [part.row for part in tests]
-    used = Used()
-    for part in tests:
-        used.add(part.used)
-    grouped, mapped = groups.by_specimen(campaign, rows), maps.measured_maps(campaign, layout, rows)
+    return [found[name] for name in campaign.tests]
+
+
+def _specimens(
+    campaign: Campaign,
+    layout: Layout,
+    code: str,
+    renderer: pages.Renderer,
+    tests: Sequence[Part],
+    grouped: Sequence[groups.SpecimenGroup],
+    mapped: Sequence[maps.MeasuredMap],
+) -> Generator[Rendered, None, list[SpecimenPage]]:
+    """Render the pages of specimens that are out of date, and return what all of them show."""
     specimens = []
     for name in campaign.specimens:
-        pooled = read_specimen(campaign, layout, name)
-        used.versions |= pooled.versions
         own = [part for part in tests if part.row.test.specimen == name]
         free = [part.free_vibration for part in own if part.free_vibration]
-        specimens.append(specimens_page.of_specimen(campaign, name, pooled, free))
+        specimens.append(specimens_page.of_specimen(campaign, name, read_specimen(campaign, layout, name), free))
         address, made_from = addresses.of_specimen(name), _made_from(campaign, layout, code, specimens[-1], own)
         if is_drawn(layout, address, made_from):
             yield from ((made, None, made_from) for made in (addresses.of_data(address), address))
@@ -176,24 +222,7 @@ def render(
             "maps": [drawn for drawn in mapped if drawn.specimen == name],
         }
         yield from _page(renderer, "specimen", address, shown, made_from)
-    for address, text in scripts().items():
-        yield address, text, ""
-    summary = read_summary(layout)
-    foreseen, assessed = forecasts_page(layout, summary), assessments_page(campaign, layout, summary)
-    shown = _shown(campaign, tests, specimens, assessed, used) | {
-        "groups": grouped,
-        "maps": mapped,
-        "forecasts": foreseen,
-    }
-    shown["advice"] = {"heads": advising.HEADS, "rows": [each.row() for each in advice]}
-    shown |= {"assessments": assessed, "symbol": symbol, "not_covered": NOT_COVERED}
-    shown["not_computed"] = NOT_COMPUTED
-    if campaign.assessments:
-        yield from _page(renderer, "assessments", addresses.ASSESSMENTS, shown)
-    if foreseen is not None:
-        yield from _page(renderer, "forecasts", addresses.FORECASTS, shown)
-    for template, address in addresses.WHOLE.items():
-        yield from _page(renderer, template, address, shown)
+    return specimens
 
 
 def _made_from(campaign: Campaign, layout: Layout, code: str, page: SpecimenPage, own: Iterable[Part]) -> str:
@@ -208,7 +237,7 @@ def _made_from(campaign: Campaign, layout: Layout, code: str, page: SpecimenPage
 
 def _page(
     renderer: pages.Renderer, template: str, address: str, shown: dict[str, Any], made_from: str = ""
-) -> Iterator[tuple[str, str | None, str]]:
+) -> Iterator[Rendered]:
     """Render a page that shows several tests, and its data."""
     text = renderer.page(template, address, **shown)
     yield addresses.of_data(address), tables.of_page(address, renderer.pictures), made_from

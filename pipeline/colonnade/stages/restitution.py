@@ -74,7 +74,8 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
     identified : xr.Dataset
         `restitution` with its interval, the recommended one; `estimate` by each `estimator`, `restitution_history` from
         the whole history by each model; peaks, impacts with e of each, the fitted history with its residual, and
-        the joint region of e and the critical angle. Where e cannot be identified it is NaN and the attribute `reason`
+        the joint region of e and the critical angle. The attribute `table_moves` says "true" or "false", whether the
+        table's recorded motion drives the history. Where e cannot be identified it is NaN and the attribute `reason`
         (of the histories, `history_reason`) says why: that is a result, not a failure.
 
     Raises
@@ -113,6 +114,7 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
             "departures": [found.sentence for found in result.departures],
             "history_method": NonlinearHistory.method,
             "history_reason": " ".join(dict.fromkeys(each.reason for each in by_model if each.reason)),
+            "table_moves": "" if result.table_moves is None else str(result.table_moves).lower(),
             "warnings": warnings,
         },
     )

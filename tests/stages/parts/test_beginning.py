@@ -149,6 +149,18 @@ def test_the_noise_of_an_accelerometer_moves_no_table(small_campaign, released, 
     np.testing.assert_array_equal(prediction["rocking_angle"], without["rocking_angle"])
 
 
+def test_it_is_driven_as_its_restitution_is(small_campaign, released, specimen):
+    _, rocking = measured(small_campaign, released(E)[0])
+    base = rocking["base_acceleration"]
+    noisy = rocking.assign(base_acceleration=base.copy(data=np.random.default_rng(1).normal(0.0, 0.2, base.size)))
+    identified = identifying.restitution(
+        noisy, identifying.RestitutionInputs.of(small_campaign, small_campaign.tests["free-01"])
+    )
+    assert np.isfinite(float(identified["restitution"]))
+    assert predicted(small_campaign, noisy, specimen, identified).attrs["driven_by"] == AT_REST
+    assert predicted(small_campaign, noisy, specimen).attrs["driven_by"] == RECORDED
+
+
 @pytest.mark.parametrize(("share", "varied"), [(0.0, False), (0.05, True)], ids=["at rest", "moving"])
 def test_an_ensemble_varies_the_base_motion_only_if_it_drives(small_campaign, released, specimen, share, varied):
     ready, rocking = measured(small_campaign, released(E, share)[0])

@@ -162,13 +162,8 @@ def overturning_spectrum(
     largest = number("largest", largest, "a positive A", above=0.0, high=LARGEST_RATIO)
     width, edge = checked_widths(width, edge, largest)
     threads = whole("threads", threads, 1, MOST_THREADS)
-    e = sided(
-        "restitution",
-        block.restitution if restitution is None else restitution,
-        "a number between 0 and 1",
-        low=0.0,
-        high=1.0,
-    )
+    given = block.restitution if restitution is None else restitution
+    e = sided("restitution", given, "a number between 0 and 1", low=0.0, high=1.0)
     case = _Case(block, kind, cycles, phase, e, model)
     scan = np.linspace(0.0, largest, ceil(largest / width * STEPS_A_WIDTH) + 1)[1:]
     with ThreadPoolExecutor(threads) as pool:

@@ -123,7 +123,8 @@ def identify_restitution(
         departures = _departures(record, times, angles - zero, out_of_plane=out_of_plane, slide=slide, uplift=uplift)
         record = record.without_first(max((departure.left_out for departure in departures), default=0))
     whole = record.fitted(ScatteredHistory())
-    return _result(record, departures + found_by_impact(whole, driven=record.base is not None))
+    result = _result(record, departures + found_by_impact(whole, driven=record.base is not None))
+    return replace(result, table_moves=None if base_acceleration is None else record.base is not None)
 
 
 def _driven(record: FreeVibration, base: BaseMotion | None) -> FreeVibration:

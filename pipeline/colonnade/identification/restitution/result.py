@@ -171,6 +171,8 @@ class Restitution(Digested):
         Name of the estimate whose value this is; empty if refused.
     constancy : Constancy
         Of e from impact to impact.
+    table_moves : bool or None
+        Whether the recorded motion of the table drives the history; None if it was not recorded, or refused before.
 
     Examples
     --------
@@ -199,6 +201,7 @@ class Restitution(Digested):
     departures: tuple[Any, ...] = ()
     recommended: str = ""
     constancy: Constancy = field(default_factory=Constancy)
+    table_moves: bool | None = None
 
     def digest(self) -> dict[str, str]:
         """

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from colonnade.assessment.cases.cases import Outcomes
+from colonnade.assessment.cases.prototype import Prototype
 from colonnade.assessment.fragility.curves.lognormal import LognormalFit
 from colonnade.assessment.fragility.resampling import Interval
 from colonnade.assessment.fragility.summary import Fragility
@@ -60,9 +61,8 @@ def answer(
     answer : AssessmentSummary
     """
     study, found = plan.studies[ASSUMED], fragilities[ASSUMED]
-    column, lognormal = study.cases.prototype, found.lognormal
+    lognormal = found.lognormal
     five, fifty = (_estimate(found.reaches(share)) for share in (0.05, 0.5))
-    limits = column.restitution_range or (None, None)
     rate = found.rate
     variants = [_variant(plan, name, each) for name, each in fragilities.items() if name != ASSUMED]
     return AssessmentSummary(
@@ -71,16 +71,8 @@ def answer(
         specimen=plan.inputs.specimen,
         measure=study.measure.id,
         unit=study.measure.unit,
-        critical_angle=column.block.critical_angle,
-        p=column.block.p,
-        restitution=Estimate(value=float(np.mean(pair(column.restitution))), low=limits[0], high=limits[1]),
-        restitution_source=plan.restitution_source,
-        critical_angle_range=column.critical_angle_range,
-        p_range=column.p_range,
-        friction=column.friction,
-        friction_range=column.friction_range,
+        **_assumed(plan, study.cases.prototype),
         baseline=plan.inputs.asked.baseline,
-        uplift_acceleration=column.block.uplift_acceleration,
         uplift=Estimate() if found.uplift.curve is None else _estimate(found.uplift.curve.median),
         median=_estimate(lognormal.median),
         dispersion=_estimate(lognormal.beta),
@@ -107,6 +99,22 @@ def answer(
         records_left_out=left_out(plan),
         notes=(*plan.records.notes, *_not_compared(plan, found)),
     )
+
+
+def _assumed(plan: Plan, column: Prototype) -> dict[str, Any]:
+    """Give what was assumed of the column."""
+    low, high = column.restitution_range or (None, None)
+    return {
+        "critical_angle": column.block.critical_angle,
+        "critical_angle_range": column.critical_angle_range,
+        "p": column.block.p,
+        "p_range": column.p_range,
+        "restitution": Estimate(value=float(np.mean(pair(column.restitution))), low=low, high=high),
+        "restitution_source": plan.restitution_source,
+        "friction": column.friction,
+        "friction_range": column.friction_range,
+        "uplift_acceleration": column.block.uplift_acceleration,
+    }
 
 
 def _estimate(interval: Interval) -> Estimate:

@@ -24,7 +24,10 @@ from colonnade.stages.parts.inputs import Inputs
 
 RECORDED = "the recorded motion of the base"
 NOT_RECORDED = "a base at rest: its motion was not recorded"
-AT_REST = f"a base at rest: what was recorded changes the specimen's velocity by less than {LEAST_MOTION:g} p α"
+AT_REST = (
+    f"a base at rest: what was recorded changes the specimen's velocity by less than {LEAST_MOTION:g} p α, or its "
+    "accelerometer shows more noise than motion"
+)
 
 
 class BeginningInputs(Inputs):
@@ -103,14 +106,14 @@ def begin(rocking: xr.Dataset, inputs: BeginningInputs, identified: xr.Dataset |
 
     Notes
     -----
-    A free vibration is driven by what was recorded on the table if that moves it (`table_moves`), the same rule as of
-    its restitution; otherwise by nothing, since the noise of an accelerometer moves no table.
+    A free vibration is driven by what was recorded on the table if its restitution is; where that was not decided, if
+    that moves it (`table_moves`). Otherwise by nothing, since the noise of an accelerometer moves no table.
     """
     time, block = rocking["elapsed"].to_numpy(), inputs.block
     first, peak, since, offset, driven_by = 0, 0.0, 0.0, 0.0, RECORDED
     if inputs.free_vibration:
         first, peak, since, offset = _start(rocking, block, identified)
-        driven_by = _drives_free_vibration(rocking, block)
+        driven_by = _drives_free_vibration(rocking, block, identified)
     if driven_by == RECORDED:
         base = base_acceleration(rocking)
         vertical, warnings = vertical_acceleration(rocking, gravity=block.gravity, expected=inputs.has_vertical)
@@ -127,9 +130,11 @@ def begin(rocking: xr.Dataset, inputs: BeginningInputs, identified: xr.Dataset |
     return Beginning(first, theta0, omega0, base, motion, driven_by, offset, warnings)
 
 
-def _drives_free_vibration(rocking: xr.Dataset, block: Block) -> str:
+def _drives_free_vibration(rocking: xr.Dataset, block: Block, identified: xr.Dataset | None) -> str:
     if "base_acceleration" not in rocking:
         return NOT_RECORDED
+    if decided := "" if identified is None else identified.attrs.get("table_moves", ""):
+        return RECORDED if decided == "true" else AT_REST
     time = rocking["elapsed"].to_numpy()
     moves = table_moves(rocking["base_acceleration"].to_numpy(), float(time[1] - time[0]), block)
     return RECORDED if moves else AT_REST

@@ -34,7 +34,7 @@ from colonnade.store.forecasts import write_forecast
 from colonnade.store.layout import Layout
 from colonnade.store.results import WITHOUT_PREDICTION
 from colonnade.workflow.catalogue import Catalogue, stored_attributes
-from colonnade.workflow.forecasting.motions import level_of, motion_asked_for
+from colonnade.workflow.forecasting.motions import Asked, level_of, motion_asked_for
 from colonnade.workflow.pooling import restitution_taken
 from colonnade.workflow.raw_files import raw_files
 
@@ -115,12 +115,7 @@ def foresee(
     catalogue = Catalogue(layout)
     setup = own or asked.test
     tilt = (loaded.setups[setup.setup].table_tilt or 0.0) if setup is not None else 0.0
-    inputs = _inputs(loaded, layout, name, tilt)
-    models = [model for model in loaded.processing.predict.models if not MODELS[model].in_space]
-    if not models:
-        raise CampaignError(
-            "processing.predict.models: forecasts need a model in the plane, linear or nonlinear, among them."
-        )
+    inputs, models = _inputs(loaded, layout, name, tilt), _models(loaded)
     code, there, found = catalogue.code(MADE_BY), _raw_files(loaded, layout, catalogue, own), []
     for number, level in enumerate(wanted, 1):
         expect_none()
@@ -132,14 +127,7 @@ def foresee(
             test=None if own is None else own.id,
             specimen=name,
             level=level.asked,
-            motion=ForecastMotion(
-                name=asked.name,
-                source=asked.source,
-                sha256=hashlib.sha256(moved.acceleration.astype("<f8").tobytes()).hexdigest(),
-                interval=moved.dt,
-                samples=moved.acceleration.size,
-                time_scale=asked.time_scale,
-            ),
+            motion=_described(asked, moved),
             table=_table(moved),
             inputs=inputs,
             models={model: _by_model(inputs, model, moved) for model in models},
@@ -149,6 +137,26 @@ def foresee(
         if progress is not None:
             progress(number, len(wanted))
     return found
+
+
+def _described(asked: Asked, moved: Motion) -> ForecastMotion:
+    return ForecastMotion(
+        name=asked.name,
+        source=asked.source,
+        sha256=hashlib.sha256(moved.acceleration.astype("<f8").tobytes()).hexdigest(),
+        interval=moved.dt,
+        samples=moved.acceleration.size,
+        time_scale=asked.time_scale,
+    )
+
+
+def _models(campaign: Campaign) -> list[str]:
+    models = [model for model in campaign.processing.predict.models if not MODELS[model].in_space]
+    if not models:
+        raise CampaignError(
+            "processing.predict.models: forecasts need a model in the plane, linear or nonlinear, among them."
+        )
+    return models
 
 
 def _test(campaign: Campaign, name: str | None) -> Test | None:
