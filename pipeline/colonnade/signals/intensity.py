@@ -1,4 +1,4 @@
-"""How strong a recorded base motion is: peak velocity and displacement by integration, Arias intensity."""
+"""How strong the motion of a table is, which begins and ends at rest: its velocity, displacement, Arias intensity."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ def arias_intensity(acceleration: Array, interval: float, gravity: float) -> flo
     return float(np.pi / (2 * gravity) * scipy.integrate.trapezoid(squares, dx=interval))
 
 
-def peak_velocity(acceleration: Array, interval: float) -> Integrated:
+def table_velocity(acceleration: Array, interval: float) -> Integrated:
     """
-    Return the largest velocity of a motion that begins and ends at rest.
+    Return the largest velocity of a table, which begins and ends at rest.
 
     Parameters
     ----------
@@ -59,16 +59,17 @@ def peak_velocity(acceleration: Array, interval: float) -> Integrated:
     Notes
     -----
     The acceleration is integrated by trapezoids. A line through the mean velocities of the first and the last
-    `RESTING` of the record is subtracted: a constant error of the acceleration gives no more than a line.
+    `RESTING` of the record is subtracted: a constant error of the acceleration gives no more than a line. The PGV of a
+    ground motion (`assessment.intensity`) is another measure: nobody knows that the ground stops with its record.
     """
     return _checked(_integral(acceleration, interval))
 
 
-def peak_displacement(acceleration: Array, interval: float) -> Integrated:
+def table_displacement(acceleration: Array, interval: float) -> Integrated:
     """
-    Return the largest displacement of a motion that begins and ends at rest, by integrating twice.
+    Return the largest displacement of a table, which begins and ends at rest, by integrating twice.
 
-    The velocity is that of `peak_velocity`; its integral is refused by the same rule. Returned in m.
+    The velocity is that of `table_velocity`; its integral is refused by the same rule. Returned in m.
     """
     velocity = _integral(acceleration, interval)
     if np.isnan(_checked(velocity).peak):

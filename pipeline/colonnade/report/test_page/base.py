@@ -19,7 +19,7 @@ from colonnade.figures.stored.base import BaseMotion
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.signals.filters import lowpass
-from colonnade.signals.intensity import LARGEST_DRIFT, arias_intensity, peak_displacement, peak_velocity
+from colonnade.signals.intensity import LARGEST_DRIFT, arias_intensity, table_displacement, table_velocity
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import largest_motion
 from colonnade.store.records.wording import NOTHING, number, quantity
@@ -75,19 +75,19 @@ def _measures(motion: BaseMotion, stored: Stored, gravity: float, scale: float |
     def each(measure: Callable[[Array], float]) -> list[float]:
         return [nan if values is None else measure(values) for values in series]
 
-    velocity = each(lambda values: peak_velocity(values, motion.interval).peak)
+    velocity = each(lambda values: table_velocity(values, motion.interval).peak)
     derived = isnan(velocity[0]) and not isnan(measured)
     if derived:
         velocity[0] = _from_displacement(stored, motion.interval)
-    displacement = each(lambda values: peak_displacement(values, motion.interval).peak)
+    displacement = each(lambda values: table_displacement(values, motion.interval).peak)
     drifts = (
         f"not given: the integral of the acceleration drifts by more than {100 * LARGEST_DRIFT:g}{PERCENT} of its peak"
     )
-    integrated = "integral of the acceleration, less a line through its ends"
+    integrated = "integral of the acceleration, less a line through its ends, where the table is at rest"
     return [
         row("peak acceleration (PGA)", "m/s²", "acceleration", each(lambda values: float(np.abs(values).max())), ""),
         row(
-            "peak velocity (PGV)",
+            "peak velocity of the table",
             "mm/s",
             "velocity",
             velocity,
@@ -98,7 +98,7 @@ def _measures(motion: BaseMotion, stored: Stored, gravity: float, scale: float |
             else integrated,
         ),
         row(
-            "peak displacement (PGD)",
+            "peak displacement of the table",
             "mm",
             "length",
             [displacement[0] if isnan(measured) else measured, displacement[1]],

@@ -233,10 +233,10 @@ def _raw_files(campaign: Campaign, layout: Layout, catalogue: Catalogue, test: T
 
 
 def _table(motion: Motion) -> ForecastTable:
-    from colonnade.signals.intensity import peak_displacement, peak_velocity
+    from colonnade.signals.intensity import table_displacement, table_velocity
 
-    velocity = peak_velocity(motion.acceleration, motion.dt)
-    displacement = peak_displacement(motion.acceleration, motion.dt)
+    velocity = table_velocity(motion.acceleration, motion.dt)
+    displacement = table_displacement(motion.acceleration, motion.dt)
     return ForecastTable(
         peak_acceleration=motion.peak,
         peak_velocity=_known(velocity.peak),
