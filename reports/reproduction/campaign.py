@@ -8,8 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from colonnade import run
 from colonnade.arrays import Array
+from colonnade.cli.common.console import complain
+from colonnade.cli.common.progress import work_progress
+from colonnade.cli.run import run_with_progress
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory import paper_programme, write_campaign
 from colonnade.laboratory.campaign_file import FILE_NAME
@@ -71,9 +73,10 @@ def frequency_ratios(count: int) -> Array:
 def perform(folder: Path, workers: int | None = None) -> Path:
     """Write the campaign, run it and make the maps of the prism; what is up to date stays. Return campaign.toml."""
     path = folder / FILE_NAME
+    complain(f"Shaking the virtual table into {folder}")
     write_campaign(folder, seed=SEED, programme=programme, workers=workers)
     write_text(path, path.read_text(encoding="utf-8") + SETTINGS)
-    result = run(path, workers=workers)
+    result = run_with_progress(path, workers=workers)
     if result.failed:
         raise SystemExit(f"{path}: tests failed. Look at {folder / 'report' / 'index.html'}.")
     first, *_, last = frequency_ratios(len(FREQUENCIES)).tolist()
@@ -85,5 +88,6 @@ def perform(folder: Path, workers: int | None = None) -> Path:
         cycles=CYCLES,
         ramp=MAP_RAMP,
     )
-    make_maps(path, wanted, specimens=(SPECIMEN,), workers=workers)
+    with work_progress(f"Mapping by {len(wanted.models)} models") as progress:
+        make_maps(path, wanted, specimens=(SPECIMEN,), workers=workers, progress=progress)
     return path
