@@ -239,6 +239,7 @@ def test_a_gyroscope_that_contradicts_the_others_is_left_out_and_said(shaken, me
     _, time, angle, base = shaken
     result = measure(["laser", "gyroscope"], time, angle, base=base, spoilt={"gyroscope": -1.0})
     assert "one gyroscope not used" in result.attrs["separation"]
+    assert [str(each) for each in result.attrs["warnings"] if "not from gyroscope gyroscope" in str(each)]
     assert np.sqrt(np.nanmean(_error(result, time, angle) ** 2)) < 4e-3 * PRISM.critical_angle
     assert float(result["residual_to_reading"].sel(transducer="gyroscope")) > 1.5
 

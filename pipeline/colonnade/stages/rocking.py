@@ -14,7 +14,7 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline
 from colonnade.errors import StageError
 from colonnade.findings import Finding, warning
-from colonnade.identification.fusion.motion import SpecimenMotion, specimen_motion
+from colonnade.identification.fusion.motion import SEEN, SpecimenMotion, specimen_motion
 from colonnade.identification.fusion.readings import Circumstances, TableReadings
 from colonnade.identification.fusion.separation import UnseenRotationError
 from colonnade.identification.response.features import angle_features
@@ -161,7 +161,7 @@ def _motion(
     resting = inputs.free_vibration or "base_acceleration" in base
     table = TableReadings(axes(base, "displacement", time), axes(base, "acceleration", time) if resting else None)
     circumstances = Circumstances(float(time[1] - time[0]), inputs.rest_duration, ends_at_rest=inputs.free_vibration)
-    return specimen_motion(
+    motion = specimen_motion(
         group(conditioned, known.positions, gravity),
         group(conditioned, known.gyroscopes, gravity),
         group(conditioned, known.accelerometers, gravity),
@@ -170,6 +170,23 @@ def _motion(
         inputs.outline,
         circumstances,
     )
+    warnings += _contradicting(motion, known, used)
+    return motion
+
+
+def _contradicting(motion: SpecimenMotion, known: Transducers, used: list[str]) -> list[Finding]:
+    """Report the gyroscopes about the axis of rocking that the angle is not from, as the others contradict them."""
+    entered = dict(zip(used, motion.entered.tolist(), strict=True))
+    turning = [name for name, each in known.gyroscopes.items() if name in entered and abs(each.direction[1]) > SEEN]
+    left_out = [name for name in turning if not entered[name]]
+    if not left_out:
+        return []
+    several = "s" if len(left_out) > 1 else ""
+    text = (
+        f"The angle is not from gyroscope{several} {', '.join(left_out)}: the displacement transducers contradict. "
+        "Check gain, sign and axis (`direction`)."
+    )
+    return [warning("fewer transducers", text)]
 
 
 def _motion_variables(

@@ -70,7 +70,9 @@ def test_a_dead_channel_is_told_from_a_table_that_stands(changed, said):
 def test_two_motions_are_not_one():
     acceleration, _ = _pair()
     other = TableChannel("ACT", 0.01 * np.sin(4 * np.pi * TIME), 2e-5)
-    assert "not like one table" in str(dead(INTERVAL, acceleration, other))
+    message = str(dead(INTERVAL, acceleration, other))
+    assert "not like one table" in message
+    assert "did not start with the other (`clock`)" in message
 
 
 @pytest.mark.parametrize(

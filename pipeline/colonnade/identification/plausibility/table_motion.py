@@ -126,8 +126,8 @@ def dead(interval: float, acceleration: TableChannel, displacement: TableChannel
         return serious(
             "table motion",
             f"channels {acceleration.name} and {displacement.name} both move, but not like one table (correlation "
-            f"{_correlation(recorded, derived):.2f}): one of them was read from another column or recorder, or "
-            "measures another component of the motion",
+            f"{_correlation(recorded, derived):.2f}): one of them was read from another column, measures "
+            "another component of the motion, or is on a recorder that did not start with the other (`clock`)",
             follows=("late recorder",),
         )
     return None

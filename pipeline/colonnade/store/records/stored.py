@@ -33,9 +33,10 @@ WITHOUT_SAMPLES = ("ingest", "condition")
 """Stages whose samples are not kept in memory: a report of hundreds of tests has to fit."""
 
 FOREIGN = (
-    "the stored result was made from other raw files, another campaign file or another version of colonnade; run again"
+    "not every stage was run, or the stored results were made from other raw files, another campaign file or another "
+    "version of colonnade; run again"
 )
-"""Reason of a test whose stored results are out of date."""
+"""Reason of a test whose stored results are incomplete or out of date."""
 
 
 class Failure(NamedTuple):

@@ -45,6 +45,12 @@ def test_an_arc_with_samples_missing_keeps_its_place_without_a_peak():
     assert arcs.peak_angle.size == 6
 
 
+def test_arcs_by_a_clock_in_the_wrong_unit_have_no_fit():
+    arcs = find_arcs(1000 * TIME, 0.1 * np.sin(2 * np.pi * TIME), 5.6, lowest=0.01)
+    assert arcs.peak_angle.size == 6
+    assert np.isnan(arcs.peak_standard_error).all()
+
+
 def test_noise_level_sees_white_noise_through_rocking():
     angle = 0.1 * np.sin(2 * np.pi * TIME) + np.random.default_rng(0).normal(0, 1e-3, TIME.size)
     assert noise_level(angle) == pytest.approx(1e-3, rel=0.1)

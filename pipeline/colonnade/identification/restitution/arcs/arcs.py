@@ -192,7 +192,8 @@ def arcs_between(impacts: Array, time: Array, angle: Array, p: float, *, critica
     bounds = np.searchsorted(time, impacts)
     sums = _summed(time, angle, impacts, bounds, p, np.nan if critical is None else critical)
     middle, own_p, count, normal = sums.middle, sums.p, sums.last - sums.first, sums.normal
-    fitted = count >= FEWEST_SAMPLES
+    # With a clock in the wrong unit the hyperbolic functions exceed all numbers.
+    fitted = (count >= FEWEST_SAMPLES) & np.isfinite(normal).all(axis=(1, 2))
     fitted[fitted] = np.linalg.cond(normal[fitted]) < SINGULAR
     inverse = np.full(normal.shape, np.nan)
     inverse[fitted] = np.linalg.inv(normal[fitted])

@@ -121,6 +121,8 @@ def arc_series(
     def phase(angle: Array, limit: Array) -> Array:
         return np.asarray(np.log(half_duration_of(angle, limit, False)))
 
+    # Where the fits disagree on the order of two impacts the arc has no duration.
+    duration = np.where(high > low, high - low, np.nan)
     return ArcSeries(
         number=number,
         side=np.sign(peak_angle[kept]),
@@ -134,7 +136,7 @@ def arc_series(
         energy=np.log(2 * p**2 * rise),
         energy_by_peak=np.sin(critical - peak) / rise,
         energy_by_critical=(np.sin(critical) - np.sin(critical - peak)) / rise,
-        period=np.log((high - low) * p / 2) - phase(peak, critical),
+        period=np.log(duration * p / 2) - phase(peak, critical),
         period_by_peak=(phase(peak * (1 + STEP), critical) - phase(peak * (1 - STEP), critical)) / (2 * STEP * peak),
         period_by_critical=(phase(peak, critical * (1 + STEP)) - phase(peak, critical * (1 - STEP)))
         / (2 * STEP * critical),
