@@ -2,39 +2,43 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import shutil
 from pathlib import Path
 
 import pytest
 
-from colonnade.cli import invoke
 from page_blocks import PROJECT, Block, Reader, assert_shown, assert_valid, blocks_of, is_slow
 
 SECTIONS = ("tutorial", "how-to", "explanation", "faults")
 PAGES = sorted(page for section in SECTIONS for page in (PROJECT / "docs" / section).rglob("*.md"))
 
 
+BEGINNINGS = ("colonnade demo demo --short", "python recordings.py")
+"""Commands that many pages begin with."""
+
+
 @pytest.fixture
 def instead(made_once):
-    """The short demo is made by the first page that asks for it; the others get a copy."""
+    """What many pages begin with is made by the first of them; the others get a copy."""
 
-    def make(folder: Path) -> None:
-        folder.mkdir()
-        out = io.StringIO()
-        with contextlib.chdir(folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
-            assert invoke(["demo", "demo", "--short"]) == 0
-        (folder / "output.txt").write_text(out.getvalue(), encoding="utf-8")
-
-    def short_demo(words: list[str], folder: Path) -> str | None:
-        if words != ["demo", "demo", "--short"]:
+    def copied(words: list[str], folder: Path) -> str | None:
+        line = " ".join(words)
+        if line not in BEGINNINGS:
             return None
-        made = made_once("short-demo", make)
-        shutil.copytree(made / "demo", folder / "demo")
-        return (made / "output.txt").read_text(encoding="utf-8")
 
-    return short_demo
+        def make(shared: Path) -> None:
+            (shared / "made").mkdir(parents=True)
+            for script in folder.glob("*.py"):
+                shutil.copy(script, shared / "made")
+            reader = Reader(shared / "made")
+            reader.do(Block("", "sh", f"{line}\n"))
+            (shared / "output.txt").write_text(reader.output, encoding="utf-8")
+
+        shared = made_once(line.replace(" ", "-"), make)
+        shutil.copytree(shared / "made", folder, dirs_exist_ok=True)
+        return (shared / "output.txt").read_text(encoding="utf-8")
+
+    return copied
 
 
 @pytest.mark.parametrize(
@@ -97,3 +101,15 @@ def test_output_is_compared_in_order():
     assert_shown(Block("", "text", "a …\nb\n"), "x\na  1\nb\n")
     with pytest.raises(AssertionError):
         assert_shown(Block("", "text", "b\na\n"), "a\nb\n")
+
+
+def test_a_file_next_to_the_page_is_saved_by_the_reader(tmp_path):
+    (tmp_path / "pages").mkdir()
+    (tmp_path / "pages" / "three.py").write_text("print(1 + 2)\n", encoding="utf-8")
+    page = page_with(
+        tmp_path / "pages",
+        "<!-- with: three.py -->\n```sh\npython three.py\n```\n<!-- output -->\n```text\n3\n```\n\n"
+        "```python\nimport three\n```\n",
+    )
+    (tmp_path / "reader").mkdir()
+    Reader(tmp_path / "reader").follow(page)

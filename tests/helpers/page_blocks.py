@@ -10,6 +10,7 @@ A remark above a block, invisible to the reader, says more:
 
 - `<!-- not run: REASON -->`
 - `<!-- file: PATH -->`, `<!-- append: PATH -->`: the reader writes the block into this file, or at its end.
+- `<!-- with: FILE -->`: the reader has saved this file, which is next to the page, into the folder.
 - `<!-- exit code: 1 -->`: that of the last command of the block, if it is not 0.
 - `<!-- output -->`: the lines of the block are in the output of the block that ran last, in order; `…` is anything.
 
@@ -24,10 +25,11 @@ import io
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -40,7 +42,7 @@ from colonnade.cli import invoke
 
 PROJECT = Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r"(?:^<!-- (?P<remark>[^\n]*?) -->\n+)?^```(?P<language>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
-REMARKS = ("not run", "file", "append", "exit code", "output")
+REMARKS = ("not run", "file", "append", "with", "exit code", "output")
 ENTRIES = ("exclude", "trim", "flag", "correct")
 """Tables of review.toml."""
 
@@ -54,6 +56,7 @@ class Block:
     text: str
     remark: str = ""
     value: str = ""
+    folder: Path = PROJECT
 
 
 def blocks_of(page: Path) -> list[Block]:
@@ -67,7 +70,7 @@ def blocks_of(page: Path) -> list[Block]:
             raise ValueError(f'{place}: unknown remark "{remark}"; known: {", ".join(REMARKS)}')
         if remark == "not run" and not value:
             raise ValueError(f"{place}: say why it is not run: <!-- not run: REASON -->")
-        found.append(Block(place, match["language"], match["text"], remark, value))
+        found.append(Block(place, match["language"], match["text"], remark, value, page.parent))
     return found
 
 
@@ -98,6 +101,8 @@ class Reader:
         """Do what a block says."""
         if block.remark == "not run":
             return
+        if block.remark == "with":
+            shutil.copy(block.folder / block.value, self.folder)
         if block.remark == "output":
             assert_shown(block, self.output)
         elif block.remark in ("file", "append"):
@@ -132,9 +137,10 @@ class Reader:
         if words[0] == "cd":
             self.folder = self.folder / words[1]
             return int(not self.folder.is_dir()), f"{self.folder} is not a folder"
+        if (done := self.instead(words, self.folder)) is not None:
+            return 0, done
         if words[0] == "colonnade" and not {"|", ">", "&&", ";"}.intersection(words):
-            done = self.instead(words[1:], self.folder)
-            return self._called(words[1:]) if done is None else (0, done)
+            return self._called(words[1:])
         path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
         done = subprocess.run(
             ["bash", "-c", line],
@@ -154,7 +160,7 @@ class Reader:
 
     def _execute(self, block: Block) -> str:
         out = io.StringIO()
-        with contextlib.chdir(self.folder), contextlib.redirect_stdout(out):
+        with contextlib.chdir(self.folder), contextlib.redirect_stdout(out), importable(self.folder):
             if block.text.startswith(">>> "):
                 test = doctest.DocTestParser().get_doctest(block.text, self.names, block.place, None, None)
                 results = doctest.DocTestRunner().run(test, out=out.write, clear_globs=False)
@@ -163,6 +169,16 @@ class Reader:
             else:
                 exec(compile(block.text, block.place, "exec"), self.names)
         return out.getvalue()
+
+
+@contextlib.contextmanager
+def importable(folder: Path) -> Iterator[None]:
+    """Modules in this folder can be imported, as by a Python that was started in it."""
+    sys.path.insert(0, str(folder))
+    try:
+        yield
+    finally:
+        sys.path.remove(str(folder))
 
 
 def make_targets() -> set[str]:
