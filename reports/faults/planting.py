@@ -92,7 +92,7 @@ def review(entry: str) -> Change:
     """Write a review.toml with one entry; who, when and why are added."""
 
     def write(folder: Path) -> None:
-        text = f'schema = 1\n\n{entry}\nwho = "M. Rossi"\nwhen = 2013-05-15\nwhy = "found by colonnade check"\n'
+        text = f'schema = 1\n\n{entry}\nwho = "M. Rossi"\nwhen = 2013-05-15\nwhy = "found by colonnade"\n'
         (folder / "review.toml").write_text(text, encoding="utf-8")
 
     return write

@@ -141,7 +141,8 @@ def _warnings(result: Restitution) -> list[Finding]:
     doubts = [
         ("no restitution", f"No restitution from this test: {result.reason}" if result.reason else ""),
         ("two values of e", disagreement(result)),
-        *((found.name, found.sentence) for found in result.departures),
+        # One that refuses the value is the reason already.
+        *((found.name, found.sentence) for found in result.departures if found.sentence not in result.reason),
     ]
     return [warning(kind, text, follows=MEASUREMENT) for kind, text in doubts if text]
 
