@@ -21,9 +21,9 @@ print(f"largest friction between impacts: {forces.required_friction.max():.3f}")
 print(f"with a coefficient of 0.3 it would slide or hop from {forces.first_break:.3f} s on")
 
 # %%
-# While the block stands, the friction is that of the table's acceleration, |a|/g. Once it rocks, the centre of mass
-# swings as well. Impacts (dots) need a friction of their own, (1 − e) / ((1 + e) tan α): between jumps of the forces,
-# and whatever the speed.
+# While the block stands, the friction is that of the table's acceleration, :math:`|a|/g`. Once it rocks, the centre of
+# mass swings as well. Impacts (dots) need a friction of their own, (1 − e) / ((1 + e) tan α): between jumps of the
+# forces, and whatever the speed.
 
 figure, (first, second, third) = pyplot.subplots(3, 1, layout="constrained", figsize=(6.4, 6.4), sharex=True)
 first.plot(time, history.angle / block.critical_angle)

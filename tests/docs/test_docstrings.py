@@ -24,7 +24,7 @@ NUMBERS = re.compile(r"\b(float|ndarray(?! of bool)|array_like|ArrayLike)\b")
 UNITS = re.compile(
     r"(?<![\w/])(rad|m|s|kg|N|Hz|m/s²|rad/s|s/rad|kg m²|SI|NaN|dimensionless|relative|"
     r"[0-9] (to|and) [0-9π]|Ω|A|α|θ\|?/α|e|[Ss]hares?|[Ff]actors?|[Ff]raction|[Pp]robabilit(y|ies)|[Uu]nit|width|"
-    r"as of|as for|\|H\|/N|ratio|velocity at the end|friction|standard deviations|number)(?![\w/])"
+    r"as of|as for|\|H\|/N|[Rr]atio|friction|standard deviations|[Nn]umber)(?![\w/])"
 )
 """A unit, or a word that says that there is none."""
 

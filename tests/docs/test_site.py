@@ -97,7 +97,7 @@ def test_search_finds(words, found, visit):
     page = visit("search.html")
     page.fill("article input[name=q], input.sidebar-search", words)
     page.keyboard.press("Enter")
-    page.wait_for_selector("#search-results ul.search li a")
+    page.get_by_text("Search finished").wait_for()
     links = page.eval_on_selector_all("#search-results li a", "links => links.map(link => link.href)")
     assert any(found in link for link in links)
 

@@ -90,7 +90,7 @@ def intensity_measures(
         Ids, such as "pgv" or "sa(0.5 s)". Default: all that the motion and the block allow, with spectral
         accelerations at `PERIODS`.
     drift : float, optional
-        Largest velocity at the end, over the largest one, of a record whose velocity and displacement count.
+        Largest ratio of the velocity at the end to the largest one, of a record whose velocity and displacement count.
     baseline : str, optional
         Name of a correction of the baseline, done before anything is measured: "linear", "quadratic" or
         "highpass(0.1 Hz)". Default: none.
