@@ -31,6 +31,11 @@ def test_import_loads_no_heavy_library(module):
     assert loaded_by(f"import {module}") == set()
 
 
+def test_a_run_loads_what_opens_results_only_when_it_opens_one():
+    """Half of the time of a run with nothing to do, if it were loaded."""
+    assert not loaded_by("import colonnade.workflow.run") & {"xarray", "pandas", "netCDF4", "matplotlib", "joblib"}
+
+
 def test_help_needs_no_campaign():
     code = "import sys, colonnade.cli.app; print('colonnade.campaign' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "False\n"

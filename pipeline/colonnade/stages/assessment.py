@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from colonnade.arrays import Array
 from colonnade.assessment.cases.cases import AXES, COMPONENTS, Outcomes, in_plane
@@ -19,6 +19,9 @@ from colonnade.errors import StageError
 from colonnade.findings import warning
 from colonnade.stages.assessing.answer import answer
 from colonnade.stages.assessing.plan import ASSUMED, Plan
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 CURVE = 101
 """Points at which the lognormal curve is stored, over the levels and half as far beyond either end."""
@@ -110,6 +113,8 @@ def _spectra(study: Study) -> Array:
 
 
 def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: Fragility) -> xr.Dataset:
+    import xarray as xr
+
     study = plan.studies[ASSUMED]
     units = [measure_of(name).unit or "1" for name in study.values]
     reach = np.sqrt(study.levels[-1] / study.levels[0])
@@ -117,15 +122,9 @@ def _dataset(plan: Plan, outcomes: Outcomes, needed: FrictionNeeded, fragility: 
     lognormal = fragility.lognormal.probability(over)
     isotonic = fragility.isotonic
     drawn = {f"drawn_{name}": (("record", "draw"), study.cases.drawn(name)) for name in UNCERTAIN}
-    rate = fragility.rate
-    disaggregated = (
-        {}
-        if rate is None
-        else {
-            "rate_edge": ("edge", rate.edges),
-            "rate_share": ("part", rate.contributions),
-        }
-    )
+    disaggregated = {}
+    if (rate := fragility.rate) is not None:
+        disaggregated = {"rate_edge": ("edge", rate.edges), "rate_share": ("part", rate.contributions)}
     curves = {
         f"{kind}_probability{end}": (dimension, values)
         for kind, dimension, band in (

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
@@ -16,6 +16,9 @@ from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.peak import find_peak
 from colonnade.stages.parts.rank import horizons_and_ranks
 from colonnade.stages.parts.sine import Sine, sine
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 class CompareInputs(Inputs):
@@ -67,6 +70,8 @@ def compare(
         `measured_peak_ratio` and `measured_peak_time` (s); of a free vibration the largest before that is the
         `release_ratio`. Of a sine test also what `sine` adds; with ensembles what `horizons_and_ranks` adds.
     """
+    import xarray as xr
+
     models = sorted(predicted)
     offset = float(predicted[models[0]]["zero_offset"]) if models else 0.0
     if "rocking_angle" in rocking:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Channel, Test
@@ -27,6 +26,9 @@ from colonnade.stages.ingesting.plausibility import PlausibilityInputs, doubts, 
 from colonnade.stages.ingesting.zeroing import rest_window, zeroed
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.store.description import variable_name
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 class ConditionInputs(Inputs):
@@ -108,6 +110,8 @@ def condition(recorded: xr.Dataset, inputs: ConditionInputs) -> xr.Dataset:
     StageError
         If no channel has a good sample, or the channels share no time.
     """
+    import xarray as xr
+
     warnings: list[Finding] = []
     channels = inputs.channels
     records = own_records(recorded, channels, warnings)

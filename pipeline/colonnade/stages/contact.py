@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from functools import lru_cache, partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import ContactSettings
@@ -20,6 +19,9 @@ from colonnade.errors import StageError
 from colonnade.findings import warning
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.stages.parts.inputs import Inputs
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 IDENTIFIED = "identified"
 """What a restitution is that was identified from a rocking angle."""
@@ -214,6 +216,8 @@ def _whole_body(inputs: ContactInputs) -> ContactBody:
 
 
 def _described(found: Calibration, reason: str) -> xr.Dataset:
+    import xarray as xr
+
     scalars = {
         "contact_restitution": found.restitution,
         "contact_velocity_ratio": found.velocity_ratio,

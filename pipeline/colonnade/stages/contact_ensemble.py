@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-import xarray as xr
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.settings import ContactEnsembleSettings
@@ -15,6 +16,9 @@ from colonnade.stages.parts.beginning import begin
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors, rank_measured
 from colonnade.stages.predict import PredictInputs
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 class ContactEnsembleInputs(Inputs):

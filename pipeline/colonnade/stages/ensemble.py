@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from statistics import NormalDist
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.channel import ALONG
@@ -18,6 +18,9 @@ from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors, rank_measured
 from colonnade.stages.parts.transducers import transducers
 from colonnade.stages.predict import PredictInputs, sides
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 class EnsembleInputs(Inputs):

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-import xarray as xr
 
 from colonnade.campaign.forms.forecast import ForecastFile
 from colonnade.dynamics.motion import Motion
@@ -14,6 +15,9 @@ from colonnade.identification.verification.scores import score
 from colonnade.stages.parts.base_motion import base_acceleration
 from colonnade.stages.parts.foreseen import felt, plan_of, run_forecast
 from colonnade.stages.parts.inputs import Inputs
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 BASES = ("on_target", "on_recorded", "rigid_body")
 """As it was forecast; its frozen inputs on the recorded base motion; as forecast, with the e of the rigid body."""
@@ -45,6 +49,8 @@ def score_forecast(rocking: xr.Dataset, forecast: ForecastFile, inputs: Forecast
         transform; `observed_amplitude`. Without a measured angle there are none, without a recorded base motion
         those on it are NaN; the attribute `reason` says so.
     """
+    import xarray as xr
+
     attributes = {"file": inputs.file, "reason": "", "warnings": []}
     if "rocking_angle" not in rocking:
         return xr.Dataset(attrs=attributes | {"reason": "its rocking angle was not measured"})

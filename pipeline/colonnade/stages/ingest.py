@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from datetime import date
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
@@ -31,6 +30,9 @@ from colonnade.stages.ingesting.quality import (
 )
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.store.description import variable_name
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 RAW_FILE = "raw file"
 """Kind of what a reader warns of: damage, cells without a number, what it had to guess."""
@@ -112,6 +114,8 @@ def ingest(recordings: Mapping[str, Recording], inputs: IngestInputs) -> xr.Data
     ReadError
         If a column is not in its file.
     """
+    import xarray as xr
+
     warnings = [Finding.of(each, RAW_FILE) for recording in recordings.values() for each in recording.warnings]
     begin = inputs.window[0] if inputs.window else 0.0
     warnings += dates.contradictions(recordings, inputs.day, begin)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
@@ -20,6 +19,8 @@ from colonnade.stages.parts.beginning import Beginning, BeginningInputs, begin
 from colonnade.stages.parts.transducers import transducers
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from colonnade.dynamics.contact.history import ContactHistory
 
 
@@ -169,6 +170,8 @@ def _described(
     specimen: xr.Dataset,
     inputs: PredictInputs,
 ) -> xr.Dataset:
+    import xarray as xr
+
     first = beginning.first
     angle = np.concatenate((np.full(first, np.nan), history.angle))
     peak = int(np.searchsorted(history.time, history.peak_time))

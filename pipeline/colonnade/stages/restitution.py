@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.settings import RestitutionSettings
@@ -19,6 +18,9 @@ from colonnade.identification.restitution.fitting.noise import ORDER
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.identification.restitution.result import Estimate, Restitution
 from colonnade.stages.parts.inputs import Inputs
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 HISTORIES = (LinearHistory, NonlinearHistory)
 """Estimators that give e for each model."""
@@ -83,6 +85,8 @@ def restitution(rocking: xr.Dataset, inputs: RestitutionInputs) -> xr.Dataset:
     StageError
         If no transducer was on the specimen.
     """
+    import xarray as xr
+
     expect_angle(rocking)
     result = _identified(rocking, inputs)
     freed = _identified(rocking, inputs, free=("critical_angle",))

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
@@ -23,6 +22,9 @@ from colonnade.signals.shock import single_shock
 from colonnade.stages.parts.conditioned import LEAST_NOISE, axes, base_motion, group
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.transducers import Transducers, outline, transducers
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 class RockingInputs(Inputs):
@@ -87,6 +89,8 @@ def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
         If nothing of the test is usable, or ground-relative transducers lack the table's displacement. Transducers
         that do not see the rotation give only a warning if the base motion is known, as a prediction needs no more.
     """
+    import xarray as xr
+
     warnings: list[Finding] = []
     time = conditioned["elapsed"].to_numpy()
     base = base_motion(conditioned, inputs.transducers, warnings)

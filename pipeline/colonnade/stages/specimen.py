@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign
@@ -14,6 +14,9 @@ from colonnade.dynamics.block import Block, Sided, pair
 from colonnade.findings import Finding, note, warning
 from colonnade.identification.restitution.pooling import pool
 from colonnade.stages.parts.inputs import Inputs
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 class SpecimenInputs(Inputs):
@@ -111,6 +114,8 @@ def _properties(block: Block) -> dict[str, float]:
 
 def _taken(found: _Identified, inputs: SpecimenInputs) -> xr.Dataset:
     """The rule: e as given, else as identified, else of the rigid body."""
+    import xarray as xr
+
     block = inputs.block
     low = high = between = np.nan
     method = reason = ""

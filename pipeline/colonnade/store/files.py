@@ -16,11 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
-from typing import IO, Any, TypeVar
-
-import netCDF4
-import xarray as xr
-from xarray.backends import NetCDF4DataStore
+from typing import IO, TYPE_CHECKING, Any, TypeVar
 
 from colonnade.errors import StoreError
 from colonnade.store.attributes import restored, storable
@@ -29,6 +25,11 @@ from colonnade.store.loading import LABEL, loaded
 from colonnade.store.long_arrays import write_file
 from colonnade.store.own_files import own_files
 from colonnade.store.provenance import content_hash, coverage, is_long
+
+if TYPE_CHECKING:
+    import netCDF4
+    import xarray as xr
+    from xarray.backends import NetCDF4DataStore
 
 PARTIAL = ".partial"
 """Ending of temporary names, as a killed run leaves them."""
@@ -101,6 +102,8 @@ def write(dataset: xr.Dataset, path: Path, *, attributes: Mapping[str, Any]) -> 
 
 def write_failed(path: Path, reason: str, *, attributes: Mapping[str, Any]) -> None:
     """Store that a stage failed, and why; the file holds no data."""
+    import xarray as xr
+
     failed = xr.Dataset(attrs=storable({"warnings": [], **attributes, "status": "failed", "reason": reason}))
     failed.attrs["content"] = content_hash(failed)
     _put(path, _to_bytes(failed, path))
@@ -120,6 +123,8 @@ def read(path: Path) -> xr.Dataset:
     StoreError
         If it is missing, is not a whole NetCDF file, or its values differ from those that were written.
     """
+    import netCDF4
+
     try:
         with netCDF4.Dataset(path.name, memory=path.read_bytes()) as opened:
             dataset = loaded(opened)
@@ -142,6 +147,8 @@ def read_attributes(path: Path) -> dict[str, Any]:
     StoreError
         If the file is missing or is not a NetCDF file.
     """
+    import netCDF4
+
     try:
         with netCDF4.Dataset(path) as opened:
             return restored({name: opened.getncattr(name) for name in opened.ncattrs()})
@@ -227,6 +234,8 @@ def sweep(folder: Path) -> None:
 
 
 def _to_bytes(dataset: xr.Dataset, path: Path) -> memoryview:
+    import netCDF4
+
     opened = netCDF4.Dataset(path.name, "w", memory=1024)
     _prepared(dataset).dump_to_store(_backend(opened))
     return _trimmed(memoryview(opened.close()))
@@ -252,6 +261,8 @@ def _trimmed(image: memoryview) -> memoryview:
 
 
 def _backend(opened: netCDF4.Dataset) -> NetCDF4DataStore:
+    from xarray.backends import NetCDF4DataStore
+
     return NetCDF4DataStore(opened)  # type: ignore[no-untyped-call]
 
 

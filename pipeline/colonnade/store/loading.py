@@ -6,11 +6,13 @@ xarray's own way decodes whatever CF knows, array by array, which takes a third 
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import netCDF4
 import numpy as np
-import xarray as xr
+
+if TYPE_CHECKING:
+    import netCDF4
+    import xarray as xr
 
 LABEL = "_name"
 """Ends the name of the variable that holds the labels of a dimension."""
@@ -32,6 +34,8 @@ def loaded(opened: netCDF4.Dataset) -> xr.Dataset:
     dataset : xr.Dataset
         Nothing is masked, scaled or decoded. Labels are coordinates of their dimensions.
     """
+    import xarray as xr
+
     opened.set_auto_maskandscale(False)
     attributes = _attributes(opened)
     coordinates = {*str(attributes.pop(_COORDINATES, "")).split()}

@@ -7,10 +7,10 @@ import os
 import shutil
 from concurrent.futures import Future
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import netCDF4
-import xarray as xr
-from xarray.backends import NetCDF4DataStore
+if TYPE_CHECKING:
+    import xarray as xr
 
 _AROUND = 1 << 20
 """Bytes that a file may need besides its arrays."""
@@ -38,6 +38,9 @@ def write_file(path: Path, dataset: xr.Dataset, content: Future[str]) -> None:
     -----
     The room is checked first: HDF5 does not let go of a file that it could not complete, nor of its bytes on the disk.
     """
+    import netCDF4
+    from xarray.backends import NetCDF4DataStore
+
     with path.open("wb"):  # the system's own error if it may not be written
         _expect_room(path, dataset.nbytes + _AROUND)
     try:

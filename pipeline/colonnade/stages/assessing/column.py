@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import isfinite
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from colonnade.assessment.cases.prototype import Prototype
 from colonnade.campaign.assessing import prototype as written
@@ -13,6 +13,9 @@ from colonnade.dynamics.block import Block, Sided, pair
 from colonnade.dynamics.ensembles.uncertainty import member_block
 from colonnade.dynamics.similitude import at_prototype
 from colonnade.stages.parts.inputs import Inputs
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 USUAL_MARGIN = 0.02
 """To either side of e, if neither limits nor an interval are known."""

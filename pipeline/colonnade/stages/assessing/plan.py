@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from colonnade.assessment.cases.prototype import Prototype
 from colonnade.assessment.fragility.curves.hazard import Hazard
@@ -20,6 +20,9 @@ from colonnade.dynamics.block import pair
 from colonnade.errors import StageError
 from colonnade.readers.ground_motions.record_set import RecordSet
 from colonnade.stages.assessing.column import USUAL_MARGIN, ColumnInputs, real_column
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 ASSUMED = "as assumed"
 """The columns and records of the answer."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from colonnade.arrays import Array
 from colonnade.campaign import Channel
@@ -17,6 +17,9 @@ from colonnade.signals.clocks.clock import uniform_clock
 from colonnade.signals.record import Record, even_record
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.store.description import variable_name
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 TOGETHER = Offset(0.0, np.nan, 0.0)
 """A recorder that starts with the main one."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from itertools import product
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from colonnade.arrays import Array, Mask
 from colonnade.campaign import Campaign, Test
@@ -27,6 +27,9 @@ from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files
 from colonnade.stages.parts.transducers import outline, transducers
 from colonnade.store.description import variable_name
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 ANGLES = np.linspace(-0.4, 0.4, 161)
 """rad, at which the transducers' readings are computed."""

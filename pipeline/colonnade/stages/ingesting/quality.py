@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from colonnade.arrays import Array, Vector
 from colonnade.campaign.decision import Review
@@ -16,6 +16,9 @@ from colonnade.signals import quality
 from colonnade.signals.clocks import timing
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.store.description import variable_name
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 DEAD_SHARE = 0.08
 """An accelerometer on the specimen that moves less than this share of the table's is practically dead."""

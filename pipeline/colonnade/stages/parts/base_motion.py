@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-import xarray as xr
 
 from colonnade.arrays import Array
 from colonnade.errors import StageError
 from colonnade.findings import MEASUREMENT, Finding, serious, warning
 from colonnade.units import format_percent
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 LARGEST_TRANSVERSE = 0.1
 """Of the peak along x: what the base may move across without a word, though a plane model leaves it out."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
@@ -21,6 +21,9 @@ from colonnade.stages.parts.base_motion import (
     vertical_acceleration,
 )
 from colonnade.stages.parts.inputs import Inputs
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 RECORDED = "the recorded motion of the base"
 NOT_RECORDED = "a base at rest: its motion was not recorded"

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
-import xarray as xr
 
 from colonnade.arrays import Array
 from colonnade.campaign.channel import ALONG
@@ -16,6 +15,9 @@ from colonnade.identification.fusion.readings import Readings
 from colonnade.signals.filters import second_derivative
 from colonnade.stages.parts.transducers import Transducers
 from colonnade.units import format_percent
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Kind = TypeVar("Kind")
 

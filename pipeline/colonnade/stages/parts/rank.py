@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
@@ -20,6 +19,9 @@ from colonnade.identification.response.rank import distances, rank
 from colonnade.stages.parts.beginning import Beginning
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.transducers import transducers
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 SEED = 22
 """Of the measurement errors of the runs; they are the same in every run of the stage."""
@@ -103,6 +105,8 @@ def describe_bands(
     deviations : mapping of str to float
         Standard deviation of each input.
     """
+    import xarray as xr
+
     time = rocking["elapsed"].to_numpy()[beginning.first :: stride_of(beginning.motion)]
     low, high = found.overturning_interval()
     sensitivity = found.sensitivity()

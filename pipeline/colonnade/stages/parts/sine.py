@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.findings import Finding, warning
 from colonnade.identification.response.forcing import FEWEST_CYCLES, Forcing, fit_forcing
 from colonnade.identification.response.order import Response, response_order
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 FREQUENCY_TOLERANCE = 0.01
 """Largest departure of the recorded frequency from the given one, as a fraction, that is not reported."""
