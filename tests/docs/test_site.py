@@ -123,7 +123,8 @@ def test_on_paper_a_page_is_its_text_alone(address, visit):
     page = visit(address, screen=PAPER)
     page.emulate_media(media="print")
     assert page.locator("article h1").is_visible()
-    assert not page.locator(".sidebar-drawer").is_visible()
+    for navigation in (".sidebar-drawer", ".skip-to-content"):
+        assert not page.locator(navigation).is_visible()
     assert page.evaluate("document.documentElement.scrollWidth") <= PAPER[0]
     colour = page.evaluate("getComputedStyle(document.querySelector('article')).backgroundColor")
     assert colour in ("rgb(255, 255, 255)", "rgba(0, 0, 0, 0)")
