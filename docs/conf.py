@@ -30,7 +30,15 @@ extensions = [
 
 root_doc = "docs/index"
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
-include_patterns = ["docs/**.md", "docs/**.rst", "raw_schema/README.md", "reports/**.md", "CHANGELOG.md"]
+include_patterns = [
+    "docs/**.md",
+    "docs/**.rst",
+    "raw_schema/README.md",
+    "reports/**.md",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "SECURITY.md",
+]
 exclude_patterns = [
     ".*",
     "build",

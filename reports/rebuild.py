@@ -9,10 +9,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from colonnade import figures, run
+from colonnade import run
 from colonnade.campaign import Campaign, load
 from colonnade.campaign.forms.summary import Summary
+from colonnade.figures.files.output import to_gif
 from colonnade.figures.stored import maps, record, restitution
+from colonnade.figures.stored.moving import animation
 from colonnade.laboratory import paper_programme, prism_programme, write_campaign
 from colonnade.laboratory.plans.ladder import KEPT_AWAY
 from colonnade.report.overview_page.agreement import agreement
@@ -21,7 +23,9 @@ from colonnade.store.records.stored import read_test
 from colonnade.store.records.summary import map_points
 
 HERE = Path(__file__).resolve().parent
-PICTURE = HERE.parent / "docs" / "demo.png"
+PICTURE = HERE.parent / "docs" / "demo.gif"
+MOVING, COARSE = "span-3.0", 80
+"""The test that the picture of the README shows; its dots an inch."""
 
 COLUMNS = ("true", "measured", "linear", "nonlinear")
 
@@ -38,7 +42,7 @@ def rebuild(folder: Path, picture: Path | None = None) -> None:
         with tempfile.TemporaryDirectory() as scratch:
             written = write_campaign(Path(scratch) / "demo", seed=0, programme=programme, workers=None)
             run(written.path)
-            tell(written.path, folder, name, picture if name == "demo" else None)
+            tell(written.path, folder, name, picture if name == "short" else None)
 
 
 def tell(path: Path, folder: Path, name: str, picture: Path | None = None) -> None:
@@ -137,7 +141,9 @@ def draw(campaign: Campaign, summary: dict[str, Any], folder: Path, name: str, p
         if drawing is not None:
             (folder / f"{name}-{part}.svg").write_text(drawing.svg, encoding="utf-8")
     if picture is not None:
-        picture.write_bytes(figures.to_png(figures.spans_side_by_side(panels)))
+        moving = animation(campaign.tests[MOVING], campaign.specimens["prism"], stored[MOVING], block)
+        assert moving is not None
+        picture.write_bytes(to_gif(moving, dpi=COARSE))
     return {caption: f"{name}-{part}.svg" for caption, (part, _) in drawn.items()}
 
 

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 import rebuild
 from colonnade.cli import invoke
@@ -17,6 +18,7 @@ from colonnade.laboratory.plans.ladder import KEPT_AWAY
 
 PROJECT = Path(__file__).parents[1]
 README = (PROJECT / "README.md").read_text(encoding="utf-8")
+PAGES = {name: (PROJECT / name).read_text(encoding="utf-8") for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md")}
 
 
 def blocks(language: str) -> list[str]:
@@ -92,8 +94,8 @@ def test_the_first_campaign_gives_its_column_a_restitution(outputs):
 
 
 def test_make_has_every_target_that_is_named():
-    typed = [*blocks("sh"), *re.findall(r"`([^`\n]+)`", README)]
-    targets = set(re.findall(r"^make (\w+)$", "\n".join(typed), re.MULTILINE))
+    typed = [*blocks("sh"), *(words for page in PAGES.values() for words in re.findall(r"`([^`\n]+)`", page))]
+    targets = set(re.findall(r"^make ([\w-]+)$", "\n".join(typed), re.MULTILINE))
     makefile = (PROJECT / "Makefile").read_text(encoding="utf-8")
     assert targets >= {"demo", "test", "study", "reports"}
     assert targets <= set(re.search(r"^\.PHONY: (.*)$", makefile, re.MULTILINE)[1].split())
@@ -108,7 +110,24 @@ def test_the_python_runs_and_finds_the_restitution_it_computed_with():
     assert names["result"].value == pytest.approx(0.976, abs=1e-4)
 
 
-def test_every_link_leads_somewhere():
-    links = re.findall(r"\]\((?!https?:)([^)#]+)\)", README)
+@pytest.mark.parametrize("page", PAGES)
+def test_every_link_leads_somewhere(page):
+    links = re.findall(r"\]\((?!https?:)([^)#]+)[)#]", PAGES[page])
     assert links
     assert [link for link in links if not (PROJECT / link).exists()] == []
+
+
+def test_its_picture_moves_and_is_small():
+    [file] = re.findall(r"!\[.+\]\((.+)\)", README)
+    assert (PROJECT / file).stat().st_size <= 1_000_000
+    with Image.open(PROJECT / file) as picture:
+        assert picture.n_frames > 100
+
+
+def test_the_files_that_an_extension_changes_are_there():
+    table = PAGES["CONTRIBUTING.md"].split("\n## Extend it\n")[1].split("\n## ")[0]
+    cells = [row.split("|")[2] for row in table.splitlines() if row.startswith("|")]
+    paths = [path for cell in cells for path in re.findall(r"`([^`]+)`", cell) if not re.search(r"\b[A-Z]{2,}\b", path)]
+    package = PROJECT / "pipeline" / "colonnade"
+    assert len(paths) > 10
+    assert [path for path in paths if not ((package / path).is_file() or (PROJECT / path).is_file())] == []
