@@ -28,3 +28,8 @@ def test_a_record_that_cannot_be_a_motion_is_refused_with_the_place(acceleration
 def test_a_vertical_record_of_another_length_is_refused():
     with pytest.raises(ValueError, match="vertical has 2 samples; 3 were expected"):
         Motion([0.0, 1.0, 2.0], 0.1, vertical=[0.0, 1.0])
+
+
+def test_a_motion_says_how_long_and_how_strong_it_is():
+    motion = Motion([0.0, -2.0, 1.0], 0.01, vertical=[0.0, 0.5, 0.0])
+    assert repr(motion) == "<Motion: duration 0.02 s, interval 0.01 s, max |a| 2 m/s², components along x, vertical>"

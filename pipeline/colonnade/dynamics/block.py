@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from math import atan2, hypot, pi
 
+from colonnade.digest import Digested, written
 from colonnade.dynamics.density import cone_volume, expect_inertia, expect_metres, prism_volume
 from colonnade.dynamics.side import Side, Solid, TwoSided, expect_positive
 from colonnade.validation import instance, sided
@@ -16,8 +17,8 @@ Sided = float | tuple[float, float]
 """One value for both sides, or a pair (for θ < 0, for θ > 0)."""
 
 
-@dataclass(frozen=True)
-class Block(TwoSided):
+@dataclass(frozen=True, repr=False)
+class Block(Digested, TwoSided):
     """
     A rigid block that rocks in the plane x–z about the two edges of its base.
 
@@ -61,6 +62,17 @@ class Block(TwoSided):
         instance("positive", self.positive, Side)
         if self.solid is not None:
             instance("solid", self.solid, Solid)
+
+    def digest(self) -> dict[str, str]:
+        """Return α, R, I₀, p and the rigid-body e of the governing side, and the mass."""
+        return {
+            "α": written(self.critical_angle, "rad"),
+            "R": written(self.pole_distance, "m"),
+            "I₀": written(self.inertia, "kg m²"),
+            "p": written(self.p, "rad/s"),
+            "rigid-body e": written(self.restitution),
+            "mass": written(self.mass, "kg"),
+        } | ({} if self.is_symmetric else {"sides": "differ"})
 
     @classmethod
     def prism(

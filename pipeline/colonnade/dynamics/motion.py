@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array
+from colonnade.digest import Digested, written
 from colonnade.dynamics.block import Block
 from colonnade.validation import number, samples
 
@@ -18,7 +19,7 @@ FEWEST_TIMES = 10
 """Number of samples from which accelerations equal to their times are refused as times."""
 
 
-class Motion:
+class Motion(Digested):
     """
     Acceleration of the base, linear between equally spaced samples.
 
@@ -68,6 +69,16 @@ class Motion:
                 "along x"
             )
         return along
+
+    def digest(self) -> dict[str, str]:
+        """Return duration, sampling interval, largest acceleration and components."""
+        others = [name for name in ("vertical", "transverse") if getattr(self, name) is not None]
+        return {
+            "duration": written(self.duration, "s"),
+            "interval": written(self.dt, "s"),
+            "max |a|": written(self.peak, "m/s²"),
+            "components": ", ".join(["along x", *others]),
+        }
 
     @property
     def time(self) -> Array:

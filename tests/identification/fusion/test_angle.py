@@ -100,3 +100,9 @@ def test_transducers_across_the_plane_are_refused():
 def test_positions_that_do_not_match_the_records_are_refused():
     with pytest.raises(ValueError, match="2 records, 1 positions"):
         rocking_angle(np.zeros((2, 3)), TOP, ALONG_X, PRISM)
+
+
+def test_displacements_in_millimetres_are_refused():
+    at, direction = [TOP, BOTTOM], [ALONG_X, ALONG_X]
+    with pytest.raises(ValueError, match="metres, relative to the table, were expected"):
+        rocking_angle(1e3 * _readings(at, direction), at, direction, PRISM)

@@ -115,3 +115,10 @@ def test_released_energy_is_housners_for_a_slender_block_and_has_its_inverse():
 def test_time_that_does_not_increase_is_an_error():
     with pytest.raises(ValueError, match="does not increase"):
         identify_restitution([0.0, 1.0, 1.0], [0.0, 0.0, 0.0], PRISM)
+
+
+def test_times_in_milliseconds_are_refused_with_a_reason():
+    history = rock(PRISM, theta0=0.5 * PRISM.critical_angle, restitution=0.9, duration=6.0)
+    result = identify_restitution(1e3 * history.time, history.angle, PRISM)
+    assert result.value is None
+    assert "peaks" in result.reason or "Times between impacts" in result.reason

@@ -8,14 +8,15 @@ from math import pi
 import numpy as np
 
 from colonnade.arrays import Array, Mask
+from colonnade.digest import Digested, written
 from colonnade.dynamics.history import History
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.dynamics.motion import Motion
 from colonnade.validation import instance, number
 
 
-@dataclass(frozen=True)
-class Reactions:
+@dataclass(frozen=True, repr=False)
+class Reactions(Digested):
     """
     Forces of the base on the block.
 
@@ -51,6 +52,16 @@ class Reactions:
     impact_times: Array
     impact_friction: Array
     friction: float | None
+
+    def digest(self) -> dict[str, str]:
+        """Return the friction that is needed, and from when pure rocking is not what the block would do."""
+        known = self.required_friction[np.isfinite(self.required_friction)]
+        return {
+            "friction needed": written(float(known.max(initial=0.0))),
+            "at impacts": written(float(self.impact_friction.max(initial=0.0))),
+            "friction": written(self.friction),
+            "pure rocking until": "the end" if np.isnan(self.first_break) else written(self.first_break, "s"),
+        }
 
     @property
     def loses_contact(self) -> Mask:

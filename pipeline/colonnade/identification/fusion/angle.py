@@ -14,6 +14,9 @@ from colonnade.validation import instance, samples
 UNIT = 1e-3
 """By which the length of a unit vector may differ from one: directions are often given with three digits."""
 
+LARGEST = 10.0
+"""In pole distances: a point of a block that falls moves less; beyond it the displacements are no metres."""
+
 
 def rocking_angle(displacements: ArrayLike, at: ArrayLike, direction: ArrayLike, block: Block) -> Array:
     """
@@ -37,7 +40,8 @@ def rocking_angle(displacements: ArrayLike, at: ArrayLike, direction: ArrayLike,
     Raises
     ------
     ValueError
-        If the shapes do not fit or no transducer measures the rotation.
+        If the shapes do not fit, no transducer measures the rotation, or the displacements are far larger than the
+        block: in mm.
 
     Notes
     -----
@@ -52,7 +56,14 @@ def rocking_angle(displacements: ArrayLike, at: ArrayLike, direction: ArrayLike,
     >>> rocking_angle(readings, points, [[1, 0, 0], [1, 0, 0]], block).round(5).tolist()
     [0.0, 0.01]
     """
-    return fit_rocking(displacements, at, direction, block).angle
+    readings = samples("displacements", displacements, dimensions=(1, 2), gaps=True)
+    largest = float(np.nanmax(np.abs(readings), initial=0.0))
+    if largest > LARGEST * instance("block", block, Block).pole_distance:
+        raise ValueError(
+            f"displacements reach {largest:.3g}, more than {LARGEST:g} times the size of the block; metres, relative "
+            "to the table, were expected"
+        )
+    return fit_rocking(readings, at, direction, block).angle
 
 
 def fit_rocking(
