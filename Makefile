@@ -6,7 +6,7 @@
 # make study    the slow tests: seeds 0-19 of the virtual campaign, MuJoCo, benchmarks, other laboratories' files
 # make drill    500 kills, full and read-only disks (as root), two runs at once, 2000 damaged files: two hours
 # make format   rewrites the sources in the project's style
-# make reports  rebuilds the reference reports in reports/ and the picture of the README
+# make reports  rebuilds the reference reports in reports/ and the pictures of README and tutorial
 # make restitution-study  5000 records with known truth: reports/restitution-study.md, ten minutes and more
 # make verdict-study  1000 tests with known truth judged by their spread: reports/verdict-study.md, a quarter of an hour
 # make forecast-study  480 tests with known truth, forecast and scored: reports/forecast-study.md, five minutes and more
@@ -70,6 +70,7 @@ reports: $(INSTALLED)
 	$(BIN)/python reports/linear_bias.py
 	$(BIN)/python reports/fault_atlas.py
 	$(BIN)/python reports/verification.py
+	$(BIN)/python reports/tutorial_pictures.py
 	$(BIN)/python reports/explanation_figures.py
 
 restitution-study: $(INSTALLED)
