@@ -349,5 +349,7 @@ def test_a_campaign_about_a_real_column_alone_needs_no_setup(load_text):
     column = {shape = "cylinder", diameter = "0.95 m", height = "5.7 m", mass = "10.5 t"}
     """
     assert load_text(only).setups == {}
+    asked = '[prototype.column]\nrestitution = 0.94\n[assessments.site]\nspecimen = "column"\nrecords = "records"\n'
+    assert load_text(only + asked).warnings == ()
     with pytest.raises(CampaignError, match="setup"):
         load_text(only + '[[tests]]\nid = "a"\nkind = "sine"\nspecimen = "column"\nsetup = "frame"\nfile = "a.csv"\n')

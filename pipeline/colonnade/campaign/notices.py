@@ -95,7 +95,7 @@ def _odd(campaign: CampaignFile) -> Iterator[Finding]:
             if recorder not in test.files:
                 text = f'tests[{test.id}] has no file of recorder "{recorder}"; its channels are missing in this test.'
                 yield note("no file of a recorder", text)
-    if not campaign.tests:
+    if not (campaign.tests or campaign.assessments):
         yield warning("no test", "The campaign has no tests yet.")
 
 
