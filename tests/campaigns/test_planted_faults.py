@@ -19,7 +19,7 @@ from faults.told import findings, keep_only
 from faults.unseen import UNSEEN, effect
 
 SLOW = {"table-that-moves-in-a-free-vibration"}
-"""Mended, e is found on a table that moves: half a minute."""
+"""Mended, e is found on a table that moves: 50 s of processor time."""
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 
