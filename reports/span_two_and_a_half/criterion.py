@@ -107,7 +107,7 @@ class Response:
         if (window, ahead) not in self._windows:
             samples = round(window / self.dt)
             values = self.ratio[::-1] if ahead else self.ratio
-            largest = maximum_filter1d(values, samples + 1, origin=(samples + 1) // 2, mode="constant", cval=0.0)
+            largest = maximum_filter1d(values, samples + 1, origin=samples // 2, mode="constant", cval=0.0)
             self._windows[window, ahead] = largest[::-1] if ahead else largest
         return self._windows[window, ahead]
 
