@@ -38,7 +38,7 @@ Below it Span 2.0 cannot lift the prism (1.850 m/s²). The ratio of the three Sp
 STEPS = 480
 """Intensities in that range, at equal ratios; each member takes the next one."""
 
-SWEEPS = 5
+SWEEPS = 10
 """Members of a cell at each intensity."""
 
 GRADES = ("small", "usual", "large", "gross")

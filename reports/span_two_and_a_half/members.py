@@ -10,9 +10,22 @@ from colonnade.arrays import Array, Mask
 from colonnade.dynamics.motion import Motion
 from span_two_and_a_half.criterion import AS_FIXED, Response, agrees, misfit, place_of_growth, variants
 from span_two_and_a_half.design import MODELS, OTHERS, SEED, SPANS, STRANGE, Cell, table_motion
-from span_two_and_a_half.trial import draw, is_recorded_truly, parted, predict, recorded, response, table, truth
+from span_two_and_a_half.trial import (
+    draw,
+    generator,
+    is_recorded_truly,
+    parted,
+    predict,
+    recorded,
+    response,
+    table,
+    truth,
+)
 
 VARIANTS = variants()
+RUN_ALL = 10
+"""Of the members, one in so many is run at all three Spans whatever it shows at Span 2.5."""
+
 FORWARD, REVERSE = range(2)
 """Predicted grows when measured has died down; and the reverse."""
 
@@ -31,7 +44,9 @@ class Judged:
     grown : ndarray of bool, shape (n, variants, 2, models)
         The pattern at Span 2.5, and its reverse.
     agree : ndarray of bool, shape (n, 2, variants, models)
-        Whether Spans 2.0 and 3.0 agree: with the cause, and without it.
+        Whether Spans 2.0 and 3.0 agree: with the cause, and without it. With the cause only where `known`.
+    known : ndarray of bool, shape (n,)
+        Whether Spans 2.0 and 3.0 were run with the cause: if Span 2.5 shows a pattern, and in every tenth member.
     place : ndarray, shape (n, 2, models)
         s, of pattern and reverse by the criterion as fixed; NaN without.
     parted : ndarray, shape (n, models)
@@ -42,8 +57,24 @@ class Judged:
     number: Array
     grown: Mask
     agree: Mask
+    known: Mask
     place: Array
     parted: Array
+
+
+def can_grow(quiet: Response, growing: Response) -> bool:
+    """Rule out what no variant finds, with the loosest numbers of all."""
+    each = VARIANTS.values()
+    if growing.largest_so_far[-1] <= min(one.loud for one in each):
+        return False
+    return bool(
+        np.any(
+            (growing.largest_after(max(one.after for one in each)) > min(one.loud for one in each))
+            & (quiet.largest_before(min(one.before for one in each)) < max(one.quiet for one in each))
+            & (quiet.largest_so_far >= min(one.quiet for one in each))
+            & (quiet.largest_after(min(one.after for one in each)) < 0.5 * max(one.loud for one in each))
+        )
+    )
 
 
 def judge_strange(measured: Response, predictions: dict[str, Response]) -> tuple[Mask, Array]:
@@ -53,6 +84,8 @@ def judge_strange(measured: Response, predictions: dict[str, Response]) -> tuple
     for column, model in enumerate(MODELS):
         pairs = ((measured, predictions[model]), (predictions[model], measured))
         for direction, (quiet, growing) in enumerate(pairs):
+            if not can_grow(quiet, growing):
+                continue
             for row, (name, criterion) in enumerate(VARIANTS.items()):
                 place = place_of_growth(quiet, growing, criterion)
                 grown[row, direction, column] = np.isfinite(place)
@@ -102,8 +135,8 @@ def run_members(
         without = np.logical_and.reduce([judge_other(responses[span]["nonlinear"], responses[span]) for span in OTHERS])
         for sweep in range(sweeps):
             number = first + place * sweeps + sweep
-            grown, places, agree, apart = _member(cell, number, tables, responses, seed)
-            rows.append((intensity, number, grown, np.stack((agree, without)), places, apart))
+            grown, agree, known, places, apart = _member(cell, number, tables, responses, seed)
+            rows.append((intensity, number, grown, np.stack((agree, without)), known, places, apart))
     return Judged(*(np.array(column) for column in zip(*rows, strict=True)))
 
 
@@ -113,21 +146,31 @@ def _member(
     tables: dict[float, Motion],
     responses: dict[float, dict[str, Response]],
     seed: int,
-) -> tuple[Mask, Array, Mask, Array]:
-    wrong, random = draw(cell, number, seed)
-    agree = np.ones((len(VARIANTS), len(MODELS)), dtype=bool)
-    for which, (span, motion) in enumerate(tables.items()):
-        if cell.cause == "none":
-            measured, predictions = responses[span]["nonlinear"], responses[span]
-        else:
-            measured = response(truth(wrong, motion, random), motion.dt)
-            predictions = responses[span]
-            if wrong.tangent or not is_recorded_truly(wrong):
-                runs = predict(recorded(wrong, motion, which, random), tangent=wrong.tangent)
-                predictions = {model: response(history, motion.dt) for model, history in runs.items()}
-        if span == STRANGE:
-            grown, places = judge_strange(measured, predictions)
-            apart = np.array([parted(measured, predictions[model]) for model in MODELS])
-        else:
-            agree &= judge_other(measured, predictions)
-    return grown, places, agree, apart
+) -> tuple[Mask, Mask, bool, Array, Array]:
+    grown, places, apart = _strange(*run_member(cell, number, STRANGE, tables[STRANGE], responses[STRANGE], seed))
+    agree = np.zeros((len(VARIANTS), len(MODELS)), dtype=bool)
+    known = bool(grown.any()) or number % RUN_ALL == 0
+    if known:
+        each = [judge_other(*run_member(cell, number, span, tables[span], responses[span], seed)) for span in OTHERS]
+        agree = np.logical_and.reduce(each)
+    return grown, agree, known, places, apart
+
+
+def _strange(measured: Response, predictions: dict[str, Response]) -> tuple[Mask, Array, Array]:
+    grown, places = judge_strange(measured, predictions)
+    return grown, places, np.array([parted(measured, predictions[model]) for model in MODELS])
+
+
+def run_member(
+    cell: Cell, number: int, span: float, motion: Motion, nominal_responses: dict[str, Response], seed: int = SEED
+) -> tuple[Response, dict[str, Response]]:
+    """Run truth and predictions of a member at one Span; `nominal_responses` are the predictions on the true motion."""
+    if cell.cause == "none":
+        return nominal_responses["nonlinear"], nominal_responses
+    wrong = draw(cell, number, seed)
+    random = generator(cell, number, seed, SPANS.index(span))
+    measured = response(truth(wrong, motion, random), motion.dt)
+    if not wrong.tangent and is_recorded_truly(wrong):
+        return measured, nominal_responses
+    runs = predict(recorded(wrong, motion, SPANS.index(span), random), tangent=wrong.tangent)
+    return measured, {model: response(history, motion.dt) for model, history in runs.items()}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,9 @@ from span_two_and_a_half.members import Judged, run_members
 
 BLOCK = 60
 """Intensities of a block."""
+
+REPORTS = Path(__file__).resolve().parents[1]
+_IMPORT = re.compile(r"^from ([\w.]+) import ", re.MULTILINE)
 
 ENGINES = ("colonnade.dynamics", "colonnade.signals.filters", "colonnade.laboratory")
 
@@ -35,25 +39,31 @@ class Runner:
     def __init__(self, folder: Path, workers: int) -> None:
         self._memory = Memory(folder, verbose=0)
         self._pool = Parallel(n_jobs=workers)
-        self._code = _code()
 
     def map(self, function: Callable[..., Any], arguments: Iterable[tuple[Any, ...]]) -> list[Any]:
         """Return `function(*each)` for each of the arguments."""
         kept = self._memory.cache(_called, ignore=["function"])
-        name = f"{function.__module__}.{function.__qualname__}"
-        return list(self._pool(delayed(kept)(name, self._code, each, function) for each in arguments))
+        code = code_of(function.__module__)
+        return list(self._pool(delayed(kept)(function.__qualname__, code, each, function) for each in arguments))
 
 
 def _called(name: str, code: str, arguments: tuple[Any, ...], function: Callable[..., Any]) -> Any:
     return function(*arguments)
 
 
-def _code() -> str:
-    """Hash the engines, and the modules of this study that runs follow from."""
+def code_of(module: str) -> str:
+    """Hash the engines, and the modules of the reports that this one needs."""
     digest = hashlib.sha256(code_hash(ENGINES).encode())
-    for path in sorted(Path(__file__).parent.glob("*.py")):
-        if path.stem not in ("page", "drawings", "fixed"):
-            digest.update(path.read_bytes())
+    waiting, reached = [module], set()
+    while waiting:
+        name = waiting.pop()
+        path = REPORTS / (name.replace(".", "/") + ".py")
+        if name in reached or not path.is_file():
+            continue
+        reached.add(name)
+        waiting += _IMPORT.findall(path.read_text(encoding="utf-8"))
+    for name in sorted(reached):
+        digest.update((REPORTS / (name.replace(".", "/") + ".py")).read_bytes())
     return digest.hexdigest()
 
 

@@ -69,13 +69,13 @@ class Wrong:
     tangent: bool = False
 
 
-def draw(cell: Cell, member: int, seed: int = SEED) -> tuple[Wrong, np.random.Generator]:
-    """Draw what is wrong in a member, and give the generator of its further draws."""
-    random = np.random.default_rng((seed, crc32(cell.cause.encode()), cell.grade, member))
+def draw(cell: Cell, member: int, seed: int = SEED) -> Wrong:
+    """Draw what is wrong in a member."""
+    random = generator(cell, member, seed)
     if cell.cause == "none":
-        return Wrong(), random
+        return Wrong()
     if cell.cause == "tangent":
-        return Wrong(tangent=True), random
+        return Wrong(tangent=True)
     found = Wrong()
     alone = cell.cause != "all"
     for name in (cell.cause,) if alone else [key for key, cause in CAUSES.items() if len(cause.sizes) > 1][:-1]:
@@ -85,7 +85,12 @@ def draw(cell: Cell, member: int, seed: int = SEED) -> tuple[Wrong, np.random.Ge
         else:
             size *= abs(random.standard_normal())
         found = replace(found, **{name.replace(" ", "_"): _with_sign(name, size, random)})
-    return found, random
+    return found
+
+
+def generator(cell: Cell, member: int, seed: int = SEED, *further: int) -> np.random.Generator:
+    """Give the stream of one member, or a further one of it."""
+    return np.random.default_rng((seed, crc32(cell.cause.encode()), cell.grade, member, *further))
 
 
 def _with_sign(name: str, size: float, random: np.random.Generator) -> float | tuple[float, ...]:

@@ -1,0 +1,148 @@
+"""Likelihoods: how often the pattern comes, with intervals."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy import stats
+
+from colonnade.arrays import Mask
+from span_two_and_a_half.criterion import AS_FIXED
+from span_two_and_a_half.design import (
+    ABOUT,
+    BOTH,
+    CAUSES,
+    DECISIVE,
+    EVERY,
+    GRADES,
+    INTENSITIES,
+    MODELS,
+    ONLY,
+    PLAUSIBLE,
+    SPACE,
+    Cell,
+)
+from span_two_and_a_half.members import FORWARD, REVERSE, VARIANTS, Judged
+
+VIEWS, SCOPES = (BOTH, *MODELS), (EVERY, ONLY)
+LEVEL = 0.95
+PARTS = 12
+"""Equal parts of the range of intensities, on a logarithmic scale."""
+
+WITHOUT_SCOPE = ("none", "tangent")
+"""Causes that are not asked to act at Span 2.5 only."""
+
+
+def interval(count: int, of: int, level: float = LEVEL) -> tuple[float, float]:
+    """Give the limits of a share (Clopper and Pearson)."""
+    if of == 0:
+        return 0.0, 1.0
+    found = stats.binomtest(count, of).proportion_ci(level, method="exact")
+    return float(found.low), float(found.high)
+
+
+def of_view(values: Mask, view: str) -> Mask:
+    """Take one model's column of the last axis, or whether all are true."""
+    return values.all(axis=-1) if view == BOTH else values[..., MODELS.index(view)]
+
+
+def pattern(judged: Judged, *, view: str, scope: str, direction: int, variant: str = AS_FIXED) -> Mask:
+    """Tell which members show the whole pattern: Span 2.5 misbehaves, and Spans 2.0 and 3.0 agree; shape (n,)."""
+    row = list(VARIANTS).index(variant)
+    agree = judged.agree[:, SCOPES.index(scope), row]
+    return of_view(judged.grown[:, row, direction] & agree, view)
+
+
+def agreement(judged: Judged, *, view: str, scope: str, variant: str = AS_FIXED) -> tuple[int, int]:
+    """Count the members whose Spans 2.0 and 3.0 agree, and those of which it is known without looking at Span 2.5."""
+    looked = judged.number % 10 == 0 if scope == EVERY else np.ones(judged.number.size, dtype=bool)
+    agree = judged.agree[looked, SCOPES.index(scope), list(VARIANTS).index(variant)]
+    return int(of_view(agree, view).sum()), int(looked.sum())
+
+
+def likelihoods(found: dict[Cell, Judged]) -> list[dict[str, Any]]:
+    """Give a row for each cell and scope."""
+    return [
+        _row(cell, judged, scope)
+        for scope in SCOPES
+        for cell, judged in found.items()
+        if scope == EVERY or cell.cause not in WITHOUT_SCOPE
+    ]
+
+
+def _row(cell: Cell, judged: Judged, scope: str) -> dict[str, Any]:
+    row: dict[str, Any] = {
+        "cause": cell.cause,
+        "grade": "" if len(CAUSES[cell.cause].sizes) == 1 else GRADES[cell.grade],
+        "scope": scope,
+        "members": int(judged.number.size),
+    }
+    for view in VIEWS:
+        shown = {
+            name: [int(pattern(judged, view=view, scope=scope, direction=way, variant=each).sum()) for each in VARIANTS]
+            for name, way in (("pattern", FORWARD), ("reverse", REVERSE))
+        }
+        here = pattern(judged, view=view, scope=scope, direction=FORWARD)
+        agree, of = agreement(judged, view=view, scope=scope)
+        grown = of_view(judged.grown[:, 0, FORWARD], view)
+        row[view] = {
+            **shown,
+            "limits": [round(each, 6) for each in interval(int(here.sum()), here.size)],
+            "span_2.5_alone": int(grown.sum()),
+            "agree": [agree, of],
+            "by_intensity": _by_intensity(judged, here),
+            **_places(judged, here, view),
+        }
+    return row
+
+
+def _by_intensity(judged: Judged, shown: Mask) -> list[int]:
+    low, high = np.log(INTENSITIES)
+    edges = np.exp(np.linspace(low, high, PARTS + 1))
+    return np.histogram(judged.intensity[shown], edges)[0].tolist()
+
+
+def _places(judged: Judged, shown: Mask, view: str) -> dict[str, Any]:
+    """Give where it happens: quantiles in s, and how many at "about 6 s"."""
+    column = MODELS.index(MODELS[-1] if view == BOTH else view)
+    places = judged.place[shown, FORWARD, column]
+    if places.size == 0:
+        return {"place": None, "about_6_s": 0}
+    low, high = ABOUT
+    return {
+        "place": [round(float(each), 2) for each in np.quantile(places, (0.05, 0.5, 0.95))],
+        "about_6_s": int(np.sum((places >= low) & (places <= high))),
+    }
+
+
+def best_and_worst(rows: list[dict[str, Any]], view: str, scope: str) -> dict[str, dict[str, float]]:
+    """
+    Give by cause the largest lower limit and the largest upper limit of its likelihood over the plausible sizes.
+
+    A cause without sizes counts with its only one.
+    """
+    found: dict[str, dict[str, float]] = {}
+    for row in rows:
+        if row["scope"] != scope or (row["grade"] and row["grade"] not in PLAUSIBLE):
+            continue
+        low, high = row[view]["limits"]
+        before = found.setdefault(row["cause"], {"low": 0.0, "high": 0.0})
+        before["low"], before["high"] = max(before["low"], low), max(before["high"], high)
+    return found
+
+
+def decided(limits: dict[str, dict[str, float]]) -> list[tuple[str, str]]:
+    """Give the pairs of causes of which the first is preferred to the second by the rule that was fixed."""
+    return [
+        (one, other)
+        for one, first in limits.items()
+        for other, second in limits.items()
+        if one != other and first["low"] >= DECISIVE * second["high"]
+    ]
+
+
+def causes_of(rows: list[dict[str, Any]]) -> list[str]:
+    """Give the causes of rows, in the order of the design."""
+    present = {row["cause"] for row in rows}
+    return [name for name in {**CAUSES, **SPACE} if name in present]
