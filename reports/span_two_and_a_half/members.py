@@ -174,3 +174,8 @@ def run_member(
         return measured, nominal_responses
     runs = predict(recorded(wrong, motion, SPANS.index(span), random), tangent=wrong.tangent)
     return measured, {model: response(history, motion.dt) for model, history in runs.items()}
+
+
+def joined(parts: list[Judged]) -> Judged:
+    """Put blocks of members together."""
+    return Judged(*(np.concatenate([vars(part)[name] for part in parts]) for name in vars(parts[0])))

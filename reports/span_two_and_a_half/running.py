@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import hashlib
 import re
+import time
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from joblib import Memory, Parallel, delayed
 
 from colonnade.sources import code_hash
 from span_two_and_a_half.design import STEPS, SWEEPS, Cell, cells, intensities
-from span_two_and_a_half.members import Judged, run_members
+from span_two_and_a_half.members import Judged, joined, run_members
 
 BLOCK = 60
 """Intensities of a block."""
@@ -34,21 +34,30 @@ class Runner:
         Where results are kept.
     workers : int
         Processes.
+
+    Attributes
+    ----------
+    seconds : float
+        Processor time of all that was asked for, s, also of what had been run before.
     """
 
     def __init__(self, folder: Path, workers: int) -> None:
         self._memory = Memory(folder, verbose=0)
         self._pool = Parallel(n_jobs=workers)
+        self.seconds = 0.0
 
     def map(self, function: Callable[..., Any], arguments: Iterable[tuple[Any, ...]]) -> list[Any]:
         """Return `function(*each)` for each of the arguments."""
         kept = self._memory.cache(_called, ignore=["function"])
         code = code_of(function.__module__)
-        return list(self._pool(delayed(kept)(function.__qualname__, code, each, function) for each in arguments))
+        done = self._pool(delayed(kept)(function.__qualname__, code, each, function) for each in arguments)
+        self.seconds += sum(seconds for _, seconds in done)
+        return [result for result, _ in done]
 
 
-def _called(name: str, code: str, arguments: tuple[Any, ...], function: Callable[..., Any]) -> Any:
-    return function(*arguments)
+def _called(name: str, code: str, arguments: tuple[Any, ...], function: Callable[..., Any]) -> tuple[Any, float]:
+    began = time.process_time()
+    return function(*arguments), time.process_time() - began
 
 
 def code_of(module: str) -> str:
@@ -67,20 +76,15 @@ def code_of(module: str) -> str:
     return digest.hexdigest()
 
 
-def run_cells(runner: Runner, chosen: list[Cell] | None = None, steps: int = STEPS) -> dict[Cell, Judged]:
+def run_cells(runner: Runner, *, steps: int = STEPS, sweeps: int = SWEEPS) -> dict[Cell, Judged]:
     """Run all members of the plane models, at every so manieth intensity if `steps` is fewer than all."""
     levels = intensities()[:: STEPS // steps]
     blocks = [
-        (cell, levels[start : start + BLOCK], start * SWEEPS, SWEEPS)
-        for cell in (cells() if chosen is None else chosen)
+        (cell, levels[start : start + BLOCK], start * sweeps, sweeps)
+        for cell in cells()
         for start in range(0, levels.size, BLOCK)
     ]
     found: dict[Cell, list[Judged]] = {}
     for block, judged in zip(blocks, runner.map(run_members, blocks), strict=True):
         found.setdefault(block[0], []).append(judged)
     return {cell: joined(parts) for cell, parts in found.items()}
-
-
-def joined(parts: list[Judged]) -> Judged:
-    """Put blocks of members together."""
-    return Judged(*(np.concatenate([vars(part)[name] for part in parts]) for name in vars(parts[0])))
