@@ -10,12 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from span_two_and_a_half import controls, sensitivity, strata, telling
-from span_two_and_a_half.counting import likelihoods, of_view, pattern
+from span_two_and_a_half import controls, in_space, sensitivity, telling
+from span_two_and_a_half.counting import Strata, likelihoods, of_view, pattern
 from span_two_and_a_half.design import (
     BOTH,
     EVERY,
     MODELS,
+    MORE_SWEEPS,
     ONLY,
     SEED,
     SPACE_MEMBERS,
@@ -26,7 +27,7 @@ from span_two_and_a_half.design import (
     intensities,
 )
 from span_two_and_a_half.fixed import text as fixed_text
-from span_two_and_a_half.members import FORWARD, Judged, run_members
+from span_two_and_a_half.members import FORWARD, Judged
 from span_two_and_a_half.running import Runner, run_cells
 from span_two_and_a_half.space import run_in_space
 
@@ -42,24 +43,24 @@ class Size:
 
     steps: int = STEPS
     sweeps: int = SWEEPS
+    more: int = MORE_SWEEPS
     space_members: int = SPACE_MEMBERS
-    looked_again: int = 40
-    repeated_sweeps: int = 2
+    looked_again: int = 20
+    repeated_more: int = 16
 
 
 def study(runner: Runner, size: Size) -> dict[str, Any]:
     """Run everything, and gather what the page gives."""
-    found = run_cells(runner, steps=size.steps, sweeps=size.sweeps)
-    first = strata.first_stratum(found)
-    jobs = strata.plan(first, size.space_members)
-    in_space = runner.map(run_in_space, jobs)
-    some = intensities()[STEPS // 96 // 2 :: max(STEPS // 96, STEPS // size.steps)]
+    found, agree = run_cells(runner, steps=size.steps, sweeps=size.sweeps, more=size.more)
+    strata = Strata(intensities()[:: STEPS // size.steps], agree)
+    jobs = in_space.plan(strata, size.space_members)
+    some = strata.levels[:: max(size.steps // 96, 1)]
     return {
         "seed": SEED,
         "members": sum(each.number.size for each in found.values()),
-        "rows": likelihoods(found),
-        "space": strata.rows(jobs, in_space, first),
-        "first_stratum": round(float(first.mean()), 4),
+        "agreeing": [int(agree.sum()), int(agree.size)],
+        "rows": likelihoods(found, strata),
+        "space": in_space.rows(jobs, runner.map(run_in_space, jobs), strata),
         "example": example(found),
         "neighbours": runner.map(sensitivity.neighbours, [(some,)])[0],
         "horizons": runner.map(sensitivity.horizons, [(some[::4],)])[0],
@@ -113,24 +114,19 @@ def look_again(runner: Runner, found: dict[Cell, Judged], most: int) -> dict[str
 
 def repeat(runner: Runner, size: Size) -> list[dict[str, Any]]:
     """Run some cells with another seed, series of the record and time scale."""
-    levels = intensities()[:: STEPS // size.steps]
     rows = []
     for name, (seed, series, scale) in controls.other_runs().items():
-        jobs = [
-            (cell, levels[start : start + 60], start * size.repeated_sweeps, size.repeated_sweeps, seed, series, scale)
-            for cell in controls.CELLS
-            for start in range(0, levels.size, 60)
-        ]
-        counted: dict[tuple[str, int], list[Judged]] = {}
-        for job, judged in zip(jobs, runner.map(run_other, jobs), strict=True):
-            counted.setdefault((job[0].cause, job[0].grade), []).append(judged)
-        rows += [controls.counted(name, *cell, judged) for cell, judged in counted.items()]
+        found, agree = run_cells(
+            runner,
+            steps=size.steps,
+            sweeps=1,
+            more=size.repeated_more,
+            chosen=controls.CELLS,
+            other=(seed, series, scale),
+        )
+        strata = Strata(intensities()[:: STEPS // size.steps], agree)
+        rows += [controls.counted(name, cell, judged, strata) for cell, judged in found.items()]
     return rows
-
-
-def run_other(cell: Cell, levels: np.ndarray, first: int, sweeps: int, seed: int, series: str, scale: float) -> Judged:
-    """Run members with another seed, series or time scale."""
-    return run_members(cell, levels, first, sweeps, seed=seed, shape=controls.other_motion(series, scale))
 
 
 def tell(runner: Runner, found: dict[Cell, Judged]) -> list[dict[str, Any]]:

@@ -12,7 +12,7 @@ from colonnade.dynamics.rock import rock
 from colonnade.laboratory.table import Piece, TableMotion
 from colonnade.laboratory.truth import simulate
 from paper_schemes import PAPERS_STEP, rock_by_steps
-from span_two_and_a_half.counting import VIEWS, agreement, of_view, pattern
+from span_two_and_a_half.counting import VIEWS, Strata, of_view, pattern
 from span_two_and_a_half.criterion import Criterion, Response, place_of_growth
 from span_two_and_a_half.design import (
     EVERY,
@@ -26,7 +26,8 @@ from span_two_and_a_half.design import (
     nominal,
     table_motion,
 )
-from span_two_and_a_half.members import FORWARD, REVERSE, Judged, joined
+from span_two_and_a_half.members import FORWARD, REVERSE, Judged
+from span_two_and_a_half.running import STANDARD, Run
 from span_two_and_a_half.trial import (
     Wrong,
     draw,
@@ -40,7 +41,7 @@ from span_two_and_a_half.trial import (
     truth,
 )
 
-CELLS = (Cell("e", 1), Cell("e", 2), Cell("all", 1), Cell("all", 2))
+CELLS = (Cell("e", 2), Cell("all", 1), Cell("all", 2))
 """What is repeated with other seeds, series and time scales."""
 
 FINER = 8
@@ -50,18 +51,11 @@ OTHER_REST = 1e-4
 """Of α: a rest rule a hundred times the usual one."""
 
 
-def other_runs() -> dict[str, tuple[int, str, float]]:
+def other_runs() -> dict[str, Run]:
     """Give what the cells are repeated with: seed, series, time scale."""
-    standard = (SEED, next(iter(RECORDS)), TIME_SCALES[3])
-    found = {"as it is": standard, "another seed": (SEED + 1, *standard[1:])}
-    found |= {RECORDS["peer"]: (SEED, "peer", TIME_SCALES[3])}
-    found |= {f"time × {scale:.3g}": (SEED, standard[1], scale) for scale in TIME_SCALES if scale != standard[2]}
-    return found
-
-
-def other_motion(name: str, scale: float) -> Motion:
-    """Give the table's motion of a series and time scale, at 1 m/s²."""
-    return table_motion(name, scale)
+    seed, series, scale = STANDARD
+    found = {"another seed": (seed + 1, series, scale), RECORDS["peer"]: (seed, "peer", scale)}
+    return found | {f"time × {other:.3g}": (seed, series, other) for other in TIME_SCALES if other != scale}
 
 
 def engines(cell: Cell, number: int, intensity: float) -> dict[str, bool]:
@@ -169,15 +163,20 @@ def summarised(found: list[dict[str, bool]]) -> dict[str, Any]:
     return counted
 
 
-def counted(name: str, cause: str, grade: int, parts: list[Judged]) -> dict[str, Any]:
+def counted(name: str, cell: Cell, judged: Judged, strata: Strata) -> dict[str, Any]:
     """Count pattern and reverse in a repeated cell."""
-    judged = joined(parts)
-    row: dict[str, Any] = {"run": name, "cause": cause, "grade": GRADES[grade], "members": int(judged.number.size)}
+    row: dict[str, Any] = {
+        "run": name,
+        "cause": cell.cause,
+        "grade": GRADES[cell.grade],
+        "members": int(judged.number.size),
+        "agreeing": round(strata.weight, 4),
+    }
     for view in VIEWS:
         row[view] = {
-            key: int(pattern(judged, view=view, scope=EVERY, direction=way).sum())
-            for key, way in (("pattern", FORWARD), ("reverse", REVERSE))
+            key: strata.share(strata.counts(pattern(judged, view=view, scope=EVERY, direction=way), judged.intensity))
+            for key, way in (("likelihood", FORWARD), ("reverse_likelihood", REVERSE))
         }
-        row[view]["span_2.5_alone"] = int(of_view(judged.grown[:, 0, FORWARD], view).sum())
-        row[view]["agree"] = list(agreement(judged, view=view, scope=EVERY))
+        grown = of_view(judged.grown[:, 0, FORWARD], view)
+        row[view]["span_2.5_alone"] = strata.share(strata.counts(grown, judged.intensity))
     return row

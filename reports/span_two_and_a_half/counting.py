@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from scipy import stats
 
-from colonnade.arrays import Mask
+from colonnade.arrays import Array, Mask
 from span_two_and_a_half.criterion import AS_FIXED
 from span_two_and_a_half.design import (
     ABOUT,
@@ -16,14 +17,13 @@ from span_two_and_a_half.design import (
     DECISIVE,
     EVERY,
     GRADES,
-    INTENSITIES,
     MODELS,
     ONLY,
     PLAUSIBLE,
     SPACE,
     Cell,
 )
-from span_two_and_a_half.members import FORWARD, REVERSE, VARIANTS, Judged
+from span_two_and_a_half.members import FORWARD, REVERSE, RUN_ALL, VARIANTS, Judged
 
 VIEWS, SCOPES = (BOTH, *MODELS), (EVERY, ONLY)
 LEVEL = 0.95
@@ -42,6 +42,50 @@ def interval(count: int, of: int, level: float = LEVEL) -> tuple[float, float]:
     return float(found.low), float(found.high)
 
 
+@dataclass(frozen=True)
+class Strata:
+    """
+    Intensities in two parts, of which each has members of its own.
+
+    Attributes
+    ----------
+    levels : ndarray, shape (k,)
+        m/s² for each unit of Span, rising.
+    first : ndarray of bool, shape (k,)
+        Those of the first part, that has more members.
+    """
+
+    levels: Array
+    first: Mask
+
+    @property
+    def weight(self) -> float:
+        """Share of the intensities that the first part has."""
+        return float(self.first.mean())
+
+    def in_first(self, intensity: Array) -> Mask:
+        """Tell which members are of the first part."""
+        return np.asarray(self.first[np.abs(self.levels[:, None] - intensity).argmin(axis=0)])
+
+    def counts(self, shown: Mask, intensity: Array) -> list[int]:
+        """Count the members that show something, and all members, of the first part and of the second."""
+        inside = self.in_first(intensity)
+        return [int(shown[inside].sum()), int(inside.sum()), int(shown[~inside].sum()), int((~inside).sum())]
+
+    def share(self, counts: list[int]) -> list[float]:
+        """
+        Estimate a share over all intensities from `counts`, with its limits.
+
+        Both parts hold together with 95 %: each has half of what may fail.
+        """
+        share = low = high = 0.0
+        for count, of, weight in ((*counts[:2], self.weight), (*counts[2:], 1.0 - self.weight)):
+            limits = interval(count, of, 1.0 - (1.0 - LEVEL) / 2.0)
+            share += weight * count / max(of, 1)
+            low, high = low + weight * limits[0], high + weight * limits[1]
+        return [round(each, 7) for each in (share, low, high)]
+
+
 def of_view(values: Mask, view: str) -> Mask:
     """Take one model's column of the last axis, or whether all are true."""
     return values.all(axis=-1) if view == BOTH else values[..., MODELS.index(view)]
@@ -54,24 +98,24 @@ def pattern(judged: Judged, *, view: str, scope: str, direction: int, variant: s
     return of_view(judged.grown[:, row, direction] & agree, view)
 
 
-def agreement(judged: Judged, *, view: str, scope: str, variant: str = AS_FIXED) -> tuple[int, int]:
-    """Count the members whose Spans 2.0 and 3.0 agree, and those of which it is known without looking at Span 2.5."""
-    looked = judged.number % 10 == 0 if scope == EVERY else np.ones(judged.number.size, dtype=bool)
+def agreement(judged: Judged, strata: Strata, *, view: str, scope: str, variant: str = AS_FIXED) -> list[int]:
+    """Count the members whose Spans 2.0 and 3.0 agree, of those that were run at them whatever Span 2.5 shows."""
+    looked = judged.number % RUN_ALL == 0
     agree = judged.agree[looked, SCOPES.index(scope), list(VARIANTS).index(variant)]
-    return int(of_view(agree, view).sum()), int(looked.sum())
+    return strata.counts(of_view(agree, view), judged.intensity[looked])
 
 
-def likelihoods(found: dict[Cell, Judged]) -> list[dict[str, Any]]:
+def likelihoods(found: dict[Cell, Judged], strata: Strata) -> list[dict[str, Any]]:
     """Give a row for each cell and scope."""
     return [
-        _row(cell, judged, scope)
+        _row(cell, judged, scope, strata)
         for scope in SCOPES
         for cell, judged in found.items()
         if scope == EVERY or cell.cause not in WITHOUT_SCOPE
     ]
 
 
-def _row(cell: Cell, judged: Judged, scope: str) -> dict[str, Any]:
+def _row(cell: Cell, judged: Judged, scope: str, strata: Strata) -> dict[str, Any]:
     row: dict[str, Any] = {
         "cause": cell.cause,
         "grade": "" if len(CAUSES[cell.cause].sizes) == 1 else GRADES[cell.grade],
@@ -80,27 +124,35 @@ def _row(cell: Cell, judged: Judged, scope: str) -> dict[str, Any]:
     }
     for view in VIEWS:
         shown = {
-            name: [int(pattern(judged, view=view, scope=scope, direction=way, variant=each).sum()) for each in VARIANTS]
+            name: {
+                each: strata.counts(
+                    pattern(judged, view=view, scope=scope, direction=way, variant=each), judged.intensity
+                )
+                for each in VARIANTS
+            }
             for name, way in (("pattern", FORWARD), ("reverse", REVERSE))
         }
         here = pattern(judged, view=view, scope=scope, direction=FORWARD)
-        agree, of = agreement(judged, view=view, scope=scope)
-        grown = of_view(judged.grown[:, 0, FORWARD], view)
+        grown = strata.counts(of_view(judged.grown[:, 0, FORWARD], view), judged.intensity)
+        agree = agreement(judged, strata, view=view, scope=scope)
         row[view] = {
             **shown,
-            "limits": [round(each, 6) for each in interval(int(here.sum()), here.size)],
-            "span_2.5_alone": int(grown.sum()),
-            "agree": [agree, of],
-            "by_intensity": _by_intensity(judged, here),
+            "likelihood": strata.share(shown["pattern"][AS_FIXED]),
+            "reverse_likelihood": strata.share(shown["reverse"][AS_FIXED]),
+            "span_2.5_alone": strata.share(grown),
+            "agree": strata.share(agree),
+            "by_intensity": _by_intensity(judged, here, strata),
             **_places(judged, here, view),
         }
     return row
 
 
-def _by_intensity(judged: Judged, shown: Mask) -> list[int]:
-    low, high = np.log(INTENSITIES)
-    edges = np.exp(np.linspace(low, high, PARTS + 1))
-    return np.histogram(judged.intensity[shown], edges)[0].tolist()
+def _by_intensity(judged: Judged, shown: Mask, strata: Strata) -> list[float]:
+    """Give the share of the members that show it in each part of the range of intensities."""
+    place = np.abs(strata.levels[:, None] - judged.intensity).argmin(axis=0)
+    size = strata.levels.size
+    each = np.bincount(place[shown], minlength=size) / np.bincount(place, minlength=size)
+    return [round(float(part.mean()), 6) for part in np.array_split(each, min(PARTS, size))]
 
 
 def _places(judged: Judged, shown: Mask, view: str) -> dict[str, Any]:
@@ -126,7 +178,7 @@ def best_and_worst(rows: list[dict[str, Any]], view: str, scope: str) -> dict[st
     for row in rows:
         if row["scope"] != scope or (row["grade"] and row["grade"] not in PLAUSIBLE):
             continue
-        low, high = row[view]["limits"]
+        low, high = row[view]["likelihood"][1:]
         before = found.setdefault(row["cause"], {"low": 0.0, "high": 0.0})
         before["low"], before["high"] = max(before["low"], low), max(before["high"], high)
     return found

@@ -38,8 +38,11 @@ Below it Span 2.0 cannot lift the prism (1.850 m/s²). The ratio of the three Sp
 STEPS = 480
 """Intensities in that range, at equal ratios; each member takes the next one."""
 
-SWEEPS = 10
+SWEEPS = 4
 """Members of a cell at each intensity."""
+
+MORE_SWEEPS = 24
+"""Further ones where Spans 2.0 and 3.0 agree with nothing wrong: elsewhere the pattern is rare."""
 
 GRADES = ("small", "usual", "large", "gross")
 """Names of the sizes, each about three times the one before."""

@@ -104,8 +104,23 @@ def judge_other(measured: Response, predictions: dict[str, Response]) -> Mask:
     return agree
 
 
+def agreeing(levels: Array, series: str, time_scale: float) -> Mask:
+    """Tell at which intensities both predictions agree at Spans 2.0 and 3.0 with nothing wrong, shape (k,)."""
+    shape = table_motion(series, time_scale)
+    row = list(VARIANTS).index(AS_FIXED)
+    found = []
+    for intensity in levels.tolist():
+        each = []
+        for span in OTHERS:
+            runs = predict(table(shape, intensity, span))
+            responses = {model: response(history, shape.dt) for model, history in runs.items()}
+            each.append(judge_other(responses["nonlinear"], responses)[row])
+        found.append(np.logical_and.reduce(each).all())
+    return np.array(found)
+
+
 def run_members(
-    cell: Cell, levels: Array, first: int, sweeps: int, *, seed: int = SEED, shape: Motion | None = None
+    cell: Cell, levels: Array, first: int, sweeps: int, seed: int, series: str, time_scale: float
 ) -> Judged:
     """
     Run the members of a cell at some intensities.
@@ -119,11 +134,13 @@ def run_members(
         Number of the first member.
     sweeps : int
         Members at each intensity.
-    seed : int, optional
-    shape : Motion, optional
-        Of the table; default `table_motion()`.
+    seed : int
+    series : str
+        Of the record.
+    time_scale : float
+        Factor on its time.
     """
-    shape = table_motion() if shape is None else shape
+    shape = table_motion(series, time_scale)
     rows = []
     for place, intensity in enumerate(levels.tolist()):
         tables = {span: table(shape, intensity, span) for span in SPANS}

@@ -5,18 +5,26 @@ from __future__ import annotations
 import hashlib
 import re
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 from joblib import Memory, Parallel, delayed
 
+from colonnade.arrays import Mask
 from colonnade.sources import code_hash
-from span_two_and_a_half.design import STEPS, SWEEPS, Cell, cells, intensities
-from span_two_and_a_half.members import Judged, joined, run_members
+from span_two_and_a_half.design import MORE_SWEEPS, SEED, STEPS, SWEEPS, TIME_SCALE, Cell, cells, intensities
+from span_two_and_a_half.members import Judged, agreeing, joined, run_members
 
-BLOCK = 60
-"""Intensities of a block."""
+BLOCK_MEMBERS = 480
+"""Members of a block, about."""
+
+Run = tuple[int, str, float]
+STANDARD: Run = (SEED, "chopra", TIME_SCALE)
+"""Seed, series of the record and factor on its time, of the study."""
+
+MORE = 1_000_000
+"""Number of the first member of those that are run in addition."""
 
 REPORTS = Path(__file__).resolve().parents[1]
 _IMPORT = re.compile(r"^from ([\w.]+) import ", re.MULTILINE)
@@ -76,15 +84,35 @@ def code_of(module: str) -> str:
     return digest.hexdigest()
 
 
-def run_cells(runner: Runner, *, steps: int = STEPS, sweeps: int = SWEEPS) -> dict[Cell, Judged]:
-    """Run all members of the plane models, at every so manieth intensity if `steps` is fewer than all."""
+def run_cells(
+    runner: Runner,
+    *,
+    steps: int = STEPS,
+    sweeps: int = SWEEPS,
+    more: int = MORE_SWEEPS,
+    chosen: Sequence[Cell] | None = None,
+    other: Run = STANDARD,
+) -> tuple[dict[Cell, Judged], Mask]:
+    """
+    Run all members of the plane models, at every so manieth intensity if `steps` is fewer than all.
+
+    Returns
+    -------
+    found : dict of Cell to Judged
+    agree : ndarray of bool, shape (steps,)
+        The intensities at which `more` members were run.
+    """
     levels = intensities()[:: STEPS // steps]
-    blocks = [
-        (cell, levels[start : start + BLOCK], start * sweeps, sweeps)
-        for cell in cells()
-        for start in range(0, levels.size, BLOCK)
-    ]
+    agree = runner.map(agreeing, [(levels, *other[1:])])[0]
+    blocks = []
+    for cell in cells() if chosen is None else chosen:
+        for some, number, count in ((levels, 0, sweeps), (levels[agree], MORE, more)):
+            size = max(BLOCK_MEMBERS // count, 1)
+            blocks += [
+                (cell, some[start : start + size], number + start * count, count, *other)
+                for start in range(0, some.size, size)
+            ]
     found: dict[Cell, list[Judged]] = {}
     for block, judged in zip(blocks, runner.map(run_members, blocks), strict=True):
         found.setdefault(block[0], []).append(judged)
-    return {cell: joined(parts) for cell, parts in found.items()}
+    return {cell: joined(parts) for cell, parts in found.items()}, agree

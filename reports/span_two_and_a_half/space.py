@@ -49,7 +49,7 @@ class InSpace:
     grown : ndarray of bool, shape (variants, 2, models)
         The pattern at Span 2.5, and its reverse.
     agree : ndarray of bool, shape (variants, models)
-        Whether Spans 2.0 and 3.0 agree.
+        Whether Spans 2.0 and 3.0 agree; false if Span 2.5 shows neither pattern nor reverse, and they were not run.
     place : ndarray, shape (2, models)
         s.
     slide, out_of_plane, yaw : float
@@ -90,6 +90,9 @@ def run_in_space(cell: Cell, intensity: float, number: int, setting: Setting, se
         if span == STRANGE:
             grown, place = judge_strange(measured, predictions)
             strange = history
+            if not grown.any():
+                agree[:] = False
+                break
         else:
             agree &= judge_other(measured, predictions)
     alpha = nominal()[0].critical_angle

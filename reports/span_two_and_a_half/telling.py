@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from span_two_and_a_half.trial import Wrong, draw, generator, predict, predicted
 REPEATABILITY = (0.001, 0.01)
 """Relative standard deviations of the table's motion from one repeat to the next."""
 
-MEMBERS = 40
+MEMBERS = 24
 """Of each cell, at most."""
 
 REFITTED = (0.003, 0.01)
@@ -86,8 +87,6 @@ def tell(cell: Cell, number: int, intensity: float) -> dict[str, Any]:
 
 def _repeated(wrong: Wrong, random: np.random.Generator) -> Wrong:
     """Draw again what is another one in each test: the zero of the accelerometer and its drift."""
-    from dataclasses import replace
-
     signs = random.choice([-1.0, 1.0], 2)
     return replace(
         wrong,

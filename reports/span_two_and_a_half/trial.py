@@ -43,7 +43,7 @@ class Wrong:
     noise : float
         RMS, mg.
     filter : float
-        Cut-off, Hz; 0 for none.
+        Cut-off, Hz; 0 for none. One above half the sampling rate changes nothing.
     tilt : float
         rad.
     speed : float
@@ -137,7 +137,7 @@ def recorded(wrong: Wrong, motion: Motion, which: int, random: np.random.Generat
     milli_g = 1e-3 * block.gravity
     if wrong.noise:
         values = values + milli_g * wrong.noise * random.standard_normal(values.size)
-    if wrong.filter:
+    if 0.0 < wrong.filter < 0.5 / motion.dt:
         values = lowpass(values, motion.dt, wrong.filter)
     if wrong.offset[which] or wrong.drift[which]:
         share = motion.time / (motion.duration - TAIL)
