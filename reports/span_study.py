@@ -35,6 +35,8 @@ HERE = Path(__file__).resolve().parent
 NAME = "span-2.5"
 KEPT = HERE.parent / "build" / "reproduce" / "span-2.5"
 WORKERS = 2
+SAMPLE = 120
+"""Intensities, from the lowest on, whose members the test runs again."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,7 @@ def study(runner: Runner, size: Size) -> dict[str, Any]:
         "agreeing": [int(agree.sum()), int(agree.size)],
         "rows": likelihoods(found, strata),
         "space": in_space.rows(jobs, runner.map(run_in_space, jobs), strata),
+        "sample": sample(found, size),
         "example": example(found),
         "neighbours": runner.map(sensitivity.neighbours, [(some,)])[0],
         "horizons": runner.map(sensitivity.horizons, [(some[::4],)])[0],
@@ -69,6 +72,24 @@ def study(runner: Runner, size: Size) -> dict[str, Any]:
         "telling": tell(runner, found),
         "processor_s": round(runner.seconds),
     }
+
+
+def sample(found: dict[Cell, Judged], size: Size) -> dict[str, Any]:
+    """Keep which of the first members of a cell grow, for the test that runs them again."""
+    cell, count = Cell("e", 3), min(size.steps, SAMPLE)
+    judged = found[cell]
+    return {
+        "cause": cell.cause,
+        "grade": cell.grade,
+        "intensities": count,
+        "sweeps": size.sweeps,
+        "grown": [each for each in numbers_that_grow(judged) if each < count * size.sweeps],
+    }
+
+
+def numbers_that_grow(judged: Judged) -> list[int]:
+    """Give the numbers of the members whose nonlinear prediction grows at Span 2.5."""
+    return sorted(judged.number[of_view(judged.grown[:, 0, FORWARD], MODELS[-1])].tolist())
 
 
 def example(found: dict[Cell, Judged]) -> dict[str, Any] | None:
@@ -147,8 +168,9 @@ def tell(runner: Runner, found: dict[Cell, Judged]) -> list[dict[str, Any]]:
 
 def write(found: dict[str, Any], folder: Path) -> None:
     """Write pages, numbers and figures into a folder."""
-    from span_two_and_a_half.drawings import draw_all
     from span_two_and_a_half.page import page
+
+    from span_two_and_a_half.drawings import draw_all
 
     folder.mkdir(parents=True, exist_ok=True)
     (folder / f"{NAME}.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
