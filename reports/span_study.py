@@ -30,6 +30,7 @@ from span_two_and_a_half.fixed import text as fixed_text
 from span_two_and_a_half.members import FORWARD, Judged
 from span_two_and_a_half.running import Runner, run_cells
 from span_two_and_a_half.space import run_in_space
+from span_two_and_a_half.trial import SIGNED, draw
 
 HERE = Path(__file__).resolve().parent
 NAME = "span-2.5"
@@ -63,6 +64,7 @@ def study(runner: Runner, size: Size) -> dict[str, Any]:
         "agreeing": [int(agree.sum()), int(agree.size)],
         "rows": likelihoods(found, strata),
         "space": in_space.rows(jobs, runner.map(run_in_space, jobs), strata),
+        "signs": signs(found),
         "sample": sample(found, size),
         "example": example(found),
         "neighbours": runner.map(sensitivity.neighbours, [(some,)])[0],
@@ -85,6 +87,18 @@ def sample(found: dict[Cell, Judged], size: Size) -> dict[str, Any]:
         "sweeps": size.sweeps,
         "grown": [each for each in numbers_that_grow(judged) if each < count * size.sweeps],
     }
+
+
+def signs(found: dict[Cell, Judged]) -> dict[str, list[int]]:
+    """Count the members that grow (nonlinear prediction), by cause: whose true value is too large, and all."""
+    counted: dict[str, list[int]] = {}
+    for cell, judged in found.items():
+        if cell.cause in SIGNED and cell.cause not in ("offset", "drift"):
+            drawn = [draw(cell, number) for number in numbers_that_grow(judged)]
+            positive = sum(getattr(each, cell.cause.replace(" ", "_")) > 0.0 for each in drawn)
+            before = counted.setdefault(cell.cause, [0, 0])
+            before[0], before[1] = before[0] + positive, before[1] + len(drawn)
+    return counted
 
 
 def numbers_that_grow(judged: Judged) -> list[int]:
@@ -168,9 +182,8 @@ def tell(runner: Runner, found: dict[Cell, Judged]) -> list[dict[str, Any]]:
 
 def write(found: dict[str, Any], folder: Path) -> None:
     """Write pages, numbers and figures into a folder."""
-    from span_two_and_a_half.page import page
-
     from span_two_and_a_half.drawings import draw_all
+    from span_two_and_a_half.page import page
 
     folder.mkdir(parents=True, exist_ok=True)
     (folder / f"{NAME}.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from math import log2, sqrt
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from colonnade.arrays import Array
+from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from span_two_and_a_half.criterion import Criterion, misfit, place_of_growth
-from span_two_and_a_half.design import SEED, SPANS, STRANGE, Cell, nominal, table_motion
+from span_two_and_a_half.design import CAUSES, SEED, SPANS, STRANGE, Cell, nominal, table_motion
 from span_two_and_a_half.trial import Wrong, draw, generator, predict, predicted_block, recorded, response, table, truth
 
 REPEATABILITY = (0.001, 0.01)
@@ -23,28 +25,78 @@ MEMBERS = 24
 REFITTED = (0.003, 0.01)
 """Of e: how far it may be moved to make the prediction fit."""
 
-RESOLUTIONS: dict[str, tuple[str, float]] = {
-    "e": ("e by free vibrations, to ± 0.001", 0.001),
-    "critical angle": ("α by tilting the table until the prism lifts, to ± 0.2 %", 0.002),
-    "p": ("p by α and dimensions, to ± 0.2 %", 0.002),
-    "gain": ("the table's displacement, to ± 0.2 %", 0.002),
-    "offset": ("the table's displacement at its end, ± 1 mm after 7 s", 1e3 * 2 * 0.001 / 7.0**2 / 9.81),
-    "drift": ("the table's displacement at its end, ± 1 mm after 7 s", 1e3 * 6 * 0.001 / 7.0**2 / 9.81),
-    "noise": ("a second accelerometer, to ± 0.5 mg", 0.5),
-    "clock": ("one pulse on both recorders at each end, to ± 1 ms in 7 s", 0.001 / 7.0),
-    "tilt": ("a machinist's level, to ± 0.1 mrad", 0.0001),
-    "speed": ("a gyroscope: e of each impact, its slope to ± 0.003", 0.003),
-    "scatter": ("a gyroscope: e of each impact to ± 0.003", 0.003),
+IMPACTS, EACH_IMPACT, SPEEDS = 50, 0.003, 0.2
+"""Impacts of a test that a gyroscope sees; standard deviation of e of each; that of their speeds, over p α."""
+
+DURATION = 7.0
+"""s of a test."""
+
+
+class Direct(NamedTuple):
+    """
+    What shows a cause directly.
+
+    Attributes
+    ----------
+    instrument, what : str
+    deviation : float
+        Standard deviation of what it gives, in the unit of the cause's sizes. 0 shows any size.
+    """
+
+    instrument: str
+    what: str
+    deviation: float
+
+
+_TABLE = "displacement of the table"
+_GYROSCOPE = "gyroscope on the prism"
+
+DIRECT: dict[str, list[Direct]] = {
+    "e": [
+        Direct("free vibrations again", "e to ± 0.001", 0.001),
+        Direct(_GYROSCOPE, f"e of {IMPACTS} impacts, each to ± {EACH_IMPACT:g}", EACH_IMPACT / sqrt(IMPACTS)),
+    ],
+    "critical angle": [Direct("tilting until it lifts", "α to ± 0.1 %", 0.001)],
+    "p": [Direct("weight and dimensions", "p to ± 0.05 %", 0.0005)],
+    "gain": [Direct(_TABLE, "to ± 0.2 %", 0.002)],
+    "offset": [Direct(_TABLE, "± 1 mm at the end", 1e3 * 2.0 * 0.001 / DURATION**2 / STANDARD_GRAVITY)],
+    "drift": [Direct(_TABLE, "± 1 mm at the end", 1e3 * 6.0 * 0.001 / DURATION**2 / STANDARD_GRAVITY)],
+    "noise": [Direct("a second accelerometer", "RMS to ± 0.5 mg", 0.5)],
+    "filter": [Direct("the record before its filter", "any filter", 0.0)],
+    "clock": [Direct("a pulse on both recorders at both ends", "± 1 ms", 0.001 / DURATION)],
+    "tilt": [Direct("level on the table", "± 0.1 mrad", 0.0001)],
+    "speed": [Direct(_GYROSCOPE, "slope of e", EACH_IMPACT / sqrt(IMPACTS) / SPEEDS)],
+    "scatter": [Direct(_GYROSCOPE, "scatter of e", EACH_IMPACT * (2.0 / IMPACTS) ** 0.25)],
 }
-"""By cause: the measurement that shows it directly, and its standard deviation in the unit of the cause's sizes."""
+"""By cause: instruments that show it, and how well. Assumed, as the laboratory's own are not known."""
 
 DECIDES = 3.0
 """ln of the likelihood ratio (20 to 1) that decides, expected from a direct measurement: ½ (size / deviation)²."""
 
 
-def decided_from(cause: str) -> float:
-    """Give the size from which the direct measurement of a cause decides."""
-    return float(RESOLUTIONS[cause][1] * np.sqrt(2.0 * DECIDES))
+def decided_from(direct: Direct) -> float:
+    """Give the size from which a direct measurement is expected to decide."""
+    return direct.deviation * sqrt(2.0 * DECIDES)
+
+
+def resolved(instrument: str, grade: int = 1) -> list[str]:
+    """Name the causes that an instrument decides at a size, the usual one by default."""
+    found = []
+    for cause, each in DIRECT.items():
+        size = CAUSES[cause].sizes[grade]
+        if any(direct.instrument == instrument and size >= decided_from(direct) for direct in each):
+            found.append(cause)
+    return found
+
+
+def instrument_information(instrument: str) -> float:
+    """
+    Give what an instrument tells between all causes of `DIRECT`, bits, if one of them is at work at its usual size.
+
+    All are as likely. What it decides it tells apart from all others; the others it leaves as they are.
+    """
+    count, left = len(DIRECT), len(DIRECT) - len(resolved(instrument))
+    return log2(count) - (left * log2(left) / count if left else 0.0)
 
 
 def tell(cell: Cell, number: int, intensity: float) -> dict[str, Any]:

@@ -179,7 +179,13 @@ def test_a_repeat_of_a_cause_that_stays_is_the_same_test():
     told = telling.tell(Cell("e", 0), 1, 1.2)
     assert told["repeats 0.001"]
     assert telling.information(np.array([[1.0, 0.0], [0.0, 1.0], [1.0, 0.0]])) == pytest.approx(0.918, abs=1e-3)
-    assert telling.decided_from("e") == pytest.approx(0.001 * np.sqrt(6.0))
+
+
+def test_instruments_decide_from_the_size_that_gives_twenty_to_one():
+    first, gyroscope = telling.DIRECT["e"]
+    assert np.exp(0.5 * (telling.decided_from(first) / first.deviation) ** 2) == pytest.approx(20.0, rel=0.01)
+    assert telling.resolved(gyroscope.instrument) == ["e", "scatter"]
+    assert telling.instrument_information("level on the table") == pytest.approx(np.log2(12) - 11 / 12 * np.log2(11))
 
 
 def test_the_page_is_made_from_the_numbers(found):
