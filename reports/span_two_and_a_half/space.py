@@ -9,7 +9,7 @@ import numpy as np
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.contact.body import ContactBody
-from colonnade.dynamics.contact.calibration import Calibration, calibrate
+from colonnade.dynamics.contact.calibration import calibrate
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.nodes import rigid_body
@@ -23,18 +23,23 @@ from span_two_and_a_half.trial import generator, predict, response, table
 PENETRATION = 1e-5
 """Of the standing prism into its contact, in heights of its centre of mass: ten times the default, for speed."""
 
-STEP = 4e-5
+STEP = 5e-5
 """s."""
+
+GRID = (3, 3)
+"""Nodes of the base."""
 
 FRICTION = 0.6
 
 
 @dataclass(frozen=True)
-class Setting:
-    """How the contact is resolved; the default is what the study uses."""
+class Prism:
+    """The prism in space: its nodes and its law of contact, with which it rocks freely with the paper's e."""
 
-    penetration: float = PENETRATION
-    step: float = STEP
+    body: ContactBody
+    law: ContactLaw
+    step: float
+    restitution: float
 
 
 @dataclass(frozen=True)
@@ -65,16 +70,16 @@ class InSpace:
     yaw: float
 
 
-@cache
-def calibrated(setting: Setting) -> Calibration:
+def calibrated(grid: tuple[int, int] = GRID, penetration: float = PENETRATION, step: float = STEP) -> Prism:
     """Find the law of contact with which the rigid prism rocks freely with the paper's e."""
     block, e = nominal()
-    body = rigid_body(block)
-    law = ContactLaw.stiff(body, block.gravity, friction=FRICTION, penetration=setting.penetration)
-    return calibrate(body, law, e, gravity=block.gravity, step=setting.step)
+    body = rigid_body(block, grid=grid)
+    law = ContactLaw.stiff(body, block.gravity, friction=FRICTION, penetration=penetration)
+    found = calibrate(body, law, e, gravity=block.gravity, step=step)
+    return Prism(found.body, found.law, step, found.restitution)
 
 
-def run_in_space(cell: Cell, intensity: float, number: int, setting: Setting, seed: int = SEED) -> InSpace:
+def run_in_space(cell: Cell, intensity: float, number: int, prism: Prism, seed: int = SEED) -> InSpace:
     """Run one member: its truth in space at all three Spans, and the plane predictions."""
     random = generator(cell, number, seed)
     size = cell.size
@@ -84,7 +89,7 @@ def run_in_space(cell: Cell, intensity: float, number: int, setting: Setting, se
     agree = np.ones((len(VARIANTS), 2), dtype=bool)
     for span in (STRANGE, *OTHERS):
         motion = table(shape, intensity, span)
-        history = simulate_wrong(cell.cause, size, motion, setting, sign=1.0 if random.random() < 0.5 else -1.0)
+        history = simulate_wrong(cell.cause, size, motion, prism, sign=1.0 if random.random() < 0.5 else -1.0)
         measured = Response(history.angle, motion.dt, history.overturning_time, nominal()[0])
         predictions = {model: response(each, motion.dt) for model, each in predict(motion).items()}
         if span == STRANGE:
@@ -107,10 +112,9 @@ def run_in_space(cell: Cell, intensity: float, number: int, setting: Setting, se
     )
 
 
-def simulate_wrong(cause: str, size: float, motion: Motion, setting: Setting, *, sign: float = 1.0) -> ContactHistory:
+def simulate_wrong(cause: str, size: float, motion: Motion, prism: Prism, *, sign: float = 1.0) -> ContactHistory:
     """Run the prism in space with something wrong."""
-    found = calibrated(setting)
-    body, law = found.body, found.law
+    body, law = prism.body, prism.law
     if cause == "friction":
         law = replace(law, friction=size)
     if cause == "uneven":
@@ -122,7 +126,7 @@ def simulate_wrong(cause: str, size: float, motion: Motion, setting: Setting, *,
         motion,
         law=law,
         gravity=nominal()[0].gravity,
-        step=setting.step,
+        step=prism.step,
         yaw=sign * size if cause == "yaw" else 0.0,
     )
 
