@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -197,10 +197,14 @@ def listed(names: Sequence[str]) -> str:
     return ", ".join(names[:-1]) + " and " + names[-1]
 
 
-def largest(rows: Rows, view: str, key: Callable[[dict[str, Any]], float]) -> tuple[str, str, float]:
-    """Give the cause, size and value of the row in which something is largest, in every test."""
-    row = max(chosen(rows, EVERY), key=lambda each: key(each[view]))
-    return row["cause"], row["grade"], key(row[view])
+def strongest(rows: Rows, view: str, scope: str, most: int = 3) -> list[str]:
+    """Name the causes and sizes whose likelihood is largest, with it; none that was never seen."""
+    ranked = sorted(chosen(rows, scope), key=lambda row: -row[view]["likelihood"][0])[:most]
+    return [
+        f"{percent(row[view]['likelihood'][0])} % ({row['cause']}{', ' if row['grade'] else ''}{row['grade']})"
+        for row in ranked
+        if row[view]["likelihood"][0] > 0.0
+    ]
 
 
 def places(rows: Rows, view: str, scope: str = EVERY) -> tuple[int, int]:
