@@ -30,7 +30,7 @@ from span_two_and_a_half.design import (
 from span_two_and_a_half.fixed import text as fixed_text
 from span_two_and_a_half.members import FORWARD, Judged
 from span_two_and_a_half.running import Runner, run_cells
-from span_two_and_a_half.space import calibrated, run_in_space
+from span_two_and_a_half.space import run_in_space
 from span_two_and_a_half.trial import SIGNED, draw
 
 HERE = Path(__file__).resolve().parent
@@ -49,16 +49,15 @@ class Size:
     sweeps: int = SWEEPS
     more: int = MORE_SWEEPS
     space_members: int = SPACE_MEMBERS
-    looked_again: int = 10
-    repeated_more: int = 8
+    looked_again: int = 20
+    repeated_more: int = 16
 
 
 def study(runner: Runner, size: Size) -> dict[str, Any]:
     """Run everything, and gather what the page gives."""
     found, agree = run_cells(runner, steps=size.steps, sweeps=size.sweeps, more=size.more)
     strata = Strata(intensities()[:: STEPS // size.steps], agree)
-    prism = runner.map(calibrated, [()])[0]
-    jobs = in_space.plan(strata, prism, size.space_members)
+    jobs = in_space.plan(strata, size.space_members)
     some = strata.levels[:: max(size.steps // 96, 1)]
     return {
         "seed": SEED,

@@ -107,6 +107,7 @@ In space, at Span 2.5, medians at the largest size:
 - What happened in Thessaloniki: no measured history is used, only the sentence about it.
 - How likely a cause is in a laboratory. That needs a prior, and none is given.
 - The paper's finite elements. Its second prediction is represented by the nonlinear plane model.
+- Other resolutions of the contact in space: all members use one (3 × 3 nodes, steps of 40 µs).
 - Vertical motion, an elastic prism, a table that rocks or answers to the prism.
 - Shares hold for intensities between the limits, all ratios alike. In a small part of that range the pattern is common,
   in the rest it is absent (`by_intensity`).
