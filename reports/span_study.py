@@ -49,8 +49,8 @@ class Size:
     sweeps: int = SWEEPS
     more: int = MORE_SWEEPS
     space_members: int = SPACE_MEMBERS
-    looked_again: int = 20
-    repeated_more: int = 16
+    looked_again: int = 10
+    repeated_more: int = 8
 
 
 def study(runner: Runner, size: Size) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import stats
 
 from colonnade.arrays import Array, Mask
@@ -65,7 +66,11 @@ class Strata:
 
     def in_first(self, intensity: Array) -> Mask:
         """Tell which members are of the first part."""
-        return np.asarray(self.first[np.abs(self.levels[:, None] - intensity).argmin(axis=0)])
+        return np.asarray(self.first[self.place(intensity)])
+
+    def place(self, intensity: Array) -> NDArray[np.intp]:
+        """Give which of the levels each member has."""
+        return np.searchsorted(self.levels, intensity * (1.0 - 1e-9))
 
     def counts(self, shown: Mask, intensity: Array) -> list[int]:
         """Count the members that show something, and all members, of the first part and of the second."""
@@ -149,7 +154,7 @@ def _row(cell: Cell, judged: Judged, scope: str, strata: Strata) -> dict[str, An
 
 def _by_intensity(judged: Judged, shown: Mask, strata: Strata) -> list[float]:
     """Give the share of the members that show it in each part of the range of intensities."""
-    place = np.abs(strata.levels[:, None] - judged.intensity).argmin(axis=0)
+    place = strata.place(judged.intensity)
     size = strata.levels.size
     each = np.bincount(place[shown], minlength=size) / np.bincount(place, minlength=size)
     return [round(float(part.mean()), 6) for part in np.array_split(each, min(PARTS, size))]

@@ -11,19 +11,16 @@ from span_two_and_a_half.design import GRADES, SEED, SPACE, SPACE_MEMBERS, Cell,
 from span_two_and_a_half.members import FORWARD, REVERSE
 from span_two_and_a_half.space import InSpace, Setting
 
-FIRST_SHARE = 2.0 / 3.0
-"""Of the members of a cell: those drawn from the first part of the intensities."""
-
 Job = tuple[Cell, float, int, Setting]
 
 
 def plan(strata: Strata, members: int = SPACE_MEMBERS) -> list[Job]:
-    """Give the arguments of `run_in_space`: so many members of each cell, two thirds from the first part."""
+    """Give the arguments of `run_in_space`: so many members of each cell, two of three from the first part."""
     jobs = []
-    for place, cell in enumerate(cells(SPACE)):
-        random = np.random.default_rng((SEED, place))
-        for number in range(members):
-            inside = strata.levels[strata.first if number < round(FIRST_SHARE * members) else ~strata.first]
+    for number in range(members):
+        inside = strata.levels[strata.first if number % 3 < 2 else ~strata.first]
+        for place, cell in enumerate(cells(SPACE)):
+            random = np.random.default_rng((SEED, place, number))
             jobs.append((cell, float(random.choice(inside if inside.size else strata.levels)), number, Setting()))
     return jobs
 

@@ -168,8 +168,8 @@ def answer(found: dict[str, Any]) -> str:
     )
     inside, of = wording.places(rows, "nonlinear")
     third = (
-        f"Where it happens, {inside} of {of} times it is at {ABOUT[0]:g} to {ABOUT[1]:g} s, in the last burst of the "
-        "compressed record: one prism is still rocking when it comes, the other is not"
+        f"Of the {of} tests whose nonlinear prediction shows it, {inside} do so at {ABOUT[0]:g} to {ABOUT[1]:g} s, "
+        "when the last burst of the compressed record finds the one prism still rocking and the other not"
     )
     return f"{first}. {second}. {third}."
 
@@ -230,10 +230,15 @@ def direction(found: dict[str, Any]) -> str:
 
 
 def _direction(rows: wording.Rows) -> str:
-    forward, back = (wording.pooled(rows, "nonlinear", way) for way in ("pattern", "reverse"))
-    if max(forward, back) < 2 * max(min(forward, back), 1):
-        return "The direction carries next to no information."
-    return f"The {'paper’s direction' if forward > back else 'reverse'} is the more frequent one."
+    ratios = [
+        wording.pooled(rows, view, "pattern") / max(wording.pooled(rows, view, "reverse"), 1)
+        for view in (BOTH, *MODELS)
+    ]
+    if min(ratios) > 1.0:
+        return f"The paper's direction is the more frequent one, {min(ratios):.1f} to {max(ratios):.1f} times."
+    if max(ratios) < 1.0:
+        return "The reverse is the more frequent one."
+    return "Neither direction is the more frequent one throughout."
 
 
 def sensitivity(found: dict[str, Any]) -> str:

@@ -19,7 +19,7 @@ from span_two_and_a_half.trial import Wrong, draw, generator, predict, predicted
 REPEATABILITY = (0.001, 0.01)
 """Relative standard deviations of the table's motion from one repeat to the next."""
 
-MEMBERS = 24
+MEMBERS = 12
 """Of each cell, at most."""
 
 REFITTED = (0.003, 0.01)

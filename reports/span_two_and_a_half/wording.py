@@ -9,7 +9,7 @@ import numpy as np
 
 from span_two_and_a_half.counting import VIEWS, best_and_worst, causes_of, decided
 from span_two_and_a_half.criterion import AS_FIXED
-from span_two_and_a_half.design import BOTH, CAUSES, EVERY, GRADES, ONLY, SPACE, SPANS
+from span_two_and_a_half.design import BOTH, CAUSES, EVERY, GRADES, MODELS, ONLY, SPACE, SPANS
 from span_two_and_a_half.fixed import size_text
 from span_two_and_a_half.members import VARIANTS
 from span_two_and_a_half.telling import (
@@ -55,23 +55,23 @@ def main_table(rows: Rows, space: Rows) -> str:
     lines = []
     for cause in causes_of([*rows, *space]):
         each = {row["grade"]: row for row in [*chosen(rows, EVERY), *space] if row["cause"] == cause}
-        usual, gross = (each.get(grade, each.get("")) for grade in (GRADES[1], GRADES[-1]))
+        usual, gross = each.get(GRADES[1], each.get("")), each.get(GRADES[-1])
+        assert usual is not None
         only = [row for row in chosen(rows, ONLY) if row["cause"] == cause and row["grade"] == GRADES[1]]
         lines.append(
             [
                 cause,
-                with_limits(usual[BOTH]["likelihood"]),
                 *(
-                    with_limits(row["nonlinear"]["likelihood"]) if row["grade"] or row is usual else ""
+                    with_limits(row[view]["likelihood"]) if row else ""
+                    for view in (BOTH, MODELS[-1])
                     for row in (usual, gross)
                 ),
-                percent(usual["linear"]["likelihood"][0]),
-                percent(only[0]["nonlinear"]["likelihood"][0]) if only else "",
-                percent(usual["nonlinear"]["reverse_likelihood"][0]),
-                percent(usual["nonlinear"]["span_2.5_alone"][0]),
+                percent(only[0][MODELS[-1]]["likelihood"][0]) if only else "",
+                percent(usual[MODELS[-1]]["reverse_likelihood"][0]),
+                percent(usual[MODELS[-1]]["span_2.5_alone"][0]),
             ]
         )
-    heads = ["cause", "both predictions, usual size", "nonlinear, usual", "nonlinear, gross", "linear, usual"]
+    heads = ["cause", "both predictions, usual size", "both, gross", "nonlinear, usual", "nonlinear, gross"]
     return table(
         [*heads, "nonlinear, usual, at Span 2.5 only", "reverse, nonlinear, usual", "Span 2.5 alone, nonlinear, usual"],
         lines,
