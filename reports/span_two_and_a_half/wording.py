@@ -197,7 +197,7 @@ def listed(names: Sequence[str]) -> str:
     return ", ".join(names[:-1]) + " and " + names[-1]
 
 
-def strongest(rows: Rows, view: str, scope: str, most: int = 3) -> list[str]:
+def strongest(rows: Rows, view: str, scope: str, most: int = 2) -> list[str]:
     """Name the causes and sizes whose likelihood is largest, with it; none that was never seen."""
     ranked = sorted(chosen(rows, scope), key=lambda row: -row[view]["likelihood"][0])[:most]
     return [
