@@ -90,6 +90,7 @@ contact-study: $(INSTALLED)
 
 reproduce: $(INSTALLED)
 	$(BIN)/python reports/reproduce.py
+	$(BIN)/python reports/span_study.py
 
 release: $(RELEASE_INSTALLED)
 	@$(BIN)/python tools/release.py "$(VERSION)" $(PYTHONS) --fits "$(FITS)"

@@ -38,7 +38,7 @@ NAME = "span-2.5"
 KEPT = HERE.parent / "build" / "reproduce" / "span-2.5"
 WORKERS = 2
 SAMPLE = 120
-"""Intensities, from the lowest on, whose members the test runs again."""
+"""Number of the highest intensities, whose members the test runs again."""
 
 
 @dataclass(frozen=True)
@@ -79,15 +79,15 @@ def study(runner: Runner, size: Size) -> dict[str, Any]:
 
 
 def sample(found: dict[Cell, Judged], size: Size) -> dict[str, Any]:
-    """Keep which of the first members of a cell grow, for the test that runs them again."""
-    cell, count = Cell("e", 3), min(size.steps, SAMPLE)
-    judged = found[cell]
+    """Keep which members of a cell grow at the highest intensities, for the test that runs them again."""
+    cell, first = Cell("e", 3), max(size.steps - SAMPLE, 0)
+    numbers = range(first * size.sweeps, size.steps * size.sweeps)
     return {
         "cause": cell.cause,
         "grade": cell.grade,
-        "intensities": count,
+        "first": first,
         "sweeps": size.sweeps,
-        "grown": [each for each in numbers_that_grow(judged) if each < count * size.sweeps],
+        "grown": [each for each in numbers_that_grow(found[cell]) if each in numbers],
     }
 
 

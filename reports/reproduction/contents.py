@@ -265,7 +265,7 @@ def _earthquakes(numbers: Numbers) -> list[str]:
         "those of the study of Span 2.5.",
         table(("Span", "scheme", "DT, s", "RMS error", "largest error"), steps),
         "How often a prediction misbehaves as at the paper's Span 2.5, and of which cause, is [a study of its "
-        "own](span-2.5-design.md).",
+        "own](span-2.5.md).",
     ]
 
 

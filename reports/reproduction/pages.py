@@ -32,7 +32,7 @@ def _index(numbers: Numbers) -> str:
         mine = [found[each.id].verdict for each in STATEMENTS if each.page == name]
         tally = [str(mine.count(verdict)) if mine else "–" for verdict in WORDS]
         listed.append([f"[{page.title}]({name}.md)", page.of or "–", *tally])
-    listed.append(["[Span 2.5](span-2.5-design.md): why one prediction failed", "figures 8b, 14b", "–", "–", "–"])
+    listed.append(["[Span 2.5](span-2.5.md): why one prediction failed", "figures 8b, 14b", "–", "–", "–"])
     differing = [each for each in STATEMENTS if found[each.id].verdict == "differs"]
     return (
         "\n\n".join(

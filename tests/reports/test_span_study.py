@@ -185,7 +185,8 @@ def test_a_repeat_of_a_cause_that_stays_is_the_same_test():
 def test_instruments_decide_from_the_size_that_gives_twenty_to_one():
     first, gyroscope = telling.DIRECT["e"]
     assert np.exp(0.5 * (telling.decided_from(first) / first.deviation) ** 2) == pytest.approx(20.0, rel=0.01)
-    assert telling.resolved(gyroscope.instrument) == ["e", "scatter"]
+    assert telling.resolved(gyroscope.instrument) == ["e"]
+    assert telling.resolved(gyroscope.instrument, grade=2) == ["e", "speed", "scatter"]
     assert telling.instrument_information("level on the table") == pytest.approx(np.log2(12) - 11 / 12 * np.log2(11))
 
 
@@ -237,8 +238,8 @@ def test_the_example_shows_the_pattern_again(found):
 
 def test_some_members_come_again(found):
     sample = found["sample"]
-    some = intensities()[: sample["intensities"]]
-    judged = run_members(Cell(sample["cause"], sample["grade"]), some, 0, sample["sweeps"], *STANDARD)
+    some, number = intensities()[sample["first"] :], sample["first"] * sample["sweeps"]
+    judged = run_members(Cell(sample["cause"], sample["grade"]), some, number, sample["sweeps"], *STANDARD)
     assert sample["grown"] == span_study.numbers_that_grow(judged)
     assert sample["grown"]
 
