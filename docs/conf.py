@@ -36,6 +36,7 @@ include_patterns = [
     "raw_schema/README.md",
     "reports/**.md",
     "CHANGELOG.md",
+    "README.md",
     "CONTRIBUTING.md",
     "SECURITY.md",
 ]
