@@ -67,15 +67,17 @@ class Wanted:
     responses: bool = False
 
     def text(self) -> str:
-        """Write what a map of one model is asked for with, as it is stored with the map."""
-        return json.dumps({name: value for name, value in asdict(self).items() if name not in ("models", "responses")})
+        """Write what a map of one model is asked for with, as it is stored with the map; of others, those in space."""
+        asked = {name: value for name, value in asdict(self).items() if name != "responses"}
+        return json.dumps(asked | {"models": [name for name in self.models if MODELS[name].in_space]})
 
     @classmethod
     def of(cls, text: str, model: str) -> Wanted:
         """Read what a stored map of a model was asked for with; raises ValueError or TypeError if that is altered."""
         asked = json.loads(text)
         pairs = {name: tuple(asked[name]) for name in ("frequency_ratio", "amplitude_ratio", "points") if asked[name]}
-        return cls(**asked | pairs, models=(model,))
+        models = tuple(dict.fromkeys((model, *asked["models"])))
+        return cls(**asked | pairs | {"models": models})
 
 
 def measured_points(layout: Layout, specimen: str) -> list[MapPoint]:
