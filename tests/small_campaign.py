@@ -13,7 +13,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.programme import write
-from colonnade.laboratory.table import TableMotion, ramped_sine, recorded
+from colonnade.laboratory.table import TableMotion, ramped_sine, recorded, still
 from colonnade.workflow import run
 
 SCRIPT = "<script>alert('title')</script>"
@@ -81,8 +81,17 @@ def _plan() -> Plan:
     frame = Setup({MAIN: Recorder((*ON_SPECIMEN, *ON_TABLE), RATE)})
     watched = Setup({MAIN: Recorder(ON_TABLE, RATE)})
     free = [
-        Trial(name, "free-vibration", "frame", 9.0, theta0=share * PRISM.critical_angle, release=1.0, specimen="prism")
-        for name, share in (("free-01", 0.5), ("free-refused", 0.45))
+        Trial(
+            name,
+            "free-vibration",
+            "frame",
+            9.0,
+            theta0=share * PRISM.critical_angle,
+            release=1.0,
+            specimen="prism",
+            table=table,
+        )
+        for name, share, table in (("free-01", 0.5, still()), ("free-refused", 0.45, _shaking(0.15)))
     ]
     spans = [
         Trial(
@@ -114,12 +123,19 @@ def _plan() -> Plan:
 
 
 def write_small_campaign(folder: Path) -> None:
-    """Shake the virtual table; one raw file is empty."""
+    """Shake the virtual table; one raw file is empty, and in one the accelerometer is the wrong way round."""
     write(_plan(), folder)
     with (folder / "campaign.toml").open("a", encoding="utf-8") as campaign_file:
         campaign_file.write(SETTINGS)
     (folder / "review.toml").write_text(REVIEW, encoding="utf-8")
     (folder / "raw" / "sine-dead.csv").write_text("", encoding="utf-8")
+    _turn_accelerometer(folder / "raw" / "free-refused.csv")
+
+
+def _turn_accelerometer(path: Path) -> None:
+    head, units, *rows = path.read_text(encoding="utf-8").splitlines()
+    turned = (f"{others},{-float(value):.6f}" for others, value in (row.rsplit(",", 1) for row in rows))
+    path.write_text("\n".join((head, units, *turned, "")), encoding="utf-8")
 
 
 def run_small_campaign(folder: Path) -> None:

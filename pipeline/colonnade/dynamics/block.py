@@ -52,6 +52,8 @@ class Block(Digested, TwoSided):
     (True, 5.632)
     >>> uneven.pole_distance_at([-0.1]).tolist(), uneven.p_at([-0.1, 0.1]).round(3).tolist()
     ([0.232], [5.632, 5.632])
+    >>> block.digest()["p"]
+    '5.631 rad/s'
     """
 
     solid: Solid | None = field(default=None, compare=False)
@@ -64,7 +66,14 @@ class Block(Digested, TwoSided):
             instance("solid", self.solid, Solid)
 
     def digest(self) -> dict[str, str]:
-        """Return α, R, I₀, p and the rigid-body e of the governing side, and the mass."""
+        """
+        Return α, R, I₀, p and the rigid-body e of the governing side, and the mass.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
         return {
             "α": written(self.critical_angle, "rad"),
             "R": written(self.pole_distance, "m"),

@@ -42,6 +42,8 @@ class Motion(Digested):
     >>> motion = Motion([0.0, 2.0, -1.0], 0.01)
     >>> motion.time.tolist(), motion.duration, motion.peak
     ([0.0, 0.01, 0.02], 0.02, 2.0)
+    >>> motion.digest()["components"]
+    'along x'
     """
 
     def __init__(
@@ -71,7 +73,14 @@ class Motion(Digested):
         return along
 
     def digest(self) -> dict[str, str]:
-        """Return duration, sampling interval, largest acceleration and components."""
+        """
+        Return duration, sampling interval, largest acceleration and components.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
         others = [name for name in ("vertical", "transverse") if getattr(self, name) is not None]
         return {
             "duration": written(self.duration, "s"),

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 
-TELEPHONE = (380, 700)
+from browsing import TELEPHONE
+
 OUTSIDE = """() => [...document.querySelectorAll('body *')].filter(element =>
   !element.closest('.scroll') && element.getBoundingClientRect().right > document.documentElement.clientWidth + 1
 ).map(element => element.outerHTML.slice(0, 200))"""

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from .conftest import TELEPHONE
+from browsing import TELEPHONE
 
 SHOWN = (
     "() => [...document.querySelectorAll('#tests-table tbody tr:not([hidden]) th')].map(th => th.textContent.trim())"

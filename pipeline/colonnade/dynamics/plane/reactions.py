@@ -43,6 +43,8 @@ class Reactions(Digested):
     >>> forces = colonnade.reactions(colonnade.rock(block, motion, restitution=0.9), motion, friction=0.2)
     >>> forces.first_break, int(forces.slides.sum()), bool(forces.impacts_slide.any()), bool(forces.loses_contact.any())
     (0.08, 34, True, True)
+    >>> forces.digest()["pure rocking until"]
+    '0.08 s'
     """
 
     time: Array
@@ -54,7 +56,14 @@ class Reactions(Digested):
     friction: float | None
 
     def digest(self) -> dict[str, str]:
-        """Return the friction that is needed, and from when pure rocking is not what the block would do."""
+        """
+        Return the friction that is needed, and from when pure rocking is not what the block would do.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
         known = self.required_friction[np.isfinite(self.required_friction)]
         return {
             "friction needed": written(float(known.max(initial=0.0))),
