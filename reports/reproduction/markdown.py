@@ -15,7 +15,7 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
 
 
 def shown(value: float | None, digits: int = 3) -> str:
-    """Write a number, or a dash if there is none."""
+    """Write a number, or a dash for None."""
     return "–" if value is None else f"{value:.{digits}g}"
 
 

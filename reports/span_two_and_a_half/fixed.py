@@ -52,7 +52,7 @@ overturn, and the RMS of their difference is below {nrmse:g} α, until either fi
 Each of the five numbers is also divided by {factor:g} and multiplied by {factor:g}. The main result asks it of the
 linear *and* the nonlinear prediction, as the paper reports it of two models; each alone is reported too. The
 *reverse*, measured large after predicted has died down, is counted as a control. That it happens at {low:g} to
-{high:g} s is no part of the criterion; it is counted separately.
+{high:g} s is not part of the criterion; it is counted separately.
 
 ## What the paper does not state
 
@@ -90,7 +90,7 @@ Causes that only the contact model in space shows, {space} members a size, two t
 ## What will be said
 
 For each cause and size: how often the pattern comes, of all members, with its 95 % interval (Clopper and Pearson). No
-posterior is given, as there is no prior of the causes. The mean over the intensities weighs them alike; each part of
+posterior is given, as no prior of the causes is known. The mean over the intensities weighs them alike; each part of
 the range is also given. One cause is preferred to another if the lower limit of its likelihood at some {plausible}
 size is {decisive:g} times the upper limit of the other at all its {plausible} sizes. Otherwise the two cannot be
 decided.

@@ -339,17 +339,3 @@ def test_a_laser_needs_the_normal_of_its_face_unless_the_specimen_is_round(speci
             load_text(text)
     else:
         assert load_text(text).setups["frame"].channels["laser"].normal is None
-
-
-def test_a_campaign_about_a_real_column_alone_needs_no_setup(load_text):
-    only = """schema = 1
-    campaign = "column"
-    title = "The column at the site"
-    [specimens]
-    column = {shape = "cylinder", diameter = "0.95 m", height = "5.7 m", mass = "10.5 t"}
-    """
-    assert load_text(only).setups == {}
-    asked = '[prototype.column]\nrestitution = 0.94\n[assessments.site]\nspecimen = "column"\nrecords = "records"\n'
-    assert load_text(only + asked).warnings == ()
-    with pytest.raises(CampaignError, match="setup"):
-        load_text(only + '[[tests]]\nid = "a"\nkind = "sine"\nspecimen = "column"\nsetup = "frame"\nfile = "a.csv"\n')

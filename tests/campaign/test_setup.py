@@ -8,6 +8,7 @@ import pytest
 from pydantic import ValidationError
 
 from colonnade.campaign.setup import Align, FileOptions, Setup
+from colonnade.errors import CampaignError
 
 CHANNELS = {"top": {"column": 1, "quantity": "other"}, "second": {"column": 1, "quantity": "other", "recorder": "daq2"}}
 
@@ -113,3 +114,17 @@ def test_a_wrong_option_of_a_file_is_told_at_its_key(file, place, told):
 def test_all_wrong_options_are_told_together():
     found = problems(file={"format": "delimited", "delimeter": ";", "decimal": 3})
     assert set(found) == {"file.delimeter", "file.decimal"}
+
+
+def test_a_campaign_about_a_real_column_alone_needs_no_setup(load_text):
+    only = """schema = 1
+    campaign = "column"
+    title = "The column at the site"
+    [specimens]
+    column = {shape = "cylinder", diameter = "0.95 m", height = "5.7 m", mass = "10.5 t"}
+    """
+    assert load_text(only).setups == {}
+    asked = '[prototype.column]\nrestitution = 0.94\n[assessments.site]\nspecimen = "column"\nrecords = "records"\n'
+    assert load_text(only + asked).warnings == ()
+    with pytest.raises(CampaignError, match="setup"):
+        load_text(only + '[[tests]]\nid = "a"\nkind = "sine"\nspecimen = "column"\nsetup = "frame"\nfile = "a.csv"\n')

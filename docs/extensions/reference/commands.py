@@ -91,7 +91,7 @@ def limits(kind):
 
 
 def default(parameter):
-    """Write the default, empty if there is none."""
+    """Write the default; empty without one."""
     value = parameter.to_info_dict().get("default")
     if value in (None, (), False, "") or callable(value) or "UNSET" in str(value):
         return ""

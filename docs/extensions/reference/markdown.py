@@ -18,7 +18,7 @@ def cell(text):
 
 
 def code(text):
-    """Text as code; empty if there is none."""
+    """Write text as code; empty text stays empty."""
     return f"`{text}`" if str(text) else ""
 
 

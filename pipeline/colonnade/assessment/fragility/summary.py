@@ -111,7 +111,7 @@ class Fragility(Digested):
 
     def digest(self) -> dict[str, str]:
         """
-        Return the curve, or why there is none, and what it rests on.
+        Return the curve and what it rests on, or the reason why it is missing.
 
         Returns
         -------

@@ -153,7 +153,7 @@ def _asked(written: dict[str, Any], options: Mapping[str, Any]) -> Assessment:
         raise CampaignError("Say which ground motions are run, with --records DIR or a CSV list of them.")
     keys = Assessment.model_fields.keys() - {"records", "hazard", "specimen", "scale"}
     given = {key: value for key, value in options.items() if key in keys and value is not None}
-    # A placeholder for what may not leave a campaign's folder, and here may.
+    # The model keeps paths inside a campaign's folder; here they may be anywhere, so they are put in afterwards.
     asked = checked(Assessment, {**written, **given, "records": "records"}, OPTIONS)
     return asked.model_copy(update=paths)
 
