@@ -131,7 +131,7 @@ SPACE: dict[str, Cause] = {
 }
 """Causes that only the contact model shows. Prediction as above."""
 
-SPACE_MEMBERS = 18
+SPACE_MEMBERS = 60
 """Members of each cell in space, at intensities at which a prediction can show the pattern at all."""
 
 
