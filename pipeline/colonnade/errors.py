@@ -89,3 +89,17 @@ def nearest(name: str, valid: Iterable[str]) -> str:
         listed = ", ".join(map(quoted, names[:12]))
         return f" Choose one of: {listed}{'…' if len(names) > 12 else ''}."
     return ""
+
+
+def count(amount: int, one: str, several: str = "") -> str:
+    """
+    Write a number of things.
+
+    Examples
+    --------
+    >>> count(1, "test"), count(3, "test"), count(0, "test")
+    ('1 test', '3 tests', 'no test')
+    """
+    if amount == 0:
+        return f"no {one}"
+    return f"{amount} {one if amount == 1 else several or one + 's'}"

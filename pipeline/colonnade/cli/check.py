@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
-from colonnade.cli.common.console import count, say, show_json
+from colonnade.cli.common.console import say, show_json
 from colonnade.cli.common.findings import probable_cause, records_of, show_by_kind
 from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_option, strict_option
 from colonnade.cli.common.progress import work_progress
+from colonnade.errors import count
 
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign

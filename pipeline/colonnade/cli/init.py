@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
-from colonnade.cli.common.console import count, say, show_json, show_table
+from colonnade.cli.common.console import say, show_json, show_table
 from colonnade.cli.common.options import json_option
 from colonnade.cli.common.progress import work_progress
+from colonnade.errors import count
 
 if TYPE_CHECKING:
     from colonnade.campaign.draft import CampaignDraft

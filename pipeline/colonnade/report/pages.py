@@ -13,6 +13,7 @@ from colonnade import __version__
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import Setting
 from colonnade.dynamics.models.registry import MODELS
+from colonnade.errors import count
 from colonnade.figures.files.output import Picture, link_to
 from colonnade.report import who_and_when
 from colonnade.report.addresses import of_specimen, of_test, scripts_of
@@ -83,7 +84,7 @@ class Renderer:
         self._environment.globals |= {
             **common,
             "kinds": KINDS,
-            "count": wording.count,
+            "count": count,
             "listed": wording.listed,
             "test_page": of_test,
             "scripts_of": scripts_of,

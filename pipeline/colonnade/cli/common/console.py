@@ -71,18 +71,6 @@ def show_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
         say(line.rstrip())
 
 
-def count(number: int, one: str, several: str = "") -> str:
-    """
-    Write how many of something there are.
-
-    Examples
-    --------
-    >>> count(1, "test"), count(2, "guess", "guesses")
-    ('1 test', '2 guesses')
-    """
-    return f"{number} {one}" if number == 1 else f"{number} {several or one + 's'}"
-
-
 def show_fields(fields: Iterable[tuple[str, str]]) -> None:
     """Write names and values under each other."""
     pairs = list(fields)

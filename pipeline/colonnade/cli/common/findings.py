@@ -6,7 +6,8 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from colonnade.cli.common.console import count, say
+from colonnade.cli.common.console import say
+from colonnade.errors import count
 from colonnade.findings import Finding, Severity, in_order
 
 IN_FULL = 3

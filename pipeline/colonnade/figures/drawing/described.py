@@ -11,12 +11,12 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.channel import Channel
 from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block
-from colonnade.errors import CampaignError, UnitError
+from colonnade.errors import CampaignError, UnitError, count
 from colonnade.figures.drawing.body import words_of_angle
 from colonnade.figures.drawing.parts import Body, Point, Rocking, Transducer
 from colonnade.figures.drawing.setup import Drawn, setup_drawings
 from colonnade.figures.files.output import Picture
-from colonnade.store.records.wording import count, listed, quantity
+from colonnade.store.records.wording import listed, quantity
 
 SIGNS = (
     "● displacement  ■ acceleration",

@@ -10,13 +10,14 @@ import xarray as xr
 
 from colonnade.arrays import Array, Codes, Mask
 from colonnade.campaign import Test
+from colonnade.errors import count
 from colonnade.figures.channels import MOST_SPIKES, Channel, Scale, Spike, channels_as_recorded
 from colonnade.figures.files.output import Picture
 from colonnade.figures.panels.curve import Curve
 from colonnade.signals.quality import Flag
 from colonnade.signals.spectra import Density, density
 from colonnade.store.records.stored import Stored
-from colonnade.store.records.wording import CHANNEL_UNITS, count
+from colonnade.store.records.wording import CHANNEL_UNITS
 from colonnade.units import from_si
 
 MOST_CHANNELS = 12

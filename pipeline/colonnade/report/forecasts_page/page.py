@@ -10,7 +10,7 @@ import numpy as np
 from colonnade.campaign.forms.forecast import ForecastFile
 from colonnade.campaign.forms.foreseen import ForecastEntry, ForecastOfModel, ForecastsSummary
 from colonnade.campaign.forms.summary import Summary, TestSummary
-from colonnade.errors import StoreError
+from colonnade.errors import StoreError, count
 from colonnade.figures.files.output import Picture
 from colonnade.figures.forecasts import Calibration, reliability_and_pit
 from colonnade.identification.verification.reliability import reliability
@@ -19,7 +19,7 @@ from colonnade.store.forecasts import Known, read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.forecast import shown_model, shown_table
 from colonnade.store.records.judged import FEWEST, scored_of
-from colonnade.store.records.wording import NOTHING, count, number
+from colonnade.store.records.wording import NOTHING, number
 
 
 class ModelRow(NamedTuple):

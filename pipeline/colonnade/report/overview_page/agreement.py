@@ -7,8 +7,9 @@ from math import nan
 from statistics import median
 from typing import Any
 
+from colonnade.errors import count
 from colonnade.identification.response.rank import is_within
-from colonnade.store.records.wording import agree, count, ratio
+from colonnade.store.records.wording import agree, ratio
 
 
 def agreement(tests: Mapping[str, Mapping[str, Any]]) -> list[str]:

@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from math import inf, log
 from typing import NamedTuple
 
+from colonnade.errors import count
 from colonnade.figures.agreement import PeakPoint, predicted_over_measured
 from colonnade.figures.files.output import Picture
 from colonnade.report.rows import TestRow
-from colonnade.store.records.wording import count
 
 NAMED = 10
 """Tests whose predicted peaks are furthest from the measured ones, named under the figure and numbered in it."""

@@ -7,7 +7,8 @@ from math import pi
 from typing import Any, Literal
 
 from colonnade.campaign.shake_table import ShakeTable
-from colonnade.store.records.wording import count, probability, quantity
+from colonnade.errors import count
+from colonnade.store.records.wording import probability, quantity
 
 HEADS = ("specimen", "next", "risk", "tests left", "why")
 """Of a table of advice, see `Advice.row`."""

@@ -185,20 +185,6 @@ def order(known: Order) -> str:
     return "harmonic" if known == 1 else f"1/{known}"
 
 
-def count(amount: int, one: str, several: str = "") -> str:
-    """
-    Write a number of things.
-
-    Examples
-    --------
-    >>> count(1, "test"), count(3, "test"), count(0, "test")
-    ('1 test', '3 tests', 'no test')
-    """
-    if amount == 0:
-        return f"no {one}"
-    return f"{amount} {one if amount == 1 else several or one + 's'}"
-
-
 def agree(measured: str, predicted: str) -> bool | None:
     """
     Return whether a predicted outcome is the measured (or observed) one; None where either is not known.
