@@ -25,6 +25,7 @@ extensions = [
     "mathml",
     "front_page",
     "external_links",
+    "reachable",
     "reference",
 ]
 

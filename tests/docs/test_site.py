@@ -8,13 +8,28 @@ from urllib.parse import unquote, urldefrag
 
 import pytest
 
-from browsing import TELEPHONE, own_chromium, visiting
+from browsing import TELEPHONE, own_chromium, violations, visiting
 
 pytestmark = pytest.mark.docs
 
 SITE = Path(__file__).resolve().parents[2] / "docs" / "build" / "html"
 PRINTED = ("docs/index.html", "docs/explanation/restitution.html", "docs/reference/generated/library/rock.html")
 """Pages of three kinds."""
+
+KINDS = (
+    *PRINTED,
+    "README.html",
+    "docs/contributing.html",
+    "docs/explanation/rocking.html",
+    "docs/faults/scales.html",
+    "docs/gallery/index.html",
+    "docs/gallery/plot_01_free_rocking.html",
+    "docs/how-to/stability-maps.html",
+    "docs/tutorial/index.html",
+    "reports/manos/index.html",
+    "search.html",
+)
+"""Pages of every kind."""
 
 PAPER = (718, 1000)
 """Width of A4 within its margins."""
@@ -88,6 +103,11 @@ def test_no_page_complains_or_is_wider_than_a_telephone(pages, visit):
         if page.evaluate("document.documentElement.scrollWidth") > TELEPHONE[0]:
             wider[str(path.relative_to(SITE))] = page.evaluate(WIDER)[:3]
     assert wider == {}
+
+
+@pytest.mark.parametrize("address", KINDS)
+def test_a_page_can_be_read_by_everybody(address, visit):
+    assert violations(visit(address)) == []
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -22,6 +22,9 @@ CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", 
 QUIET = ("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking")
 DESK, TELEPHONE = (1200, 900), (380, 700)
 """Widths and heights of a screen."""
+
+SERIOUS = ("serious", "critical")
+"""Impacts, in axe-core's words, that fail a test."""
 
 Visit = Callable[..., "Page"]
 
@@ -86,3 +89,13 @@ def visiting(browser: Browser, home: Path) -> Iterator[Visit]:
     for context in contexts:
         context.close()
     assert complaints == []
+
+
+def violations(page: Page, options: dict[str, Any] | None = None) -> list[str]:
+    """Say what axe-core finds that keeps people from reading a page."""
+    from axe_playwright_python.sync_playwright import Axe
+
+    # Lines within a picture say nothing to axe-core, and there are thousands; from a folder it may fetch nothing.
+    asked = {"resultTypes": ["violations"], "preload": False} | (options or {})
+    found = Axe().run(page, context={"exclude": [["svg[role=img] > g"]]}, options=asked).response["violations"]
+    return [f"{one['id']}: {one['nodes'][0]['html'][:200]}" for one in found if one["impact"] in SERIOUS]

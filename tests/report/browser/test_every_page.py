@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 
-from browsing import TELEPHONE
+from browsing import TELEPHONE, violations
 
 OUTSIDE = """() => [...document.querySelectorAll('body *')].filter(element =>
   !element.closest('.scroll') && element.getBoundingClientRect().right > document.documentElement.clientWidth + 1
@@ -15,14 +14,13 @@ OUTSIDE = """() => [...document.querySelectorAll('body *')].filter(element =>
 ADDRESSES = """() => [...document.querySelectorAll('a[href]')].map(
   link => new URL(link.getAttribute('href'), document.baseURI).href)"""
 IDS = "() => [...document.querySelectorAll('[id]')].map(element => element.id)"
-SERIOUS = ("serious", "critical")
 KINDS = (
     *("quality.html", "methods.html"),
     *("index.html", "problems.html", "specimens/prism.html", "tests/span-2.5.html", "tests/free-01.html"),
     "tests/free-refused.html",
 )
 """A page of each kind."""
-CONTRAST = {"runOnly": ["color-contrast"], "resultTypes": ["violations"]}
+CONTRAST = {"runOnly": ["color-contrast"]}
 
 
 def pages_of(folder: Path) -> list[str]:
@@ -38,16 +36,6 @@ def go(page, folder: Path, address: str) -> None:
 def widths(page, screen: tuple[int, int]) -> list[str]:
     wider = page.evaluate("document.documentElement.scrollWidth") > screen[0]
     return [*page.evaluate(OUTSIDE), *(["the page scrolls sideways"] if wider else [])]
-
-
-def violations(page, options=None) -> list[str]:
-    # Lines within a picture say nothing to axe-core, and there are thousands.
-    found = (
-        Axe()
-        .run(page, context={"exclude": [["svg[role=img] > g"]]}, options=options or {"resultTypes": ["violations"]})
-        .response["violations"]
-    )
-    return [f"{one['id']}: {one['nodes'][0]['html'][:200]}" for one in found if one["impact"] in SERIOUS]
 
 
 def dead_links(page, folder: Path) -> list[str]:
