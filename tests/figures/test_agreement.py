@@ -3,6 +3,9 @@ import pytest
 
 from colonnade.figures.agreement import PeakPoint, predicted_over_measured
 from colonnade.figures.files.output import to_svg
+from colonnade.figures.style import journal
+
+MODELS = ("linear", "nonlinear", "contact")
 
 
 def point(measured, predicted, low=None, high=None, number=None, test="a"):
@@ -58,3 +61,16 @@ def test_every_mark_leads_to_its_test():
 def test_nothing_to_draw_is_refused():
     with pytest.raises(ValueError, match="at least one point"):
         predicted_over_measured({"linear": []})
+
+
+@pytest.mark.parametrize("column", ["", "single", "double"])
+@pytest.mark.parametrize("models", [MODELS[:1], MODELS[:2], MODELS], ids=len)
+def test_titles_and_labels_are_inside_the_figure(models, column):
+    with journal(column):
+        figure = predicted_over_measured({model: [point(0.4, 0.5)] for model in models})
+    figure.draw_without_rendering()
+    box, (wide, high) = figure.get_tightbbox(), figure.get_size_inches()
+    assert box.x0 >= 0.0
+    assert box.y0 >= 0.0
+    assert box.x1 <= wide
+    assert box.y1 <= high

@@ -75,8 +75,9 @@ def predicted_over_measured(points: Mapping[str, Sequence[PeakPoint]]) -> Figure
     if not drawn:
         raise ValueError("no prediction was given; at least one point was expected")
     limits = _limits([point for own in drawn.values() for point in own])
-    side = min(width() / max(len(drawn), 2), 3.4)
-    figure = Figure(figsize=(width(), side + 0.2), layout="constrained")
+    # Square panels, with room for titles and labels.
+    side = width() / max(len(drawn), 2)
+    figure = Figure(figsize=(width(), side + 0.4), layout="constrained")
     panels = figure.subplots(1, max(len(drawn), 2), sharex=True, sharey=True, squeeze=False)[0]
     for axes in panels[len(drawn) :]:
         axes.remove()

@@ -77,6 +77,9 @@ def test_what_cannot_lift_the_block_is_not_missing():
     assert history.outcome == "no-rocking"
     assert not history.energies.closes
     assert history.warnings == ()
+    part = {name: getattr(history.energies, name) for name in vars(history.energies)}
+    lost = EnergyBalance(**{**part, "dissipated_contact": part["dissipated_contact"] + np.linspace(0.0, 0.01, 401)})
+    assert type(history)(**{**vars(history), "energies": lost}).warnings == ()
 
 
 def test_tilt_is_the_angle_of_the_axis_whatever_the_yaw():
