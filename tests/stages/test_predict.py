@@ -71,7 +71,7 @@ def test_a_record_without_peaks_gives_a_reason_and_no_number(small_campaign, mea
         still, identifying.RestitutionInputs.of(small_campaign, small_campaign.tests["free-01"])
     )
     assert np.isnan(float(result["restitution"]))
-    assert "0 peaks" in result.attrs["reason"]
+    assert "the record has 0" in result.attrs["reason"]
     assert result.attrs["warnings"]
     assert np.isnan(result["restitution_history"]).all()
     assert "No value to start from" in result.attrs["history_reason"]

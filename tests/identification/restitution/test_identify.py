@@ -88,11 +88,11 @@ TIME = np.arange(0, 14, 0.002)
     ("angle", "words"),
     [
         (np.empty(0), "fewer than 8 values"),
-        (np.random.default_rng(0).normal(0, 1e-3, TIME.size), "0 peaks"),
-        (np.where(TIME < 2, 0.05, 0.0), "0 peaks"),
+        (np.random.default_rng(0).normal(0, 1e-3, TIME.size), "the record has 0"),
+        (np.where(TIME < 2, 0.05, 0.0), "the record has 0"),
         (0.05 * np.sin(2 * np.pi * 5 * TIME), "Times between impacts"),
         (0.05 * np.sin(2 * np.pi * 1.69 * TIME), "not the arc of"),
-        (rock(PRISM, restitution=0.5, theta0=0.5 * ALPHA, duration=4.0).angle, "at least 2 are needed"),
+        (rock(PRISM, restitution=0.5, theta0=0.5 * ALPHA, duration=4.0).angle, "At least 2 peaks"),
     ],
     ids=["nothing", "noise", "a step", "a fast sine", "a sine at the rocking frequency", "few peaks"],
 )

@@ -168,8 +168,8 @@ def _no_free_rocking(record: FreeVibration) -> str:
     if count >= FEWEST_PEAKS:
         return objection(record.arcs, record.usable, record.block)
     return (
-        f"{count} peaks between two impacts are above {record.lowest / record.block.critical_angle:.2g} of the "
-        f"critical angle; at least {FEWEST_PEAKS} are needed."
+        f"At least {FEWEST_PEAKS} peaks between two impacts, above "
+        f"{record.lowest / record.block.critical_angle:.2g} of the critical angle, are needed; the record has {count}."
     )
 
 

@@ -95,7 +95,9 @@ def test_a_higher_level_has_a_wider_interval_about_the_same_value():
 def test_few_peaks_are_refused_with_their_number(count):
     found = fit(peaks_of(0.95), usable=np.arange(16) < count)
     assert found.estimate.value is None
-    assert found.objection == f"{count} peaks between two impacts are above the noise; 5 are needed."
+    assert (
+        found.objection == f"At least 5 peaks between two impacts, above the noise, are needed; the record has {count}."
+    )
     assert (found.peaks, found.zero_offset) == (None, 0.0)
 
 

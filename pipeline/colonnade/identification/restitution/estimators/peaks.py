@@ -60,7 +60,8 @@ class PeakDecay(Estimator[PeakFit]):
         """Fit a line to the peaks; errors far below the noise of the angle are not believed."""
         arcs, usable = record.arcs, record.usable
         if usable.sum() < FEWEST_PEAKS:
-            reason = f"{int(usable.sum())} peaks between two impacts are above the noise; {FEWEST_PEAKS} are needed."
+            needed = f"At least {FEWEST_PEAKS} peaks between two impacts, above the noise, are needed"
+            reason = f"{needed}; the record has {int(usable.sum())}."
             return self.refuse(record.level, reason)
         number = np.flatnonzero(usable).astype(np.float64)
         angle = arcs.peak_angle[usable]
