@@ -107,7 +107,8 @@ def test_no_page_complains_or_is_wider_than_a_telephone(pages, visit):
 
 @pytest.mark.parametrize("address", KINDS)
 def test_a_page_can_be_read_by_everybody(address, visit):
-    assert violations(visit(address)) == []
+    # Style sheets stand beside the page: a browser lets no script fetch them from a folder.
+    assert violations(visit(address), {"preload": False}) == []
 
 
 @pytest.mark.parametrize(

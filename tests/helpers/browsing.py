@@ -95,7 +95,7 @@ def violations(page: Page, options: dict[str, Any] | None = None) -> list[str]:
     """Say what axe-core finds that keeps people from reading a page."""
     from axe_playwright_python.sync_playwright import Axe
 
-    # Lines within a picture say nothing to axe-core, and there are thousands; from a folder it may fetch nothing.
-    asked = {"resultTypes": ["violations"], "preload": False} | (options or {})
+    # Lines within a picture say nothing to axe-core, and there are thousands.
+    asked = {"resultTypes": ["violations"]} | (options or {})
     found = Axe().run(page, context={"exclude": [["svg[role=img] > g"]]}, options=asked).response["violations"]
     return [f"{one['id']}: {one['nodes'][0]['html'][:200]}" for one in found if one["impact"] in SERIOUS]
