@@ -66,7 +66,7 @@ def _papers(name: str, body: ContactBody, step: float) -> dict[str, Any]:
 
 
 def _cell(name: str, step: float) -> dict[str, Any]:
-    """Find the law of one body at one step; also the range of e that the default stiffness gives."""
+    """Find the law of one body at one step; also the range of e that stiffness 1 gives."""
     inputs = inputs_of("rigid" if name == "5 × 5" else name, step)
     try:
         found = calibrate_specimen(inputs, TARGET)

@@ -16,7 +16,7 @@ from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.calibration import free_restitution
 from colonnade.dynamics.contact.elastic.model import elastic_body
 from colonnade.dynamics.contact.history import ContactHistory
-from colonnade.dynamics.contact.law import STATIC_PENETRATION, ContactLaw
+from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.modes import keep_modes, keep_modes_for_step
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import plane_block, simulate
@@ -37,6 +37,9 @@ MESHES = ("coarse", "medium", "fine")
 RELEASE = 0.5
 """|θ|/α at the start of a free vibration, unless told."""
 FRICTION = 0.6
+
+PENETRATION = 1e-6
+"""Of the stiffness called 1, in heights of the centre of mass: soft enough for the paper's step of 100 µs."""
 
 
 @dataclass(frozen=True)
@@ -73,19 +76,19 @@ def prism_body(name: str) -> ContactBody:
 
 
 def inputs_of(mesh: str, step: float, block: Block = PRISM) -> ContactInputs:
-    """Give what the program calibrates by: "rigid" of any block, or a mesh of the prism, with the default settings."""
+    """Give what the program calibrates by: "rigid" of any block, or a mesh of the prism, from stiffness 1 on."""
     return ContactInputs(
         block=block,
         shape="prism",
         sizes=tuple(sorted(SIZES.items())),
-        settings=ContactSettings(mesh=mesh, step=f"{step} s", friction=FRICTION),
+        settings=ContactSettings(mesh=mesh, step=f"{step} s", friction=FRICTION, penetration=PENETRATION),
         lowest_amplitude=RestitutionSettings().lowest_amplitude,
     )
 
 
 def law_for(body: ContactBody, fraction: float, *, multiple: float = 1.0, friction: float = FRICTION) -> ContactLaw:
-    """Give the law whose stiffness is a multiple of the default."""
-    penetration = STATIC_PENETRATION / multiple
+    """Give the law whose stiffness is a multiple of that called 1."""
+    penetration = PENETRATION / multiple
     return ContactLaw.stiff(body, GRAVITY, damping_fraction=fraction, friction=friction, penetration=penetration)
 
 

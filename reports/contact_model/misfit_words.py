@@ -106,7 +106,7 @@ def _changes(controls: list[Any]) -> list[str]:
         )
         lines += [
             f"Ten times the stiffness makes them larger: {grown}. A harder contact lands flat for a shorter time, so",
-            "that less is enough for the rim to roll round. The sizes above hold for the default stiffness.",
+            "that less is enough for the rim to roll round. The sizes above hold for stiffness 1.",
         ]
     return lines
 

@@ -15,7 +15,7 @@ def summary(found: dict[str, Any]) -> str:
     lines = [
         f"The paper's prism, free rocking from α/2. With a step of 10 µs it has e = {TARGET} with:",
         "",
-        "| body | stiffness (1: default) | ξ | ξ_eff | e | seconds for 10 s of motion |",
+        "| body | stiffness (10: default) | ξ | ξ_eff | e | seconds for 10 s of motion |",
         "|---|---|---|---|---|---|",
     ]
     for cell in found["table"]:

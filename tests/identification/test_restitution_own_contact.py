@@ -22,7 +22,7 @@ PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 
 def free_rocking(body, *, damping_fraction, released, duration):
     """Free rocking from a share of α, as a recorder of 1 kHz sees it."""
-    law = ContactLaw.stiff(body, PRISM.gravity, damping_fraction=damping_fraction)
+    law = ContactLaw.stiff(body, PRISM.gravity, damping_fraction=damping_fraction, penetration=1e-6)
     still = Motion(np.zeros(round(1e3 * duration) + 1), 1e-3)
     return simulate(body, still, law=law, theta0=released * PRISM.critical_angle)
 

@@ -144,6 +144,7 @@ def untouched(undisturbed: Small, tmp_path: Path) -> Small:
 @pytest.fixture
 def in_space(small: Small) -> Small:
     """Copy of it that is also predicted by the contact model, whose damping is given."""
-    models = 'models = ["nonlinear", "contact"]\ncontact = {step = "30 us", damping_fraction = 0.3}\n'
+    contact = 'contact = {step = "30 us", penetration = 1e-6, damping_fraction = 0.3}'
+    models = f'models = ["nonlinear", "contact"]\n{contact}\n'
     small.edit("\n[setups.frame.channels]", f"\n[processing.predict]\n{models}\n[setups.frame.channels]")
     return small

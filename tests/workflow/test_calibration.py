@@ -8,7 +8,8 @@ from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.workflow.calibration import calibrate
 
-COARSE = '[processing.predict]\ncontact = {step = "100 us", damping_fraction = 0.3}\n\n[setups.frame.channels]'
+CONTACT = 'contact = {step = "100 us", penetration = 1e-6, damping_fraction = 0.3}'
+COARSE = f"[processing.predict]\n{CONTACT}\n\n[setups.frame.channels]"
 BODY = 'mass = "26.10 kg"}'
 GIVEN = 'mass = "26.10 kg", restitution = 0.93}'
 

@@ -16,6 +16,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema
 from colonnade.campaign.syntax.bounds import STEP
 from colonnade.campaign.syntax.fields import Angle, Duration, number_between, one_of, or_word, quantity, shown
 from colonnade.campaign.syntax.table import Table
+from colonnade.dynamics.contact.law import DEFAULT_STEP, STATIC_PENETRATION
 from colonnade.dynamics.models.registry import MODELS, model_of
 from colonnade.errors import nearest
 
@@ -157,12 +158,14 @@ class ContactSettings(Table):
     mesh: Annotated[str, *one_of(*MESHES)] = setting("rigid")
     """Body of the contact model: "rigid" (a round base on whole circles), or elastic on a "coarse", "medium" or "fine"
     mesh."""
-    step: Annotated[float, *quantity("time", above_zero=True, between=STEP, example="10 us")] = setting(1e-5, "s")
+    step: Annotated[float, *quantity("time", above_zero=True, between=STEP, example="10 us")] = setting(
+        DEFAULT_STEP, "s"
+    )
     """Time step of the contact model; it has to be stable."""
     damping_fraction: Annotated[Literal["auto"] | float, *or_word(number_between(0.0, 10.0), "auto")] = setting("auto")
     """Critical damping fraction of the contact; "auto" finds the one that gives the specimen's restitution."""
     penetration: Annotated[float, *number_between(1e-10, 0.01, exclusive=True)] = setting(
-        1e-6, "of the height of the centre of mass"
+        STATIC_PENETRATION, "of the height of the centre of mass"
     )
     """How deep the standing specimen sinks into its contact, which sets the contact's stiffness."""
     friction: Annotated[float, *number_between(0.0, 10.0)] = setting(0.6)

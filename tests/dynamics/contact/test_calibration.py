@@ -11,7 +11,7 @@ from colonnade.dynamics.contact.simulate import simulate
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 BODY = rigid_body(PRISM)
-LAW = ContactLaw.stiff(BODY, PRISM.gravity)
+LAW = ContactLaw.stiff(BODY, PRISM.gravity, penetration=1e-6)
 STEP = 3e-5
 
 

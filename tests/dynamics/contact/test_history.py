@@ -66,7 +66,7 @@ def test_a_balance_that_does_not_close_is_told():
     assert not leaking.closes
     told = type(history)(**{**vars(history), "energies": leaking}).warnings
     assert "does not close" in told[0]
-    assert "Try a step shorter than 1e-05 s" in told[0]
+    assert "Try a step shorter than 5e-06 s" in told[0]
 
 
 def test_what_cannot_lift_the_block_is_not_missing():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.law import STATIC_PENETRATION, ContactLaw
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.start import Start
@@ -44,7 +44,7 @@ def test_the_stiff_law_lets_bodies_of_all_sizes_sink_alike():
     for size in (0.1, 10.0):
         body = rigid_body(Block.prism(width=0.2 * size, depth=0.3 * size, height=size, mass=5.0))
         law = ContactLaw.stiff(body, 9.81)
-        assert 5.0 * 9.81 / law.node_stiffness(body).sum() == pytest.approx(1e-6 * 0.5 * size)
+        assert 5.0 * 9.81 / law.node_stiffness(body).sum() == pytest.approx(STATIC_PENETRATION * 0.5 * size, rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -31,7 +31,7 @@ def test_dropping_modes_keeps_the_low_ones_and_ends_at_the_rigid_body() -> None:
 
 def test_a_step_of_ten_microseconds_keeps_modes_that_the_engine_advances_with_closed_energy() -> None:
     reduced = reduce_body(PRISM)
-    law = ContactLaw.stiff(reduced, 9.81)
+    law = ContactLaw.stiff(reduced, 9.81, penetration=1e-6)
     kept = keep_modes_for_step(reduced, law, 1e-5)
     count = kept.frequencies.size
     assert count >= 4

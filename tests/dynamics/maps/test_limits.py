@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from colonnade.dynamics.maps.limits import limits_of
+from colonnade.dynamics.maps.limits import limits_of, onset_of
 
 
 def overturns(*intervals):
@@ -34,3 +34,19 @@ def test_a_gap_narrower_than_the_width_makes_no_upper_limit():
     assert (wide.lower, wide.upper) == pytest.approx((1.5, 1.5), abs=1e-6)
     assert (narrow.lower, narrow.upper) == pytest.approx((1.5, 2.25), abs=1e-6)
     assert math.isnan(limits_of(scan, runs(scan), overturns(), width=5.0, edge=1e-6).lower)
+
+
+@pytest.mark.parametrize(
+    ("starts", "found"),
+    [(1.234, 1.234), (0.5, 1.0), (9.0, math.nan)],
+    ids=["inside", "from the smallest A on", "never"],
+)
+def test_the_onset_is_searched_between_the_last_rest_and_the_first_rocking(starts, found):
+    scan = np.linspace(1.0, 3.0, 21)
+
+    def runs(amplitudes):
+        # Rests again between 2.0 and 2.5: the onset is the first.
+        moves = (amplitudes >= starts) & ~((amplitudes > 2.0) & (amplitudes < 2.5))
+        return moves.astype(np.int8)
+
+    assert onset_of(scan, runs(scan), runs, edge=1e-4) == pytest.approx(found, abs=1e-4, nan_ok=True)

@@ -12,7 +12,9 @@ from colonnade.stages.parts.base_motion import (
     left_out,
     transverse_acceleration,
     vertical_acceleration,
+    weakened,
 )
+from colonnade.units import format_percent
 
 TIME = np.arange(0.0, 2.0, 0.01)
 WAVE = np.sin(2 * np.pi * 3.0 * TIME)
@@ -79,3 +81,22 @@ def test_motion_across_is_reported_above_a_tenth_of_that_along_x():
 def test_a_model_in_space_takes_the_motion_across_if_it_is_whole():
     assert transverse_acceleration(_rocking(transverse_base_acceleration=_gap(WAVE))) is None
     np.testing.assert_array_equal(transverse_acceleration(_rocking(transverse_base_acceleration=WAVE)), WAVE)
+
+
+@pytest.mark.parametrize(("frequency", "loss"), [(3.0, None), (8.0, 0.021), (20.0, 0.125)])
+def test_content_too_fast_for_straight_lines_is_said_with_its_loss(frequency, loss):
+    # sinc²(f / 100 Hz): 0.997, 0.979, 0.875
+    found = weakened(np.sin(2 * np.pi * frequency * TIME))
+    assert [format_percent(loss) in each.text for each in found] == [True] if loss else not found
+
+
+def test_the_loss_is_that_of_a_sine_drawn_with_straight_lines():
+    fine = np.arange(0.0, 2.0, 0.0005)
+    drawn = np.interp(fine, np.append(TIME, 2.0), np.sin(2 * np.pi * 10.0 * np.append(TIME, 2.0)))
+    kept = 2.0 * np.mean(drawn * np.sin(2 * np.pi * 10.0 * fine))
+    (finding,) = weakened(np.sin(2 * np.pi * 10.0 * TIME))
+    assert f"by {format_percent(1 - kept)} " in finding.text
+
+
+def test_a_table_at_rest_loses_nothing():
+    assert weakened(np.zeros(100)) == []

@@ -12,14 +12,11 @@ from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.engine.run import run
 from colonnade.dynamics.contact.engine.state import COLUMNS, POINTS, Body, Near, State
 from colonnade.dynamics.contact.history import ContactHistory, EnergyBalance, impacts_of, tilt
-from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.law import DEFAULT_STEP, ContactLaw
 from colonnade.dynamics.contact.stability import longest_step
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
 from colonnade.dynamics.motion import Motion, at_rest
 from colonnade.validation import number
-
-DEFAULT_STEP = 1e-5
-"""s; shorter where the contact is too stiff for it."""
 
 MOST_STEPS = 2e9
 """Of a run: hours; more does not end while somebody waits for it."""
@@ -59,7 +56,7 @@ def simulate(
     duration : float, optional
         s, only without a motion. The history is then sampled at about 1/(500 p).
     step : float, optional
-        Largest step, s; each interval of the motion is divided into equal ones. Default: 10 µs, or a fifth of the
+        Largest step, s; each interval of the motion is divided into equal ones. Default: 5 µs, or a fifth of the
         longest stable step where that is shorter.
     theta0, omega0, out_of_plane, yaw : float, optional
         The body at the start, on the table: angle (rad) and angular velocity (rad/s) about y, rotation about x and z.

@@ -201,7 +201,7 @@ def assemble(plan: MapPlan, columns: Sequence[MapColumn]) -> StabilityMap:
         plan.amplitude_ratio,
         np.stack([column.outcome for column in columns]),
         np.stack([column.overturning_fraction for column in columns]),
-        np.full(len(columns), plan.onset),
+        np.array([column.no_rocking for column in columns]),
         np.array([column.lower for column in columns]),
         np.array([column.upper for column in columns]),
         np.repeat(plan.frequency_ratio, [len(column.intervals) for column in columns]),

@@ -9,7 +9,7 @@ from math import pi
 import numpy as np
 
 from colonnade.arrays import Array, Codes
-from colonnade.dynamics.maps.limits import Runs, limits_of
+from colonnade.dynamics.maps.limits import Runs, limits_of, onset_of
 from colonnade.dynamics.maps.plan import MapPlan
 from colonnade.dynamics.models.registry import PLANE_MODELS
 from colonnade.dynamics.motion import Motion
@@ -28,14 +28,15 @@ class MapColumn:
         Index into `OUTCOMES` at the A of the map.
     overturning_fraction : ndarray, shape (m,)
         Share of the cell around each A, halfway to its neighbours, that overturns.
-    lower, upper : float
-        Limits in A; NaN if the column has none.
+    no_rocking, lower, upper : float
+        Limits in A; NaN if the column has none. In space the onset of rocking is searched, to the plan's `edge`.
     intervals : ndarray, shape (k, 2)
         Every interval of A that overturns, from and to, with edges to the plan's `edge`.
     """
 
     outcome: Codes
     overturning_fraction: Array
+    no_rocking: float
     lower: float
     upper: float
     intervals: Array
@@ -62,7 +63,8 @@ def map_column(plan: MapPlan, index: int) -> MapColumn:
     limits = limits_of(scan, codes, runs, width=plan.width, edge=plan.edge)
     fraction = _fraction(plan.amplitude_ratio, limits.intervals)
     chosen = np.searchsorted(scan, plan.amplitude_ratio)
-    return MapColumn(codes[chosen], fraction, limits.lower, limits.upper, limits.intervals)
+    onset = plan.onset if plan.space is None else onset_of(scan, codes, runs, edge=plan.edge)
+    return MapColumn(codes[chosen], fraction, onset, limits.lower, limits.upper, limits.intervals)
 
 
 def _runs(plan: MapPlan, frequency_ratio: float) -> Runs:

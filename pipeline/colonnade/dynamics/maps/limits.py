@@ -7,9 +7,8 @@ from math import ceil, log2
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from colonnade.arrays import Array, Codes
+from colonnade.arrays import Array, Codes, Mask
 
 Runs = Callable[[Array], Codes]
 """Returns the outcomes at some A, indices into `OUTCOMES`."""
@@ -50,9 +49,18 @@ def limits_of(scan: Array, codes: Codes, runs: Runs, *, width: float, edge: floa
     edge : float
         In A: how closely the edges of intervals are found.
     """
-    intervals = _intervals(scan, codes == 2, runs, edge)
+    intervals = _intervals(scan, codes == 2, lambda amplitudes: runs(amplitudes) == 2, edge)
     low, high = float(scan[0]), float(scan[-1])
     return Limits(_first_wide(intervals, width), _last_wide_end(_gaps(intervals, low, high), width, high), intervals)
+
+
+def onset_of(scan: Array, codes: Codes, runs: Runs, *, edge: float) -> float:
+    """Find the A from which a block first does not stay at rest, to `edge`; NaN if it always does. As `limits_of`."""
+    moves = codes > 0
+    if not moves.any():
+        return float("nan")
+    first = slice(int(np.argmax(moves)) + 1)
+    return float(_intervals(scan[first], moves[first], lambda amplitudes: runs(amplitudes) > 0, edge)[0, 0])
 
 
 def islands_of(frequency_ratio: Array, start: Array, end: Array, width: float) -> Array:
@@ -62,18 +70,18 @@ def islands_of(frequency_ratio: Array, start: Array, end: Array, width: float) -
     return islands
 
 
-def _intervals(scan: Array, overturned: NDArray[np.bool_], runs: Runs, edge: float) -> Array:
-    """Intervals of overturning, shape (k, 2): every change between neighbours of the scan halved down to `edge`."""
-    changes = np.flatnonzero(overturned[1:] != overturned[:-1])
-    low, high, before = scan[changes], scan[changes + 1], overturned[changes]
+def _intervals(scan: Array, found: Mask, holds: Callable[[Array], Mask], edge: float) -> Array:
+    """Intervals in which something holds, shape (k, 2): each change in the scan halved down to `edge`."""
+    changes = np.flatnonzero(found[1:] != found[:-1])
+    low, high, before = scan[changes], scan[changes + 1], found[changes]
     if changes.size:
         for _ in range(max(0, ceil(log2(float((high - low).max()) / edge)))):
             middle = 0.5 * (low + high)
-            as_before = (runs(middle) == 2) == before
+            as_before = holds(middle) == before
             low, high = np.where(as_before, middle, low), np.where(as_before, high, middle)
     edges = 0.5 * (low + high)
-    first = scan[:1] if overturned[0] else scan[:0]
-    last = scan[-1:] if overturned[-1] else scan[:0]
+    first = scan[:1] if found[0] else scan[:0]
+    last = scan[-1:] if found[-1] else scan[:0]
     return np.concatenate([first, edges, last]).reshape(-1, 2)
 
 

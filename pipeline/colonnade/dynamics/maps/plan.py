@@ -99,7 +99,7 @@ class MapPlan:
 
     @property
     def onset(self) -> float:
-        """A up to which the block does not uplift: 1 for the nonlinear model, α / tan α for the linear one."""
+        """A up to which an undisturbed block does not uplift: 1, but α / tan α for the linear model."""
         positive, negative = 1.0, 1.0
         if self.motion is not None:
             positive = max(float(self.motion.acceleration.max()), 0.0) / self.motion.peak

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from textwrap import fill
 from typing import Any, cast
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
@@ -124,10 +125,16 @@ def _limits(axes: Axes, chart: StabilityMap) -> None:
     onset: LineStyle = {**BASE, "linestyle": style["linestyle"]}
     lower: LineStyle = {**style, "linewidth": 1.6}
     upper: LineStyle = {**style, "linewidth": 0.8}
-    begins = f"{model}: rocking begins, A = {chart.no_rocking[0]:.3f}"
+    begins = f"{model}: rocking begins, A = {_range(chart.no_rocking)}"
     axes.plot(chart.frequency_ratio, chart.no_rocking, label=begins, zorder=2, **onset)
     axes.plot(chart.frequency_ratio, chart.lower, label=f"{model}: lower limit", zorder=3, **lower)
     axes.plot(chart.frequency_ratio, chart.upper, label=f"{model}: upper limit", zorder=3, **upper)
+
+
+def _range(limit: Array) -> str:
+    """Give the lowest and highest value of a limit, once if they are the same to three decimals."""
+    known = limit[np.isfinite(limit)]
+    return " to ".join(dict.fromkeys(f"{end:.3f}" for end in (known.min(), known.max()))) if known.size else "–"
 
 
 def scale_axes(axes: Axes, frequency_ratio: Array, amplitude_ratio: Array, points: Sequence[MapPoint]) -> None:

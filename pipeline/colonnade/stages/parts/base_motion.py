@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +20,9 @@ LARGEST_TRANSVERSE = 0.1
 
 VERTICAL = "vertical motion"
 """Kind of the findings about the motion along z."""
+
+LARGEST_WEAKENING = 0.01
+"""Of the base motion's root mean square: what straight lines between its samples may take without a word."""
 
 LEAST_VERTICAL = 1e-6
 """m/s², from lowest to highest: an accelerometer that reads less is dead."""
@@ -113,3 +117,20 @@ def left_out(rocking: xr.Dataset, base: Array) -> list[Finding]:
     share = f"{format_percent(peak / along)} of that along x" if along > 0.0 else "and none along x"
     text = f"The base also moved along y, by up to {peak:.3g} m/s², {share}: the plane models ignore it."
     return [warning("motion across", text, follows=MEASUREMENT)]
+
+
+def weakened(base: Array) -> list[Finding]:
+    """Say by how much straight lines between the samples weaken the motion along x: sinc² of frequency over rate."""
+    energy = np.abs(np.fft.rfft(base - base.mean())) ** 2
+    if not energy.any():
+        return []
+    kept = float(energy @ np.sinc(np.fft.rfftfreq(base.size)) ** 4 / energy.sum())
+    loss = 1.0 - sqrt(kept)
+    if loss <= LARGEST_WEAKENING:
+        return []
+    text = (
+        f"Models take the base acceleration as straight lines between its samples, which weakens it by "
+        f"{format_percent(loss)} (root mean square): much of it is faster than 1/25 of the sampling rate. Predictions "
+        "are too small by about as much; a higher sampling rate avoids it."
+    )
+    return [warning("sampling rate", text, follows=MEASUREMENT)]

@@ -19,6 +19,7 @@ from colonnade.stages.parts.base_motion import (
     left_out,
     transverse_acceleration,
     vertical_acceleration,
+    weakened,
 )
 from colonnade.stages.parts.inputs import Inputs
 
@@ -123,6 +124,7 @@ def begin(rocking: xr.Dataset, inputs: BeginningInputs, identified: xr.Dataset |
         transverse = transverse_acceleration(rocking) if inputs.is_in_space else None
         if transverse is None:
             warnings += left_out(rocking, base)
+        warnings += weakened(base)
     else:
         base, vertical, transverse, warnings = np.zeros_like(time), None, None, []
     # On a tilted table a part of gravity acts along x, as a base acceleration the other way would.

@@ -198,9 +198,9 @@ def _assembled(plan: MapPlan, restitution_source: str, blocks: Iterable[Mapping[
         ends = np.cumsum(arrays["intervals_of_column"])
         intervals = np.split(arrays["intervals"], ends[:-1])
         columns += [
-            MapColumn(outcome, fraction, float(lower), float(upper), own)
-            for outcome, fraction, lower, upper, own in zip(
-                arrays["outcome"], arrays["fraction"], arrays["lower"], arrays["upper"], intervals, strict=True
+            MapColumn(outcome, fraction, onset, lower, upper, own)
+            for outcome, fraction, (onset, lower, upper), own in zip(
+                arrays["outcome"], arrays["fraction"], arrays["limits"].tolist(), intervals, strict=True
             )
         ]
     return as_dataset(assemble(plan, columns)).assign_attrs(restitution_source=restitution_source)
@@ -214,8 +214,7 @@ def _columns(plan: MapPlan, indices: range) -> dict[str, NDArray[Any]]:
     return {
         "outcome": np.stack([column.outcome for column in columns]),
         "fraction": np.stack([column.overturning_fraction for column in columns]),
-        "lower": np.array([column.lower for column in columns]),
-        "upper": np.array([column.upper for column in columns]),
+        "limits": np.array([(column.no_rocking, column.lower, column.upper) for column in columns]),
         "intervals": np.concatenate([column.intervals for column in columns]),
         "intervals_of_column": np.array([len(column.intervals) for column in columns]),
     }

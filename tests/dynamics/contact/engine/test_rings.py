@@ -18,7 +18,7 @@ CYLINDER = Block.cylinder(diameter=0.097, height=0.455, mass=26.30, gravity=GRAV
 CONE = Block.cone(base_diameter=0.097, top_diameter=0.0755, height=0.480, mass=21.94, gravity=GRAVITY)
 ALPHA = CYLINDER.critical_angle
 BODY = rigid_body(CYLINDER)
-LAW = ContactLaw.stiff(BODY, GRAVITY, damping_fraction=0.4)
+LAW = ContactLaw.stiff(BODY, GRAVITY, damping_fraction=0.4, penetration=1e-6)
 STEP = 2e-5
 PUSH = 0.01
 """Angular velocity about x at the start, over p α: the sideways push of a hand."""
