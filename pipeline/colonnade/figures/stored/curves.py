@@ -10,14 +10,19 @@ from colonnade.dynamics.block import Block
 from colonnade.figures.histories import Spread
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.record import Quantity
+from colonnade.signals.displacement import displacement
 from colonnade.store.records.stored import Stored
 from colonnade.units import from_si
 
 
 def measured_ratio(stored: Stored, block: Block, *, as_recorded: bool = False) -> Curve | None:
     """Return the measured θ/α about the zero of the predictions, or as recorded; None if it was not measured."""
-    offset = 0.0 if as_recorded else float(np.nan_to_num(stored.value("compare", "zero_offset")))
-    return _ratio(stored, block, "rocking", offset=offset)
+    return _ratio(stored, block, "rocking", offset=0.0 if as_recorded else zero_offset(stored))
+
+
+def zero_offset(stored: Stored) -> float:
+    """Return the zero of the predictions in the measured angle, rad."""
+    return float(np.nan_to_num(stored.value("compare", "zero_offset")))
 
 
 def predicted_ratios(stored: Stored, block: Block) -> dict[str, Curve]:
@@ -68,6 +73,16 @@ def motion(stored: Stored, name: str, unit: str) -> Curve | None:
     if not (values.ndim == 1 and values.size):
         return None
     return Curve(stored.array("rocking", "elapsed"), from_si(1.0, unit) * values)
+
+
+def base_displacement(stored: Stored) -> tuple[Curve | None, str]:
+    """Return the displacement of the base over time, m, and where it is from; None if its motion was not recorded."""
+    recorded, acceleration = motion(stored, "base_displacement", "m"), motion(stored, "base_acceleration", "m/s²")
+    if recorded is not None and np.isfinite(recorded.values).any():
+        return recorded, "recorded displacement"
+    if acceleration is not None:
+        return acceleration._replace(values=displacement(*acceleration)), "recorded acceleration integrated twice"
+    return None, "not recorded, drawn at rest"
 
 
 def _ratio(stored: Stored, block: Block, stage: str, model: str | None = None, *, offset: float = 0.0) -> Curve | None:

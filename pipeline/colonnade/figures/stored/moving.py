@@ -9,7 +9,7 @@ from colonnade.figures.drawing.described import body_of
 from colonnade.figures.files.output import Movie
 from colonnade.figures.moving import rocking_block
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.stored.curves import motion
+from colonnade.figures.stored.curves import base_displacement, zero_offset
 from colonnade.store.records.stored import Stored
 
 
@@ -20,11 +20,10 @@ def animation(test: Test, specimen: Specimen, stored: Stored, block: Block) -> M
     for name, stage, model in histories:
         if stored.has(stage, "rocking_angle", model):
             times, values = (stored.array(stage, each, model) for each in ("elapsed", "rocking_angle"))
-            angles[name] = Curve(times, values)
+            angles[name] = Curve(times, values - zero_offset(stored) if stage == "rocking" else values)
     if not angles:
         return None
-    base = motion(stored, "base_displacement", "m")
+    base, how = base_displacement(stored)
     title = f"{test.id}: the rocking block"
     said = "measured and predicted" if len(angles) > 1 else next(iter(angles))
-    about = "on the recorded displacement of its base" if base is not None else "on a base that is drawn at rest"
-    return rocking_block(angles, body_of(specimen, block), base, title=title, description=f"{said}, {about}.")
+    return rocking_block(angles, body_of(specimen, block), base, title=title, description=f"{said}; base: {how}.")

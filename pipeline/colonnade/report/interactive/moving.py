@@ -10,10 +10,9 @@ from colonnade.campaign.specimen import Specimen
 from colonnade.dynamics.block import Block
 from colonnade.figures.drawing.described import body_of
 from colonnade.figures.drawing.parts import Body, Rocking
-from colonnade.figures.stored.curves import measured_ratio, motion, predicted_ratios
+from colonnade.figures.stored.curves import base_displacement, measured_ratio, motion, predicted_ratios
 from colonnade.figures.style import model_style
 from colonnade.report.interactive.panels import Samples
-from colonnade.signals.displacement import displacement
 from colonnade.store.records.stored import Stored
 
 
@@ -34,14 +33,11 @@ def of_test(specimen: Specimen, block: Block, stored: Stored, samples: Samples) 
             bodies[0]["slide"] = samples.add(slide.values)
     for model, curve in predicted_ratios(stored, block).items():
         bodies.append(samples.curve(f"{model} model", *curve, colour=model_style(model)["color"]))
-    base, how = motion(stored, "base_displacement", "mm"), "base: recorded displacement"
-    if base is None or not np.isfinite(base.values).any():
-        base, how = motion(stored, "base_acceleration", "m/s²"), "base: recorded acceleration integrated twice"
-        base = None if base is None else base._replace(values=1e3 * displacement(*base))
+    base, how = base_displacement(stored)
     return {
         "outline": outline(body),
         "poles": rocking.poles,
         "bodies": bodies,
-        "base": None if base is None else samples.curve("base", *base),
-        "how": how if base is not None else "base: not recorded, drawn at rest",
+        "base": None if base is None else samples.curve("base", base.time, 1e3 * base.values),
+        "how": f"base: {how}",
     }
