@@ -96,7 +96,7 @@ def test_the_summary_counts_tests_and_gives_each_restitution(overview):
     words = words_of(overview)
     assert "9 tests: 7 done, 1 failed, 1 not finished." in words
     assert "The linear model predicts the outcome of 6 of 7 tests. Its misfit (nrmse) is" in words
-    assert re.search(r"prism 0\.930\d* ± < 0\.0001 \(95 % interval\) identified from free vibrations 0\.9485", words)
+    assert re.search(r"prism 0\.930\d* ± 0\.0000\d+ identified from free vibrations 0\.9485", words)
     assert "statue 0.9 given in the campaign file" in words
 
 
@@ -222,7 +222,7 @@ def test_a_specimen_gives_each_restitution_and_why_one_was_refused(texts):
     words = words_of(text)
     assert "e over rigid-body e 0.98" in words
     assert "free vibration e peaks half-periods impact by impact whole history, linear" in words
-    assert re.search(r"free-01 0\.930\d* ± (< )?0\.0\d+ \(95 % interval\)( 0\.9\d+ ± 0\.0\d+){6}", words)
+    assert re.search(r"free-01 0\.930\d* ± 0\.0\d+( 0\.9\d+ ± 0\.0\d+){6}", words)
     assert re.search(r"free-refused –( –)+ 0\.\d+ ± 0\.\d+ e of single impacts scatters by", words)
     assert words.count("e of single impacts scatters by") == 1
     assert "scatter between tests 0 (standard deviation of e); standard error within a test" in words

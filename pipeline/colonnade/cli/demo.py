@@ -68,8 +68,7 @@ def demo(
 def _show(comparison: dict[str, Any]) -> None:
     from colonnade.laboratory.plans.ladder import KEPT_AWAY
     from colonnade.report.overview_page.agreement import agreement
-    from colonnade.store.records.wording import restitution_text
-    from colonnade.units import format_percent
+    from colonnade.store.records.wording import interval
 
     for specimen, restitution in comparison["restitution"].items():
         true, value, low, high = (restitution[key] for key in ("true", "value", "low", "high"))
@@ -77,9 +76,8 @@ def _show(comparison: dict[str, Any]) -> None:
             say(f"{specimen}: {restitution['reason'] or restitution['source']}; true is {true:g}")
         else:
             held = "inside" if low <= true <= high else "outside"
-            level = format_percent(restitution["level"])
-            found = f"e identified as {restitution_text(value, (high - low) / 2)} ({level} interval)"
-            say(f"{specimen}: {found}; true is {true:g}, {held} the interval")
+            found = interval(value, low, high, restitution["level"])
+            say(f"{specimen}: e {found}; true is {true:g}, {held} the interval")
     say()
     rows = []
     for name, test in comparison["tests"].items():

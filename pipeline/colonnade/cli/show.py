@@ -170,11 +170,11 @@ def _until(predicted: Record) -> str:
 
 
 def _specimen_cells(record: Record) -> tuple[str, ...]:
-    from colonnade.store.records.wording import restitution_text
+    from colonnade.store.records.wording import interval
 
     restitution = record["restitution"]
-    value, low, high = restitution["value"], restitution["low"], restitution["high"]
-    e = shown(value) if low is None else restitution_text(value, (high - low) / 2)
+    value, low, high = (restitution[name] for name in ("value", "low", "high"))
+    e = shown(value) if low is None else interval(value, low, high, restitution["level"])
     columns = ("critical_angle", "pole_distance", "inertia", "p", "rigid_restitution")
     geometry = [shown(record[column]) for column in columns]
     return (record["shape"], *geometry, e, restitution["source"] or restitution["reason"] or "")

@@ -55,28 +55,22 @@ def with_minus(number: str) -> str:
     return _EXPONENT.sub(lambda found: f"·10{str(int(found[1])).translate(_RAISED)}", number)
 
 
-def format_uncertain(value: float, half_width: float, unit: str = "", *, least: float = 0.0) -> str:
+def format_uncertain(value: float, half_width: float, unit: str = "") -> str:
     """
     Write an SI value in `unit` with as many digits as its half-width allows: one, two where it starts with 1.
-
-    A half-width below `least` gives no more digits than that does: it is written as smaller than the last of them.
 
     Examples
     --------
     >>> format_uncertain(0.97608, 0.0008), format_uncertain(0.23204, 0.0012, "mm")
     ('0.9761 ± 0.0008', '232.0 ± 1.2 mm')
-    >>> format_uncertain(0.9760003, 0.0000008, least=0.00018)
-    '0.97600 ± < 0.00001'
     """
-    value, half_width, least = from_si(value, unit), abs(from_si(half_width, unit)), abs(from_si(least, unit))
+    value, half_width = from_si(value, unit), abs(from_si(half_width, unit))
     if not (isfinite(half_width) and half_width > 0.0 and isfinite(value)):
         return f"{with_minus(f'{value:.4g}')} {unit}".rstrip()
-    shown = max(_decimals(max(half_width, least) if isfinite(least) else half_width), 0)
-    decimals = min(_decimals(half_width), shown)
-    written = f"{round(half_width, decimals):.{shown}f}"
-    if float(written) == 0.0:
-        written = f"< {10.0**-shown:.{shown}f}"
-    return f"{with_minus(f'{round(value, decimals):.{shown}f}')} ± {written} {unit}".rstrip()
+    decimals = _decimals(half_width)
+    shown = max(decimals, 0)
+    width = f"{round(half_width, decimals):.{shown}f}"
+    return f"{with_minus(f'{round(value, decimals):.{shown}f}')} ± {width} {unit}".rstrip()
 
 
 def _decimals(half_width: float) -> int:

@@ -82,12 +82,11 @@ def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float | N
     axes.grid(visible=False, axis="y")
     place = 0.05
     for group in groups:
-        least = trusted_half_width(group.rows)
         if group.title:
             _write(axes, place + GROUP / 2, group.title, -LEFT + 0.1, weight="bold")
             place += GROUP
         for row in group.rows:
-            _draw_row(axes, place + ROW / 2, row, group.title, least)
+            _draw_row(axes, place + ROW / 2, row, group.title)
             place += ROW
     if not any(np.isfinite(row.value) for group in groups for row in group.rows):
         axes.set_xticks([])
@@ -99,13 +98,7 @@ def estimators_side_by_side(groups: Sequence[EstimateGroup], *, rigid: float | N
     return figure
 
 
-def trusted_half_width(rows: Sequence[EstimateRow]) -> float:
-    """Return the half-width of the recommended estimate, 0 without one: no other is written with more digits."""
-    widths = [(row.high - row.low) / 2 for row in rows if row.recommended and np.isfinite(row.high - row.low)]
-    return max(widths, default=0.0)
-
-
-def _draw_row(axes: Axes, place: float, row: EstimateRow, title: str, least: float) -> None:
+def _draw_row(axes: Axes, place: float, row: EstimateRow, title: str) -> None:
     weight = "bold" if row.recommended else "normal"
     _write(axes, place, row.name, -LEFT + 0.15, colour=FIT["color"] if row.recommended else INK)
     if not np.isfinite(row.value):
@@ -129,7 +122,7 @@ def _draw_row(axes: Axes, place: float, row: EstimateRow, title: str, least: flo
         beside = axes.get_yaxis_transform()
         axes.plot([edge], [place], mark, color=colour, markersize=size, clip_on=False, transform=beside)
     half = (row.high - row.low) / 2
-    told = format_uncertain(row.value, half, least=least) if np.isfinite(half) else f"{row.value:.4f}"
+    told = format_uncertain(row.value, half) if np.isfinite(half) else f"{row.value:.4f}"
     _write(axes, place, told, width() - LEFT - RIGHT + 0.12, weight=weight)
 
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from math import isfinite
 from typing import NamedTuple
 
 from colonnade.campaign.forms.summary import IdentifiedSummary
-from colonnade.figures.restitution.estimators import trusted_half_width
 from colonnade.figures.stored.restitution import STAGE, estimate_rows
 from colonnade.store.records.stored import Stored
-from colonnade.store.records.wording import NOTHING, interval, number, quantity
+from colonnade.store.records.wording import NOTHING, interval, quantity
 from colonnade.units import format_uncertain
 
 
@@ -35,14 +33,10 @@ def estimates_of(stored: Stored) -> list[EstimateText]:
     assumptions, reasons = (
         dict(enumerate(stored.texts(STAGE, f"estimate_{name}"))) for name in ("assumptions", "reasons")
     )
-    least = trusted_half_width(rows)
     return [
         EstimateText(
             row.name,
-            # Without the level of the interval: many of them are in one table.
-            format_uncertain(row.value, (row.high - row.low) / 2, least=least)
-            if isfinite(row.high - row.low)
-            else number(row.value, 5),
+            interval(row.value, row.low, row.high),
             assumptions.get(index, ""),
             reasons.get(index, ""),
             row.recommended,

@@ -52,7 +52,7 @@ def records_of_specimens(campaign: Campaign, summary: Summary | None) -> dict[st
     records = {}
     for name, specimen in campaign.specimens.items():
         block = campaign.block(name)
-        unknown = {"value": None, "low": None, "high": None, "source": None, "reason": "not run yet"}
+        unknown = {"value": None, "low": None, "high": None, "level": None, "source": None, "reason": "not run yet"}
         records[name] = {
             "shape": specimen.shape,
             "mass": specimen.mass,

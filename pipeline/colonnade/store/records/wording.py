@@ -1,11 +1,13 @@
-"""Numbers and outcomes of a record in words; a dash if unknown."""
+"""Numbers and outcomes of a record in words; a dash if unknown. What a test gave, and the verdict on a prediction."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite
+from math import isfinite, nan
 
-from colonnade.campaign.forms.summary import Order
+from colonnade.campaign.forms.summary import IdentifiedSummary, Order, PredictionSummary, TestSummary
+from colonnade.dynamics.models.registry import MODELS
+from colonnade.identification.response.rank import is_within
 from colonnade.units import PERCENT, format_percent, format_quantity, format_uncertain, from_si, with_minus
 
 NOTHING = "–"
@@ -13,8 +15,11 @@ NOTHING = "–"
 LEAST_RATIO = 1e-3
 """Angles below this share of the critical angle are noise: 0.1 mm at the top of a block of half a metre."""
 
-FINEST_RESTITUTION = 2e-4
-"""Smaller half-widths of e are written as such: from specimen to specimen and from day to day e differs by more."""
+USUAL_LEVEL = 0.95
+"""± is half of the interval of this level; another level is named."""
+
+WITHIN, DIFFERS = "✓", "≠"
+"""Verdicts on a prediction, see `verdict`."""
 
 CHANNEL_UNITS = {
     "displacement": "mm",
@@ -98,34 +103,25 @@ def acceleration(value: float | None) -> str:
     return f"{quantity(value, 'm/s²')} ({quantity(value, 'g')})"
 
 
-def restitution_text(value: float, half_width: float) -> str:
-    """
-    Write a coefficient of restitution with the half-width of its interval, and with no more digits than it deserves.
-
-    Examples
-    --------
-    >>> restitution_text(0.97608, 0.0008), restitution_text(0.9760003, 0.0000008)
-    ('0.9761 ± 0.0008', '0.9760 ± < 0.0001')
-    """
-    return format_uncertain(value, half_width, least=FINEST_RESTITUTION)
-
-
-def interval(value: float | None, low: float | None, high: float | None, level: float | None) -> str:
+def interval(value: float | None, low: float | None, high: float | None, level: float | None = None) -> str:
     r"""
-    Write a coefficient of restitution with the half-width of its interval.
+    Write a coefficient of restitution with the half-width of its interval; its level is named if it is not 95 %.
 
     Examples
     --------
-    >>> interval(0.97608, 0.97528, 0.97688, 0.95)
-    '0.9761 ± 0.0008 (95\xa0% interval)'
-    >>> interval(0.976, float("nan"), float("nan"), 0.95)
+    >>> interval(0.97608, 0.97528, 0.97688, 0.95), interval(0.97608, 0.97548, 0.97668, 0.9)
+    ('0.9761 ± 0.0008', '0.9761 ± 0.0006 (90\xa0% interval)')
+    >>> interval(0.976, float("nan"), float("nan"))
     '0.976'
     """
     if value is None or not isfinite(value):
         return NOTHING
-    if low is None or high is None or level is None or not isfinite(high - low):
+    if low is None or high is None or not isfinite(high - low):
         return number(value, 4)
-    return f"{restitution_text(value, (high - low) / 2)} ({format_percent(level)} interval)"
+    named = (
+        "" if level is None or not isfinite(level) or level == USUAL_LEVEL else f" ({format_percent(level)} interval)"
+    )
+    return format_uncertain(value, (high - low) / 2) + named
 
 
 def share(part: int, whole: int) -> str:
@@ -199,3 +195,75 @@ def agree(measured: str, predicted: str) -> bool | None:
     if measured == "not-overturned":
         return predicted != "overturned"
     return measured == predicted
+
+
+def verdict(test: TestSummary, model: str) -> str:
+    """
+    Judge a prediction: the one rule of terminal and pages.
+
+    Returns
+    -------
+    mark : str
+        ``≠`` if the model predicts another outcome than the measured (or observed) one, or if the measured angle is
+        outside the 95 % band of the model's runs; ``✓`` if it is inside; empty without an ensemble.
+    """
+    found = test.predicted.get(model, PredictionSummary())
+    within = is_within(nan if found.within_spread is None else found.within_spread)
+    if within is False or _agrees(test, found) is False:
+        return DIFFERS
+    return WITHIN if within else ""
+
+
+def measured(test: TestSummary, level: float | None = None) -> str:
+    """
+    Write what a test gave in a few words: e of a free vibration, else the outcome and the peak over α.
+
+    `level` is that of the interval of e, None for 95 %.
+
+    Examples
+    --------
+    >>> measured(TestSummary(status="done", kind="earthquake", specimen="a", outcome="rocking", peak_ratio=0.281))
+    'rocking 0.281 α'
+    """
+    if test.status == "failed":
+        return "failed"
+    e = test.restitution or IdentifiedSummary()
+    if e.value is not None:
+        return f"e {interval(e.value, e.low, e.high, level)}"
+    if not test.outcome:
+        return f"{_words(test.observed_outcome)} (seen)" if test.observed_outcome else test.status
+    return _with_peak(test.outcome, test.peak_ratio, " α") + (", no e" if test.restitution else "")
+
+
+def predicted(test: TestSummary) -> dict[str, str]:
+    """
+    Write what each model predicts of a test with the verdict on it, such as ``0.275 ✓``; the exact models first.
+
+    The outcome is named if it is not that of a block that rocks as measured. A model that has not run is left out.
+    """
+    exact_first = sorted(test.predicted, key=lambda model: model in MODELS and MODELS[model].is_linearised)
+    return {
+        model: f"{_prediction(test, test.predicted[model])} {verdict(test, model)}".rstrip()
+        for model in exact_first
+        if test.predicted[model].outcome
+    }
+
+
+def _agrees(test: TestSummary, found: PredictionSummary) -> bool | None:
+    return agree(test.outcome or test.observed_outcome or "", found.outcome or "")
+
+
+def _prediction(test: TestSummary, found: PredictionSummary) -> str:
+    if test.outcome == found.outcome == "rocking":
+        return ratio(found.peak_ratio)
+    return _with_peak(found.outcome or "", found.peak_ratio)
+
+
+def _with_peak(outcome: str, peak_ratio: float | None, unit: str = "") -> str:
+    """Write an outcome, and the peak of a block that rocks."""
+    peak = f" {ratio(peak_ratio)}{unit}" if outcome == "rocking" and peak_ratio is not None else ""
+    return _words(outcome) + peak
+
+
+def _words(outcome: str) -> str:
+    return outcome.replace("-", " ")

@@ -11,7 +11,8 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.identification.advice.restitution import LAST_PEAK, advise_free_vibration
 from colonnade.store.records.advice import Advice
-from colonnade.store.records.wording import number, restitution_text
+from colonnade.store.records.wording import number
+from colonnade.units import format_uncertain
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -58,8 +59,8 @@ def advise_free(
         largest_release=LARGEST_RELEASE,
         level=float(pooled["level"]),
     )
-    known = f"e {restitution_text(advised.pooled.value, advised.half_width)} from {len(names)}"
-    after = restitution_text(advised.pooled.value, float(advised.predicted_half_width[0]))
+    known = f"e {format_uncertain(advised.pooled.value, advised.half_width)} from {len(names)}"
+    after = format_uncertain(advised.pooled.value, float(advised.predicted_half_width[0]))
     limit = "the scatter between tests" if advised.limited_by == "scatter" else "the error of a single test"
     return Advice(
         specimen=specimen,
