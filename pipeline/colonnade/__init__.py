@@ -1,5 +1,5 @@
 """
-From the recordings of a shake-table test on a free-standing column to measured over predicted.
+From the recordings of a shake-table test on a free-standing column to predicted over measured.
 
 Everything here is loaded when it is first used, so that `import colonnade` and the command start before numba does.
 """

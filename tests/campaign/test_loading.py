@@ -119,11 +119,11 @@ WRONG = [
         'setups.frame.file.decmal: Unknown option of format "delimited". Did you mean "decimal"?',
     ),
     ('catch = "0.3 rad"', 'catch = "0.3 m"', 'setups.frame.catch: "0.3 m": "m" is a unit of length. An angle'),
-    ("recorders.daq2", "recorders.Main", 'setups.frame.recorders.Main: "Main" is the recorder of the setup\'s own'),
+    ("recorders.daq2", "recorders.Main", 'setups.frame.recorders.Main: "Main" is the recorder of the set-up\'s own'),
     (
         '"table_acceleration", ',
         '"table_aceleration", ',
-        'clock.align: Unknown channel "table_aceleration" in this setup. Did',
+        'clock.align: Unknown channel "table_aceleration" in this set-up. Did',
     ),
     ('"table_acceleration", ', '"table_acceleration_2", ', 'is not a channel of recorder "main".'),
     (
@@ -131,7 +131,7 @@ WRONG = [
         "clock = {aling",
         'setups.frame.recorders.daq2.clock: a table was found. Expected: "trigger" if',
     ),
-    ('recorder = "daq2"', 'recorder = "daq3"', 'Unknown recorder "daq3" in this setup. Did you mean "daq2"?'),
+    ('recorder = "daq2"', 'recorder = "daq3"', 'Unknown recorder "daq3" in this set-up. Did you mean "daq2"?'),
     (
         'gain = "10.02 mm/V"',
         'gain = "10.02 mm"',
@@ -180,7 +180,7 @@ WRONG = [
     (
         'daq2 = "raw/free',
         'daq3 = "raw/free',
-        'tests[free-01].file.daq3: Unknown recorder in setup "frame". Did you',
+        'tests[free-01].file.daq3: Unknown recorder in set-up "frame". Did you',
     ),
     ('main = "raw', 'daq2 = "raw', "this is not valid TOML"),
     (

@@ -49,14 +49,14 @@ ALIGN = ("setups", "frame", "recorders", "daq2", "clock", "align")
         (
             document(test={"file": {"daq2": "a.csv"}}),
             ("tests", 0, "file", "daq2"),
-            'Unknown recorder in setup "frame". Choose one of: "main".',
+            'Unknown recorder in set-up "frame". Choose one of: "main".',
         ),
         (
             document(channels={"top": {"recorder": "mian"}}),
             ("setups", "frame", "channels", "top", "recorder"),
-            'Unknown recorder "mian" in this setup. Did you mean "main"?',
+            'Unknown recorder "mian" in this set-up. Did you mean "main"?',
         ),
-        (aligned("tpo", "second"), ALIGN, 'Unknown channel "tpo" in this setup. Did you mean "top"?'),
+        (aligned("tpo", "second"), ALIGN, 'Unknown channel "tpo" in this set-up. Did you mean "top"?'),
         (
             aligned("second", "second"),
             ALIGN,

@@ -71,7 +71,7 @@ def test_what_is_no_clock_is_refused_with_what_was_expected(clock):
 @pytest.mark.parametrize("name", ["main", "Main"])
 def test_an_additional_recorder_is_not_called_main(name):
     ((_, told),) = problems(recorders={name: {}}).items()
-    assert told.startswith(f'"{name}" is the recorder of the setup\'s own `file`.')
+    assert told.startswith(f'"{name}" is the recorder of the set-up\'s own `file`.')
 
 
 def test_angles_are_taken_to_radians_and_a_catch_is_positive():

@@ -45,7 +45,7 @@ class CampaignFile(Table):
     specimens: dict[Identifier, AnySpecimen] = Field(min_length=1)
     """Specimens, by id."""
     setups: dict[Identifier, Setup] = Field(default={})
-    """Setups, by id; a campaign without tests, about a real column alone, needs none."""
+    """Set-ups, by id; a campaign without tests, about a real column alone, needs none."""
     motions: dict[Text, ReferenceMotion] = Field(default={})
     """Reference motions, by the names that tests give them: files that recorded table motions are compared with."""
     processing: Processing = Processing()

@@ -74,7 +74,7 @@ def _unused_of_channel(channel: Channel) -> Iterator[str]:
     if channel.quantity == "other":
         return
     if channel.quantity not in _USED.get(channel.on or "", ()):
-        yield f'quantity = "{channel.quantity}" on the {channel.on or "setup"}'
+        yield f'quantity = "{channel.quantity}" on the {channel.on or "set-up"}'
     elif channel.on == "specimen" and channel.quantity == "acceleration" and channel.at is None:
         yield "an accelerometer on the specimen without `at`"
     elif channel.on == "table" and channel.direction is not None and max(map(abs, channel.direction)) < ALONG:

@@ -57,7 +57,7 @@ def _setup(place: Place, setup: Mapping[str, Any]) -> Iterator[Problem]:
         recorder = _table(channel).get("recorder", MAIN)
         if isinstance(recorder, str) and recorder not in {MAIN, *recorders}:
             hint = nearest(recorder, [MAIN, *recorders])
-            yield (*place, "channels", name, "recorder"), f"Unknown recorder {shown(recorder)} in this setup.{hint}"
+            yield (*place, "channels", name, "recorder"), f"Unknown recorder {shown(recorder)} in this set-up.{hint}"
     for name, recorder in recorders.items():
         named = _table(_table(recorder).get("clock")).get("align")
         if isinstance(named, list) and len(named) == 2:
@@ -70,7 +70,7 @@ def _aligned(place: Place, channel: object, owner: str, channels: Mapping[str, A
         return
     own = [name for name, each in channels.items() if _table(each).get("recorder", MAIN) == owner]
     if channel not in channels:
-        yield place, f"Unknown channel {shown(channel)} in this setup.{nearest(channel, own)}"
+        yield place, f"Unknown channel {shown(channel)} in this set-up.{nearest(channel, own)}"
     elif channel not in own:
         yield place, f'{shown(channel)} is not a channel of recorder "{owner}".{nearest(channel, own)}'
 
@@ -119,7 +119,7 @@ def _tests(tests: list[Any], specimens: Mapping[str, Any], setups: Mapping[str, 
                     hint = nearest(recorder, recorders)
                     yield (
                         ("tests", index, "file", recorder),
-                        f'Unknown recorder in setup "{test["setup"]}".{hint}',
+                        f'Unknown recorder in set-up "{test["setup"]}".{hint}',
                     )
 
 

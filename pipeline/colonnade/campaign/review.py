@@ -190,7 +190,7 @@ def _unknown_names(place: Place, entry: Mapping[str, Any], known: _Known) -> Ite
         channels = known.setups[setup].channels
         if isinstance(channel, str) and channel not in channels:
             hint = nearest(channel, channels)
-            yield (*place, "channel"), f'Unknown channel {shown(channel)} in setup "{setup}" of {test}.{hint}'
+            yield (*place, "channel"), f'Unknown channel {shown(channel)} in set-up "{setup}" of {test}.{hint}'
 
 
 def _empty_windows(review: ReviewFile) -> Iterator[tuple[Place, str]]:

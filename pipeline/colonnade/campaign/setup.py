@@ -98,7 +98,7 @@ def _recorder_id(value: object) -> str:
     name = identifier(value)
     if name.casefold() == MAIN:
         raise ValueError(
-            f'"{name}" is the recorder of the setup\'s own `file`. Choose another id for an additional recorder.'
+            f'"{name}" is the recorder of the set-up\'s own `file`. Choose another id for an additional recorder.'
         )
     return name
 
@@ -134,7 +134,7 @@ class Setup(Table):
     """
     How tests were recorded.
 
-    `recorders` holds all of them, the one of the setup's own `file` first, under the name "main".
+    `recorders` holds all of them, the one of the set-up's own `file` first, under the name "main".
     """
 
     file: FileTable = FileOptions()

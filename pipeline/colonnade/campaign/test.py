@@ -91,7 +91,7 @@ class Test(Table):
     specimen: str
     """Id of its specimen."""
     setup: str
-    """Id of its setup."""
+    """Id of its set-up."""
     files: Files = Field(alias="file")
     """Its raw file, from the folder of the campaign file; with several recorders a table of one each."""
     window: Interval | None = None

@@ -43,7 +43,7 @@ class InOrder(click.RichGroup):
 @click.version_option(colonnade.__version__, prog_name="colonnade")
 def app() -> None:
     """
-    From the recordings of a shake-table test on a free-standing column to measured over predicted.
+    From the recordings of a shake-table test on a free-standing column to predicted over measured.
 
     Start with `colonnade demo`: it writes a virtual campaign and runs all of it. With recordings of your own,
     `colonnade init` drafts their campaign.toml. Most commands take a CAMPAIGN: a campaign.toml or its folder, by

@@ -72,7 +72,7 @@ def of_campaign(campaign: Campaign) -> Picture:
         If there is no test.
     """
     if not campaign.combinations:
-        raise CampaignError(f"{campaign.path}: the campaign has no test, so no specimen is in a setup to be drawn.")
+        raise CampaignError(f"{campaign.path}: the campaign has no test, so no specimen is in a set-up to be drawn.")
     drawn = [drawn_of(campaign, *pair) for pair in campaign.combinations]
     said = " ".join(f"{each.title}: {count(len(each.transducers), 'transducer')}." for each in drawn)
     return Picture(setup_drawings(drawn), "drawing", f"Specimens and transducers of {campaign.title}, to scale", said)

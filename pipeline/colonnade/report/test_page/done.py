@@ -37,7 +37,7 @@ def _place(row: TestRow, stored: Stored) -> str:
 def _facts(row: TestRow) -> list[Fact]:
     test = row.test
     return [
-        ("setup", test.setup),
+        ("set-up", test.setup),
         ("motion", test.motion or ""),
         ("Span", "" if test.span is None else str(test.span)),
         ("time scale", number(test.time_scale)),
