@@ -90,7 +90,7 @@ colonnade.csvText = async function (table) {
 // Below each figure of the page: its picture as SVG and PNG, and what it shows as CSV.
 colonnade.addDownloads = function (tables) {
   for (const figure of document.querySelectorAll("figure")) {
-    const svg = figure.querySelector("svg[role=img]");
+    const svg = figure.querySelector("svg[role]");
     if (!svg) continue;
     const name = svg.id;
     const title = svg.querySelector("title").textContent;
