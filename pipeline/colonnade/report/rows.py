@@ -9,8 +9,8 @@ from colonnade.campaign import Campaign, Test
 from colonnade.campaign.forms.summary import PredictionSummary, TestSummary
 from colonnade.findings import Severity
 from colonnade.identification.response.rank import is_within
+from colonnade.store.records import wording
 from colonnade.store.records.stored import Failure, Stored
-from colonnade.store.records.wording import agree
 
 
 @dataclass(frozen=True)
@@ -82,8 +82,18 @@ class TestRow:
 
     @property
     def differing(self) -> list[str]:
-        """Models whose outcome is not the measured (or observed) one."""
-        return [model for model in self.models if self.agrees(model) is False]
+        """Models that predict another outcome than the measured (or observed) one, or whose runs do not hold it."""
+        return [model for model, mark in self.marks.items() if mark == wording.DIFFERS]
+
+    @property
+    def marks(self) -> dict[str, str]:
+        """The verdict on each model's prediction: ✓, ≠ or nothing."""
+        return {model: wording.verdict(self.record, model) for model in self.models}
+
+    def answer(self, level: float) -> str:
+        """Say what the test gave, and what each model predicts of it; `level` is that of the interval of e."""
+        said = (f"{model} {text}" for model, text in wording.predicted(self.record).items())
+        return "; ".join((wording.measured(self.record, level), *said))
 
     def predicted(self, model: str) -> PredictionSummary:
         """Return what a model predicts, empty if it has not run."""
@@ -91,7 +101,7 @@ class TestRow:
 
     def agrees(self, model: str) -> bool | None:
         """Return whether a model's outcome is the measured (or observed) one, None if either is not known."""
-        return agree(self.outcome, self.predicted(model).outcome or "")
+        return wording.agree(self.outcome, self.predicted(model).outcome or "")
 
     def verdict(self, model: str) -> str:
         """Return whether the measured angle is "within" or "outside" a model's own spread, empty if not judged."""

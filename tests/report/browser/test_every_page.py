@@ -49,6 +49,7 @@ def dead_links(page, folder: Path) -> list[str]:
     for url, targets in links.items():
         for target in targets:
             there, _, place = target.partition("#")
+            there = there.partition("?")[0]
             if there not in ids or (place and place not in ids[there]):
                 dead.append(f"{url} leads to {target}")
     return dead

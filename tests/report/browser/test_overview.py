@@ -39,6 +39,10 @@ def test_it_is_filtered_by_each_choice_and_by_words(overview):
     choose(overview, "linear", "overturned")
     assert overview.evaluate(SHOWN) == ["span-3.0"]
     assert overview.locator("#filter output").inner_text() == "1 of 9 tests"
+    choose(overview, "linear", "≠")
+    assert overview.evaluate(SHOWN) == ["span-2.5", "span-3.0"]
+    choose(overview, "linear", "outside")
+    assert overview.evaluate(SHOWN) == ["span-2.5"]
     overview.click("#filter button[type=reset]")
     overview.wait_for_function("document.querySelector('#filter output').textContent === '9 of 9 tests'")
     overview.fill("#filter input[name=words]", "sine Failed")
@@ -59,9 +63,39 @@ def test_a_status_and_an_outcome_are_found(overview, name, value, expected):
 
 
 def test_a_count_of_missed_outcomes_leads_to_its_tests_in_the_table(overview):
-    overview.click("#agreement a[data-filter='outcome=rocking&linear=overturned']")
+    overview.click("#agreement a[href='?outcome=rocking&linear=overturned#tests']")
+    overview.wait_for_function("document.querySelector('#filter output').textContent === '1 of 9 tests'")
     assert overview.evaluate(SHOWN) == ["span-3.0"]
-    assert overview.evaluate("document.activeElement.name") == "specimen"
+    assert overview.evaluate("document.getElementById('tests').getBoundingClientRect().top") < 300
+
+
+def test_the_address_holds_the_filter(overview):
+    choose(overview, "kind", "earthquake")
+    overview.fill("#filter input[name=words]", "span")
+    overview.wait_for_url("**/index.html?kind=earthquake&words=span")
+    overview.reload()
+    assert overview.evaluate(SHOWN) == ["span-2.0", "span-2.5", "span-3.0"]
+    overview.click("#filter button[type=reset]")
+    overview.wait_for_function("document.querySelector('#filter output').textContent === '9 of 9 tests'")
+    overview.wait_for_url("**/index.html")
+
+
+def test_at_1280_px_the_answers_are_seen_and_the_filters_are_one_line(visit):
+    page = visit("index.html", screen=(1280, 900))
+    heads = page.locator("#tests-table th[data-column]")
+    first = ["test", "differs", "peak", "peak-linear", "peak-nonlinear"]
+    assert heads.evaluate_all("heads => heads.map(head => head.dataset.column)")[:5] == first
+    assert heads.nth(4).bounding_box()["x"] + heads.nth(4).bounding_box()["width"] < 1280
+    tops = page.locator("#filter > *").evaluate_all("all => all.map(one => one.getBoundingClientRect())")
+    assert max(one["top"] for one in tops) < min(one["bottom"] for one in tops)
+
+
+def test_the_head_of_a_long_table_stays(thousand):
+    box = thousand.locator("#tests .scroll")
+    box.scroll_into_view_if_needed()
+    box.evaluate("box => { box.scrollTop = 900; }")
+    head = thousand.locator("#tests-table thead th").first
+    assert head.bounding_box()["y"] == pytest.approx(box.bounding_box()["y"], abs=1)
 
 
 def test_it_is_sorted_by_the_keyboard_and_what_is_not_known_stays_last(overview):
@@ -70,13 +104,14 @@ def test_it_is_sorted_by_the_keyboard_and_what_is_not_known_stays_last(overview)
     overview.keyboard.press("Enter")
     assert head.get_attribute("aria-sort") == "ascending"
     rows = overview.locator("#tests-table tbody tr")
-    peaks = [rows.nth(place).locator("td").nth(6).inner_text() for place in range(9)]
-    known = [float(peak) for peak in peaks if peak != "–"]
+    peaks = [rows.nth(place).locator("td").nth(1).inner_text() for place in range(9)]
+    known = [float(peak) for peak in peaks[:5]]
     assert known == sorted(known)
-    assert len(known) == 5
+    assert peaks[5] == "overturned"
+    assert set(peaks[6:]) == {"–", "observed: not-overturned"}
     overview.keyboard.press("Enter")
     assert head.get_attribute("aria-sort") == "descending"
-    assert float(rows.first.locator("td").nth(6).inner_text()) == max(known)
+    assert rows.first.locator("td").nth(1).inner_text() == "overturned"
     overview.click("#tests-table th[data-column='test'] button")
     assert overview.evaluate(SHOWN) == sorted(overview.evaluate(SHOWN))
     assert overview.locator("[aria-sort]").count() == 1

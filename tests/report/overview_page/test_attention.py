@@ -1,5 +1,7 @@
 from dataclasses import replace
 
+import pytest
+
 from colonnade.campaign.forms.summary import Warned
 from colonnade.report.overview_page.attention import attention
 from colonnade.report.overview_page.confusion import confusions
@@ -33,7 +35,7 @@ def test_each_kind_of_trouble_is_in_its_place(row_of):
     assert [(group.first.text, group.subjects) for group in found.serious] == [("ten times off", ["gain"])]
     assert [(model, cell.tests) for model, cell in found.missed] == [("linear", ("missed",))]
     assert [group.first.text for group in found.warnings] == ["it drifts"]
-    assert found.outside == [("linear", ["missed"])]
+    assert found.outside == [("linear", ["missed"], pytest.approx(0.1))]  # 5 % of the two that are judged
     assert (found.explained, found.notes) == (1, 1)
 
 
@@ -52,4 +54,4 @@ def test_of_many_missed_tests_a_few_are_named_and_the_table_has_all(row_of, fill
     found = looked_at([row_of(f"a{number:02d}", "overturned", linear=("rocking", 0.2)) for number in range(30)])
     page = renderer_of(filled_campaign[0]).page("overview/attention", "index.html", attention=found, specimens=[])
     assert page.count('href="tests/a') == 20
-    assert 'data-filter="outcome=overturned&amp;linear=rocking">10 more in the table</a>' in page
+    assert 'href="?outcome=overturned&amp;linear=rocking#tests">10 more in the table</a>' in page

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from colonnade.campaign.assessing.assessed import AssessmentSummary
 from colonnade.findings import Severity
+from colonnade.identification.response.rank import WITHIN
 from colonnade.report.overview_page.confusion import Cell, Confusion
 from colonnade.report.problems import WarningGroup
 from colonnade.report.rows import TestRow
@@ -28,8 +29,8 @@ class Attention:
     missed : list of (str, Cell)
         Model, and tests whose outcome it misses.
     warnings : list of WarningGroup
-    outside : list of (str, list of str)
-        Model, and tests whose measured angle is outside its own spread.
+    outside : list of (str, list of str, float)
+        Model, tests whose measured angle is outside its own spread, and how many of those judged are so by chance.
     explained, notes : int
         Findings that follow from another one, and notes; they are counted only.
     """
@@ -39,7 +40,7 @@ class Attention:
     serious: list[WarningGroup]
     missed: list[tuple[str, Cell]]
     warnings: list[WarningGroup]
-    outside: list[tuple[str, list[str]]]
+    outside: list[tuple[str, list[str], float]]
     explained: int
     notes: int
 
@@ -58,7 +59,8 @@ def attention(
 ) -> Attention:
     """Gather what needs a look; `groups` are the findings of all tests, specimens and assessments, the worst first."""
     causes = [group for group in groups if not group.first.explained]
-    outside = [(model, [row.id for row in tests if row.verdict(model) == "outside"]) for model in models]
+    judged = [(model, {row.id: said for row in tests if (said := row.verdict(model))}) for model in models]
+    outside = [(model, [id for id, said in own.items() if said == "outside"], own) for model, own in judged]
     return Attention(
         failed=[row for row in tests if row.record.status == "failed"],
         unanswered={
@@ -69,7 +71,7 @@ def attention(
         serious=[group for group in causes if group.first.severity == Severity.SERIOUS],
         missed=[(each.model, cell) for each in confusions for cell in each.wrong],
         warnings=[group for group in causes if group.first.severity == Severity.WARNING],
-        outside=[(model, names) for model, names in outside if names],
+        outside=[(model, names, (1 - WITHIN) * len(own)) for model, names, own in outside if names],
         explained=len(groups) - len(causes),
         notes=sum(group.first.severity == Severity.NOTE for group in causes),
     )

@@ -8,16 +8,11 @@
   const heads = Array.from(table.querySelectorAll("th[data-column]"));
   const shown = form.querySelector("output");
 
-  // Place of each named column in a row: the picture, which has no name, is behind the first four.
-  const place = {};
-  const inOrder = ["test", "specimen", "kind", "status", "", "pga", "outcome", "peak"]
-    .concat(heads.slice(7).map(function (head) { return head.dataset.column; }));
-  inOrder.forEach(function (name, index) { place[name] = index; });
-
   // In the order in which they stand.
   let rows = Array.from(body.rows, function (row) {
-    const cells = Array.from(row.cells, function (cell) { return cell.textContent.replace(/\s+/g, " ").trim(); });
-    return { row: row, cells: cells, words: cells.join(" ").toLowerCase(), fits: true };
+    const cells = Array.from(row.cells, function (cell) { return cell.dataset.order || cell.textContent.replace(/\s+/g, " ").trim(); });
+    const words = row.textContent.replace(/\s+/g, " ") + Object.values(row.dataset).join(" ");
+    return { row: row, cells: cells, words: words.toLowerCase(), fits: true };
   });
 
   // Rows that appear at once, about a screen of them. The others of a long table follow after a pause, some at a time,
@@ -44,31 +39,21 @@
     body.append(...rows.filter(function (each) { return each.fits; }).map(function (each) { return each.row; }));
   }
 
-  function fits(cell, wanted, name) {
-    if (name === "outcome") return cell.replace(/^– observed: /, "").split(" ")[0] === wanted;
-    if (name === "status") return cell.includes(wanted);
-    return cell.split(" ")[0] === wanted;
-  }
-
   function filter() {
-    const wanted = Array.from(form.querySelectorAll("select"), function (select) { return [select.name, select.value]; })
-      .filter(function (pair) { return pair[1]; });
+    const chosen = Array.from(new FormData(form)).filter(function (pair) { return pair[1]; });
+    const wanted = chosen.filter(function (pair) { return pair[0] !== "words"; });
     const words = form.elements.words.value.toLowerCase().split(/\s+/).filter(Boolean);
     rows.forEach(function (each) {
-      each.fits = wanted.every(function (pair) { return fits(each.cells[place[pair[0]]], pair[1], pair[0]); })
+      each.fits = wanted.every(function (pair) { return (each.row.dataset[pair[0]] || "").split(" ").includes(pair[1]); })
         && words.every(function (word) { return each.words.includes(word); });
     });
     shown.textContent = rows.filter(function (each) { return each.fits; }).length + " of " + rows.length + " tests";
+    history.replaceState(null, "", location.pathname + (chosen.length ? "?" + new URLSearchParams(chosen) : "") + location.hash);
     show();
   }
 
-  function value(text) {
-    const number = parseFloat(text.replace(/^< /, ""));
-    return Number.isNaN(number) ? text : number;
-  }
-
   function sort(head) {
-    const index = place[head.dataset.column];
+    const index = head.cellIndex;
     const down = head.getAttribute("aria-sort") === "ascending";
     heads.forEach(function (other) { other.removeAttribute("aria-sort"); });
     head.setAttribute("aria-sort", down ? "descending" : "ascending");
@@ -76,7 +61,8 @@
     const names = new Intl.Collator(undefined, { numeric: true });
     const keyed = rows.map(function (each) {
       const text = each.cells[index];
-      return { each: each, key: isNumber ? value(text) : text, missing: text === "–" || text === "" };
+      const key = isNumber ? parseFloat(text.replace(/^< /, "")) : text;
+      return { each: each, key: key, missing: text === "–" || text === "" || Number.isNaN(key) };
     });
     keyed.sort(function (one, other) {
       if (one.missing || other.missing) return one.missing - other.missing;
@@ -98,24 +84,14 @@
   form.addEventListener("input", filter);
   form.addEventListener("submit", function (event) { event.preventDefault(); });
   form.addEventListener("reset", function () { setTimeout(filter); });
-  document.addEventListener("click", function (event) {
-    const link = event.target.closest("a[data-filter]");
-    if (!link) return;
-    event.preventDefault();
-    form.reset();
-    new URLSearchParams(link.dataset.filter).forEach(function (wanted, name) {
-      if (form.elements[name]) form.elements[name].value = wanted;
-    });
-    filter();
-    document.getElementById("tests").scrollIntoView();
-    (form.querySelector("select") || form.elements.words).focus({ preventScroll: true });
+  // The address holds the filter: a link to the table, and a page that loads itself again, bring it along.
+  new URLSearchParams(location.search).forEach(function (wanted, name) {
+    if (form.elements[name]) form.elements[name].value = wanted;
   });
   colonnade.keep("tests", function () {
     const sorted = heads.find(function (head) { return head.hasAttribute("aria-sort"); });
-    const wanted = Array.from(form.querySelectorAll("select, input"), function (field) { return [field.name, field.value]; });
-    return { wanted: wanted, column: sorted && sorted.dataset.column, order: sorted && sorted.getAttribute("aria-sort") };
+    return { column: sorted && sorted.dataset.column, order: sorted && sorted.getAttribute("aria-sort") };
   }, function (kept) {
-    kept.wanted.forEach(function (pair) { if (form.elements[pair[0]]) form.elements[pair[0]].value = pair[1]; });
     const head = heads.find(function (one) { return one.dataset.column === kept.column; });
     if (head) {
       sort(head);
