@@ -4,6 +4,7 @@
 const LEFT = 64; // px left of the frame of each panel, so that all frames are above each other
 const RIGHT = 60; // px right of the frames of a group in which a panel has an axis there
 const LARGEST_RATIO = 1.35; // of θ/α: an overturning leaves the axis
+const FEW = 0.001; // share of flagged samples that is only noted
 const FLAGS = { 2: "not evaluated", 3: "suspect", 4: "failed", 9: "missing" };
 
 // An element with attributes and children; texts are texts, never markup.
@@ -53,7 +54,7 @@ colonnade.Panel = class {
     this.root = colonnade.element("section", { class: "panel" }, colonnade.element("h3", {}, given.title + unit), this.keys, this.box);
     for (const shown of [...this.curves, ...this.bands]) this.addKey(shown, `${group.title}, ${given.title}, ${shown.name}`);
     for (const mark of given.marks || []) this.keys.append(colonnade.element("span", { class: "mark" }, `┊ ${mark.name}: ${mark.time.toFixed(2)} s`));
-    if (given.flags && given.flags.length) this.keys.append(this.flagKey(given.flags));
+    if (given.flags && given.flags.length) this.keys.append(this.flagKey(given.flags, this.curves[0].of.length));
   }
 
   // A button that turns a curve on and off, with its look and its value.
@@ -78,11 +79,12 @@ colonnade.Panel = class {
     this.keys.append(button);
   }
 
-  flagKey(flags) {
+  flagKey(flags, samples) {
     const counts = new Map();
     for (const [first, last, flag] of flags) counts.set(flag, (counts.get(flag) || 0) + last - first);
     const said = [...counts].map(([flag, count]) => `${count} ${FLAGS[flag] || flag}`).join(", ");
-    return colonnade.element("span", { class: "flags" }, `× flagged samples: ${said}`);
+    const isFew = [...counts.values()].reduce((sum, count) => sum + count) <= FEW * samples;
+    return colonnade.element("span", { class: isFew ? "mark" : "flags" }, `× flagged samples: ${said}`);
   }
 
   async make() {

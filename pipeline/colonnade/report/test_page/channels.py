@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
+from colonnade.signals.quality import FEW_SPIKES
 from colonnade.store.records.stored import Samples, Stored
 from colonnade.store.records.wording import CHANNEL_UNITS, NOTHING, number, quantity, share
 from colonnade.units import PERCENT, with_minus
@@ -29,6 +30,7 @@ class ChannelRow:
     quantity: str
     recorded: str
     flagged: str
+    few_flagged: bool
     quality: str
     zero: str
     zero_window: str
@@ -73,6 +75,7 @@ def _channel(
         quantity=kind.replace("_", " "),
         recorded="" if samples is None else f"{samples.count} at {quantity(samples.rate, 'Hz', 4)}",
         flagged=NOTHING if samples is None else _flagged(samples),
+        few_flagged=samples is None or sum(samples.flagged.values()) <= FEW_SPIKES * samples.count,
         quality=str(given.get("quality_report", "")) or _GOOD,
         zero=value("zero", 4),
         zero_window=str(given.get("zero_window", "")) or NOTHING,
