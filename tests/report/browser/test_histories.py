@@ -9,6 +9,7 @@ import re
 import numpy as np
 import pytest
 
+from browsing import TELEPHONE
 from colonnade.store import files
 from colonnade.store.results import ResultId
 
@@ -63,7 +64,7 @@ def saved(page, button) -> str:
 
 
 def test_every_history_has_its_panel(page):
-    for title in ("Channels, conditioned", "Channels, as recorded"):
+    for title in ("Table motion", "Channels, conditioned", "Channels, as recorded"):
         opened(page, title)
     titles = page.locator(".panel h3").all_inner_texts()
     assert titles[0] == "Rocking angle over critical angle, θ/α"
@@ -126,6 +127,7 @@ def test_the_cursor_gives_the_stored_values_with_their_units(page, filled_campai
     _, layout = filled_campaign
     rocking = files.read(layout.path(ResultId(TEST, "rocking")))
     index = 700
+    opened(page, "Table motion")
     time = float(rocking["elapsed"][index])
     page.evaluate("time => colonnade.page.move(time)", time)
     shown = panel(page, "Base acceleration").locator(".value").inner_text()
@@ -248,6 +250,7 @@ def test_flagged_samples_of_a_recorded_channel_are_marked(page, filled_campaign)
 
 
 def test_all_samples_are_saved_as_csv_with_units(page, filled_campaign):
+    opened(page, "Table motion")
     group = page.locator(".group-of-panels", has_text="Table motion")
     rows = list(csv.reader(io.StringIO(saved(page, group.get_by_role("button", name="all samples as CSV")))))
     assert rows[0] == ["time (s)", "base acceleration, base acceleration (m/s²)"]
@@ -274,11 +277,57 @@ def test_what_a_picture_shows_is_saved_as_csv(page, filled_campaign):
     np.testing.assert_allclose([float(row[0]) for row in rows[1:] if row[0]], rocking["elapsed"], atol=1e-6)
 
 
+ORDER = ["histories", "findings", "found", "closer", "spread", "table", "channels", "done", "setup"]
+
+
+@pytest.mark.parametrize(
+    ("screen", "below"), [((1280, 900), 900), ((390, 844), 2 * 844)], ids=["first of a desk", "second of a phone"]
+)
+@pytest.mark.parametrize("test", [TEST, "free-01", "sine-3hz-too-strong-for-the-block-1"])
+def test_the_answer_is_in_the_heading_and_the_angle_on_the_screen(visit, test, screen, below):
+    page = visit(f"tests/{test}.html", screen=screen)
+    page.wait_for_function(READY)
+    answer = page.locator("header .answer").bounding_box()
+    assert answer["y"] + answer["height"] < screen[1] / 2
+    assert page.locator(".plotted").first.bounding_box()["y"] < below
+
+
+def test_sections_stand_in_the_order_in_which_they_are_asked_for(visit):
+    page = visit(f"tests/{TEST}.html")
+    assert page.locator("main section[id]").evaluate_all("all => all.map(one => one.id)") == ORDER
+    answer = page.locator("header .answer")
+    assert re.fullmatch(r"rocking 0\.6\d* α; nonlinear 0\.5\d* ≠; linear 0\.5\d* ≠", answer.inner_text())
+    page.goto(page.url.replace(TEST, "free-01"))
+    assert re.match(r"e 0\.93\d* ± 0\.000\d+; nonlinear", answer.inner_text())
+
+
+def test_on_a_telephone_names_are_below_their_curves_and_no_key_is_named(visit):
+    page = visit(f"tests/{TEST}.html", screen=TELEPHONE)
+    page.wait_for_function(READY)
+    plot, keys = (page.locator(f".panel {part}").first.bounding_box() for part in (".plotted", ".curves"))
+    assert keys["y"] >= plot["y"] + plot["height"]
+    assert "Shift" not in page.locator("body").inner_text()
+
+
+def test_a_specimen_begins_with_e_and_its_decay_and_the_map_follows(visit):
+    page = visit("specimens/prism.html", screen=(1280, 900))
+    ids = page.locator("main section[id]").evaluate_all("all => all.map(one => one.id)")
+    assert ids[:3] == ["restitution", "map", "properties"]
+    assert page.locator("header .answer").inner_text().startswith("e 0.93")
+    assert page.locator("#restitution figure").first.bounding_box()["y"] < 900
+
+
+def test_a_picture_whose_marks_lead_to_tests_can_be_taken_along(visit):
+    page = visit("index.html")
+    page.wait_for_function("document.querySelector('.downloads')")
+    assert page.locator("figure:has(#peaks[role=group]) .downloads button").all_inner_texts() == ["SVG", "PNG", "CSV"]
+
+
 @pytest.mark.parametrize("address", ["specimens/prism.html", "index.html"])
 def test_every_picture_of_every_page_can_be_taken_along(visit, address):
     page = visit(address)
     page.wait_for_function("document.querySelector('.downloads')")
-    pictures = page.locator("figure:has(svg[role=img])")
+    pictures = page.locator("figure:has(svg[role])")
     for picture in pictures.all():
         assert picture.locator(".downloads button").all_inner_texts() == ["SVG", "PNG", "CSV"]
     assert "," in saved(page, pictures.last.get_by_role("button", name="as CSV")).splitlines()[0]
@@ -287,7 +336,7 @@ def test_every_picture_of_every_page_can_be_taken_along(visit, address):
 def test_without_scripts_the_picture_stands(visit):
     page = visit(f"tests/{TEST}.html", scripts=False)
     assert page.locator(".replaced svg").is_visible()
-    assert page.locator("#histories").is_hidden()
+    assert page.locator(".panels").count() == 0
 
 
 def test_a_page_that_was_moved_alone_has_its_picture(browser, report_folder, tmp_path):
@@ -301,7 +350,7 @@ def test_a_page_that_was_moved_alone_has_its_picture(browser, report_folder, tmp
 def test_on_paper_the_picture_stands(page):
     page.emulate_media(media="print")
     assert page.locator(".replaced svg").is_visible()
-    assert page.locator("#histories").is_hidden()
+    assert page.locator(".panels").is_hidden()
     page.emulate_media(media="screen")
 
 

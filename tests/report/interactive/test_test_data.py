@@ -38,7 +38,7 @@ def panels_of(given, group):
 def test_groups_in_their_order_and_what_is_shown_at_first(shaken):
     assert [(group["title"], group["is_open"]) for group in shaken[0]["groups"]] == [
         ("Response", True),
-        ("Table motion", True),
+        ("Table motion", False),
         ("Channels, conditioned", False),
         ("Channels, as recorded", False),
     ]

@@ -59,7 +59,7 @@ def of_test(
     block, samples = campaign.block(test.specimen), Samples()
     groups: list[tuple[str, bool, Callable[[Samples], list[Panel]]]] = [
         ("Response", True, partial(_response, stored, block)),
-        ("Table motion", True, partial(_base, stored, block)),
+        ("Table motion", False, partial(_base, stored, block)),
         ("Channels, conditioned", False, partial(_conditioned, conditioned)),
         ("Channels, as recorded", False, partial(_recorded, recorded, conditioned)),
     ]

@@ -44,8 +44,9 @@ colonnade.Page = class {
       this.root.append(this.block.root);
     }
     const made = this.given.groups.map((group) => this.addGroup(group));
+    this.root.append(this.hint);
     this.place.append(this.root);
-    this.place.hidden = false;
+    this.place.closest("section").hidden = false;
     this.addToContents();
     await Promise.all(made.map((group) => group.open && this.fill(group)));
     document.documentElement.classList.add("scripted"); // the style sheet hides the picture that the panels replace
@@ -68,11 +69,11 @@ colonnade.Page = class {
     });
   }
 
-  // The table of contents is written without the sections that need scripts.
+  // The table of contents is written without a section that needs scripts.
   addToContents() {
-    const before = [...document.querySelectorAll(".contents a")].filter((link) => ["#done", "#found"].includes(link.hash)).at(-1);
-    const link = colonnade.element("a", { href: `#${this.place.id}` }, this.place.querySelector("h2").textContent);
-    if (before) before.closest("li").after(colonnade.element("li", {}, link));
+    const [contents, section] = [document.querySelector(".contents ul"), this.place.closest("section")];
+    if (!contents || contents.querySelector(`[href="#${section.id}"]`)) return;
+    contents.prepend(colonnade.element("li", {}, colonnade.element("a", { href: `#${section.id}` }, section.querySelector("h2").textContent)));
   }
 
   // Time of the largest value of the first curve, where the cursor stands at first.
@@ -97,8 +98,8 @@ colonnade.Page = class {
       button("Reset", "Show the whole record", () => this.reset()),
       ...(this.given.moving ? [this.playing, this.speed] : []),
       this.time);
-    const hint = colonnade.element("p", { class: "soft hint", id: "interactive-hint" }, `${POINTERS} ${KEYS}`);
-    this.root = colonnade.element("div", { class: "panels", tabindex: "0", role: "group", "aria-label": `Histories of ${this.given.page}`, "aria-describedby": "interactive-hint" }, bar, hint, this.status);
+    this.hint = colonnade.element("p", { class: "soft hint", id: "interactive-hint" }, `${POINTERS} ${KEYS}`);
+    this.root = colonnade.element("div", { class: "panels", tabindex: "0", role: "group", "aria-label": `Histories of ${this.given.page}`, "aria-describedby": "interactive-hint" }, bar, this.status);
     this.root.addEventListener("keydown", (event) => this.press(event));
   }
 
