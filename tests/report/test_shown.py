@@ -93,6 +93,14 @@ def test_failures_come_first_with_stage_and_whole_reason(texts, overview):
         assert "Put the recording in its place." in text
 
 
+def test_one_thing_has_one_word(texts):
+    for address, text in texts.items():
+        words = words_of(text)
+        assert "± <" not in words, address
+        assert not re.search(r"\b[Ss]etups?\b|[Mm]easured over predicted", words), address
+    assert "3 notes" in words_of(texts["specimens/prism.html"])  # not warnings
+
+
 def test_the_summary_counts_tests_and_gives_each_restitution(overview):
     words = words_of(overview)
     assert "9 tests: 7 done, 1 failed, 1 not finished." in words

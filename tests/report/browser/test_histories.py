@@ -249,6 +249,15 @@ def test_flagged_samples_of_a_recorded_channel_are_marked(page, filled_campaign)
     assert page.evaluate(f"{find}.marked.data.x.length") == suspect
 
 
+def test_a_single_flagged_sample_is_grey(visit):
+    page = visit("tests/span-2.0.html")
+    page.wait_for_function(READY)
+    opened(page, "Channels, as recorded")
+    top = panel(page, "top, as recorded")
+    assert "1 failed" in top.locator(".mark").inner_text()
+    assert top.locator(".flags").count() == 0
+
+
 def test_all_samples_are_saved_as_csv_with_units(page, filled_campaign):
     opened(page, "Table motion")
     group = page.locator(".group-of-panels", has_text="Table motion")

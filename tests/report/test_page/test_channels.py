@@ -16,6 +16,11 @@ def test_a_channel_has_its_samples_its_flags_and_what_conditioning_did(reported)
     assert top.noise.endswith(" mm")
 
 
+def test_a_few_flagged_samples_are_told_from_many(reported):
+    assert rows_of(reported, "span-2.0")["top"].few_flagged  # 1 of 1625
+    assert not rows_of(reported, "span-2.5")["top"].few_flagged
+
+
 def test_two_transducers_for_two_motions_leave_no_residual(reported):
     rows = rows_of(reported, "span-2.5")
     assert rows["top"].residual == "no redundancy"
