@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import inspect
+import re
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
@@ -289,18 +290,43 @@ def public() -> Iterator[tuple[str, Callable[..., Any]]]:
                 yield f"{name}.{method}", function
 
 
-def cases() -> Iterator[Any]:
-    for name, call in CALLS.items():
-        for argument, kind in call.kinds.items():
-            for told, value in FOR[kind].items():
-                others = OTHERS.get((name, argument), {})
-                yield pytest.param(call, argument, value, others, id=f"{name} {argument} {told}")
-
-
-@pytest.mark.parametrize(("call", "argument", "value", "others"), list(cases()))
-def test_a_hostile_argument_is_refused_by_its_name(call, argument, value, others):
-    with pytest.raises(ValueError, match=rf"\b{argument}\b"):
+def fault(call: Call, argument: str, told: str, value: object, others: dict[str, Any]) -> str | None:
+    """Give what is wrong with how a call takes a hostile value; None if it refuses it by its name."""
+    try:
         call.function(**(call.sound | others | {argument: value}))
+    except ValueError as refusal:
+        named = re.search(rf"\b{argument}\b", str(refusal))
+        return None if named else f"{argument}, {told}: the refusal does not name it: {refusal}"
+    except Exception as error:
+        return f"{argument}, {told}: {type(error).__name__} in place of a ValueError: {error}"
+    return f"{argument}, {told}: not refused"
+
+
+@pytest.mark.parametrize("name", sorted(CALLS))
+def test_hostile_arguments_are_refused_by_their_names(name):
+    call = CALLS[name]
+    faults = [
+        fault(call, argument, told, value, OTHERS.get((name, argument), {}))
+        for argument, kind in call.kinds.items()
+        for told, value in FOR[kind].items()
+    ]
+    assert not [each for each in faults if each]
+
+
+def test_a_hostile_value_that_is_taken_misnamed_or_crashes_is_a_fault():
+    def refuses(width: float) -> None:
+        raise ValueError("width is negative")
+
+    def misnames(width: float) -> None:
+        raise ValueError("a size is negative")
+
+    def crashes(width: float) -> None:
+        raise KeyError("width")
+
+    found = [fault(Call(each, {}, {}), "width", "negative", -1.0, {}) for each in (refuses, misnames, crashes)]
+    assert found[0] is None
+    assert ["does not name it" in str(found[1]), "KeyError" in str(found[2])] == [True, True]
+    assert fault(Call(lambda width: width, {}, {}), "width", "negative", -1.0, {}) == "width, negative: not refused"
 
 
 def test_no_public_call_and_none_of_its_arguments_is_left_out():
