@@ -59,11 +59,17 @@ def test_other_dropped_exceptions_are_shown_as_usual(monkeypatch, kind):
 
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="signals of this kind are POSIX's")
 @pytest.mark.parametrize(
-    ("before", "is_listened_to"), [("", True), ("signal.signal(signal.SIGINT, signal.SIG_IGN)", False)]
+    ("before", "listened_to"),
+    [
+        ("", ["True"] * 3),
+        ("signal.signal(signal.SIGINT, signal.SIG_IGN)", ["True", "False", "True"]),
+        ("signal.signal(signal.SIGHUP, signal.SIG_IGN)", ["True", "True", "False"]),
+    ],
 )
-def test_a_signal_that_a_shell_ignores_stays_ignored(before, is_listened_to):
+@pytest.mark.usefixtures("interruptible")
+def test_a_signal_that_a_shell_ignores_stays_ignored(before, listened_to):
     lines = ["import signal", before, "from colonnade import interruption as i", "i.listen()"]
-    lines += ["print(signal.getsignal(signal.SIGTERM) is i.note, signal.getsignal(signal.SIGINT) is i.note)"]
+    lines += ["print(*(signal.getsignal(each) is i.note for each in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)))"]
     lines += ["i.stop_listening()", "print(signal.getsignal(signal.SIGTERM) == signal.SIG_IGN)"]
     told = subprocess.run([sys.executable, "-c", "\n".join(lines)], capture_output=True, text=True)
-    assert told.stdout.split() == ["True", str(is_listened_to), "True"], told.stderr
+    assert told.stdout.split() == [*listened_to, "True"], told.stderr

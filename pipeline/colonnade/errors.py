@@ -46,6 +46,12 @@ class StoreError(ColonnadeError):
     """A result cannot be written or read back."""
 
 
+SHORT_OF_MEMORY = (
+    "The machine ran out of memory. Finished results are kept. Run again with fewer workers (`--workers 1` uses the "
+    "least memory), or close other programs first."
+)
+
+
 class RunEndedError(ColonnadeError):
     """The run that this process works for has ended; it must not write anything."""
 

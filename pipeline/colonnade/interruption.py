@@ -1,5 +1,5 @@
 """
-Ctrl-C and SIGTERM, noted when they arrive.
+Ctrl-C, SIGTERM and SIGHUP, noted when they arrive.
 
 Python raises KeyboardInterrupt wherever its main thread is. In a callback or a finaliser it prints the exception and
 goes on, and a compiled module may make another exception of it. So the signal is noted too: it is sent again if Python
@@ -20,17 +20,21 @@ _noted: list[int] = []
 """Signals in the order in which they came."""
 
 
+FROM_TERMINAL = frozenset({signal.SIGINT, getattr(signal, "SIGHUP", signal.SIGINT)})
+"""Signals that a terminal sends to all processes of a command, and that a shell or `nohup` may have ignored."""
+
+
 def listen() -> None:
-    """Note SIGTERM, and SIGINT except where a shell has it ignored; both raise KeyboardInterrupt."""
-    signal.signal(signal.SIGTERM, note)
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, note)
+    """Note SIGTERM, and those of `FROM_TERMINAL` that are not ignored; all raise KeyboardInterrupt."""
+    for signum in {signal.SIGTERM, *FROM_TERMINAL}:
+        if signum == signal.SIGTERM or signal.getsignal(signum) is not signal.SIG_IGN:
+            signal.signal(signum, note)
     sys.unraisablehook = _dropped
 
 
 def stop_listening() -> None:
     """Ignore what comes from here on: the process ends."""
-    for signum in (signal.SIGTERM, signal.SIGINT):
+    for signum in {signal.SIGTERM, *FROM_TERMINAL}:
         signal.signal(signum, signal.SIG_IGN)
 
 

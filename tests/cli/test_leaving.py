@@ -10,7 +10,8 @@ import time
 
 import pytest
 
-from colonnade.cli.app import COMMANDS
+from colonnade.cli import invoke
+from colonnade.cli.app import COMMANDS, app
 
 
 def test_help_is_a_success(process):
@@ -51,6 +52,35 @@ def test_a_reader_that_goes_away_is_no_error(tmp_path):
     assert told.stderr == ""
 
 
+@pytest.mark.skipif(os.name == "nt", reason="a shell that closes a stream")
+@pytest.mark.parametrize("closed", [">&-", ">&- 2>&-"])
+def test_nobody_reads_a_closed_stream_and_that_is_no_error(tmp_path, closed):
+    command = f"{sys.executable} -m colonnade schema campaign {closed}"
+    told = subprocess.run(["bash", "-c", command], cwd=tmp_path, capture_output=True, encoding="utf-8")
+    assert (told.returncode, told.stdout, told.stderr) == (0, "", "")
+
+
+@pytest.mark.parametrize(
+    ("error", "code"),
+    [
+        (MemoryError(), 1),
+        (ImportError("libx.so: failed to map segment from shared object"), 1),
+        (ImportError("x"), None),
+    ],
+)
+def test_too_little_memory_is_a_sentence_and_a_bug_a_traceback(monkeypatch, capsys, error, code):
+    def fail(*_, **__):
+        raise error
+
+    monkeypatch.setattr(app, "main", fail)
+    if code is None:
+        with pytest.raises(ImportError, match="x"):
+            invoke(())
+        return
+    assert invoke(()) == code
+    assert capsys.readouterr().err.startswith("The machine ran out of memory.")
+
+
 def test_a_console_without_greek_letters_gets_question_marks(process, campaign):
     told = process("show", "specimens", PYTHONIOENCODING="ascii:strict", PYTHONUTF8="0")
     assert told.returncode == 0
@@ -63,8 +93,10 @@ def test_a_console_without_greek_letters_gets_question_marks(process, campaign):
     [
         pytest.param("killpg", signal.SIGINT, id="Ctrl-C reaches the workers too"),
         pytest.param("kill", signal.SIGTERM, id="a polite kill reaches the parent alone"),
+        pytest.param("killpg", getattr(signal, "SIGHUP", 0), id="a terminal that closes reaches the workers too"),
     ],
 )
+@pytest.mark.usefixtures("interruptible")
 def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign, send, sent):
     running = subprocess.Popen(
         [sys.executable, "-m", "colonnade", "run", "--workers", "2"],
@@ -84,6 +116,32 @@ def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign,
     assert "Interrupted" in complaints
     assert "Traceback" not in complaints
     assert colonnade("run", "--workers", "1").returncode == 0
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+def test_ending_a_watch_is_no_error(campaign):
+    watching = subprocess.Popen(
+        [sys.executable, "-m", "colonnade", "watch", "--workers", "1"],
+        cwd=campaign,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+    )
+    deadline = time.monotonic() + 60.0
+    while not (campaign / "processed" / ".watcher.json").exists() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    watching.send_signal(signal.SIGHUP)
+    _, complaints = watching.communicate(timeout=60)
+    assert (watching.returncode, complaints) == (0, "The watch has ended. All results are kept.\n")
+
+
+def test_a_watch_that_is_interrupted_before_its_one_round_is_130(colonnade, campaign, monkeypatch):
+    from colonnade.workflow.watching import watch
+
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(watch, "watch", interrupted)
+    assert [colonnade("watch", *once).returncode for once in ((), ("--once",))] == [0, 130]
 
 
 INSIDE_EXEC = """

@@ -61,7 +61,7 @@ class Page(HTMLParser):
 
 def built(campaign: Campaign, layout: Layout, outdated: set[str] = frozenset(), **options) -> Path:
     """Write the summary and the report, as a run does."""
-    write_summary(campaign, layout, Catalogue(layout), outdated=outdated)
+    write_summary(campaign, layout, Catalogue(layout), outdated=dict.fromkeys(outdated, ""))
     return build(campaign, layout, outdated, **options)
 
 

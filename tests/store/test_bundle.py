@@ -21,10 +21,13 @@ def test_it_holds_every_file_and_is_whole_when_unpacked_elsewhere(tmp_path_facto
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_bytes(data)
     target = folder.parent / "all.zip"
-    write_bundle(folder, target)
+    write_bundle(folder, target, own=content)
     with zipfile.ZipFile(target) as archive:
         assert archive.namelist() == sorted(f"report/{name}" for name in content)
         assert {name.removeprefix("report/"): archive.read(name) for name in archive.namelist()} == content
+
+
+OWN = ("tests/a.html", "index.html", "not-made-yet.html")
 
 
 @pytest.fixture
@@ -37,26 +40,27 @@ def folder(tmp_path):
 
 
 def test_the_same_report_gives_the_same_bytes_whatever_its_times(folder, tmp_path):
-    write_bundle(folder, tmp_path / "one.zip")
+    write_bundle(folder, tmp_path / "one.zip", own=OWN)
     os.utime(folder / "index.html", (1, 1))
     (folder / "tests" / "a.html").chmod(0o600)
-    write_bundle(folder, tmp_path / "two" / "other.zip")
+    write_bundle(folder, tmp_path / "two" / "other.zip", own=OWN)
     assert (tmp_path / "one.zip").read_bytes() == (tmp_path / "two" / "other.zip").read_bytes()
 
 
 def test_a_text_replaces_a_file_and_is_there_without_one(folder, tmp_path):
     texts = {"index.html": "another", "state.js": "unwatched"}
-    write_bundle(folder, tmp_path / "all.zip", instead=texts)
+    write_bundle(folder, tmp_path / "all.zip", own=OWN, instead=texts)
     with zipfile.ZipFile(tmp_path / "all.zip") as archive:
         assert archive.namelist() == ["report/index.html", "report/state.js", "report/tests/a.html"]
         assert {name: archive.read(f"report/{name}").decode() for name in texts} == texts
 
 
-def test_what_is_hidden_or_leads_elsewhere_stays_out(folder, tmp_path):
+def test_what_is_not_of_the_report_or_leads_elsewhere_stays_out(folder, tmp_path):
     (tmp_path / "secret").write_text("secret")
     (folder / "link.html").symlink_to(tmp_path / "secret")
     (folder / ".index.html.12.partial").write_text("half")
-    write_bundle(folder, tmp_path / "all.zip")
+    (folder / "salaries.xlsx").write_text("put here by somebody")
+    write_bundle(folder, tmp_path / "all.zip", own=(*OWN, "link.html"))
     with zipfile.ZipFile(tmp_path / "all.zip") as archive:
         assert archive.namelist() == ["report/index.html", "report/tests/a.html"]
 
@@ -68,7 +72,7 @@ def test_what_is_hidden_or_leads_elsewhere_stays_out(folder, tmp_path):
 def test_a_target_that_would_do_harm_is_refused(folder, tmp_path, name, told):
     (tmp_path / "there.zip").mkdir()
     with pytest.raises(StoreError, match=told):
-        write_bundle(folder, tmp_path / name)
+        write_bundle(folder, tmp_path / name, own=OWN)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["report", "there.zip"]
 
 
@@ -81,6 +85,6 @@ def test_a_bundle_that_cannot_be_finished_leaves_the_old_one(folder, tmp_path, m
 
     monkeypatch.setattr(zipfile.ZipFile, "open", full)
     with pytest.raises(StoreError, match="disk is full"):
-        write_bundle(folder, target)
+        write_bundle(folder, target, own=OWN)
     assert target.read_bytes() == b"old"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["all.zip", "report"]

@@ -62,14 +62,14 @@ def test_empty_columns_of_numbers_and_text_come_back_empty(tmp_path):
     assert stored["impact_time"].shape == (0,)
 
 
-def test_the_content_is_that_of_the_values_and_not_of_dates_keys_or_warnings(tmp_path):
+def test_the_content_is_that_of_values_and_warnings_and_not_of_dates_or_keys(tmp_path):
     first = files.write(record(), tmp_path / "a.nc", attributes={"date_created": "2024-01-01", "key": "a"})
-    again = record()
-    again.attrs["warnings"] = []
-    same = files.write(again, tmp_path / "b.nc", attributes={"date_created": "2025-01-01", "key": "b"})
+    same = files.write(record(), tmp_path / "b.nc", attributes={"date_created": "2025-01-01", "key": "b"})
     assert same.attrs["content"] == first.attrs["content"]
     other = files.write(record([0.0, 1.0 + 1e-15, np.nan]), tmp_path / "c.nc", attributes={})
     assert other.attrs["content"] != first.attrs["content"]
+    warned = files.write(record().assign_attrs(warnings=[]), tmp_path / "d.nc", attributes={})
+    assert warned.attrs["content"] != first.attrs["content"]
 
 
 def test_no_number_gets_a_fill_value_whatever_text_is_stored_before_it(tmp_path):
@@ -104,7 +104,7 @@ def test_a_file_that_was_cut_is_told(tmp_path):
     files.write(record(), path, attributes={})
     path.write_bytes(path.read_bytes()[:2000])
     for read in (files.read, files.read_attributes):
-        with pytest.raises(StoreError, match=r"changed or damaged after colonnade wrote it\. Delete it and run again"):
+        with pytest.raises(StoreError, match=r"changed or damaged after colonnade wrote it\. Run `colonnade run`"):
             read(path)
 
 

@@ -15,8 +15,9 @@ from colonnade.workflow.catalogue import Catalogue
 def opened(monkeypatch):
     """Results whose files were opened, by name."""
     names = []
-    attributes = module.stored_attributes
-    monkeypatch.setattr(module, "stored_attributes", lambda path: names.append(path.name) or attributes(path))
+    for place, name in ((module, "stored_attributes"), (files, "read")):
+        ask = getattr(place, name)
+        monkeypatch.setattr(place, name, lambda path, ask=ask: names.append(path.name) or ask(path))
     return names
 
 

@@ -183,6 +183,19 @@ def test_verifying_heals_results_that_were_altered(small):
     assert small.run(verify=True).notices == ()
 
 
+def test_a_result_that_was_altered_is_recomputed_by_an_ordinary_run(small):
+    before, path = small.contents(), small.layout.stage("pulse-01", "rocking")
+    alter(path)
+    os.utime(path)
+    small.edit('mass = "26.10 kg"', 'mass = "26.20 kg"')  # what reads it is redone
+    result = small.run()
+    assert not result.failed
+    assert result.notices == ("processed/tests/pulse-01/rocking.nc: it was altered or damaged, so it is recomputed.",)
+    small.edit('mass = "26.20 kg"', 'mass = "26.10 kg"')
+    assert small.run().notices == ()
+    assert small.contents() == before
+
+
 def pages(small):
     return {name: state for name, state in small.files().items() if name.startswith("report/")}
 

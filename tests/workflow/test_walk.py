@@ -102,11 +102,23 @@ def test_progress_counts_the_tests_of_each_part_of_the_way(untouched):
 
 
 def test_what_is_out_of_date_is_found_without_being_done(small):
-    assert walk_of(small).stale() == set()
+    assert walk_of(small).stale() == {}
     small.change_a_sample("pulse-02")
     walk = walk_of(small, start_from="ingest")
-    assert walk.stale() == {"pulse-02"}
+    assert walk.stale() == {"pulse-02": "its results are out of date (raw file changed); run again"}
     assert walk.stages == []
+
+
+def test_a_test_that_was_not_run_to_the_end_says_how_far(untouched):
+    untouched.run(until="ingest", only="pulse-02")
+    untouched.run(until="restitution", only="free-01")
+    tests = untouched.summary()["tests"]
+    assert {name: test["reason"] for name, test in tests.items()} == {
+        "free-01": "run only as far as restitution; `colonnade run` does the rest",
+        "free-02": None,
+        "pulse-01": None,
+        "pulse-02": "run only as far as ingest; `colonnade run` does the rest",
+    }
 
 
 def test_a_chain_is_redone_from_the_first_stage_unless_it_is_only_looked_at(small):

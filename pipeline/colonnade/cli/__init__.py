@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import sys
 from collections.abc import Sequence
 from typing import NoReturn
@@ -20,7 +21,10 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 
     0 all good; 1 some test failed, the others are done; 2 usage or campaign file; 130 interrupted.
     """
-    for stream in (sys.stdout, sys.stderr):
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:  # closed by the shell (`>&-`): nobody reads it
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115, PTH123 — until the end
         if isinstance(stream, io.TextIOWrapper):
             # A console that cannot show θ or ± gets a question mark, not a traceback.
             stream.reconfigure(errors="replace")
@@ -55,7 +59,7 @@ def invoke(arguments: Sequence[str] | None = None) -> int:
 
     from colonnade.cli.app import app
     from colonnade.cli.common.console import close_output, complain
-    from colonnade.errors import CampaignError, ColonnadeError
+    from colonnade.errors import SHORT_OF_MEMORY, CampaignError, ColonnadeError
 
     try:
         code = app.main(arguments, prog_name="colonnade", standalone_mode=False)
@@ -70,6 +74,11 @@ def invoke(arguments: Sequence[str] | None = None) -> int:
         return 2
     except ColonnadeError as error:
         complain(str(error))
+        return 1
+    except (MemoryError, ImportError) as error:
+        if isinstance(error, ImportError) and "failed to map segment" not in str(error):
+            raise
+        complain(SHORT_OF_MEMORY)
         return 1
     except OSError as error:
         complain(f"{error.filename or 'A file'}: {error.strerror or error}")

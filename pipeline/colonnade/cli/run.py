@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import rich_click as click
 
 from colonnade.cli.common.console import say, show_json, show_table
-from colonnade.cli.common.findings import all_records, probable_cause, show_by_kind
+from colonnade.cli.common.findings import alike, all_records, probable_cause, show_by_kind
 from colonnade.cli.common.options import CAMPAIGN, campaign_argument, work_options
 from colonnade.cli.common.progress import run_progress
 from colonnade.store.results import RUN_STAGES
@@ -141,7 +141,7 @@ def show_result(result: RunResult) -> None:
     show_table(("redone", "stages", "why", "seconds"), list(_grouped(redone)))
     show_by_kind(result.findings)
     failed = failed_rows(result)
-    show_table(("failed", "stage", "reason"), failed)
+    show_table(("failed", "stage", "reason"), alike(failed))
     for notice in result.notices:
         say(notice)
     kept = sum(stage.action == "up-to-date" for stage in result.stages)

@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     {CAMPAIGN} The line says what happened, what the models predict, and what is wrong. Ensembles, the contact
     model, earlier tests and the report follow at lower priority. An open page of the report keeps itself up to date.
 
-    Tests come from [[tests]], the test log, or the `pattern` in [watch]. Ctrl-C ends the watch; nothing is lost.
+    Tests come from [[tests]], the test log, or the `pattern` in [watch]. Ctrl-C ends the watch with
+    exit code 0; nothing is lost.
     """,
 )
 @campaign_argument
@@ -59,16 +60,22 @@ def watch(
     from colonnade.workflow.watching.notify import command_of
     from colonnade.workflow.watching.watch import watch as watch_campaign
 
-    return watch_campaign(
-        campaign,
-        share=share,
-        command=command_of(notify) if notify is not None else (),
-        once=once,
-        workers=workers,
-        results=results,
-        show=partial(_show, as_json=as_json),
-        say=complain,
-    )
+    try:
+        return watch_campaign(
+            campaign,
+            share=share,
+            command=command_of(notify) if notify is not None else (),
+            once=once,
+            workers=workers,
+            results=results,
+            show=partial(_show, as_json=as_json),
+            say=complain,
+        )
+    except KeyboardInterrupt:
+        if once:
+            raise
+    complain("The watch has ended. All results are kept.")
+    return 0
 
 
 def _show(line: Line | Advice, *, as_json: bool) -> None:

@@ -106,7 +106,7 @@ def _seldom_collected() -> Iterator[None]:
 def _part(renderer: pages.Renderer, campaign: Campaign, layout: Layout, code: str, asked: Asked) -> Part:
     test = campaign.tests[asked.test]
     block = campaign.block(test.specimen)
-    stored = read_test(campaign, layout, test, is_outdated=asked.is_outdated, with_samples=True)
+    stored = read_test(campaign, layout, test, outdated="" if asked.is_outdated else None, with_samples=True)
     row = TestRow.of(campaign, test, asked.record, stored)
     used, span, free_vibration = Used(), None, None
     used.gather(test.id, stored)

@@ -18,20 +18,18 @@ READABLE = 0o100644 << 16
 """A plain file that everybody may read, as zip files say it."""
 
 
-def write_bundle(
-    folder: Path, target: Path, *, without: Collection[Path] = (), instead: Mapping[str, str] | None = None
-) -> None:
+def write_bundle(folder: Path, target: Path, *, own: Collection[str], instead: Mapping[str, str] | None = None) -> None:
     """
-    Put all files of a folder into a zip file.
+    Put the report's own files into a zip file.
 
     Parameters
     ----------
     folder : Path
-        The report's. Links in it, and names that begin with a dot, are left out.
+        The report's. Links in it are left out.
     target : Path
         The zip file, outside the folder; written whole or not at all.
-    without : collection of Path, optional
-        Files of the folder that are left out.
+    own : collection of str
+        Names in the folder of what belongs to the report: a file that somebody put there is not sent with it.
     instead : dict of str to str, optional
         Texts by name in the folder; each replaces the file there.
 
@@ -46,8 +44,8 @@ def write_bundle(
         raise StoreError(f"{target}: this is in the report itself. Name a file outside {folder}.")
     if target.is_dir():
         raise StoreError(f"{target}: this is a folder. Name the file that the bundle is written to.")
-    found = [path for path in own_files(folder) if not path.is_symlink() and path not in without]
-    names = {path.relative_to(folder).as_posix(): path for path in found if not path.name.startswith(".")}
+    found = {path.relative_to(folder).as_posix(): path for path in own_files(folder) if not path.is_symlink()}
+    names = {name: found[name] for name in own if name in found}
     texts = instead or {}
 
     def write_to(stream: IO[bytes]) -> None:

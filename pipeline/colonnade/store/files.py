@@ -329,6 +329,6 @@ def _unwritable(path: Path, error: OSError) -> StoreError:
 
 def _damaged(path: Path, found: str) -> StoreError:
     return StoreError(
-        f"{path}: {found}; it was changed or damaged after colonnade wrote it. Delete it and run again: it is "
+        f"{path}: {found}; it was changed or damaged after colonnade wrote it. Run `colonnade run`: it is "
         "recomputed from the raw file."
     )

@@ -9,6 +9,11 @@ from typing import Any
 
 from colonnade.store.provenance import hash_of
 
+NEVER_RUN = "never run"
+
+_CONTENT = 2
+"""Counts up when `content_hash` takes in something else: all results are then recomputed."""
+
 
 @dataclass(frozen=True)
 class Recipe:
@@ -35,7 +40,7 @@ class Recipe:
     @property
     def key(self) -> str:
         """Hash that is stored with the result; if it differs, the result is out of date."""
-        return hash_of({"stage": self.stage, **self._ingredients})
+        return hash_of({"stage": self.stage, "content": _CONTENT, **self._ingredients})
 
     @property
     def _ingredients(self) -> dict[str, Any]:
@@ -67,7 +72,7 @@ class Recipe:
         try:
             before = json.loads(stored.get("ingredients", ""))
         except ValueError:
-            return "never run"
+            return NEVER_RUN
         if before.get("upstream") != self.upstream:
             return "raw file changed" if self.stage == "ingest" else "upstream changed"
         return "settings changed" if before.get("settings") != hash_of(self.settings) else "code changed"

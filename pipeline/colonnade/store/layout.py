@@ -105,6 +105,11 @@ class Layout:
         return self.processed / ".lock-holder.json"
 
     @property
+    def owner(self) -> Path:
+        """In a folder given with --results: the folder of the campaign whose results these are."""
+        return self.processed / ".campaign"
+
+    @property
     def watch_lock(self) -> Path:
         """Locked while somebody watches the raw folder."""
         return self.processed / ".watch-lock"

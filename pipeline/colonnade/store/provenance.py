@@ -33,7 +33,7 @@ _CIRCUMSTANCES = frozenset(
         *("history", "date_created", "standard_name_vocabulary", "colonnade_version", "stage", "test", "specimen"),
         *("time_coverage_duration", "time_coverage_resolution", "time_coverage_start", "time_coverage_end"),
         *("status", "key", "ingredients", "settings", "content"),
-        *("raw_files", "raw_sha256", "notes", "warnings", "review", "recorded_at"),
+        *("raw_files", "raw_sha256", "notes", "review", "recorded_at"),
     }
 )
 
@@ -123,7 +123,7 @@ def content_hash(dataset: xr.Dataset) -> str:
     Returns
     -------
     content : str
-        SHA-256. Dates, versions, titles, keys and warnings are not in it. Long arrays go into it by their own SHA-256,
+        SHA-256. Dates, versions, titles and keys are not in it. Long arrays go into it by their own SHA-256,
         so that several are hashed at the same time.
     """
     long = [name for name in sorted(map(str, dataset.variables)) if is_long(dataset.variables[name])]

@@ -121,6 +121,22 @@ class Catalogue:
             )
         return str(self._seen["code"][name])
 
+    def remove_altered(self) -> list[str]:
+        """
+        Remove results that were altered since they were written; return a sentence on each.
+
+        What has not changed since the last run is not read, unless everything is verified.
+        """
+        notices = []
+        for path in self._layout.results_there():
+            expect_none()
+            found = self.lookup("results", path, _whole)
+            if found is not None and not found[1]:
+                files.remove(path)
+                name = path.relative_to(self._layout.home).as_posix()
+                notices.append(f"{name}: it was altered or damaged, so it is recomputed.")
+        return notices
+
     def content(self, path: Path) -> str | None:
         """Hash of the attributes `KEPT` of a result and its findings; None if it is missing."""
         found = self.lookup("results", path, _kept)
@@ -162,22 +178,15 @@ def stored_attributes(path: Path) -> dict[str, Any]:
         return {}
 
 
-def _kept(path: Path) -> dict[str, str]:
-    stored = stored_attributes(path)
+def _whole(path: Path) -> dict[str, str]:
+    """Read all of a result; give what is kept of it, nothing if it was altered."""
+    try:
+        return _kept(path, files.read(path).attrs)
+    except StoreError:
+        return {}
+
+
+def _kept(path: Path, attributes: Mapping[str, Any] | None = None) -> dict[str, str]:
+    stored = stored_attributes(path) if attributes is None else attributes
     kept = {part: str(stored[part]) for part in KEPT if part in stored}
     return kept | {"warnings": to_text(stored.get("warnings", []))} if stored else kept
-
-
-def remove_altered(layout: Layout) -> list[str]:
-    """Remove results of tests and specimens that were altered since they were written; return a sentence on each."""
-    notices = []
-    for path in layout.results_there():
-        expect_none()
-        try:
-            files.read(path)
-        except StoreError:
-            files.remove(path)
-            notices.append(
-                f"{path.relative_to(layout.home).as_posix()}: it was altered or damaged, so it is recomputed."
-            )
-    return notices

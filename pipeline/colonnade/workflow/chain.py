@@ -10,11 +10,11 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from colonnade.errors import ColonnadeError, RunEndedError, StoreError
+from colonnade.errors import SHORT_OF_MEMORY, ColonnadeError, RunEndedError, StoreError
 from colonnade.findings import at_stage
 from colonnade.interruption import expect_none
 from colonnade.store import files
-from colonnade.store.freshness import Recipe
+from colonnade.store.freshness import NEVER_RUN, Recipe
 from colonnade.store.layout import Layout
 from colonnade.store.provenance import Origin, global_attributes
 from colonnade.store.results import RUN_STAGES, ResultId
@@ -29,11 +29,6 @@ if TYPE_CHECKING:
 
 Look = Callable[[Path], Mapping[str, Any]]
 """Returns the stored attributes of a result, given its path."""
-
-_SHORT_OF_MEMORY = (
-    "The machine ran out of memory. Finished results are kept. Run again with fewer workers (`--workers 1` uses the "
-    "least memory), or close other programs first."
-)
 
 _WORKER_LOST = (
     "The system stopped the process that worked on this test, twice: the second time nothing else was running. Either "
@@ -100,7 +95,7 @@ def if_up_to_date(chain: Chain, look: Look) -> list[StageRun] | None:
     """Return what `bring_up_to_date` would for a chain with nothing to do, by the attributes from `look`; else None."""
     runs: list[StageRun] = []
     for step in chain.steps:
-        if _is_outdated(chain, step, look):
+        if _why(chain, step, look):
             return None
         runs.append(_unchanged(step, look(step.path)))
         if runs[-1].action == "failed":
@@ -108,11 +103,20 @@ def if_up_to_date(chain: Chain, look: Look) -> list[StageRun] | None:
     return runs
 
 
+def why_pending(chain: Chain, look: Look) -> str | None:
+    """Say why the results of a test cannot be shown: empty if it was never run, None if they are up to date."""
+    done = if_up_to_date(chain, look)
+    if done is not None:
+        return None
+    first, why = next((number, why) for number, step in enumerate(chain.steps) if (why := _why(chain, step, look)))
+    if why != NEVER_RUN:
+        return f"its results are out of date ({why}); run again"
+    return f"run only as far as {chain.steps[first - 1].result.stage}; `colonnade run` does the rest" if first else ""
+
+
 def worker_lost(chain: Chain) -> StageRun:
     """Report a chain whose process was stopped; no failure is stored, so that the next run tries again."""
-    stopped = next(
-        (step for step in chain.steps if _is_outdated(chain, step, stored_attributes)), chain.steps[-1]
-    ).result
+    stopped = next((step for step in chain.steps if _why(chain, step, stored_attributes)), chain.steps[-1]).result
     remove_later(chain.layout, chain.results, stopped.order - 1)
     return StageRun(stopped.subject, stopped.stage, "failed", stopped.model, _WORKER_LOST)
 
@@ -143,7 +147,7 @@ def _run_step(chain: Chain, step: Step, made: dict[Path, xr.Dataset]) -> StageRu
     expect_none()
     stored = stored_attributes(step.path)
     recipe = _recipe(chain, step, lambda path: made[path].attrs if path in made else stored_attributes(path))
-    because = _why(chain, step, recipe, stored)
+    because = _why(chain, step, lambda path: stored, recipe)
     if not because:
         return _unchanged(step, stored)
     started = time.perf_counter()
@@ -176,15 +180,11 @@ def _recipe(chain: Chain, step: Step, look: Look) -> Recipe:
     return Recipe(step.result.stage, step.code, step.inputs.model_dump_json(), {**upstream, **step.given})
 
 
-def _is_outdated(chain: Chain, step: Step, look: Look) -> bool:
-    return bool(_why(chain, step, _recipe(chain, step, look), look(step.path)))
-
-
-def _why(chain: Chain, step: Step, recipe: Recipe, stored: Mapping[str, Any]) -> str:
+def _why(chain: Chain, step: Step, look: Look, recipe: Recipe | None = None) -> str:
     """Say why a result has to be made; empty if it does not."""
     if chain.start_from is not None and step.result.order >= RUN_STAGES.index(chain.start_from):
         return "asked for"
-    return recipe.why(stored)
+    return (recipe or _recipe(chain, step, look)).why(look(step.path))
 
 
 def _unchanged(step: Step, stored: Mapping[str, Any]) -> StageRun:
@@ -208,7 +208,7 @@ def _store_failure(chain: Chain, step: Step, error: Exception, attributes: Mappi
     if isinstance(error, ColonnadeError):
         reason = str(error)
     elif isinstance(error, MemoryError):
-        reason = _SHORT_OF_MEMORY
+        reason = SHORT_OF_MEMORY
     else:  # a bug in colonnade: reported as such, the other tests go on
         reason = _internal_error(chain.layout, step, error)
     if _is_machine_failure(error):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,7 +14,7 @@ from colonnade.store.layout import Layout
 from colonnade.store.results import RUN_STAGES, results_of
 from colonnade.workflow.advising.kept import advice_shown
 from colonnade.workflow.arguments import check_run
-from colonnade.workflow.catalogue import Catalogue, remove_altered
+from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.chain import remove_later
 from colonnade.workflow.copies import Digests, with_copies
 from colonnade.workflow.execution.lock import only_run
@@ -102,13 +102,12 @@ def run(
     loaded = load(Path(campaign)).awaiting() if awaiting else load(Path(campaign))
     last = _last_stage(start_from, until)
     tests = _chosen(loaded, (only,) if isinstance(only, str) else only)
-    layout, notices = Layout.of(loaded.folder, results), list[str]()
+    layout = Layout.of(loaded.folder, results)
     with only_run(layout) as run_id:
         catalogue = Catalogue(layout, verify=verify)
+        notices = catalogue.remove_altered()
         raw = {test.id: raw_files(loaded, test, catalogue) for test in loaded.tests.values()}
         loaded = with_copies(loaded, _digests(loaded, raw))
-        if verify:
-            notices += remove_altered(layout)
         for test in loaded.tests.values():
             if loaded.left_out(test.id):
                 remove_later(layout, results_of(loaded, test), order=-1)
@@ -124,14 +123,15 @@ def run(
     return RunResult(tuple(walk.stages), layout.summary_json, report, loaded.warnings, concerning, tuple(notices))
 
 
-def _summed_up(walk: Walk, *, awaiting: bool) -> tuple[Campaign, set[str], Summary]:
+def _summed_up(walk: Walk, *, awaiting: bool) -> tuple[Campaign, dict[str, str], Summary]:
     """
     Write the summary; before it, if the run goes to the report, score forecasts and assess real columns.
 
-    Return the campaign with what is wrong with forecasts, and the tests whose results are out of date.
+    Return the campaign with what is wrong with forecasts, and why the results of which tests are out of date.
     """
     campaign, layout = walk.graph.campaign, walk.graph.layout
-    outdated = (walk.stale() - walk.failed_tests.keys()) | (campaign.tests.keys() - set(walk.included))
+    stale = {name: why for name, why in walk.stale().items() if name not in walk.failed_tests}
+    outdated = stale | dict.fromkeys(campaign.tests.keys() - set(walk.included), "")
     forecasts = read_forecasts(layout)
     campaign = replace(campaign, warnings=(*campaign.warnings, *map(finding_of, forecasts.refused)))
     chosen = choose(campaign, forecasts, walk.raw)
@@ -147,13 +147,13 @@ def _summed_up(walk: Walk, *, awaiting: bool) -> tuple[Campaign, set[str], Summa
         failed=walk.failed_tests,
         outdated_assessments=walk.stale_assessments(),
         failed_assessments=walk.failed_assessments,
-        foreseen=foreseen_of(layout, forecasts, chosen, outdated | walk.failed_tests.keys()),
+        foreseen=foreseen_of(layout, forecasts, chosen, outdated.keys() | walk.failed_tests.keys()),
         workers=walk.workers,
     )
     return campaign, outdated, summary
 
 
-def _reported(walk: Walk, campaign: Campaign, outdated: set[str], summary: Summary) -> tuple[Campaign, Path]:
+def _reported(walk: Walk, campaign: Campaign, outdated: Mapping[str, str], summary: Summary) -> tuple[Campaign, Path]:
     """Bring maps, photos, advice and pages up to date; return the campaign with what is wrong with photos."""
     layout, catalogue = walk.graph.layout, walk.graph.catalogue
     walk.map(summary)

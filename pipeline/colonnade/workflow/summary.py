@@ -33,7 +33,7 @@ def write_summary(
     layout: Layout,
     catalogue: Catalogue,
     *,
-    outdated: Collection[str] = (),
+    outdated: Mapping[str, str] | None = None,
     failed: Mapping[str, str] | None = None,
     outdated_assessments: Collection[str] = (),
     failed_assessments: Mapping[str, str] | None = None,
@@ -49,8 +49,8 @@ def write_summary(
     layout : Layout
     catalogue : Catalogue
         Spares reading the results of unchanged tests.
-    outdated : collection of str, optional
-        Tests whose stored results are out of date; they are reported as pending.
+    outdated : mapping of str to str, optional
+        Tests whose stored results are out of date, and why; they are reported as pending.
     failed : mapping of str to str, optional
         Why tests failed in this run, whether stored or not.
     outdated_assessments : collection of str, optional
@@ -72,7 +72,7 @@ def write_summary(
         If a file cannot be written.
     """
     failures = failed or {}
-    records = _records(campaign, layout, catalogue, outdated, failures, workers)
+    records = _records(campaign, layout, catalogue, outdated or {}, failures, workers)
     summary = Summary(
         campaign=campaign.campaign,
         colonnade=colonnade.__version__,
@@ -124,7 +124,7 @@ class _Asked:
 
     campaign: Campaign
     test: Test
-    is_outdated: bool
+    outdated: str | None
     failure: str | None
 
 
@@ -132,14 +132,14 @@ def _records(
     campaign: Campaign,
     layout: Layout,
     catalogue: Catalogue,
-    outdated: Collection[str],
+    outdated: Mapping[str, str],
     failures: Mapping[str, str],
     workers: int | None,
 ) -> dict[str, TestSummary]:
     """Return the record of each test: the last one if nothing that it is made from changed, else a new one."""
     recipes, found, waiting = {}, {}, []
     for name, test in campaign.with_relative_paths().tests.items():
-        asked = _Asked(replace(campaign, tests={name: test}), test, name in outdated, failures.get(name))
+        asked = _Asked(replace(campaign, tests={name: test}), test, outdated.get(name), failures.get(name))
         recipes[name] = _recipe(asked, layout, catalogue)
         known = catalogue.record(name, recipes[name])
         if known is None:
@@ -155,12 +155,12 @@ def _records(
 def _recipe(asked: _Asked, layout: Layout, catalogue: Catalogue) -> Recipe:
     campaign, test = asked.campaign, asked.test
     entry = [repr(test), repr(campaign.specimens[test.specimen]), campaign.gravity, campaign.left_out(test.id)]
-    entry += [repr(campaign.concerning(test.id)), asked.is_outdated, asked.failure]
+    entry += [repr(campaign.concerning(test.id)), asked.outdated, asked.failure]
     upstream = {str(result): catalogue.content(layout.path(result)) for result in results_of(campaign, test)}
     return Recipe("record", catalogue.code(MADE_BY), json.dumps(entry), upstream)
 
 
 def _record(layout: Layout, asked: _Asked) -> tuple[str, str]:
     """Read what is stored of a test; return its id, and its record as JSON."""
-    stored = read_test(asked.campaign, layout, asked.test, is_outdated=asked.is_outdated, failure=asked.failure)
+    stored = read_test(asked.campaign, layout, asked.test, outdated=asked.outdated, failure=asked.failure)
     return asked.test.id, record_of_test(asked.campaign, asked.test, stored).model_dump_json()

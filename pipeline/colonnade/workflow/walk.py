@@ -17,7 +17,7 @@ from colonnade.store import files
 from colonnade.store.forecasts import Known
 from colonnade.store.provenance import Origin
 from colonnade.store.results import RUN_STAGES, ResultId, models_of, results_of
-from colonnade.workflow.chain import Chain, bring_up_to_date, if_up_to_date, remove_later
+from colonnade.workflow.chain import Chain, bring_up_to_date, if_up_to_date, remove_later, why_pending
 from colonnade.workflow.execution.blocks import Counted, forget, in_blocks
 from colonnade.workflow.execution.cluster import Tell
 from colonnade.workflow.execution.processes import execute
@@ -259,12 +259,12 @@ class Walk:
             {} if test is None else self.raw[subject],
         )
 
-    def stale(self, *phases: Phase) -> set[str]:
-        """Ids of the tests that have a missing or outdated result, of these phases or of any."""
+    def stale(self, *phases: Phase) -> dict[str, str]:
+        """Ids of the tests that have a missing or outdated result, of these phases or of any, and what to say of it."""
         look = self.graph.catalogue.attributes
         steps = ([step for phase in phases or PHASES for step in self._steps(phase, name)] for name in self.included)
-        chains = (self.chain(each, redo=False) for each in steps)
-        return {chain.subject for chain in chains if if_up_to_date(chain, look) is None}
+        chains = [self.chain(each, redo=False) for each in steps]
+        return {chain.subject: why for chain in chains if (why := why_pending(chain, look)) is not None}
 
     @property
     def _campaign(self) -> Campaign:

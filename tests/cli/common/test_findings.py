@@ -4,7 +4,16 @@ from __future__ import annotations
 
 import pytest
 
-from colonnade.cli.common.findings import IN_FULL, NAMED, all_records, line_of, probable_cause, records_of, show_by_kind
+from colonnade.cli.common.findings import (
+    IN_FULL,
+    NAMED,
+    alike,
+    all_records,
+    line_of,
+    probable_cause,
+    records_of,
+    show_by_kind,
+)
 from colonnade.findings import in_order, note, serious, warning
 
 GAIN = serious("gain", "The gain is wrong.")
@@ -32,6 +41,18 @@ def test_many_of_one_kind_are_counted(capsys):
     assert len(lines) == IN_FULL + 2
     assert lines[IN_FULL] == f"  and {NAMED + 2} more of this kind: {', '.join(names[IN_FULL:-2])} and 2 more"
     assert lines[-1] == f"{len(names)} warnings"
+
+
+def test_many_tests_that_fail_alike_are_counted():
+    names = [f"t{number:04}" for number in range(2000)]
+    rows = alike([(name, "ingest", f"raw/{name}.csv: file not found") for name in names] + [("x", "rocking", "other")])
+    assert rows[:IN_FULL] == [(name, "ingest", f"raw/{name}.csv: file not found") for name in names[:IN_FULL]]
+    named = ", ".join(names[IN_FULL : IN_FULL + NAMED])
+    more = 2000 - IN_FULL
+    assert rows[IN_FULL:] == [
+        (f"and {more} more", "ingest", f"like these: {named} and {more - NAMED} more"),
+        ("x", "rocking", "other"),
+    ]
 
 
 def test_of_notes_one_is_in_full(capsys):

@@ -92,8 +92,8 @@ def test_a_damaged_result_is_a_failure_of_its_stage(written_results, tmp_path):
 
 def test_results_of_another_campaign_are_not_read(written_results):
     read = written_results("rocking")
-    assert (read(is_outdated=True).datasets, read(is_outdated=True).is_foreign) == ({}, True)
-    assert not read().is_foreign
+    assert (read(outdated="why").datasets, read(outdated="why").outdated) == ({}, "why")
+    assert not read().outdated
 
 
 def test_a_failure_that_no_result_holds_is_told(written_results):

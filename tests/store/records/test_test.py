@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from colonnade.findings import serious, warning
-from colonnade.store.records.stored import FOREIGN, Failure, Stored
+from colonnade.store.records.stored import Failure, Stored
 from colonnade.store.records.test import record_of_test
 
 SCALE = 20.0
@@ -114,7 +114,7 @@ def test_a_record_is_done_failed_or_pending_with_the_reason(campaign):
         return test.status, test.reason
 
     assert status(Stored()) == ("pending", None)
-    assert status(Stored(is_foreign=True)) == ("pending", FOREIGN)
+    assert status(Stored(outdated="run only as far as predict")) == ("pending", "run only as far as predict")
     assert status(Stored({("compare", None): compared()})) == ("done", None)
     failures = [Failure("ingest", "No file."), Failure("", "Specimen prism failed.")]
     assert status(Stored(failures=failures)) == ("failed", "ingest: No file. Specimen prism failed.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import signal
 import subprocess
 import sys
@@ -9,6 +10,7 @@ import sys
 import pytest
 
 from colonnade.errors import StoreError
+from colonnade.store.layout import Layout
 from colonnade.workflow.execution.lock import only_run
 
 HOLD = """
@@ -69,3 +71,20 @@ def test_half_a_file_that_a_killed_runs_worker_left_after_the_next_run_began_is_
     with only_run(small.layout):
         half.write_bytes(b"half")
     assert not half.exists()
+
+
+def test_two_campaigns_do_not_share_one_folder_of_results(small, tmp_path):
+    results, other = tmp_path / "results", shutil.copytree(small.folder, tmp_path / "other")
+    for folder in (small.folder, small.folder):
+        with only_run(Layout.of(folder, results)):
+            pass
+    with (
+        pytest.raises(StoreError, match=r"results of another campaign, .*small.campaign\.toml, are in this folder"),
+        only_run(Layout.of(other, results)),
+    ):
+        pass
+    with pytest.raises(StoreError, match="results of another campaign"), only_run(Layout.of(other, small.folder)):
+        pass
+    moved = small.folder.rename(tmp_path / "moved")
+    with only_run(Layout.of(moved, results)):
+        pass

@@ -180,6 +180,7 @@ in_proc = pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="proce
 
 
 @in_proc
+@pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_ends_the_workers_quietly_and_the_next_run_goes_on(going, untouched, undisturbed):
     os.killpg(going.pid, signal.SIGINT)
     assert going.wait(PATIENCE) == 130
@@ -191,6 +192,7 @@ def test_ctrl_c_ends_the_workers_quietly_and_the_next_run_goes_on(going, untouch
 
 
 @in_proc
+@pytest.mark.usefixtures("interruptible")
 @pytest.mark.parametrize("delay", [0.0, 0.1, 0.4], ids=lambda delay: f"after {delay} s")
 def test_ctrl_c_does_not_tear_workers_from_their_imports(start, delay):
     starting = start(IMPORT)

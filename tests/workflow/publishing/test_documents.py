@@ -60,9 +60,12 @@ def test_a_pdf_of_older_pages_is_left_out_of_the_bundle(folder, pdf, tmp_path):
 
 def test_the_bundle_holds_the_whole_report(folder, pdf, tmp_path):
     write_pdf(folder)
+    pages = {path for path in (folder / "report").rglob("*") if path.is_file()}
+    foreign = folder / "report" / "tests" / "notes.html"
+    foreign.write_text("put here by somebody", encoding="utf-8")
     with zipfile.ZipFile(write_bundle(folder, tmp_path / "all.zip")) as archive:
         names = set(archive.namelist())
-    pages = {path for path in (folder / "report").rglob("*") if path.is_file()}
+    foreign.unlink()
     assert names == {path.relative_to(folder).as_posix() for path in pages}
     assert {"report/index.html", "report/report.pdf"} <= names
 

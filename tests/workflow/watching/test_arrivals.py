@@ -36,9 +36,18 @@ def test_a_file_written_again_is_finished_again() -> None:
 def test_a_file_that_went_away_is_new_when_it_comes_back() -> None:
     arrivals = Arrivals(settle=1.0)
     arrivals.know({FILE: mark(1)})
-    arrivals.look({}, now=0.0)
-    arrivals.look({FILE: mark(1)}, now=1.0)
-    assert arrivals.look({FILE: mark(1)}, now=2.0) == {FILE}
+    assert arrivals.look({}, now=0.0) == set()
+    assert arrivals.is_waiting
+    assert arrivals.look({}, now=1.0) == {FILE}
+    assert arrivals.look({FILE: mark(1)}, now=2.0) == set()
+    assert arrivals.look({FILE: mark(1)}, now=3.0) == {FILE}
+
+
+def test_a_file_that_is_away_for_a_moment_is_as_it_was() -> None:
+    arrivals = Arrivals(settle=1.0)
+    arrivals.know({FILE: mark(1)})
+    looks = [arrivals.look(marks, now) for now, marks in enumerate([{}, {FILE: mark(1)}, {FILE: mark(1)}])]
+    assert looks == [set()] * 3
 
 
 @given(st.lists(st.tuples(st.floats(0.01, 3.0), st.integers(0, 3)), max_size=40))

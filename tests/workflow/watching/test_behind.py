@@ -35,11 +35,35 @@ def test_it_gives_way_and_then_says_what_failed_and_when_it_was_refused(small: A
     assert behind.ended() is None
     behind.start()
     found = ended(behind)
-    assert (found.code, found.was_refused) == (1, False)
+    assert (found.code, found.was_refused, found.problem) == (1, False, "")
     assert [failure.partition(":")[0] for failure in found.failures] == ["pulse-02"]
     with only_run(small.layout):
         behind.start()
-        assert ended(behind).was_refused
+        refused = ended(behind)
+        assert (refused.was_refused, refused.problem) == (True, "")
+
+
+CRASH = "Traceback (most recent call last):\n  File x\n    line\nValueError: of a stage\nmore of it"
+
+
+@pytest.mark.parametrize(
+    ("said", "headline"),
+    [
+        (f"free-01 ingest: 1 of 4 after 12 s\n{CRASH}", "ValueError: of a stage"),
+        ("free-01 ingest: 1 of 4 after 12 s\na.nc: the disk is full.", "a.nc: the disk is full."),
+    ],
+)
+def test_the_line_that_says_what_happened_is_found(said, headline):
+    assert Ended(1, (), was_refused=False, problem=said).headline == headline
+
+
+def test_a_run_that_is_killed_says_so(small: Any) -> None:
+    behind = Behind(small.folder / "campaign.toml", None, 1)
+    behind.start()
+    assert behind._process is not None
+    behind._process.kill()
+    found = ended(behind)
+    assert (found.was_refused, found.headline) == (False, "It ended with exit code -9.")
 
 
 LONG = "[processing.predict.ensemble]\nmembers = 10000\n"

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import shutil
+import time
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +14,8 @@ from colonnade.errors import StoreError
 from colonnade.store.records.advice import Advice
 from colonnade.workflow.execution.lock import only_watch
 from colonnade.workflow.watching import watch as module
+from colonnade.workflow.watching.behind import Ended
+from colonnade.workflow.watching.folders import Bell
 from colonnade.workflow.watching.line import Line
 from colonnade.workflow.watching.watch import watch
 
@@ -53,6 +57,106 @@ def test_arriving_files_become_lines_and_the_rest_follows(
     before = small.contents()
     assert watch(small.folder, once=True, workers=1, show=shown.append, say=said.append) == 1
     assert small.contents() == before
+
+
+@dataclass
+class Crashing:
+    """Runs behind that end at once, as told; the last end is that of all further ones."""
+
+    ends: list[Ended]
+    starts: int = 0
+    is_running: bool = False
+
+    def start(self) -> None:
+        self.starts += 1
+        self.is_running = True
+
+    def ended(self) -> Ended | None:
+        if not self.is_running:
+            return None
+        self.is_running = False
+        return self.ends.pop(0) if len(self.ends) > 1 else self.ends[0]
+
+    def give_way(self) -> None:
+        pass
+
+
+@pytest.fixture
+def crashing(monkeypatch: pytest.MonkeyPatch) -> Crashing:
+    """What stands in for the run behind every watch of a test."""
+    said = "Traceback (most recent call last):\n  x\nOSError: y"
+    behind = Crashing([Ended(-11, (), was_refused=False, problem=said)])
+    monkeypatch.setattr(module, "Behind", lambda *_: behind)
+    return behind
+
+
+def test_a_crash_of_the_run_behind_is_said_once_and_waits_for_the_next_file(small: Any, crashing: Crashing) -> None:
+    said: list[str] = []
+    assert watch(small.folder, once=True, show=lambda line: None, say=said.append) == 1
+    assert crashing.starts == 1
+    assert [sentence.splitlines()[0] for sentence in said] == [
+        "No new file. Results and report are brought up to date.",
+        "The run behind the watch failed: OSError: y",
+    ]
+    assert str(small.layout.watch_log) in said[1]
+    assert "Traceback" in small.layout.watch_log.read_text(encoding="utf-8")
+
+
+def test_a_run_behind_that_is_refused_is_tried_again(
+    small: Any, crashing: Crashing, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "AGAIN", 0.1)
+    crashing.ends = [Ended(1, (), was_refused=True, problem=""), Ended(0, (), was_refused=False, problem="")]
+    said: list[str] = []
+    assert watch(small.folder, once=True, show=lambda line: None, say=said.append) == 0
+    assert crashing.starts == 2
+    assert len(said) == 1
+
+
+def test_a_watch_for_once_ends_if_results_cannot_be_written(
+    small: Any, crashing: Crashing, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: Any) -> Line:
+        raise StoreError("a.nc: the disk is full.")
+
+    monkeypatch.setattr(module, "measure", full)
+    small.change_a_sample("pulse-02")
+    said: list[str] = []
+    assert watch(small.folder, once=True, show=lambda line: None, say=said.append) == 1
+    assert said[0] == "a.nc: the disk is full."
+
+
+def test_a_deleted_file_starts_the_run_behind(small: Any, crashing: Crashing, monkeypatch: pytest.MonkeyPatch) -> None:
+    crashing.ends = [Ended(0, (), was_refused=False, problem="")]
+    starts: list[int] = []
+
+    def wait(bell: Any, longest: float | None = None) -> None:
+        starts.append(crashing.starts)
+        if len(starts) == 3:
+            small.raw("pulse-02").unlink()
+        if crashing.starts == 2:
+            raise KeyboardInterrupt
+        assert len(starts) < 100
+        time.sleep(0.05)
+
+    monkeypatch.setattr(Bell, "wait", wait)
+    with pytest.raises(KeyboardInterrupt):
+        watch(small.folder, show=lambda line: None, say=lambda sentence: None)
+    assert starts[:3] == [1, 1, 1]
+
+
+def test_advice_after_a_free_vibration_knows_those_just_before_it(
+    small: Any, crashing: Crashing, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    small.layout.summary_json.unlink()  # the run behind has not come so far yet
+    for test in ("free-01", "free-02"):
+        shutil.rmtree(small.layout.test(test))
+    shown: list[Line | Advice] = []
+    watch(small.folder, once=True, show=shown.append, say=lambda sentence: None)
+    lines = [each.text() for each in shown]
+    assert "so far" in lines[2]
+    assert " of 2" in lines[2]
+    assert "from 2" in lines[3]
 
 
 def test_a_second_watch_names_the_first(small: Any) -> None:

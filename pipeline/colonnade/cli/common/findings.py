@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -49,6 +50,19 @@ def probable_cause(findings: Sequence[tuple[Finding, bool]], *, where: str) -> s
     """Name the serious findings about a failed test, and where on the screen they are."""
     kinds = dict.fromkeys(each.kind for each, explained in findings if each.severity == "serious" and not explained)
     return f"probably because of the serious findings {where} ({', '.join(kinds)}): " if kinds else ""
+
+
+def alike(rows: Iterable[tuple[str, ...]]) -> list[tuple[str, ...]]:
+    """Keep the first rows of those that say the same of other subjects (their first cells), and count the rest."""
+    groups: dict[str, list[tuple[str, ...]]] = {}
+    for row in rows:
+        groups.setdefault(re.sub(r"\d+", "", " ".join(row[1:]).replace(row[0], "")), []).append(row)
+    kept = []
+    for members in groups.values():
+        kept += members[:IN_FULL]
+        if rest := [row[0] for row in members[IN_FULL:]]:
+            kept.append((f"and {len(rest)} more", *members[0][1:-1], f"like these: {_named(rest)}"))
+    return kept
 
 
 def show_by_kind(findings: Findings) -> None:

@@ -32,12 +32,6 @@ GOOD = 1
 WITHOUT_SAMPLES = ("ingest", "condition")
 """Stages whose samples are not kept in memory: a report of hundreds of tests has to fit."""
 
-FOREIGN = (
-    "not every stage was run, or the stored results were made from other raw files, another campaign file or another "
-    "version of colonnade; run again"
-)
-"""Reason of a test whose stored results are incomplete or out of date."""
-
 
 class Failure(NamedTuple):
     """Why a test or specimen failed, and the stage that failed, empty if no stage is to blame."""
@@ -81,8 +75,8 @@ class Stored:
         What each stage read of the campaign, as stored with its result.
     keys : dict of str to str
         Of each result, by its name, what identifies it: its key and the hash of its content.
-    is_foreign : bool
-        Whether the stored results are out of date; they are then not read.
+    outdated : str
+        Why the stored results are out of date or not complete, and so not read; empty if nothing is known of that.
     with_samples : bool
         Whether the samples of `ingest` and `condition` are kept.
     """
@@ -96,7 +90,7 @@ class Stored:
     samples: dict[str, Samples] = field(default_factory=dict)
     settings: dict[Made, Mapping[str, Any]] = field(default_factory=dict)
     keys: dict[str, str] = field(default_factory=dict)
-    is_foreign: bool = False
+    outdated: str = ""
     with_samples: bool = False
 
     @property
@@ -188,7 +182,7 @@ def read_test(
     layout: Layout,
     test: Test,
     *,
-    is_outdated: bool = False,
+    outdated: str | None = None,
     failure: str | None = None,
     with_samples: bool = False,
 ) -> Stored:
@@ -200,16 +194,16 @@ def read_test(
     campaign : Campaign
     layout : Layout
     test : Test
-    is_outdated : bool, optional
-        Whether the stored results are out of date: they are then not read.
+    outdated : str, optional
+        Why the stored results are out of date: they are then not read.
     failure : str, optional
         Why it failed, if no result says so.
     with_samples : bool, optional
         Whether to keep the samples of all channels, as recorded and as conditioned.
     """
     results = results_of(campaign, test)
-    if is_outdated:
-        return _read(Stored(is_foreign=any(layout.path(result).exists() for result in results)), layout, [], failure)
+    if outdated is not None:
+        return _read(Stored(outdated=outdated), layout, [], failure)
     return _read(Stored(with_samples=with_samples), layout, results, failure)
 
 

@@ -21,7 +21,7 @@ from colonnade.campaign.forms.summary import (
 from colonnade.dynamics.similitude import at_prototype
 from colonnade.findings import in_order
 from colonnade.identification.response.rank import BAND
-from colonnade.store.records.stored import FOREIGN, Stored
+from colonnade.store.records.stored import Stored
 
 COMPARED = ("nrmse", "horizon", "within_spread", "peak_rank", "overturning_probability")
 """What the comparison of a model with the measured angle gives, by the names of its record."""
@@ -59,7 +59,7 @@ def record_of_test(campaign: Campaign, test: Test, stored: Stored) -> TestSummar
     scale = campaign.specimens[test.specimen].scale
     return TestSummary(
         status=stored.status,
-        reason=reason or campaign.left_out(test.id) or (FOREIGN if stored.is_foreign else None),
+        reason=reason or campaign.left_out(test.id) or stored.outdated or None,
         warnings=tuple(
             Warned.of(found, explained=explained)
             for found, explained in in_order(stored.findings, campaign.concerning(test.id))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -78,9 +78,15 @@ def advise(campaign: Path | str, *, specimens: Sequence[str] = (), results: Path
     return Next(tuple(advice), loaded.awaited)
 
 
-def advise_after(campaign: Campaign, layout: Layout, name: str, record: TestSummary) -> list[Advice]:
-    """Advise the next test like one that was just measured: of its specimen and kind, and of its frequency."""
-    tests = records_of_tests(campaign, read_summary(layout)) | {name: record}
+def advise_after(campaign: Campaign, layout: Layout, name: str, measured: Mapping[str, TestSummary]) -> list[Advice]:
+    """
+    Advise the next test like one that was just measured: of its specimen and kind, and of its frequency.
+
+    `measured` are the records of this test and of those before it; the summary of the last run may not have them yet.
+    """
+    known, record = records_of_tests(campaign, read_summary(layout)), measured[name]
+    tests = {test: measured.get(test, each) if each.status == "pending" else each for test, each in known.items()}
+    tests |= {name: record}
     found = advise_kind(campaign, layout, record.specimen, record.kind, tests)
     if record.frequency_ratio is None:
         return found

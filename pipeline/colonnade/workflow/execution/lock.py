@@ -14,10 +14,18 @@ from uuid import uuid4
 
 from filelock import FileLock, Timeout
 
+from colonnade.campaign import FILE_NAME
 from colonnade.errors import RunEndedError, StoreError
 from colonnade.store.files import remove, sweep, write_text
 from colonnade.store.layout import Layout
 from colonnade.store.own_files import own_files
+
+_RUNNING = "this campaign is already being run"
+
+
+def is_refusal(said: str) -> bool:
+    """Whether a message says that another run holds the campaign: the same may succeed later."""
+    return _RUNNING in said
 
 
 @contextmanager
@@ -36,7 +44,7 @@ def only_run(layout: Layout) -> Iterator[str]:
         If another run holds it, or the folders of results cannot be written or lead elsewhere through a link.
     """
     refusal = (
-        f"{layout.folder}: this campaign is already being run, by {{holder}}. Wait for that run to end, or stop it: "
+        f"{layout.folder}: {_RUNNING}, by {{holder}}. Wait for that run to end, or stop it: "
         "only one run at a time may write results."
     )
     with _held(layout, layout.lock, layout.lock_holder, refusal, partial(_sweep, layout)) as run_id:
@@ -82,6 +90,7 @@ def _held(
     run_id = uuid4().hex
     was_killed = holder.exists()
     try:
+        _expect_own(layout)
         who = {
             "run": run_id,
             "process": os.getpid(),
@@ -97,6 +106,23 @@ def _held(
                 after_a_kill()
         finally:
             lock.release()
+
+
+def _expect_own(layout: Layout) -> None:
+    """Refuse a folder of results of another campaign, if that is still where it was; else note whose it is."""
+    if layout.results is None:
+        return
+    try:
+        noted = Path(layout.owner.read_text(encoding="utf-8").strip())
+    except (FileNotFoundError, ValueError):
+        noted = layout.home
+    for other in {noted, layout.home} - {layout.folder}:
+        if (other / FILE_NAME).is_file():
+            raise StoreError(
+                f"{layout.home}: the results of another campaign, {other / FILE_NAME}, are in this folder and would be "
+                "overwritten. Give each campaign a folder of its own with --results."
+            )
+    write_text(layout.owner, f"{layout.folder}\n")
 
 
 def expect_run(layout: Layout, run_id: str) -> None:

@@ -14,7 +14,7 @@ from functools import partial
 from typing import Any, TypeVar
 
 from colonnade.errors import ColonnadeError
-from colonnade.interruption import expect_none
+from colonnade.interruption import FROM_TERMINAL, expect_none
 from colonnade.workflow.execution.cluster import AHEAD, Tell, on_cluster
 
 Item = TypeVar("Item")
@@ -177,7 +177,7 @@ def _interrupts_held_back() -> Iterator[None]:
 
     for tracker in (resource_tracker, of_loky):  # whose own start would let Ctrl-C through again
         tracker.ensure_running()
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, FROM_TERMINAL)
     try:
         yield
     finally:
@@ -186,7 +186,8 @@ def _interrupts_held_back() -> Iterator[None]:
 
 def _settle_in(parent: int) -> None:
     """Leave Ctrl-C to the parent, and end when it is gone: a worker without a run's lock may not write."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for signum in FROM_TERMINAL:
+        signal.signal(signum, signal.SIG_IGN)
     threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
 
 

@@ -76,19 +76,29 @@ def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | st
     layout = Layout.of(loaded.folder, results)
     with only_run(layout):
         folder = _there(layout)
-        is_current = stamps.key_of(layout.pdf) == _recipe(loaded, layout, folder).key
-        without = () if is_current else (layout.pdf,)
-        bundle.write_bundle(folder, Path(target), without=without, instead={STATE: UNWATCHED})
+        own = [*_pages(loaded, folder), *_shown(folder)]
+        if stamps.key_of(layout.pdf) == _recipe(loaded, layout, folder).key:
+            own.append(layout.pdf.name)
+        bundle.write_bundle(folder, Path(target), own=own, instead={STATE: UNWATCHED})
     return Path(target)
 
 
 def _recipe(campaign: Campaign, layout: Layout, folder: Path) -> Recipe:
     """Give all that the PDF is made from."""
-    every = addresses.addresses(campaign, [page for page in addresses.OPTIONAL if (folder / page).is_file()])
-    pages = {page: stamps.key_of(folder / page) for found in every for page in found}
+    pages = {page: stamps.key_of(folder / page) for page in _pages(campaign, folder)}
     shown = [campaign.title, campaign.campaign, who_and_when.of_campaign(campaign)]
-    pictures = {path.name: sha256_of(path) for pattern in SHOWN for path in sorted(folder.glob(pattern))}
+    pictures = {Path(name).name: sha256_of(folder / name) for name in _shown(folder)}
     return Recipe("pdf", Catalogue(layout).code(MADE_BY), json.dumps(shown), pages | pictures)
+
+
+def _pages(campaign: Campaign, folder: Path) -> list[str]:
+    """Addresses of all pages, with their scripts and drawings."""
+    optional = [page for page in addresses.OPTIONAL if (folder / page).is_file()]
+    return [page for found in addresses.addresses(campaign, optional) for page in found]
+
+
+def _shown(folder: Path) -> list[str]:
+    return [path.relative_to(folder).as_posix() for pattern in SHOWN for path in sorted(folder.glob(pattern))]
 
 
 def _there(layout: Layout) -> Path:

@@ -1,4 +1,4 @@
-"""Which files have been finished by whoever writes them: those whose size and time stay the same for a while."""
+"""Which files have been finished by whoever writes them, or taken away: they stay the same, or away, for a while."""
 
 from __future__ import annotations
 
@@ -42,22 +42,23 @@ class Arrivals:
     (set(), set())
     >>> arrivals.look({file: (20, 1, 1)}, now=2.5) == {file}, arrivals.look({file: (20, 1, 1)}, now=9.0)
     (True, set())
+    >>> arrivals.look({}, now=20.0), arrivals.look({}, now=21.0) == {file}
+    (set(), True)
     """
 
     settle: float
-    _since: dict[Path, tuple[Mark, float]] = field(default_factory=dict)
-    _taken: dict[Path, Mark] = field(default_factory=dict)
+    _since: dict[Path, tuple[Mark | None, float]] = field(default_factory=dict)
+    _taken: dict[Path, Mark | None] = field(default_factory=dict)
 
     def know(self, marks: Mapping[Path, Mark]) -> None:
         """Take files as they are for finished: their tests are up to date."""
         self._taken |= marks
 
     def look(self, marks: Mapping[Path, Mark], now: float) -> set[Path]:
-        """Return the files that have been finished since the last look, given their marks and the time, s."""
-        self._taken = {path: mark for path, mark in self._taken.items() if path in marks}
+        """Return the files finished or taken away since the last look, given the marks of all there and the time, s."""
         self._since = {
             path: known if (known := self._since.get(path)) is not None and known[0] == mark else (mark, now)
-            for path, mark in marks.items()
+            for path, mark in {**dict.fromkeys(self._taken), **marks}.items()
             if self._taken.get(path) != mark
         }
         finished = {path for path, (_, since) in self._since.items() if now - since >= self.settle}
@@ -66,5 +67,5 @@ class Arrivals:
 
     @property
     def is_waiting(self) -> bool:
-        """Whether a file is there that has not settled."""
+        """Whether a file has arrived or gone that has not settled."""
         return bool(self._since)

@@ -14,6 +14,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO
 
+from colonnade.workflow.execution.lock import is_refusal
+
 NICENESS = 10
 """How far its priority is below that of the watch."""
 
@@ -33,12 +35,22 @@ class Ended:
     failures : tuple of str
         A sentence on each test or specimen that failed.
     was_refused : bool
-        Whether it did nothing, as when another run held the campaign.
+        Whether another run held the campaign.
+    problem : str
+        What it wrote to stderr if it gave no result and was not refused: a crash, or a disk that is full.
     """
 
     code: int
     failures: tuple[str, ...]
     was_refused: bool
+    problem: str
+
+    @property
+    def headline(self) -> str:
+        """The line of the problem that says what happened: of a traceback the first below its frames, else the last."""
+        _, trace, last = self.problem.rpartition("Traceback (most recent call last):")
+        lines = [line for line in last.splitlines() if line and not line[0].isspace()]
+        return lines[0 if trace else -1]
 
 
 @dataclass
@@ -60,16 +72,17 @@ class Behind:
     workers: int | None
     _process: subprocess.Popen[bytes] | None = None
     _output: IO[bytes] | None = field(default=None, repr=False)
+    _complaints: IO[bytes] | None = field(default=None, repr=False)
 
     def start(self) -> None:
         """Begin a run."""
-        self._output = tempfile.TemporaryFile()  # noqa: SIM115 — closed by `_end`
+        self._output, self._complaints = (tempfile.TemporaryFile() for _ in range(2))  # noqa: SIM115 — `_end` closes
         command = [sys.executable, "-m", f"{__package__}.led", "run", str(self.campaign_file), "--await", "--json"]
         command += [] if self.results is None else ["--results", str(self.results)]
         command += [] if self.workers is None else ["--workers", str(self.workers)]
         options = {"process_group": 0} if os.name == "posix" else {"creationflags": _windows_flags()}
         self._process = subprocess.Popen(  # type: ignore[call-overload]
-            command, stdin=subprocess.PIPE, stdout=self._output, stderr=subprocess.DEVNULL, **options
+            command, stdin=subprocess.PIPE, stdout=self._output, stderr=self._complaints, **options
         )
         if os.name == "posix":
             with contextlib.suppress(OSError):
@@ -77,8 +90,8 @@ class Behind:
 
     @property
     def is_running(self) -> bool:
-        """Whether it has been started and not ended."""
-        return self._process is not None and self._process.poll() is None
+        """Whether it has been started, and its end not been taken note of."""
+        return self._process is not None
 
     def ended(self) -> Ended | None:
         """Return how a run has ended by itself, once; else None."""
@@ -101,18 +114,24 @@ class Behind:
     def _end(self) -> Ended:
         assert self._process is not None
         assert self._output is not None
+        assert self._complaints is not None
         assert self._process.stdin is not None
         code = self._process.wait()
         self._process.stdin.close()
-        self._output.seek(0)
+        for stream in (self._output, self._complaints):
+            stream.seek(0)
+        said = self._complaints.read().decode(errors="replace").strip()
         try:
             stages = json.loads(self._output.read() or b"{}").get("stages")
         except (ValueError, RecursionError):
             stages = None
         self._output.close()
-        self._process = self._output = None
+        self._complaints.close()
+        self._process = self._output = self._complaints = None
+        was_refused = stages is None and is_refusal(said)
+        problem = "" if was_refused or stages is not None else said or f"It ended with exit code {code}."
         failed = [each for each in stages or () if each["action"] == "failed"]
-        return Ended(code, tuple(f"{each['subject']}: {each['reason']}" for each in failed), stages is None)
+        return Ended(code, tuple(f"{each['subject']}: {each['reason']}" for each in failed), was_refused, problem)
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:

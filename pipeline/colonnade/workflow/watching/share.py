@@ -40,7 +40,7 @@ class Share:
         if not names and not self.source.is_dir():
             yield from self._once(f"{self.source}: this folder cannot be seen. Is the share connected?")
             return
-        for path in sorted(self.arrivals.look(marks_of(names), now)):
+        for path in sorted(self.arrivals.look(marks_of(names), now) & names.keys()):
             problem = _copy(path, self.target / names[path])
             if problem:
                 yield from self._once(problem)

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from colonnade.campaign import Campaign, load
 from colonnade.campaign.campaign import missing_file
+from colonnade.campaign.forms.summary import TestSummary
 from colonnade.campaign.naming.found import WITHOUT_TEST, files_in
 from colonnade.errors import CampaignError, StoreError
 from colonnade.interruption import expect_none
@@ -19,7 +20,7 @@ from colonnade.report.interactive.state import EVERY
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.workflow.advising.next import advise_after
-from colonnade.workflow.execution.lock import only_watch
+from colonnade.workflow.execution.lock import is_refusal, only_watch
 from colonnade.workflow.watching.arrivals import Arrivals, last_change, marks_of
 from colonnade.workflow.watching.behind import Behind
 from colonnade.workflow.watching.folders import Bell, listening
@@ -40,6 +41,9 @@ GRACE = 10.0
 
 BUSY = 0.2
 """Seconds between two looks while something goes on."""
+
+WRONG_CAMPAIGN = 2
+"""Exit code of a run that cannot use the campaign file; the watch says so itself when the file is changed."""
 
 LARGEST_LOG = 2_000_000
 """Bytes of the log; then a new one is begun, and one old one is kept."""
@@ -95,11 +99,11 @@ def watch(
     layout = Layout.of(loaded.folder, results)
     with only_watch(layout), _logged(layout, say) as log, listening(loaded.folder / loaded.watch.folder) as bell:
         behind = Behind(loaded.path, layout.results, workers)
-        watching = _Watching(loaded, layout, bell, behind, command, show, log)
+        watching = _Watching(loaded, layout, bell, behind, command, show, log, once)
         if share is not None:
             watching.share = Share(share, loaded.folder / loaded.watch.folder, Arrivals(loaded.watch.settle))
         try:
-            return watching.until_done() if once else watching.for_ever()
+            return watching.until_done()
         finally:
             behind.give_way()
             watching.tell_pages(is_watched=False)
@@ -142,6 +146,7 @@ class _Watching:
     command: Sequence[str]
     show: Show
     log: logging.Logger
+    is_once: bool
     share: Share | None = None
     _arrivals: Arrivals = field(init=False)
     _texts: object = None
@@ -149,6 +154,7 @@ class _Watching:
     _is_outdated: bool = True
     _code: int = 0
     _said: set[str] = field(default_factory=set)
+    _measured: dict[str, TestSummary] = field(default_factory=dict)
     _alive: float = 0.0
     _behind_from: float = 0.0
     _line: str = ""
@@ -161,20 +167,17 @@ class _Watching:
         known = measured(self.campaign, self.layout)
         self._arrivals.know(marks_of(path for name in known for path in self._files(name)))
 
-    def for_ever(self) -> int:
-        """Watch until a signal ends it."""
-        while True:
-            self._look()
-            is_busy = self._arrivals.is_waiting or self._due or self.behind.is_running
-            self.bell.wait(BUSY if is_busy else None)
-
     def until_done(self) -> int:
-        """Watch until nothing is left to do."""
+        """Watch until a signal ends it or, if it is only asked for once, until nothing is left to do."""
+        self._look()
+        if self.is_once and not (self._arrivals.is_waiting or self._due):
+            self.log.warning("No new file. Results and report are brought up to date.")
         while True:
-            self._look()
-            if not (self._arrivals.is_waiting or self._due or self.behind.is_running or self._is_outdated):
+            is_busy = self._arrivals.is_waiting or self._due or self.behind.is_running
+            if self.is_once and not (is_busy or self._is_outdated):
                 return self._code
-            self.bell.wait(BUSY)
+            self.bell.wait(BUSY if is_busy or self.is_once else None)
+            self._look()
 
     def tell_pages(self, *, is_watched: bool = True) -> None:
         """Give a sign of life to open pages."""
@@ -211,8 +214,9 @@ class _Watching:
         try:
             line = measure(self.campaign, self.layout, name, finished)
         except StoreError as error:
-            self._due[name] = now + AGAIN
             self._say_once(str(error))
+            if not self.is_once or is_refusal(str(error)):
+                self._due[name] = now + AGAIN
             return
         if line.record.status == "failed" and line.seconds < GRACE:
             # Its writer may only pause: it is called a failure when nothing more comes.
@@ -225,7 +229,8 @@ class _Watching:
         if self.command and (problem := notify(self.command, line.as_json())):
             self.log.warning(f"--notify: {problem}")
         if line.record.status == "done":
-            for advice in advise_after(self.campaign, self.layout, name, line.record):
+            self._measured[name] = line.record
+            for advice in advise_after(self.campaign, self.layout, name, self._measured):
                 self.log.info(advice.text())
                 self.show(advice)
 
@@ -233,9 +238,15 @@ class _Watching:
         """Start, or take note of, the run behind; give a sign of life to open pages."""
         ended = self.behind.ended()
         if ended is not None:
-            self._code = ended.code
+            self._code = max(ended.code, int(ended.code != 0))
             for failure in ended.failures:
                 self._say_once(failure)
+            if ended.problem and ended.code != WRONG_CAMPAIGN:
+                self.log.info(ended.problem)
+                self._say_once(
+                    f"The run behind the watch failed: {ended.headline}\n"
+                    f"All that it said is in {self.layout.watch_log}. It starts again after the next file."
+                )
             if ended.was_refused:
                 self._is_outdated, self._behind_from = True, now + AGAIN
         is_free = not (self._due or self._arrivals.is_waiting or self.behind.is_running)

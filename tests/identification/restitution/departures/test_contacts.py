@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -58,6 +60,15 @@ def test_slides_to_and_fro_add_up_and_the_sentence_has_what_is_left_of_them(arcs
     assert departure.size == pytest.approx(3.5e-4, rel=1e-3)
     assert f"slides at 2 of {arcs.series.number.size - 1} impacts" in departure.sentence
     assert "+0.05 mm with its sign" in departure.sentence
+
+
+def test_a_record_that_loses_nearly_no_energy_gets_no_long_percentage(arcs, record, prism):
+    time, angle = record
+    even = replace(arcs.series, energy=np.full_like(arcs.series.energy, arcs.series.energy[0]))
+    noise = NOISE * np.random.default_rng(0).normal(size=time.size)
+    departure = find_sliding(time, angle, steps(arcs, time, {3: 3e-4}) + noise, prism, even)
+    assert "this is more than 10 times the energy lost; too much" in departure.sentence
+    assert len(departure.sentence) < 300
 
 
 def test_what_goes_with_the_angle_of_a_side_is_no_slide(arcs, record, prism):

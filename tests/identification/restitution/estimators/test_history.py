@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from scipy.integrate import solve_ivp
 from scipy.signal import lfilter
 
 from colonnade.dynamics.block import Block
-from colonnade.identification.restitution.estimators.history import LinearHistory, NonlinearHistory
+from colonnade.identification.restitution.estimators.history import LinearHistory, NonlinearHistory, fitted_history
 from colonnade.identification.restitution.fitting.noise import fit_noise
 from colonnade.identification.restitution.fitting.samples import thinned
 from colonnade.identification.restitution.free_vibration import FreeVibration
@@ -20,6 +21,15 @@ PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
 RATE = 500.0
 NOISE = 1e-3 * ALPHA
+
+
+def test_a_record_that_begins_late_in_its_clock_overflows_nothing():
+    names = ("restitution", "release")
+    late = SimpleNamespace(values={"restitution": np.log(0.95), "release": 86400.0})
+    stretch = SimpleNamespace(time=np.zeros(1), cutoff_hz=None)
+    with np.errstate(over="raise"):
+        fitted = fitted_history(late, stretch, np.zeros(1), np.zeros(1), np.eye(2), names)
+    assert fitted.values.tolist() == pytest.approx([0.95, 86400.0])
 
 
 @cache

@@ -32,6 +32,9 @@ LEAST_WORK = 0.01
 LARGEST_WORK = 0.1
 """... and one of more than this share leaves no e of rocking."""
 
+MANIFOLD = 10.0
+"""Times the energy lost, from which no percentage is given: a record may lose nearly none."""
+
 
 def find_sliding(time: Array, angle: Array, slide: Array, block: Block, series: ArcSeries) -> Departure | None:
     """
@@ -66,6 +69,7 @@ def find_sliding(time: Array, angle: Array, slide: Array, block: Block, series: 
     if not work > LEAST_WORK:
         return None
     refuses = work > LARGEST_WORK
+    share = f"{format_percent(work)} of" if work < MANIFOLD else f"more than {MANIFOLD:g} times"
     end = "; too much for an e of rocking alone." if refuses else "; e includes this loss."
     return Departure(
         "sliding",
@@ -74,7 +78,7 @@ def find_sliding(time: Array, angle: Array, slide: Array, block: Block, series: 
         "m",
         f"The block slides at {int(large.sum())} of {jumps.size} impacts, by {1e3 * total:.3g} ± "
         f"{1e3 * total_error:.1g} mm in all ({1e3 * float(jumps[large].sum()):+.3g} mm with its sign): with a friction "
-        f"of {FRICTION:g} this is {format_percent(work)} of the energy lost" + end,
+        f"of {FRICTION:g} this is {share} the energy lost" + end,
         refuses=refuses,
     )
 

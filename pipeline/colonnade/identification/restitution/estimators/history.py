@@ -177,7 +177,7 @@ def fitted_history(
     """Describe a fit by its unknowns themselves, where the fit has the logarithms of some; `covariance` is of these."""
     logarithmic = np.array([each in ("restitution", *OPTIONAL) for each in names])
     values = np.array([decay.values[each] for each in names])
-    values = np.where(logarithmic, np.exp(values), values)
+    values[logarithmic] = np.exp(values[logarithmic])
     by_logarithm = np.where(logarithmic, values, 1.0)
     covariance = covariance * np.outer(by_logarithm, by_logarithm)
     return FittedHistory(
