@@ -149,8 +149,8 @@ def test_a_specimen_that_fell_is_held_against_those_that_fall(small_campaign, re
     fallen = results[0]["shake-01"][1].assign_attrs(outcome="overturned")
     standing = ensemble("shake-01")
     assert float(compare(small_campaign, results, standing, fallen)["peak_rank"]) == 1.0
-    times = standing["member_overturning_time"].copy(data=np.full(MEMBERS, 3.0))
-    falling = standing.assign(member_overturning_time=times, overturning_probability=1.0)
+    peaks = standing["judged_peak_ratio"].copy(data=np.full(MEMBERS, np.nan))
+    falling = standing.assign(judged_peak_ratio=peaks, overturning_probability=1.0)
     compared = compare(small_campaign, results, falling, fallen)
     assert (float(compared["peak_rank"]), float(compared["overturning_probability"])) == (0.5, 1.0)
 
