@@ -205,7 +205,8 @@ def horizons_and_ranks(
     variables : dict
         On `model`: `horizon`, s; `within_spread`, the share of runs that are closer to their median than the measured
         angle (`identification.response.rank`); `peak_rank`, the share of runs whose peak would have been recorded below
-        the measured one, with half of the equal ones; `overturning_probability`. NaN without a measured angle. Empty without ensembles.
+        the measured one, with half of the equal ones; `overturning_probability`. NaN without a measured angle. Empty
+        without ensembles.
     """
     if not ensembles:
         return {}
