@@ -24,6 +24,11 @@ POPULATIONS = {
     "20 records, 10 draws, β 0.40 and 0.15": Population(records=20),
     "40 records, 5 draws, β 0.30 and 0.30": Population(records=40, draws=5, of_records=0.3, of_parameters=0.3),
     "12 records, 10 draws, 8 levels, β 0.40 and 0.20": Population(records=12, levels=8, of_parameters=0.2),
+    **{
+        f"{records} records, 1 draw, {levels} levels, β 0.40": Population(records, 1, levels, of_parameters=0.0)
+        for records in (6, 10, 20, 50, 100)
+        for levels in (6, 12)
+    },
     "two kinds, 30 records": Population(two_kinds=True),
     "two kinds, 20 records": Population(records=20, two_kinds=True),
 }
@@ -35,9 +40,15 @@ def study(repetitions: int, seed: int, workers: int) -> dict[str, Any]:
     designs = {}
     for name, population in POPULATIONS.items():
         held = list(pool(delayed(run)(population, seed, number) for number in range(repetitions)))
-        shares = {key: float(np.mean([each[key] for each in held])) for key in held[0]}
+        shares = {key: share_of([each[key] for each in held]) for key in held[0]}
         designs[name] = {"population": asdict(population), "shares": shares}
     return {"repetitions": repetitions, "seed": seed, "designs": designs}
+
+
+def share_of(held: list[bool | None]) -> float | None:
+    """Share of the intervals given that hold; None if none is given."""
+    given = [each for each in held if each is not None]
+    return float(np.mean(given)) if given else None
 
 
 def write(found: dict[str, Any], folder: Path) -> None:

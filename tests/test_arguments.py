@@ -164,7 +164,7 @@ CALLS = {
         colonnade.Uncertainty,
         {"cutoff": 10.0},
         dict.fromkeys(("restitution", "critical_angle", "p", "gain", "clock", "noise", "filter", "theta0"), "deviation")
-        | {"cutoff": "positive", "filter_order": "whole"},
+        | {"cutoff": "positive", "restitution_freedom": "positive", "filter_order": "whole"},
     ),
     "ensemble": Call(
         colonnade.ensemble,

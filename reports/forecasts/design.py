@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from statistics import NormalDist
 
 import numpy as np
 from scipy import signal
@@ -70,16 +69,16 @@ class Specimen:
 
     @property
     def uncertainty(self) -> Uncertainty:
-        """What the campaign knows of its errors: the interval of e, and the default settings for all others."""
-        half = (self.identified.high - self.identified.low) / 2
-        return uncertainty(half / NormalDist().inv_cdf(0.5 + self.identified.level / 2))
+        """What the campaign knows of its errors: e in a new test, and the default settings for all others."""
+        return uncertainty(*self.identified.of_new_test(PlaneEnsembleSettings().restitution))
 
 
-def uncertainty(restitution: float) -> Uncertainty:
-    """Errors of the default settings, with a standard deviation of e."""
+def uncertainty(restitution: float, freedom: int | None = None) -> Uncertainty:
+    """Errors of the default settings, with a standard deviation of e and its degrees of freedom."""
     settings = PlaneEnsembleSettings()
     return Uncertainty(
         restitution=restitution,
+        restitution_freedom=freedom,
         critical_angle=settings.critical_angle,
         p=settings.p,
         gain=settings.gain,

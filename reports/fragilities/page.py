@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from colonnade.assessment.fragility.resampling import FEWEST_RECORDS, MOST_WITHOUT
 from fragilities.population import APART, MEDIAN, WITHIN, Population
 from fragilities.trial import PROBABILITIES, RESAMPLES, SIGNIFICANT
 
@@ -19,8 +20,9 @@ records. With {repetitions} repetitions a share of 95 % is uncertain by {error} 
 
 ## Lognormal populations
 
-Share of the repetitions in which each interval holds the truth. P is judged at the intensities where it is
-{probabilities}. The rate is that over a power-law hazard (k = 2).
+Share of the repetitions with an interval, and of these in which each interval holds the truth. There is no interval of
+fewer than {fewest} records, nor if more than {without} of the resamples have no curve. P is judged
+at the intensities where it is {probabilities}. The rate is that over a power-law hazard (k = 2).
 
 {lognormal}
 
@@ -43,6 +45,7 @@ The intervals are wider than needed at probabilities near 0 and 1.
 """
 
 COLUMNS = (
+    "given",
     "median",
     "beta",
     *(f"P = {true:g}" for true in PROBABILITIES),
@@ -66,6 +69,8 @@ def page(found: dict[str, Any]) -> str:
         error=f"{100 * np.sqrt(0.95 * 0.05 / repetitions):.1f} %",
         probabilities=", ".join(f"{true:g}" for true in PROBABILITIES),
         significant=f"{SIGNIFICANT:g}",
+        fewest=FEWEST_RECORDS,
+        without=f"{100 * MOST_WITHOUT:g} %",
         apart=APART,
         within=WITHIN,
         lognormal=_table(
@@ -93,8 +98,8 @@ def _isotonic(shares: dict[str, float]) -> list[float]:
     return [share for key, share in shares.items() if key.startswith("isotonic")]
 
 
-def _percent(share: float) -> str:
-    return f"{100 * share:.1f} %"
+def _percent(share: float | None) -> str:
+    return "" if share is None else f"{100 * share:.1f} %"
 
 
 def _table(heading: tuple[str, ...], rows: list[list[str]]) -> str:

@@ -23,17 +23,20 @@ SIGNIFICANT = 0.05
 HAZARD = hazard_curve(np.geomspace(0.01, 10.0, 20), 1e-4 * np.geomspace(0.01, 10.0, 20) ** -2.0)
 """A power law, so that the true rate is in closed form."""
 
-Held = dict[str, bool]
-"""By the name of an interval; `misfit` says whether the test finds one."""
+Held = dict[str, bool | None]
+"""
+Whether it holds the truth, by the name of an interval; None if it is not given. `given` says whether that of the curve
+is, `misfit` whether the test finds one.
+"""
 
 
 def run(population: Population, seed: int, number: int) -> Held:
-    """Run repetition `number`; a result that is not given counts as not held."""
+    """Run repetition `number`."""
     outcomes = population.sample(np.random.default_rng((seed, number)))
     curve = fit_isotonic(outcomes, resamples=RESAMPLES, seed=number)
     truth = population.probability(curve.intensity)
     inside = (curve.probability.low <= truth) & (truth <= curve.probability.high)
-    held = {f"isotonic {place}": bool(each) for place, each in enumerate(inside)}
+    held: Held = {f"isotonic {place}": bool(each) for place, each in enumerate(inside)}
     held["misfit"] = lognormal_misfit(outcomes, resamples=RESAMPLES, seed=number).p_value < SIGNIFICANT
     return held if population.two_kinds else held | _lognormal(population, outcomes, curve, number)
 
@@ -41,19 +44,22 @@ def run(population: Population, seed: int, number: int) -> Held:
 def _lognormal(population: Population, outcomes: Outcomes, curve: IsotonicCurve, number: int) -> Held:
     fit = fit_lognormal(outcomes, resamples=RESAMPLES, seed=number)
     betas = separate_betas(outcomes, resamples=RESAMPLES, seed=number)
-    held = {
+    given = not (fit.reason or fit.no_interval)
+    held: Held = {
+        "given": given,
         "median": _holds(fit.median, MEDIAN),
         "beta": _holds(fit.beta, population.beta),
         "beta of records": _holds(betas.records, population.of_records),
         "beta of parameters": _holds(betas.parameters, population.of_parameters),
-        "rate": not fit.reason
-        and _holds(annual_rate(HAZARD, fit, curve).rate, lognormal_rate(HAZARD, MEDIAN, population.beta)[0]),
+        "rate": _holds(annual_rate(HAZARD, fit, curve).rate, lognormal_rate(HAZARD, MEDIAN, population.beta)[0])
+        if given
+        else None,
     }
     at = fit.probability(MEDIAN * np.exp(population.beta * scipy.special.ndtri(PROBABILITIES)))
     for place, true in enumerate(PROBABILITIES):
-        held[f"P = {true:g}"] = bool(at.low[place] <= true <= at.high[place])
+        held[f"P = {true:g}"] = _holds(Interval(true, at.low[place], at.high[place]), true)
     return held
 
 
-def _holds(interval: Interval, truth: float) -> bool:
-    return bool(interval.low <= truth <= interval.high)
+def _holds(interval: Interval, truth: float) -> bool | None:
+    return None if np.isnan(interval.low) else bool(interval.low <= truth <= interval.high)

@@ -23,9 +23,6 @@ from colonnade.stages.parts.rank import horizons_and_ranks
 from spread_verdicts.design import RESTITUTION_ERROR, campaign_text, draw
 
 MODEL = "nonlinear"
-LEVEL = 0.95
-REACH = 1.959964
-"""Half an interval of this level over its standard deviation."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +75,8 @@ def run(seed: int, number: int, wrong: float, members: int) -> Trial:
     rocked = rocking_stage.rocking(ready, rocking_stage.RockingInputs.of(campaign, test))
     e = drawn.restitution + wrong * (-1) ** (number // 4)
     read = running.EnsembleInputs.of(campaign, test, MODEL)
-    read = read.model_copy(update={"settings": read.settings.model_copy(update={"members": members})})
+    changed = {"members": members, "restitution": RESTITUTION_ERROR}
+    read = read.model_copy(update={"settings": read.settings.model_copy(update=changed)})
     try:
         bands = running.ensemble(ready, rocked, _specimen(e), read, _identified(rocked, campaign, test))
     except StageError:
@@ -97,17 +95,10 @@ def _identified(rocked: xr.Dataset, campaign: Campaign, test: Test) -> xr.Datase
 
 
 def _specimen(restitution: float) -> xr.Dataset:
-    """Restitution of a specimen as its free vibrations give it."""
-    half = REACH * RESTITUTION_ERROR
+    """Restitution of a specimen as a campaign file gives it: `RESTITUTION_ERROR` is its standard deviation."""
     return xr.Dataset(
-        {
-            "restitution": restitution,
-            "restitution_low": restitution - half,
-            "restitution_high": restitution + half,
-            "level": LEVEL,
-            "side_restitution": ("side", [restitution, restitution]),
-        },
-        attrs={"restitution_source": "identified"},
+        {"restitution": restitution, "side_restitution": ("side", [restitution, restitution])},
+        attrs={"restitution_source": "given"},
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -74,8 +76,10 @@ def test_noise_cutoff_and_interval_are_those_of_the_record(results, ensemble):
     assert bands.attrs["noise"] == table["noise"]
     assert bands.attrs["cutoff_hz"] == table["cutoff_hz"]
     deviations = dict(zip(bands["input"].to_numpy(), bands["input_deviation"].to_numpy(), strict=True))
-    half = float(pooled["restitution_high"] - pooled["restitution_low"]) / 2
-    assert deviations["restitution"] == pytest.approx(half / 1.959964, rel=1e-6)
+    # One free vibration shows its own error, and the setting stands for the scatter between tests.
+    assert deviations["restitution"] == pytest.approx(
+        float(np.hypot(pooled["test_restitution_standard_error"][0], 0.005))
+    )
     assert set(deviations) == set(INPUTS) - {"theta0"}
 
 
@@ -88,7 +92,7 @@ def test_a_free_vibration_varies_with_its_first_angle_and_not_with_the_table(res
 
 
 def test_an_e_that_was_not_identified_has_the_deviation_of_the_settings(results, ensemble):
-    nobody = results[1].assign(restitution_low=np.nan, restitution_high=np.nan)
+    nobody = results[1].assign_attrs(restitution_source="rigid-body")
     bands = ensemble("shake-01", specimen=nobody, restitution=0.007)
     assert float(bands["input_deviation"].sel(input="restitution")) == 0.007
 
@@ -104,6 +108,7 @@ def test_the_measured_angle_is_within_the_spread_of_the_model_that_it_follows(sm
 
 @pytest.mark.parametrize("factor", [1.06, 0.94], ids=["larger", "smaller"])
 def test_an_angle_that_no_run_has_is_outside(small_campaign, results, ensemble, factor):
+    ensemble = partial(ensemble, restitution=5e-4)  # between tests; one free vibration does not show it
     _, rocking = results[0]["shake-01"]
     other = rocking.assign(rocking_angle=factor * rocking["rocking_angle"])
     compared = compare(small_campaign, results, ensemble("shake-01", rocking=other), other)
@@ -149,8 +154,8 @@ def test_a_specimen_that_fell_is_held_against_those_that_fall(small_campaign, re
     fallen = results[0]["shake-01"][1].assign_attrs(outcome="overturned")
     standing = ensemble("shake-01")
     assert float(compare(small_campaign, results, standing, fallen)["peak_rank"]) == 1.0
-    times = standing["member_overturning_time"].copy(data=np.full(MEMBERS, 3.0))
-    falling = standing.assign(member_overturning_time=times, overturning_probability=1.0)
+    peaks = standing["judged_peak_ratio"].copy(data=np.full(MEMBERS, np.nan))
+    falling = standing.assign(judged_peak_ratio=peaks, overturning_probability=1.0)
     compared = compare(small_campaign, results, falling, fallen)
     assert (float(compared["peak_rank"]), float(compared["overturning_probability"])) == (0.5, 1.0)
 

@@ -9,9 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
+from colonnade.campaign.settings import PlaneEnsembleSettings
 from colonnade.dynamics.block import Block
 from colonnade.findings import Severity
-from colonnade.stages.specimen import SpecimenInputs, specimen, taken
+from colonnade.stages.specimen import SpecimenInputs, restitution_spread, specimen, taken
 
 BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 OTHER = Block.prism(width=0.086, depth=0.086, height=0.500, mass=26.10)
@@ -64,6 +65,21 @@ def test_the_e_lies_among_those_of_the_tests_and_within_its_interval(values, err
     assert min(values) - 1e-12 <= e <= max(values) + 1e-12
     assert float(found["restitution_low"]) < e < float(found["restitution_high"])
     assert found["side_restitution"].to_numpy().tolist() == [e, e]
+
+
+@pytest.mark.parametrize(
+    ("tests", "given_e", "spread"),
+    [
+        ({"a": identified(0.92, 1e-6), "b": identified(0.94, 1e-6)}, None, (np.sqrt(1.5) * 0.02 / np.sqrt(2), 1)),
+        ({"a": identified(0.93, 0.003)}, None, (0.005, None)),
+        ({"a": identified(0.93, 0.003)}, 0.95, (0.004, None)),
+        ({}, None, (0.004, None)),
+    ],
+    ids=["two tests", "one test", "given", "rigid body"],
+)
+def test_predictions_take_e_of_a_new_test(tests, given_e, spread):
+    found = restitution_spread(specimen(tests, inputs(given_e)), PlaneEnsembleSettings(restitution=0.004))
+    assert found == (pytest.approx(spread[0], rel=1e-4), spread[1])
 
 
 def test_a_refused_test_is_left_out_and_keeps_its_reason():

@@ -133,7 +133,7 @@ RESULTS = {
             "rocking_angle_band": (("quantile", "elapsed"), np.stack([TIME, TIME])),
             **scalars("overturning_probability", "overturning_probability_low", "overturning_probability_high"),
             **scalars("horizon", "measured_distance"),
-            "member_distance": ("judged_member", np.ones(4)),
+            **{name: ("judged_member", np.ones(4)) for name in ("judged_peak_ratio", "member_distance")},
             **{f"member_{name}": ("member", np.ones(5)) for name in ("peak_ratio", "overturning_time")},
             **{name: ("input", np.ones(2)) for name in ("input_deviation", "peak_sensitivity")},
         },

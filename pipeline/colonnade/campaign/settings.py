@@ -132,7 +132,7 @@ class PlaneEnsembleSettings(Table):
     members: Annotated[int, *count_between(0, 1_000_000)] = setting(100)
     """Runs of each model over its uncertain inputs; 0 for no ensemble."""
     restitution: Annotated[float, *number_between(0.0, 0.5)] = setting(0.005)
-    """Standard deviation of e if no interval was identified; otherwise that of the interval is used."""
+    """Standard deviation of e from test to test if fewer than two free vibrations show it."""
     critical_angle: Annotated[float, *number_between(0.0, 0.5)] = setting(0.005, "of α")
     """Standard deviation of the critical angle."""
     p: Annotated[float, *number_between(0.0, 0.5)] = setting(0.005, "of p")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from statistics import NormalDist
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +17,7 @@ from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.rank import MeasurementInputs, describe_bands, measurement_errors, rank_measured
 from colonnade.stages.parts.transducers import transducers
 from colonnade.stages.predict import PredictInputs, sides
+from colonnade.stages.specimen import restitution_spread
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -115,13 +115,6 @@ def ensemble(
     )
 
 
-def restitution_deviation(specimen: xr.Dataset, settings: PlaneEnsembleSettings) -> float:
-    """Return the standard deviation of e: that of its interval, else the setting."""
-    half = (float(specimen["restitution_high"]) - float(specimen["restitution_low"])) / 2
-    identified = half / NormalDist().inv_cdf(0.5 + float(specimen["level"]) / 2)
-    return identified if np.isfinite(identified) else settings.restitution
-
-
 def _uncertainty(
     conditioned: xr.Dataset,
     specimen: xr.Dataset,
@@ -131,8 +124,10 @@ def _uncertainty(
     is_driven: bool,
 ) -> Uncertainty:
     noise, cutoff = _base_noise(conditioned, inputs.table) if is_driven else (0.0, None)
+    restitution, freedom = restitution_spread(specimen, inputs.settings)
     return Uncertainty(
-        restitution=restitution_deviation(specimen, inputs.settings),
+        restitution=restitution,
+        restitution_freedom=freedom,
         critical_angle=inputs.settings.critical_angle,
         p=inputs.settings.p,
         gain=inputs.settings.gain if is_driven else 0.0,

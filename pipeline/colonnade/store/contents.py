@@ -54,7 +54,7 @@ CONTENTS: dict[str, tuple[str, ...]] = {
     "ensemble": (
         *("elapsed", "time", "rocking_angle", "quantile", "rocking_angle_band", *_OVERTURNING),
         *("member_peak_ratio", "member_overturning_time", "input", "input_deviation", "peak_sensitivity"),
-        *("horizon", "measured_distance", "member_distance"),
+        *("horizon", "judged_peak_ratio", "measured_distance", "member_distance"),
     ),
     "compare": (
         *("model", "nrmse", "compared_until", "measured_peak_ratio", "measured_peak_time", "release_ratio"),

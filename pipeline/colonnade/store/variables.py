@@ -189,7 +189,10 @@ VARIABLES: dict[str, Variable] = {
         QUALITY,
         comment=_DISTANCE,
     ),
-    "peak_rank": Variable("share of the model's runs whose peak is below the measured one", "1", QUALITY),
+    "judged_peak_ratio": Variable(
+        "peak ratio of each run as it would be measured, missing where it overturns", "1", QUALITY
+    ),
+    "peak_rank": Variable("share of the model's runs whose measured peak would be lower", "1", QUALITY),
     # ensembles
     "quantile": Variable("share of the runs that lie below", "1", COORDINATE),
     "rocking_angle_band": Variable("rocking angle below which that share of the runs lies", "rad", MODELLED),

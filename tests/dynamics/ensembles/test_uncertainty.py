@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.ensembles.uncertainty import INPUTS, MotionDraws, Uncertainty, draw_inputs, member_block
@@ -28,6 +29,17 @@ def test_inputs_have_the_stated_deviations():
     np.testing.assert_allclose(drawn.std(axis=0), stated.deviations, rtol=0.05)
     np.testing.assert_allclose(drawn.mean(axis=0), [0, 1, 1, 1, 1, 1, 0], atol=3e-3)
     assert dict(zip(INPUTS, np.ptp(drawn, axis=0), strict=True))["cutoff"] == 0.0
+
+
+@pytest.mark.parametrize("freedom", [1, 2, 9])
+def test_e_of_few_tests_is_drawn_from_students_t(freedom):
+    few, many = (Uncertainty(restitution=0.003, p=0.02, restitution_freedom=each) for each in (freedom, None))
+    random, others = np.random.default_rng(6), np.random.default_rng(6)
+    drawn, normal = (
+        np.array([draw_inputs(each, of) for _ in range(2000)]) for each, of in ((few, random), (many, others))
+    )
+    assert stats.kstest(drawn[:, 0] / 0.003, stats.t(freedom).cdf).pvalue > 0.01
+    np.testing.assert_array_equal(drawn[:, 1:], normal[:, 1:])
 
 
 def test_a_member_has_the_drawn_angle_and_p_on_both_sides():
@@ -101,9 +113,10 @@ def test_another_cutoff_is_the_record_filtered_by_it():
         ({"noise": -1.0}, "noise is -1.0"),
         ({"p": float("nan")}, "p is nan"),
         ({"cutoff": 0.0}, "cutoff is 0.0"),
+        ({"restitution_freedom": 0}, "restitution_freedom is 0"),
         ({"filter": 0.1}, "no cutoff is given"),
     ],
-    ids=["negative", "not finite", "no frequency", "no filter"],
+    ids=["negative", "not finite", "no frequency", "no freedom", "no filter"],
 )
 def test_what_cannot_be_an_uncertainty_is_refused(given, found):
     with pytest.raises(ValueError, match=found):

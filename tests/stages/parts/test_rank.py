@@ -196,6 +196,18 @@ def test_without_a_measured_angle_there_is_a_horizon_alone():
     assert list(ranked(rocking(None))) == ["horizon"]
 
 
+def test_peaks_are_judged_with_the_noise_of_the_measurement():
+    """Noise raises the peak of every record of many samples, the measured one's no more than those of the runs."""
+    random, noise, ranks = np.random.default_rng(4), 0.02 * ALPHA, []
+    for _ in range(20):
+        measured = rocking(SWING + random.normal(0, noise, TIME.size), error=noise)
+        found = stored(start=FIRST).assign(judged_peak_ratio=ranked(measured)["judged_peak_ratio"])
+        ranks.append(row(measured, found)["peak_rank"])
+    assert np.mean(ranks) == pytest.approx(0.5, abs=0.2)  # three standard errors of the mean of 20
+    peaks = ranked(found=ensemble(overturned=10))["judged_peak_ratio"][1]
+    assert np.isnan(peaks).tolist() == [member < 10 for member in range(40)]
+
+
 def test_an_angle_like_the_runs_is_among_them_and_a_shifted_one_is_not():
     like, shifted = ranked(), ranked(rocking(SWING + 0.05))
     assert like["measured_distance"][1] < np.quantile(like["member_distance"][1], 0.9)
@@ -238,8 +250,7 @@ def stored(*, peaks=PEAKS, overturned=(), start=0, distance=None):
         {
             "overturning_probability": len(overturned) / len(peaks),
             "horizon": 4.5,
-            "member_peak_ratio": ("member", np.where(np.isnan(times), peaks, np.nan)),
-            "member_overturning_time": ("member", times),
+            "judged_peak_ratio": ("judged_member", np.where(np.isnan(times), peaks, np.nan)),
         },
         coords={"elapsed": ("elapsed", TIME[start:])},
     )

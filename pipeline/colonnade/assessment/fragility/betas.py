@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from colonnade.arrays import Array
 from colonnade.assessment.fragility.outcomes import Outcomes
 from colonnade.assessment.fragility.resampling import (
-    FEWEST_RECORDS,
     LEVEL,
     RESAMPLES,
     Band,
     Interval,
     checked_level,
     record_weights,
+    shows_spread,
     studentised,
 )
 from colonnade.assessment.fragility.resurrection import by_intensity
@@ -159,8 +159,8 @@ def _band(pairs: Array, counts: Array, record: NDArray[np.intp], at: Array, weig
     left = influence[None] - (steps / weights.shape[1])[:, None]
     errors = np.sqrt(np.einsum("nr,nri->ni", weights, left**2))[:, 1:]
     moved = variances + steps[:, 1:] - steps[0, 1:]
-    enough = weights.shape[1] >= FEWEST_RECORDS
-    usable = np.all(moved > 0, axis=1) & (enough | (np.arange(len(moved)) == 0))
+    usable = np.all(moved > 0, axis=1)
+    usable[1:] &= shows_spread(usable[1:], weights.shape[1])
     values, errors = np.log(moved[usable]) / 2, errors[usable] / (2 * moved[usable])
     return Band(
         *(np.exp(each) for each in studentised(values[0], errors[0], values[1:], errors[1:], level, weights.shape[1]))

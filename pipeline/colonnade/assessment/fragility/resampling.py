@@ -7,13 +7,13 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 from colonnade.dynamics.ensembles.ensemble import LARGEST_SEED
 from colonnade.validation import number, whole
 
 RESAMPLES, MOST_RESAMPLES = 1999, 100_000
-FEWEST_RECORDS = 5
-"""Of an interval: of fewer no resampling shows how much records differ."""
+FEWEST_RECORDS, MOST_WITHOUT = 10, 0.02
+"""Of an interval: of fewer records, or if a larger share of the resamples gives no value, it would be too narrow."""
 
 LEVEL = 0.95
 """Of intervals."""
@@ -47,6 +47,11 @@ def record_weights(records: int, resamples: int, seed: int) -> Array:
     random = np.random.default_rng(whole("seed", seed, 0, LARGEST_SEED))
     count = whole("resamples", resamples, 1, MOST_RESAMPLES)
     return random.multinomial(records, np.full(records, 1 / records), size=count).astype(np.float64)
+
+
+def shows_spread(usable: Mask, records: int) -> bool:
+    """Whether resamples, of which some give a value, show how much records differ: else there is no interval."""
+    return bool(records >= FEWEST_RECORDS and usable.mean() >= 1 - MOST_WITHOUT)
 
 
 def checked_level(level: float) -> float:

@@ -122,9 +122,12 @@ class Fragility(Digested):
         curve: dict[str, str] = {"no curve": self.lognormal.reason}
         if not self.lognormal.reason:
             median, beta = self.lognormal.median, self.lognormal.beta
+            why = self.lognormal.no_interval
+            limits = ["" if why else f"({written(each.low)} to {written(each.high)}) " for each in (median, beta)]
             curve = {
-                "median": written(median.value, f"({written(median.low)} to {written(median.high)}) {unit}"),
-                "β": f"{written(beta.value)} ({written(beta.low)} to {written(beta.high)})",
+                "median": written(median.value, limits[0] + unit),
+                "β": written(beta.value, limits[1].rstrip()),
+                **({"no interval": why} if why else {}),
                 "p of the misfit": written(self.misfit.p_value, digits=2),
             }
         rate = {} if self.rate is None else {"rate": written(self.rate.rate.value, "1/year", 3)}

@@ -79,7 +79,9 @@ class ForecastSpread(Record):
     """Standard deviations of what is not exactly known."""
 
     restitution: NotNegative
-    """Of e."""
+    """Of e in a new test."""
+    restitution_freedom: Positive | None = None
+    """Degrees of freedom of Student's t that it is the scale of; null if e is normal."""
     critical_angle: NotNegative
     """Of α, relative."""
     p: NotNegative

@@ -92,7 +92,7 @@ class PredictionSummary(Record):
     peak_high: Known = None
     """Its upper end; null where more than 2.5 % of the runs overturn."""
     peak_rank: Known = None
-    """Share of the model's runs whose peak is below the measured one."""
+    """Share of the model's runs whose peak, measured with the same noise, would be below the measured one."""
     overturning_probability: Known = None
     """Share of the model's runs that overturn."""
 

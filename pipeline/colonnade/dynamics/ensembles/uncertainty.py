@@ -47,6 +47,9 @@ class Uncertainty:
         Of the low-pass, before it is run forwards and backwards.
     theta0 : float
         Of the initial angle, rad.
+    restitution_freedom : float or None
+        e is drawn from Student's t of so many degrees of freedom, as of few tests, scaled by `restitution`; None for
+        the normal distribution.
 
     Raises
     ------
@@ -69,10 +72,13 @@ class Uncertainty:
     filter: float = 0.0
     filter_order: int = 4
     theta0: float = 0.0
+    restitution_freedom: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("restitution", "critical_angle", "p", "gain", "clock", "noise", "filter", "theta0"):
             number(name, getattr(self, name), "a standard deviation, zero or more,", low=0.0)
+        if self.restitution_freedom is not None:
+            number("restitution_freedom", self.restitution_freedom, "a positive number, or None,", above=0.0)
         whole("filter_order", self.filter_order, 1, HIGHEST_ORDER)
         if self.cutoff is not None:
             number("cutoff", self.cutoff, "a positive frequency in Hz, or None,", above=0.0)
@@ -97,7 +103,12 @@ def draw_inputs(uncertainty: Uncertainty, random: np.random.Generator) -> Array:
         Of e and θ₀ what is added (e stays within 0..1, see `member_restitution`), of the others the factor, which is
         log-normal so that nothing changes sign.
     """
-    change = uncertainty.deviations * random.standard_normal(len(INPUTS))
+    from scipy.special import ndtr, stdtrit
+
+    drawn = random.standard_normal(len(INPUTS))
+    if uncertainty.restitution_freedom is not None:
+        drawn[0] = -np.sign(drawn[0]) * stdtrit(uncertainty.restitution_freedom, ndtr(-abs(drawn[0])))
+    change = uncertainty.deviations * drawn
     factors = np.exp(change)
     factors[0], factors[-1] = change[0], change[-1]
     return factors

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 @dataclass(frozen=True)
 class Pooled:
-    """Pooled value with its interval at `level`, the standard error, and the scatter between tests (all of e)."""
+    """Value pooled of `tests`, its interval at `level`, standard error, and the scatter between tests (all of e)."""
 
     value: float
     low: float
@@ -19,6 +19,27 @@ class Pooled:
     standard_error: float
     between: float
     level: float
+    tests: int
+
+    def of_new_test(self, usual: float) -> tuple[float, int | None]:
+        """
+        Say how far e of a new test may be from the pooled value.
+
+        Parameters
+        ----------
+        usual : float
+            Standard deviation of e between tests, for a single test, which does not show it.
+
+        Returns
+        -------
+        deviation : float
+            Of the error of the pooled value and the scatter between tests together.
+        freedom : int or None
+            Degrees of freedom of Student's t that it is the scale of (Higgins et al. 2009); None for a normal one.
+        """
+        if self.tests == 1:
+            return float(np.hypot(self.standard_error, usual)), None
+        return float(np.hypot(self.standard_error, self.between)), self.tests - 1
 
 
 def pool(values: ArrayLike, standard_errors: ArrayLike, *, level: float = 0.95) -> Pooled:
@@ -56,7 +77,7 @@ def pool(values: ArrayLike, standard_errors: ArrayLike, *, level: float = 0.95) 
     freedom = e.size - 1
     if freedom == 0:
         half = float(scipy.stats.norm.ppf((1 + level) / 2)) * float(error[0])
-        return Pooled(float(e[0]), float(e[0]) - half, float(e[0]) + half, float(error[0]), 0.0, level)
+        return Pooled(float(e[0]), float(e[0]) - half, float(e[0]) + half, float(error[0]), 0.0, level, 1)
 
     def excess(variance: float) -> float:
         weights = 1 / (error**2 + variance)
@@ -70,4 +91,4 @@ def pool(values: ArrayLike, standard_errors: ArrayLike, *, level: float = 0.95) 
     by_scatter = float(np.sqrt((weights * (e - value) ** 2).sum() / (freedom * weights.sum())))
     standard_error = max(by_weights, by_scatter)
     half = float(scipy.stats.t.ppf((1 + level) / 2, freedom)) * standard_error
-    return Pooled(value, value - half, value + half, standard_error, float(np.sqrt(between)), level)
+    return Pooled(value, value - half, value + half, standard_error, float(np.sqrt(between)), level, e.size)

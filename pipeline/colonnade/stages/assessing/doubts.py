@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 from colonnade.assessment.cases.cases import FALLS_AWAY, NOT_RUN, Outcomes
-from colonnade.assessment.fragility.resampling import FEWEST_RECORDS
 from colonnade.assessment.fragility.summary import MISFITS, Fragility
 from colonnade.campaign.assessing.assessed import RecordLeftOut
 from colonnade.stages.assessing.plan import ASSUMED, Plan
 from colonnade.units import format_percent, with_minus
-
-DEGENERATE = 0.05
-"""Share of the resamples without a curve from which on that is said."""
 
 
 def doubts(plan: Plan, outcomes: Outcomes, found: Fragility, sliding: float | None) -> list[str]:
@@ -60,14 +56,7 @@ def _of_the_records(plan: Plan, found: Fragility) -> list[str]:
         first = missing[0]
         others = "" if len(missing) == 1 else f" and {len(missing) - 1} more"
         said.append(f"Left out: {first.record}{others}. {first.record}: {first.reason.splitlines()[0]}")
-    if (few := len(found.outcomes.records)) < FEWEST_RECORDS:
-        said.append(f"There are {few} records. A lognormal curve has no interval below {FEWEST_RECORDS}. Add records.")
-    elif not found.lognormal.reason and found.lognormal.degenerate > DEGENERATE:
-        said.append(
-            f"{format_percent(found.lognormal.degenerate)} of the resamples of records have no curve: the intervals "
-            "are of the others. More records would help."
-        )
-    return said
+    return [*said, found.lognormal.no_interval] if found.lognormal.no_interval else said
 
 
 def _of_the_rate(plan: Plan, found: Fragility) -> list[str]:

@@ -157,8 +157,9 @@ def rank_measured(
     Returns
     -------
     variables : dict
-        `horizon`, s; if an angle was measured and there are runs enough, `measured_distance`, and on `judged_member`
-        the `member_distance` of the runs.
+        `horizon`, s; if an angle was measured, on `judged_member` the `judged_peak_ratio` that would have been recorded
+        of each run, missing where it overturns, and if there are runs enough, `measured_distance` and `member_distance`
+        of the runs.
     """
     first, stride = beginning.first, stride_of(beginning.motion)
     time = rocking["elapsed"].to_numpy()[first::stride]
@@ -170,6 +171,9 @@ def rank_measured(
     measured = capped(time, angle, float(rocking["overturning_time"]), inputs.block)
     thinned = errors.thinned(first, stride)
     recorded = as_measured(found.histories, starts[: len(found.histories)], thinned, np.random.default_rng(SEED))
+    falls = np.isfinite(found.overturning_time[: len(recorded)])
+    peaks = amplitude(recorded, inputs.block).max(axis=1)
+    variables["judged_peak_ratio"] = ("judged_member", np.where(falls, np.nan, peaks))
     seen = time <= horizon
     compared = distances(measured[seen], recorded[:, seen])
     if compared is None:
@@ -200,8 +204,9 @@ def horizons_and_ranks(
     -------
     variables : dict
         On `model`: `horizon`, s; `within_spread`, the share of runs that are closer to their median than the measured
-        angle (`identification.response.rank`); `peak_rank`, the share of runs whose peak is below the measured one,
-        with half of the equal ones; `overturning_probability`. NaN without a measured angle. Empty without ensembles.
+        angle (`identification.response.rank`); `peak_rank`, the share of runs whose peak would have been recorded below
+        the measured one, with half of the equal ones; `overturning_probability`. NaN without a measured angle. Empty
+        without ensembles.
     """
     if not ensembles:
         return {}
@@ -214,16 +219,14 @@ def _row(rocking: xr.Dataset, ensemble: xr.Dataset, block: Block) -> tuple[float
     probability, horizon = float(ensemble["overturning_probability"]), float(ensemble["horizon"])
     if "rocking_angle" not in rocking:
         return horizon, np.nan, np.nan, probability
-    first = int(np.searchsorted(rocking["elapsed"].to_numpy(), float(ensemble["elapsed"][0])))
-    measured = rocking["rocking_angle"].to_numpy()[first:]
+    measured = rocking["rocking_angle"].sel(elapsed=ensemble["elapsed"]).to_numpy()
     # Peaks within the noise are all the same.
     least = float(rocking["noise_threshold"]) / block.critical_angle
     peak = float(np.nanmax(amplitude(measured, block), initial=least))
     if rocking.attrs["outcome"] == "overturned":
         peak = np.inf
-    peaks = np.where(np.isfinite(ensemble["member_overturning_time"]), np.inf, ensemble["member_peak_ratio"])
-    peaks = np.maximum(peaks, least)
-    return horizon, _within(ensemble), rank(peak, peaks), probability
+    peaks = np.nan_to_num(ensemble["judged_peak_ratio"].to_numpy(), nan=np.inf)
+    return horizon, _within(ensemble), rank(peak, np.maximum(peaks, least)), probability
 
 
 def _within(ensemble: xr.Dataset) -> float:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from itertools import pairwise
-from statistics import NormalDist
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +17,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.errors import StoreError
 from colonnade.identification.advice.span import SpanAdvice, advise_span
 from colonnade.stages.predict import sides
+from colonnade.stages.specimen import restitution_spread
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice, beyond
@@ -167,8 +167,10 @@ def _outcomes(
 ) -> tuple[float, float, float]:
     """Give the probabilities of rocking and of overturning under a motion, and its peak acceleration (m/s²)."""
     settings = campaign.processing.predict.ensemble
+    restitution, freedom = restitution_spread(pooled, settings)
     uncertainty = Uncertainty(
-        restitution=deviation_of(campaign, pooled),
+        restitution=restitution,
+        restitution_freedom=freedom,
         critical_angle=settings.critical_angle,
         p=settings.p,
         gain=settings.gain,
@@ -185,10 +187,3 @@ def _outcomes(
     falls = float(np.isnan(found.peak_ratio).mean())
     rocks = float((found.peak_ratio > 0.0).mean())
     return rocks, falls, float(np.abs(motion.acceleration).max())
-
-
-def deviation_of(campaign: Campaign, pooled: xr.Dataset) -> float:
-    """Return the standard deviation of e: that of its interval, or the setting if none was identified."""
-    half = (float(pooled["restitution_high"]) - float(pooled["restitution_low"])) / 2
-    deviation = half / NormalDist().inv_cdf(0.5 + float(pooled["level"]) / 2)
-    return float(deviation) if np.isfinite(deviation) else campaign.processing.predict.ensemble.restitution

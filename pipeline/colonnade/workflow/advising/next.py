@@ -11,10 +11,11 @@ from colonnade.campaign.forms.summary import TestSummary
 from colonnade.errors import CampaignError, StoreError, nearest
 from colonnade.identification.response.boundaries import SAME_FREQUENCY
 from colonnade.stages.predict import sides
+from colonnade.stages.specimen import restitution_spread
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice
 from colonnade.store.records.summary import map_points, read_summary, records_of_tests
-from colonnade.workflow.advising.earthquake import advise_earthquakes, deviation_of
+from colonnade.workflow.advising.earthquake import advise_earthquakes
 from colonnade.workflow.advising.free import advise_free
 from colonnade.workflow.advising.sine import Known, advise_sines
 from colonnade.workflow.pooling import restitution_taken
@@ -103,6 +104,7 @@ def advise_kind(
         free = advise_free(campaign, specimen, pooled, tests)
         return [] if free is None else [free]
     if kind == "sine":
-        known = Known(sides(pooled), deviation_of(campaign, pooled), tuple(map_points(tests, specimen)))
+        deviation, _ = restitution_spread(pooled, campaign.processing.predict.ensemble)
+        known = Known(sides(pooled), deviation, tuple(map_points(tests, specimen)))
         return advise_sines(campaign, specimen, known)
     return advise_earthquakes(campaign, layout, specimen, pooled, tests) if kind == "earthquake" else []

@@ -189,14 +189,15 @@ def _specimen(campaign: Campaign, name: str | None, test: Test | None) -> str:
 
 
 def _inputs(campaign: Campaign, layout: Layout, specimen: str, tilt: float) -> ForecastInputs:
-    from colonnade.stages.ensemble import restitution_deviation
     from colonnade.stages.predict import sides
+    from colonnade.stages.specimen import restitution_spread
 
     pooled, settings = restitution_taken(campaign, layout, specimen), campaign.processing.predict.ensemble
     if settings.members < 2:
         raise CampaignError("processing.predict.ensemble.members: a forecast needs at least 2 members.")
     block = campaign.block(specimen)
     rigid = max(block.restitution, 0.0)
+    deviation, freedom = restitution_spread(pooled, settings)
     negative, positive = sides(pooled)
     ends = {name: float(pooled[f"restitution_{name}"]) for name in ("low", "high")}
     return ForecastInputs(
@@ -209,7 +210,8 @@ def _inputs(campaign: Campaign, layout: Layout, specimen: str, tilt: float) -> F
             rigid_body=(rigid, rigid),
         ),
         spread=ForecastSpread(
-            restitution=restitution_deviation(pooled, settings),
+            restitution=deviation,
+            restitution_freedom=freedom,
             **{name: getattr(settings, name) for name in ("critical_angle", "p", "gain", "clock")},
         ),
         table_tilt=tilt,

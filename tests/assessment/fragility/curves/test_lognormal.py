@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 
 from colonnade.assessment.fragility.curves.lognormal import fit_lognormal
 from colonnade.assessment.fragility.outcomes import gather
+from colonnade.assessment.fragility.resampling import FEWEST_RECORDS
+from fragilities.population import Population
 from virtual_capacities import BETA, MEDIAN, lognormal, names, outcomes_of
 
 
@@ -65,11 +67,35 @@ def test_no_curve_is_given_if_the_outcomes_have_none(peaks, reason, rises):
     assert np.isnan([*fit.median, *fit.beta, *fit.probability([1.0]).low]).all()
 
 
-def test_of_four_records_no_interval_is_given():
-    fit = fit_lognormal(lognormal(5, records=4), resamples=50)
-    assert (fit.reason, fit.median.value) == ("", pytest.approx(MEDIAN, rel=0.5))
+@pytest.mark.parametrize(
+    ("outcomes", "why"),
+    [
+        (lognormal(5, records=FEWEST_RECORDS - 1), "There are 9 records. A curve has no interval below 10."),
+        (lognormal(2, records=12, draws=1, levels=4), "of the resamples of records have no curve"),
+    ],
+    ids=["few records", "few levels between none and all"],
+)
+def test_a_curve_whose_resamples_do_not_show_the_scatter_has_no_interval_and_says_why(outcomes, why):
+    fit = fit_lognormal(outcomes, resamples=200)
+    assert (fit.reason, why in fit.no_interval) == ("", True)
+    assert np.isfinite([fit.median.value, fit.beta.value]).all()
     assert np.isnan([fit.median.low, fit.beta.high, fit.probability([MEDIAN]).low[0]]).all()
-    assert np.isfinite(fit_lognormal(lognormal(5, records=5), resamples=50).median.low)
+
+
+def test_intervals_of_few_records_at_few_levels_hold_the_truth_as_often_as_they_say_or_are_not_given():
+    """Without the resamples that have no curve, of 12 records at levels of 0.9 β apart, β would be held in 3 of 4."""
+    population = Population(records=12, draws=1, levels=6, of_parameters=0.0)
+    fits = [fit_lognormal(population.sample(np.random.default_rng(seed)), resamples=199) for seed in range(80)]
+    given = [fit for fit in fits if not (fit.reason or fit.no_interval)]
+    assert 10 < len(given) < 70
+    for name, truth in (("median", MEDIAN), ("beta", population.beta)):
+        held = np.mean([getattr(fit, name).low <= truth <= getattr(fit, name).high for fit in given])
+        assert held > 0.95 - 3 * np.sqrt(0.95 * 0.05 / len(given))
+
+
+def test_as_many_records_as_are_needed_have_an_interval():
+    fit = fit_lognormal(lognormal(5, records=FEWEST_RECORDS), resamples=50)
+    assert (fit.no_interval, bool(np.isfinite(fit.median.low))) == ("", True)
 
 
 def test_one_intensity_gives_no_curve():

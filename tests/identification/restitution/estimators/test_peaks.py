@@ -84,6 +84,18 @@ def test_intervals_hold_the_truth_as_often_as_they_say(scatter):
     assert abs(np.mean(errors)) < 0.35
 
 
+@pytest.mark.parametrize("scatter", [0.0005, 0.001, 0.003])
+def test_intervals_are_as_wide_as_a_mean_of_so_many_impacts_and_not_wider(scatter):
+    halves = []
+    for seed in range(60):
+        random = np.random.default_rng(seed)
+        peaks = peaks_of(0.97 * np.exp(scatter * random.normal(size=23)), count=24, released=0.7)
+        found = fit(peaks + random.normal(0, 3e-5, 24), error=3e-5).estimate
+        halves.append((found.high - found.low) / 2)
+    # 1.96 · 0.97 · scatter/√23 if the scatter is known; the noise of the peaks and Student's t add a little.
+    assert np.mean(halves) == pytest.approx(1.96 * 0.97 * scatter / np.sqrt(23), rel=0.15)
+
+
 def test_a_higher_level_has_a_wider_interval_about_the_same_value():
     peaks = peaks_of(0.95) + np.random.default_rng(2).normal(0, ERROR, 16)
     narrow, wide = (fit(peaks, level=level).estimate for level in (0.8, 0.99))

@@ -30,6 +30,14 @@ def test_the_slope_is_off_by_as_much_as_its_error_says(scatter, least):
     assert least < off.std() < 1.25
 
 
+def test_errors_are_as_large_as_a_walk_makes_them_and_not_larger():
+    errors = np.array([problem(seed, scatter=0.05).fit().error(1) for seed in range(120)])
+    # The slope of a walk over n steps is as uncertain as the mean of n of them.
+    expected = 0.05 / np.sqrt(NUMBER.size - 1)
+    assert np.median(errors) == pytest.approx(expected, rel=0.2)
+    assert errors.max() < 2 * expected
+
+
 def test_a_coefficient_of_nothing_is_seldom_sure_and_a_large_one_is():
     sure = [problem(seed, scatter=0.02).fit(NUMBER > 9).is_sure(2, 3.0) for seed in range(120)]
     assert sum(sure) <= 3
@@ -48,7 +56,9 @@ def test_the_gain_of_a_column_is_that_of_the_fit_with_it():
 
     def criterion(design):
         left = one.values - design @ np.linalg.lstsq(design, one.values, rcond=None)[0]
-        return NUMBER.size * np.log(weight**2 * left @ left)
+        power = weight**2 * left @ left
+        scale = max(power / NUMBER.size, 1.0)
+        return NUMBER.size * np.log(scale) + power / scale
 
     expected = [criterion(one.design) - criterion(np.column_stack((one.design, each))) for each in columns.T]
     assert gains == pytest.approx(expected, abs=0.3)  # a walk that is not there may still lower either by a little

@@ -22,8 +22,10 @@ from colonnade.assessment.fragility.resampling import (
     Interval,
     checked_level,
     record_weights,
+    shows_spread,
     studentised,
 )
+from colonnade.units import format_percent
 from colonnade.validation import samples
 
 Reason = Literal["", "separated", "falling", "never", "always", "one intensity"]
@@ -46,7 +48,7 @@ class LognormalFit:
         Up to the first intensity nothing overturned, from the second on everything: the curve rises between them.
         If the outcomes are separated, that is all that is known. 0 or inf if there is no such intensity.
     median, beta : Interval
-        NaN if there is no curve; their limits also of fewer than `FEWEST_RECORDS` records.
+        NaN if there is no curve; their limits also if `no_interval` says why.
     log_likelihood : float
         Of the histories, taken as independent; if separated its limit.
     level : float
@@ -54,9 +56,9 @@ class LognormalFit:
     records : int
         Their number.
     degenerate : float
-        Share of the resamples that are left out of the intervals because they have no curve.
+        Share of the resamples that have no curve.
     fit, resampled : Parameters
-        Of all records, shape (1,), and of each resample, shape (n,).
+        Of all records, shape (1,), and of each resample with a curve, shape (n,); none if there is no interval.
     """
 
     reason: Reason
@@ -69,6 +71,18 @@ class LognormalFit:
     degenerate: float
     fit: Parameters
     resampled: Parameters
+
+    @property
+    def no_interval(self) -> str:
+        """Why the curve has no intervals, in sentences; empty if it has some, or there is no curve."""
+        if self.reason or self.resampled.log_median.size:
+            return ""
+        if self.records < FEWEST_RECORDS:
+            return f"There are {self.records} records. A curve has no interval below {FEWEST_RECORDS}. Add records."
+        return (
+            f"{format_percent(self.degenerate)} of the resamples of records have no curve, so there is no interval: "
+            "at too few levels some records stand and others overturn. Add records, or levels closer together."
+        )
 
     def probability(self, intensity: ArrayLike) -> Band:
         """Give P at intensities, shape (k,), with intervals; NaN if there is no curve."""
@@ -135,7 +149,7 @@ def fit_lognormal(
     parameters, log_likelihood, status = fit_parameters(cells, weights)
     all_records, resampled = (Parameters(*(each[part] for each in parameters)) for part in (slice(1), slice(1, None)))
     has_curve = status[1:] == probit.FITTED
-    usable = has_curve & (len(outcomes.records) >= FEWEST_RECORDS)
+    usable = has_curve & shows_spread(has_curve, len(outcomes.records))
     resampled = Parameters(*(each[usable] for each in resampled))
     median, beta = _intervals(all_records, resampled, checked_level(level), len(outcomes.records))
     return LognormalFit(

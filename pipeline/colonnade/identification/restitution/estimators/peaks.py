@@ -98,7 +98,7 @@ class _Line:
 
 def _weighted_line(design: Array, values: Array, error: Array, number: Array) -> _Line:
     """
-    Generalised least squares with variance s² [diag(error²) + ρ min(i, j)], for each ρ of `RATIOS`.
+    Generalised least squares with variance s² [diag(error²) + ρ min(i, j)], s not below 1, for each ρ of `RATIOS`.
 
     The walk begins at the first peak; ρ = 0 is independent scatter alone.
     """
@@ -113,11 +113,13 @@ def _weighted_line(design: Array, values: Array, error: Array, number: Array) ->
     coefficients = (inverse @ ((columns.T[None, :, :] / variance[:, None, :]) @ aim)[:, :, None])[:, :, 0]
     residual = aim[None, :] - coefficients @ columns.T
     freedom = values.size - design.shape[1]
-    scale = np.maximum((residual**2 / variance).sum(axis=1) / freedom, 1e-300)
+    power = (residual**2 / variance).sum(axis=1)
+    # Errors are as given or larger, in the likelihood too: it would else prefer a walk that they are too large for.
+    scale = np.maximum(power / freedom, 1.0)
     volume = np.log(variance).sum(axis=1) + np.linalg.slogdet(normal)[1]
-    likelihood = -0.5 * (volume + freedom * np.log(scale))
+    likelihood = -0.5 * (volume + freedom * np.log(scale) + power / scale)
     # The logarithm of the energy falls by 2 ln e.
-    centre, slope_error = coefficients[:, 1] / 2, np.sqrt(inverse[:, 1, 1] * np.maximum(scale, 1.0)) / 2
+    centre, slope_error = coefficients[:, 1] / 2, np.sqrt(inverse[:, 1, 1] * scale) / 2
     scatter = np.sqrt(RATIOS * unit * scale) / 2
     step = float(np.log(RATIOS[2] / RATIOS[1])) / 2
     parts = MeanByScatter(scatter, likelihood, centre, slope_error, float(freedom), step)

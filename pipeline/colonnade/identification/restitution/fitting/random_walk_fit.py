@@ -98,8 +98,8 @@ class RandomWalkProblem:
         along = (left[:, :, :1].transpose(0, 2, 1) @ left)[:, 0]
         explained = along[:, 1:] ** 2 / np.maximum((left[:, :, 1:] ** 2).sum(axis=1), 1e-300)
         power, volume = along[:, 0], np.log(variance).sum(axis=1)
-        without = (volume + count * np.log(power / count)).min()
-        lowest = volume[:, None] + count * np.log(np.maximum(power[:, None] - explained, 1e-300) / count)
+        without = (volume + _misfit(power, count)[0]).min()
+        lowest = volume[:, None] + _misfit(power[:, None] - explained, count)[0]
         return np.asarray(without - lowest.min(axis=0))
 
     def _turned(self, columns: Array) -> Array:
@@ -132,11 +132,16 @@ def _likeliest(turned: Array, variance: Array, lengths: Array) -> RandomWalkFit:
     coefficients = inverse @ (columns.transpose(0, 2, 1) @ seen)
     left = (seen - columns @ coefficients)[:, :, 0]
     freedom = left.shape[1] - lengths.size
-    scale = np.maximum((left**2).sum(axis=1) / freedom, 1e-12)
-    restricted = np.log(variance).sum(axis=1) + np.linalg.slogdet(normal)[1] + freedom * np.log(scale)
-    best = int(np.argmin(restricted))
-    spread = inverse[best] * max(float(scale[best]), 1.0) / np.outer(lengths, lengths)
+    misfit, scale = _misfit((left**2).sum(axis=1), freedom)
+    best = int(np.argmin(np.log(variance).sum(axis=1) + np.linalg.slogdet(normal)[1] + misfit))
+    spread = inverse[best] * scale[best] / np.outer(lengths, lengths)
     return RandomWalkFit(coefficients[best, :, 0] / lengths, spread, freedom)
+
+
+def _misfit(power: Array, freedom: int) -> tuple[Array, Array]:
+    """What weighted squares add to −2 ln of the likelihood, and the scale of variances: as given or larger."""
+    scale = np.maximum(power / freedom, 1.0)
+    return freedom * np.log(scale) + power / scale, scale
 
 
 RATIOS = np.concatenate(([0.0], np.geomspace(1e-3, 1e4, 15)))
