@@ -233,15 +233,14 @@ def _raw_files(campaign: Campaign, layout: Layout, catalogue: Catalogue, test: T
 
 
 def _table(motion: Motion) -> ForecastTable:
-    from colonnade.signals.intensity import table_displacement, table_velocity
+    from colonnade.assessment.intensity.measured import table_measures
 
-    velocity = table_velocity(motion.acceleration, motion.dt)
-    displacement = table_displacement(motion.acceleration, motion.dt)
+    measured, drift = table_measures(motion.acceleration, motion.dt)
     return ForecastTable(
         peak_acceleration=motion.peak,
-        peak_velocity=_known(velocity.peak),
-        peak_displacement=_known(displacement.peak),
-        drift=displacement.drift,
+        peak_velocity=_known(measured["pgv"]),
+        peak_displacement=_known(measured["pgd"]),
+        drift=drift,
     )
 
 
