@@ -19,10 +19,10 @@ def test_the_models_are_those_of_the_registry():
 def test_a_map_is_written_with_its_picture(colonnade, campaign):
     told = colonnade("map", *SMALL, "--phase", "90", "--ramp", "1")
     assert (told.returncode, told.stderr) == (0, "")
-    paths = dict(line.split(": ") for line in told.stdout.splitlines() if ": " in line)
+    paths = dict(line.split(": ") for line in told.stdout.splitlines()[1:])
     assert Path(paths["map"]) == campaign / "processed" / "maps" / "prism-nonlinear.nc"
     assert "<svg" in Path(paths["figure"]).read_text(encoding="utf-8")
-    assert told.stdout.startswith("prism, nonlinear model: 0 measured points, e rigid-body; ")
+    assert told.stdout.startswith("prism, nonlinear model: no measured point, e rigid-body; computed: never run\n")
 
 
 def test_commands_have_one_default_model():

@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 
     {CAMPAIGN} Without options it brings the campaign's [assessments] up to date, as `run` does. With --specimen and
     --records, or options that replace keys of an assessment, it answers a question of your own and stores nothing; the
-    files may be anywhere. A column that is not a specimen is given by --shape and its sizes, or by --critical-angle and --p,
-    with --restitution; then no campaign is needed.
+    files may be anywhere. A column that is not a specimen is given by --shape and its sizes, or by --critical-angle
+    and --p, with --restitution; then no campaign is needed.
 
     An interrupted assessment of the campaign is continued.
     """,

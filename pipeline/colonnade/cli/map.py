@@ -131,7 +131,8 @@ def map_command(
 
 def _show_limits(made: MapMade) -> None:
     measured = count(made.measured, "measured point")
-    say(f"{made.specimen}, {made.model} model: {measured}, e {made.restitution_source}; {made.because or 'up to date'}")
+    why = f"computed: {made.because}" if made.because else "up to date"
+    say(f"{made.specimen}, {made.model} model: {measured}, e {made.restitution_source}; {why}")
     limits = (("lower", made.lower), ("upper", made.upper))
     show_fields([(f"{name} limit − measured", _misfit(misfit)) for name, misfit in limits if misfit is not None])
 

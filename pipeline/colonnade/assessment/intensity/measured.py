@@ -172,9 +172,7 @@ def table_measures(
     A gap of the acceleration (m/s²) counts as zero.
     """
     ground = Ground(np.nan_to_num(acceleration), interval, gravity, at_rest=True)
-    found = {
-        name: measured(MEASURES[name], ground, drift=LARGEST_DRIFT_AT_REST)[0] for name in ("pgv", "pgd", "arias")
-    }
+    found = {name: measured(MEASURES[name], ground, drift=LARGEST_DRIFT_AT_REST)[0] for name in ("pgv", "pgd", "arias")}
     return found, ground.drift_of_displacement
 
 

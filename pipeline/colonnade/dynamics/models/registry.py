@@ -19,6 +19,7 @@ PLANE_MODELS: dict[str, PlaneModel] = {name: model for name, model in MODELS.ite
 DEFAULT = LINEAR.name
 """Default model of a single run of the library: the fastest."""
 
+
 def model_of(name: str) -> Model:
     """
     Return a model by its name.

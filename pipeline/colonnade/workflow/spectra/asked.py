@@ -132,7 +132,7 @@ def motion_of(
 def _found(
     asked: AskedMotion, campaign: Campaign | None, layout: Layout | None, scale: float | None
 ) -> tuple[Motion, str, Literal["file", "shape", "table"]]:
-    """Return the motion in the time of the column, its source, and what is known: a file, its shape, a table's motion."""
+    """Return the motion in the time of the column, its source, and what is known of it: its shape alone or all."""
     from colonnade.readers.motion import read_motion
 
     path = Path(asked.name)
