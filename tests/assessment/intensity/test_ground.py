@@ -38,6 +38,7 @@ def test_a_constant_error_of_the_acceleration_is_taken_off_while_it_is_small():
     assert measured(PULSE + 0.005)[0] == pytest.approx(VELOCITY, rel=2e-2)
     spoilt, _, drift = measured(PULSE + 0.1)
     assert np.isnan(spoilt)
+    assert drift == pytest.approx(Ground(PULSE + 0.1, INTERVAL, at_rest=True).drift)  # of what is refused first
     assert drift > 0.25
 
 

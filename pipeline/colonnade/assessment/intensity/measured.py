@@ -173,7 +173,7 @@ def table_measures(
     """
     ground = Ground(np.nan_to_num(acceleration), interval, gravity, at_rest=True)
     found = {name: measured(MEASURES[name], ground, drift=LARGEST_DRIFT_AT_REST)[0] for name in ("pgv", "pgd", "arias")}
-    return found, ground.drift_of_displacement
+    return found, ground.drift if ground.drift > LARGEST_DRIFT_AT_REST else ground.drift_of_displacement
 
 
 def measures_of(names: Sequence[str]) -> list[Measure]:
