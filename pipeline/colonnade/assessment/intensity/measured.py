@@ -123,6 +123,7 @@ def intensity_measures(
     instance("motion", motion, Motion)
     if block is not None:
         instance("block", block, Block)
+    instance("at_rest", at_rest, bool)
     usual = LARGEST_DRIFT_AT_REST if at_rest else LARGEST_DRIFT
     drift = number("drift", usual if drift is None else drift, "a positive share of the peak velocity", above=0.0)
     if gravity is None:
