@@ -195,7 +195,7 @@ CALLS = {
         colonnade.intensity_measures,
         {"motion": MOTION},
         {"motion": "object", "block": "object or none", "measures": "names", "drift": "positive"}
-        | {"baseline": "name", "gravity": "positive"},
+        | {"baseline": "name", "gravity": "positive", "at_rest": "flag"},
     ),
     "overturning_spectrum": Call(
         colonnade.overturning_spectrum,

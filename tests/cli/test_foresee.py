@@ -9,6 +9,7 @@ def test_a_forecast_is_shown_and_kept(foreseen_copy, capsys):
     assert invoke([*asked, "--level", "0.01 g"]) == 0
     said = capsys.readouterr().out.replace("\xa0", " ")
     assert "100 %" in said
+    assert max(map(len, said.partition("forecast: ")[0].splitlines())) <= 80
     assert "forecast: " in said
     assert invoke([*asked, "--level", "1x", "--json"]) == 0
     (made,) = json.loads(capsys.readouterr().out)

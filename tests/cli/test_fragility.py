@@ -24,6 +24,11 @@ def test_a_column_without_a_campaign_is_answered_and_drawn(assessed, tmp_path, c
     [found] = json.loads(capsys.readouterr().out)
     assert (found["specimen"], found["status"], found["critical_angle"]) == ("column", "done", 0.18)
     assert out.read_text(encoding="utf-8").startswith("<?xml")
+    sized = ["--shape", "prism", "--width", "1 m", "--height", "5 m", "--restitution", "0.95"]
+    assert invoke(["fragility", *sized, *levels, "--records", str(assessed / "records")]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("column: It overturns with a probability of")
+    assert "Assumed: α 0.197 rad, p 1.7 rad/s" in said
 
 
 def test_what_cannot_be_answered_says_why(assessed, tmp_path, capsys):

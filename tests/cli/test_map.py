@@ -19,10 +19,22 @@ def test_the_models_are_those_of_the_registry():
 def test_a_map_is_written_with_its_picture(colonnade, campaign):
     told = colonnade("map", *SMALL, "--phase", "90", "--ramp", "1")
     assert (told.returncode, told.stderr) == (0, "")
-    paths = dict(line.split(": ") for line in told.stdout.splitlines() if ": " in line)
-    assert Path(paths["map"]) == campaign / "processed" / "maps" / "prism-linear.nc"
+    paths = dict(line.split(": ") for line in told.stdout.splitlines()[1:])
+    assert Path(paths["map"]) == campaign / "processed" / "maps" / "prism-nonlinear.nc"
     assert "<svg" in Path(paths["figure"]).read_text(encoding="utf-8")
-    assert "rigid-body" in told.stdout
+    assert told.stdout.startswith("prism, nonlinear model: no measured point, e rigid-body; computed: never run\n")
+
+
+def test_commands_have_one_default_model():
+    from colonnade.campaign.assessing.assessment import Assessment
+    from colonnade.cli.spectrum import spectrum
+    from colonnade.workflow.maps.plans import Wanted
+
+    ((mapped,), shaken) = (
+        next(option.default for option in command.params if option.name == "model")
+        for command in (map_command, spectrum)
+    )
+    assert {mapped, shaken, Assessment.model_fields["model"].default, *Wanted().models} == {"nonlinear"}
 
 
 def test_each_model_has_its_own_map_and_json_tells_where(colonnade, campaign):

@@ -18,4 +18,5 @@ def test_what_was_run_gives_advice(colonnade, campaign):
     assert advice["kind"] == "free-vibration"
     told = colonnade("next")
     assert told.returncode == 0
-    assert "free-vibration: " in told.stdout
+    assert told.stdout.startswith(f"Do this next: free-vibration of prism: {advice['test']}")
+    assert f"Because {advice['reason']}." in told.stdout

@@ -5,12 +5,15 @@ from __future__ import annotations
 import csv
 import json
 import math
+import re
 
 import numpy as np
 import pytest
 
 from colonnade.cli import invoke
+from foreseeing import TEST
 
+PRISM = ("--shape", "prism", "--width", "1 m", "--height", "5 m")
 COLUMN = ("--critical-angle", "0.2 rad", "--p", "2 rad/s")
 
 
@@ -104,6 +107,7 @@ def test_a_specimen_of_a_campaign_is_taken_at_its_scale(campaign, record, capsys
         (["--pulse", "sine", *COLUMN, "--restitution", "identified"], "e is identified of a specimen"),
         (["--pulse", "sine", *COLUMN, "--omega", "3", "1"], "--omega 3 1: two positive values in rising order"),
         (["--pulse", "sine", *COLUMN, "--points", "1"], "--points 1"),
+        (["--motion", "record.csv", *COLUMN, "--least-width", "1"], "--least-width is only for --pulse"),
         (["--pulse", "sine", *COLUMN, "--largest", "-1"], "largest is -1.0"),
         (["--pulse", "sine", *COLUMN, "--out", "x.txt"], "unknown ending"),
         (["--pulse", "sine", "--critical-angle", "2 rad", "--p", "2 rad/s"], "The column cannot be"),
@@ -138,3 +142,37 @@ def test_the_e_of_a_real_column_has_to_be_said(campaign, record, capsys):
     assert "The e of the real column is not given. Add --restitution" in capsys.readouterr().err
     assert invoke([*asked, "--restitution", "0.9"]) == 0
     assert "0.9 (given)" in capsys.readouterr().out
+
+
+def test_the_verdict_is_the_first_line(record, capsys):
+    asked = ["spectrum", "--motion", str(record), *PRISM, "--unit", "g", "--points", "2"]
+    assert invoke(asked) == 0
+    assert re.match(r"The column (overturns|rocks to .* and stands|does not rock) \(nonlinear", capsys.readouterr().out)
+    assert invoke([*asked, "--peak", "0.1 g"]) == 0
+    assert capsys.readouterr().out.startswith("The column does not rock (nonlinear model).")  # g tan α is 0.2 g
+    pulse = ["spectrum", "--pulse", "half-sine", *COLUMN, "--points", "2", "--omega", "1", "2", "--model", "linear"]
+    assert invoke([*pulse, "--largest", "1.01"]) == 0
+    assert capsys.readouterr().out.startswith("No half-sine pulse up to A = 1.01 overturns the column (linear model).")
+
+
+def test_what_a_campaign_recorded_is_in_the_time_of_the_column(foreseen_copy, capsys):
+    """Similitude: a column 20 times larger does in √20 times the time what its model does on the table."""
+    asked = ["spectrum", str(foreseen_copy), "--motion", TEST, "--points", "2", "--json"]
+    found = []
+    for options in ((), ("--scale", "20")):
+        assert invoke([*asked, "--specimen", "prism", *options, "--restitution", "0.95"]) == 0
+        found.append(json.loads(capsys.readouterr().out))
+    model, real = found
+    assert model["peak_ratio"] > 0.01
+    assert real["peak_ratio"] == pytest.approx(model["peak_ratio"], rel=1e-6)
+    assert real["interval"] == pytest.approx(model["interval"] * 20**0.5)
+    assert "4.47 times slower for a column 20 times larger" in real["motion"]
+    column = model["column"]
+    given = ["--critical-angle", f"{column['critical_angle']} rad", "--restitution", "0.95"]
+    given += ["--p", f"{column['p'] / 20**0.5} rad/s"]
+    assert invoke([*asked, *given]) == 0  # the campaign says that the prism is 1:20
+    assert json.loads(capsys.readouterr().out)["peak_ratio"] == pytest.approx(model["peak_ratio"], rel=1e-4)
+    file = foreseen_copy / "campaign.toml"
+    file.write_text(re.sub(r"(, )?\bscale = 20(\.0)?\n?", "", file.read_text()))
+    assert invoke([*asked, *given]) == 2
+    assert "how many times larger the column is, is not known" in capsys.readouterr().err

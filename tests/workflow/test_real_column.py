@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import atan, hypot
 
 import pytest
 
@@ -74,9 +75,42 @@ def test_alpha_and_p_need_no_campaign_and_leave_its_specimens_aside(campaign):
     assert found(campaign, **said)[0] == alone
 
 
+GRAVITY = 9.81
+
+
+@pytest.mark.parametrize(
+    ("sizes", "alpha", "p"),
+    [
+        # Solid bodies: α = arctan(b/h_G), I₀ = (4/3) m R² of a prism; of a cylinder m (r²/4 + H²/12) about its centre.
+        ({"shape": "prism", "width": "1 m", "height": "5 m"}, atan(0.2), (0.75 * GRAVITY / hypot(0.5, 2.5)) ** 0.5),
+        (
+            {"shape": "cylinder", "diameter": "1 m", "height": "5 m"},
+            atan(0.2),
+            (GRAVITY * hypot(0.5, 2.5) / (0.25 * 0.5**2 + 25 / 12 + 0.5**2 + 2.5**2)) ** 0.5,
+        ),
+    ],
+    ids=["prism", "cylinder"],
+)
+def test_a_column_is_given_by_its_sizes(campaign, sizes, alpha, p):
+    alone, source = found(None, **sizes)
+    assert (alone.block.critical_angle, alone.block.p) == pytest.approx((alpha, p))
+    assert source == "rigid-body"
+    assert found(campaign, **sizes, restitution=0.9)[0].restitution == 0.9
+
+
+def test_a_cone_of_equal_ends_is_a_cylinder():
+    cone = found(None, shape="cone", base_diameter="800 mm", top_diameter="800 mm", height="4 m")[0].block
+    cylinder = found(None, shape="cylinder", diameter="0.8 m", height="4 m")[0].block
+    assert (cone.critical_angle, cone.p) == pytest.approx((cylinder.critical_angle, cylinder.p))
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [
+        ({"width": "1 m", "height": "5 m"}, "--width: give its --shape too: prism, cylinder, cone"),
+        ({"shape": "prism", "width": "1", "height": "5 m"}, '--width: "1" has no unit'),
+        ({"shape": "prism", "width": "1 m"}, "--height: It is missing"),
+        ({"shape": "prism", "width": "1 m", "height": "5 m", "specimen": "prism"}, "Leave --specimen"),
         ({}, "The column is not known"),
         ({"specimen": "prism"}, "there is no campaign here"),
         ({"critical_angle": "0.2 rad", "p": "2 rad/s", "scale": 2.0}, "--scale is for a specimen"),

@@ -7,17 +7,12 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
-from colonnade.cli.common.console import say, show_json, show_table
+from colonnade.cli.common.console import say, show_json, show_paragraph, show_table
 from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_option, one_specimen_option, results_option
 from colonnade.cli.common.progress import work_progress
 
 if TYPE_CHECKING:
     from colonnade.workflow.forecasting.foresee import Foreseen
-
-HEADS = (
-    *("level", "model", "peak table acceleration", "velocity", "displacement"),
-    *("no rocking", "rocking", "overturned", "50 % of max |θ|/α", "80 %", "95 %", "friction needed"),
-)
 
 
 @click.command(
@@ -80,15 +75,18 @@ def foresee(
     if as_json:
         show_json([{"file": each.path, **each.forecast.model_dump(mode="json", by_alias=True)} for each in made])
         return 0
-    show_table(HEADS, [row for each in made for row in _rows(each)])
     for each in made:
+        _show(each)
         say(f"forecast: {each.path}")
     return 0
 
 
-def _rows(made: Foreseen) -> list[tuple[str, ...]]:
-    from colonnade.store.records.forecast import shown_model, shown_table
+def _show(made: Foreseen) -> None:
+    """Write what the table must do, and under it what each model foresees, side by side."""
+    from colonnade.store.records.forecast import FORESEEN, shown_model, shown_table
 
     forecast = made.forecast
-    table = shown_table(forecast.table)
-    return [(forecast.level, name, *table, *shown_model(model)) for name, model in forecast.models.items()]
+    acceleration, velocity, displacement = shown_table(forecast.table)
+    show_paragraph(f"{forecast.level}: the table reaches {acceleration}; velocity {velocity}; stroke {displacement}")
+    columns = [shown_model(model) for model in forecast.models.values()]
+    show_table(("", *forecast.models), list(zip(FORESEEN, *columns, strict=True)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +14,7 @@ from colonnade.cli.common.options import (
     campaign_argument,
     column_options,
     json_option,
+    plane_models,
     results_option,
     scheduler_option,
     workers_option,
@@ -25,12 +25,6 @@ if TYPE_CHECKING:
     from colonnade.workflow.assessing.fragility import Assessed, Where
 
 
-def _plane_models() -> Iterable[str]:
-    from colonnade.dynamics.models.registry import PLANE_MODELS
-
-    return PLANE_MODELS
-
-
 @click.command(
     epilog="Example: colonnade fragility demo --name prism",
     help=f"""
@@ -38,8 +32,8 @@ def _plane_models() -> Iterable[str]:
 
     {CAMPAIGN} Without options it brings the campaign's [assessments] up to date, as `run` does. With --specimen and
     --records, or options that replace keys of an assessment, it answers a question of your own and stores nothing; the
-    files may be anywhere. A column that is no specimen is given by --critical-angle, --p and --restitution; then no
-    campaign is needed.
+    files may be anywhere. A column that is not a specimen is given by --shape and its sizes, or by --critical-angle
+    and --p, with --restitution; then no campaign is needed.
 
     An interrupted assessment of the campaign is continued.
     """,
@@ -58,7 +52,7 @@ def _plane_models() -> Iterable[str]:
 )
 @click.option("--hazard", type=click.Path(path_type=Path), metavar="FILE", help="Annual rates of exceedance, as CSV.")
 @click.option("--overturned", type=float, metavar="SHARE", help="Share of α beyond which it counts as overturned.")
-@click.option("--model", type=LateChoice(_plane_models), help="Model of rocking.")
+@click.option("--model", type=LateChoice(plane_models), help="Model of rocking.")
 @click.option("--draws", type=int, metavar="N", help="Draws of e, α, p and friction.")
 @click.option("--drift", type=float, metavar="SHARE", help="Largest end velocity over PGV of a record without drift.")
 @click.option("--baseline", metavar="METHOD", help="Correct the records: linear, quadratic or highpass(0.1 Hz).")
@@ -143,8 +137,10 @@ def _show(assessed: Assessed) -> None:
     from colonnade.units import format_percent
 
     record = assessed.record
-    say(f"{assessed.name} ({record.specimen})")
-    for sentence in sentences(record):
+    verdict, *others = sentences(record)
+    of = "" if record.specimen == assessed.name else f" ({record.specimen})"
+    say(f"{assessed.name}{of}: {verdict}")
+    for sentence in others:
         say(f"  {sentence}")
     for said in record.warnings:
         complain(f"warning: {said}")

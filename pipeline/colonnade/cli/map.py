@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import say, show_json, show_table
+from colonnade.cli.common.console import say, show_fields, show_json
 from colonnade.cli.common.options import (
     CAMPAIGN,
+    MODEL,
     LateChoice,
     campaign_argument,
     json_option,
@@ -20,16 +21,11 @@ from colonnade.cli.common.options import (
     workers_option,
 )
 from colonnade.cli.common.progress import work_progress
+from colonnade.errors import count
 
 if TYPE_CHECKING:
     from colonnade.identification.response.boundaries import Misfit
     from colonnade.workflow.maps.stability import MapMade
-
-
-HEADS = (
-    *("specimen", "model", "e", "measured points"),
-    *("lower limit − measured", "upper limit − measured", "why", "seconds"),
-)
 
 
 @click.command(
@@ -53,7 +49,7 @@ HEADS = (
     "--model",
     multiple=True,
     type=LateChoice(models),
-    default=("linear",),
+    default=(MODEL,),
     show_default=True,
     help="Repeat the option for several: each gets its own map, and one picture shows the limits of all.",
 )
@@ -121,8 +117,8 @@ def map_command(
     if as_json:
         show_json(made)
         return 0
-    show_table(HEADS, [_cells(each) for each in made])
     for each in made:
+        _show_limits(each)
         say(f"map: {each.path}")
         say(f"figure: {each.figure}")
         if each.responses is not None:
@@ -133,15 +129,13 @@ def map_command(
     return 0
 
 
-def _cells(made: MapMade) -> tuple[str, ...]:
-    limits = (_misfit(made.lower), _misfit(made.upper))
-    return (
-        *(made.specimen, made.model, made.restitution_source, str(made.measured)),
-        *(*limits, made.because or "up to date", f"{made.seconds:.1f}"),
-    )
+def _show_limits(made: MapMade) -> None:
+    measured = count(made.measured, "measured point")
+    why = f"computed: {made.because}" if made.because else "up to date"
+    say(f"{made.specimen}, {made.model} model: {measured}, e {made.restitution_source}; {why}")
+    limits = (("lower", made.lower), ("upper", made.upper))
+    show_fields([(f"{name} limit − measured", _misfit(misfit)) for name, misfit in limits if misfit is not None])
 
 
-def _misfit(misfit: Misfit | None) -> str:
-    if misfit is None:
-        return "–"
+def _misfit(misfit: Misfit) -> str:
     return f"{misfit.mean:+.3f} in A (RMS {misfit.rms:.3f}, {misfit.frequencies} Ω)"

@@ -13,10 +13,12 @@ from click.core import ParameterSource
 from colonnade.cli.common.console import say, show_fields, show_json, show_table
 from colonnade.cli.common.options import (
     CAMPAIGN,
+    MODEL,
     LateChoice,
     campaign_argument,
     column_options,
     json_option,
+    plane_models,
     results_option,
 )
 
@@ -27,7 +29,7 @@ if TYPE_CHECKING:
     from colonnade.workflow.spectra.spectrum import Overturning, Rocking
 
 OF_MOTION = ("unit", "interval", "column", "peak", "baseline", "drift", "slenderness", "periods")
-OF_PULSE = ("omega", "cycles", "phase", "largest", "width")
+OF_PULSE = ("omega", "cycles", "phase", "largest", "least_width")
 """Options that say nothing with the other of --motion and --pulse, and are refused there."""
 
 SHAPE = ("cycles", "phase")
@@ -40,14 +42,8 @@ def _pulses() -> Iterable[str]:
     return PULSES
 
 
-def _plane_models() -> Iterable[str]:
-    from colonnade.dynamics.models.registry import PLANE_MODELS
-
-    return PLANE_MODELS
-
-
 @click.command(
-    epilog='Example: colonnade spectrum --motion record.AT2 --critical-angle "0.18 rad" --p "1.26 rad/s"',
+    epilog='Example: colonnade spectrum --motion record.AT2 --shape prism --width "1 m" --height "5 m"',
     help=f"""
     Show what a base motion or a pulse does to a column.
 
@@ -55,9 +51,9 @@ def _plane_models() -> Iterable[str]:
     with the intensity measures of the motion. --pulse gives the overturning spectrum of a pulse: the amplitudes from
     which it overturns the column, and up to which it may not, over frequency.
 
-    The column is a specimen of CAMPAIGN, or is given by --critical-angle and --p; then no campaign is needed. A
-    specimen has the e that its predictions use. Of the real column, or with another α or p, say it: by --restitution
-    or [prototype.ID].
+    The column is a specimen of CAMPAIGN, or is given by --shape and its sizes, or by --critical-angle and --p; then no
+    campaign is needed. A specimen has the e that its predictions use. Of the real column, or with another α or p, say
+    it: by --restitution or [prototype.ID].
     {CAMPAIGN}
     """,
 )
@@ -65,9 +61,7 @@ def _plane_models() -> Iterable[str]:
 @click.option("--motion", metavar="FILE|NAME", help="A file, a test that recorded it, or one of [motions].")
 @click.option("--pulse", type=LateChoice(_pulses), help="Kind of pulse.")
 @column_options
-@click.option(
-    "--model", type=LateChoice(_plane_models), default="nonlinear", show_default=True, help="Model of rocking."
-)
+@click.option("--model", type=LateChoice(plane_models), default=MODEL, show_default=True, help="Model of rocking.")
 @click.option("--unit", help='Unit of the accelerations in the file, such as "g".')
 @click.option("--interval", metavar="TIME", help='Sampling interval of the file, such as "0.01 s".')
 @click.option("--column", metavar="NAME|NUMBER", help="Column of the accelerations in the file.")
@@ -80,7 +74,9 @@ def _plane_models() -> Iterable[str]:
     help="Correct the motion's baseline: linear, quadratic or highpass(0.1 Hz).",
 )
 @click.option(
-    "--drift", type=float, default=0.1, show_default=True, help="Largest end velocity over PGV of a motion with PGV."
+    "--drift",
+    type=float,
+    help="Largest drift over PGV of a motion with PGV; by default 0.1, or 0.25 of a table at rest at both ends.",
 )
 @click.option(
     "--slenderness", multiple=True, metavar="ANGLE", help="A further α of the rocking spectrum. Repeat it for several."
@@ -92,7 +88,11 @@ def _plane_models() -> Iterable[str]:
 @click.option("--phase", type=float, default=0.0, show_default=True, help="ν of mavroeidis-papageorgiou, in degrees.")
 @click.option("--largest", type=float, default=10.0, show_default=True, help="Largest A that is tried.")
 @click.option(
-    "--width", type=float, default=0.01, show_default=True, help="In A: narrower intervals are islands, not limits."
+    "--least-width",
+    type=float,
+    default=0.01,
+    show_default=True,
+    help="In A: narrower intervals are islands, not limits.",
 )
 @click.option("--out", type=click.Path(path_type=Path), metavar="FILE", help="Draw it: .svg, .pdf or .png.")
 @click.option("--data", type=click.Path(path_type=Path), metavar="FILE", help="Write what is drawn as a .csv table.")
@@ -130,7 +130,7 @@ def _refuse(names: Iterable[str], only: str) -> None:
     context = get_current_context()
     for name in names:
         if context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
-            raise click.UsageError(f"--{name} is only for {only}.")
+            raise click.UsageError(f"--{name.replace('_', '-')} is only for {only}.")
 
 
 def _overturning(
@@ -145,7 +145,8 @@ def _overturning(
 
     from colonnade.workflow.spectra.spectrum import AskedPulse, overturning_of
 
-    asked = AskedPulse(pulse, phase=radians(options["phase"]), **_taken(options, "cycles", "largest", "width"))
+    shape = {"cycles": options["cycles"], "phase": radians(options["phase"])}
+    asked = AskedPulse(pulse, **shape, largest=options["largest"], width=options["least_width"])
     return overturning_of(known, layout, column, asked, frequencies=options["omega"], **common)
 
 
@@ -178,6 +179,7 @@ def _show(found: Rocking | Overturning, out: Path | None, data: Path | None, as_
         show_json(shown.record_of(found) | {"figure": out, "data": data})
         return 0
     more = shown.motion_fields(found) if isinstance(found, Rocking) else shown.pulse_fields(found)
+    say(shown.verdict(found))
     show_fields([*shown.column_fields(found.column), *more])
     say()
     if isinstance(found, Rocking):

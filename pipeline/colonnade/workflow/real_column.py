@@ -1,4 +1,4 @@
-"""The column that a command asks about: a specimen, the real column of one, or one given by α and p."""
+"""The column that a command asks about: a specimen, the real column of one, or one given by its sizes or by α and p."""
 
 from __future__ import annotations
 
@@ -11,8 +11,10 @@ from pydantic import ValidationError
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessing.prototype import Prototype
+from colonnade.campaign.specimen import OUTER_DIMENSIONS, SIZED
 from colonnade.campaign.syntax.fields import Scale
 from colonnade.campaign.syntax.table import Table
+from colonnade.dynamics.block import STANDARD_GRAVITY, Block
 from colonnade.dynamics.spectra.spectrum import rectangular
 from colonnade.errors import CampaignError, nearest
 from colonnade.stages.assessing.column import ColumnInputs
@@ -36,28 +38,38 @@ class AskedColumn:
     Attributes
     ----------
     specimen : str or None
-        Id; the only one of a campaign if neither it nor α and p are given.
+        Id; the only one of a campaign if neither it, sizes nor α and p are given.
     scale : float or None
         How many times larger than the specimen it is.
     properties : dict
         Keys of [prototype.<specimen>], as in a campaign file, that replace what the campaign says.
+    sizes : dict
+        Shape and dimensions by the keys of [specimens.<id>]; empty if it is not given by them.
     """
 
     specimen: str | None = None
     scale: float | None = None
     properties: Mapping[str, Any] = field(default_factory=dict)
+    sizes: Mapping[str, Any] = field(default_factory=dict)
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> AskedColumn:
         """Pick from the options of a command those that are about the column; None and () are not given."""
         given = {key: value for key, value in options.items() if value is not None and value != ()}
         properties = {key: _with_number(key, given[key]) for key in Prototype.model_fields if key in given}
-        return cls(given.get("specimen"), given.get("scale"), properties)
+        sizes = {key: given[key] for key in ("shape", *OUTER_DIMENSIONS) if key in given}
+        return cls(given.get("specimen"), given.get("scale"), properties, sizes)
 
     @property
     def needs_specimen(self) -> bool:
-        """Whether it is not said by α and p alone."""
-        return self.specimen is not None or not {"critical_angle", "p"} <= self.properties.keys()
+        """Whether it is not said by its sizes, or by α and p, alone."""
+        is_given = bool(self.sizes) or {"critical_angle", "p"} <= self.properties.keys()
+        return self.specimen is not None or not is_given
+
+    @property
+    def has_own_size(self) -> bool:
+        """Whether its size is said, but not how many times larger than a specimen that is."""
+        return self.scale is None and (bool(self.sizes) or "p" in self.properties)
 
 
 @dataclass(frozen=True)
@@ -103,6 +115,10 @@ def find_column(
     CampaignError
         If it is not said which, an option is out of its range, or the e of a real column is not said.
     """
+    if asked.sizes and asked.specimen is not None:
+        raise CampaignError(
+            "--shape and its sizes are for a column that is not a specimen. Leave --specimen and --name out."
+        )
     if campaign is None or layout is None or not asked.needs_specimen:
         return _without_specimen(asked, has_campaign=campaign is not None)
     name = _specimen(campaign, asked.specimen)
@@ -130,26 +146,37 @@ def _without_specimen(asked: AskedColumn, *, has_campaign: bool) -> FoundColumn:
 
     if asked.specimen is not None:
         raise CampaignError(
-            f"--specimen {asked.specimen}: there is no campaign here. Give CAMPAIGN, or --critical-angle and --p."
+            f"--specimen {asked.specimen}: there is no campaign here. Give CAMPAIGN, or --shape with the sizes."
         )
     if asked.scale not in (None, 1.0):
-        raise CampaignError("--scale is for a specimen. With --critical-angle and --p give those of the real column.")
+        raise CampaignError("--scale is for a specimen. Sizes, or --critical-angle and --p, are of the real column.")
     if asked.properties.get("restitution") == IDENTIFIED:
         where = "name it with --specimen" if has_campaign else "give CAMPAIGN and --specimen"
         raise CampaignError(f"--restitution identified: e is identified of a specimen; {where}.")
     prototype = _prototype({"restitution": RIGID_BODY}, asked.properties)
-    if prototype.critical_angle is None or prototype.p is None:
+    if asked.sizes:
+        block = _sized(asked.sizes)
+    elif prototype.critical_angle is None or prototype.p is None:
         raise CampaignError(
-            'The column is not known. Give --critical-angle "0.2 rad" and --p "2 rad/s", or a CAMPAIGN with --specimen.'
+            'The column is not known. Give --shape prism --width "1 m" --height "5 m", or --critical-angle "0.2 rad" '
+            'and --p "2 rad/s", or a CAMPAIGN with --specimen.'
         )
-    try:
-        block = rectangular(prototype.critical_angle, 2 * pi / prototype.p)
-    except ValueError as error:
-        raise CampaignError(f"The column cannot be: {error}.") from None
-    inputs = ColumnInputs(
-        block=block, scale=1.0, prototype=prototype.model_copy(update={"critical_angle": None, "p": None})
-    )
+    else:
+        try:
+            block = rectangular(prototype.critical_angle, 2 * pi / prototype.p)
+        except ValueError as error:
+            raise CampaignError(f"The column cannot be: {error}.") from None
+        prototype = prototype.model_copy(update={"critical_angle": None, "p": None})
+    inputs = ColumnInputs(block=block, scale=1.0, prototype=prototype)
     return FoundColumn(None, inputs, taken(None, SpecimenInputs(block=block, given=None, level=0.95)))
+
+
+def _sized(sizes: Mapping[str, Any]) -> Block:
+    """Make the block of a shape and its sizes; neither its depth nor its mass changes how it rocks."""
+    if "shape" not in sizes:
+        raise CampaignError(f"--{next(iter(sizes)).replace('_', '-')}: give its --shape too: {', '.join(SIZED)}.")
+    other = {"mass": "1 kg", "depth": "1 m"} if sizes["shape"] == "prism" else {"mass": "1 kg"}
+    return checked(SIZED[sizes["shape"]], other | dict(sizes)).block(STANDARD_GRAVITY)
 
 
 def _specimen(campaign: Campaign, name: str | None) -> str:
@@ -195,7 +222,7 @@ def checked(model: type[Written], written: Mapping[str, Any], names: Mapping[str
     try:
         return model.model_validate(written)
     except ValidationError as error:
-        named = ((str(each["loc"][0]), each["msg"]) for each in error.errors())
+        named = ((str(each["loc"][0] if each["loc"] else "shape"), each["msg"]) for each in error.errors())
         problems = [f"--{(names or {}).get(key, key).replace('_', '-')}: {said}" for key, said in named]
         raise CampaignError("\n".join(problems)) from None
 

@@ -117,7 +117,7 @@ def test_a_record_that_drifts_has_no_velocity_and_says_why():
     integrated = {name for name, each in MEASURES.items() if each.is_integrated}
     assert set(measured.reasons) == integrated
     assert all(math.isnan(measured.values[name]) for name in integrated)
-    assert "its velocity ends at 0.94 of its peak; at most 0.1 was expected" in measured.reasons["pgv"]
+    assert "the record drifts, by 0.94 of its peak; at most 0.1 was expected" in measured.reasons["pgv"]
     assert "pgv" not in intensity_measures(drifting, drift=1.1).reasons
 
 

@@ -28,7 +28,17 @@ def test_the_risk_leaves_the_span_below():
 
 
 def test_certain_outcomes_are_enough():
-    assert advise_span([1.0, 2.0], [0.0, 1.0], [0.0, 0.0], largest_risk=0.5).is_enough
+    assert advise_span([1.0, 2.0], [0.9, 0.0], [0.05, 1.0], largest_risk=1.0).span == 1.0
+    assert advise_span([1.0, 2.0], [1.0, 0.0], [0.0, 1.0], largest_risk=0.5).is_enough
+
+
+@pytest.mark.parametrize(
+    ("overturning", "risk", "is_step"), [([0.0, 0.0], 0.5, True), ([0.0, 0.02], 0.01, False), ([0.0, 1.0], 0.5, False)]
+)
+def test_where_it_surely_stands_at_every_span_the_last_is_a_step(overturning, risk, is_step):
+    rocking = [1.0, 1.0 - overturning[1]]
+    advice = advise_span([1.0, 2.0], rocking, overturning, largest_risk=risk)
+    assert (advice.is_step, advice.is_enough, advice.span) == (is_step, not is_step, 2.0 if is_step else 1.0)
 
 
 def test_where_every_span_is_too_risky_the_least_risky_is_shown_as_such():

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade.campaign.shake_table import ShakeTable
-from colonnade.store.records.advice import Advice, beyond, demand_of_sine
+from colonnade.store.records.advice import Advice, beyond, demand_of_sine, ranked
 
 
 @given(st.floats(0.01, 30.0), st.floats(0.1, 50.0))
@@ -35,3 +35,12 @@ def test_a_line_says_test_risk_and_reason() -> None:
     assert advice.text() == "next sine of prism: 5 Hz at 0.3 g, risk 42 %, 1 test left; because; too far"
     enough = Advice("prism", "sine", "5 Hz at 0.3 g", True, "known", risk=0.42, left=0)
     assert enough.text() == "next sine of prism: enough; known"
+
+
+def test_what_tells_most_comes_first() -> None:
+    free = Advice("prism", "free-vibration", "release from 0.6 α", False, "e is not identified")
+    enough = Advice("prism", "free-vibration", "release from 0.6 α", True, "as narrow as wanted")
+    less, more = (Advice("prism", "sine", "3 Hz", False, "", values={"bits": bits}) for bits in (0.5, 0.6))
+    span = Advice("cone", "earthquake", "Span 3", False, "", values={"entropy": 0.55})
+    impossible = Advice("cone", "earthquake", "Span 9", False, "", beyond=("needs 2 g",), values={"entropy": 1.5})
+    assert ranked([less, impossible, enough, span, more, free]) == [free, more, span, less, impossible, enough]

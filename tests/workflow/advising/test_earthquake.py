@@ -4,27 +4,47 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 from colonnade.campaign import load
 from colonnade.store.records.summary import read_summary
-from colonnade.workflow.advising.earthquake import advise_earthquakes
-from colonnade.workflow.pooling import restitution_taken
+from colonnade.workflow.advising.earthquake import STEP, advise_earthquakes
+from colonnade.workflow.forecasting.foresee import foresee
 
 
-def test_the_least_certain_span_is_beyond_those_that_only_rocked(small: Any) -> None:
-    text = (small.folder / "campaign.toml").read_text(encoding="utf-8")
-    first, *others = text.split('id = "pulse-01"\nkind = "pulse"')
-    (rest,) = others
-    changed = f'{first}id = "pulse-01"\nkind = "earthquake"\nmotion = "half a sine"\nspan = 1.0{rest}'
-    (small.folder / "campaign.toml").write_text(changed, encoding="utf-8")
+def as_earthquake(small: Any, change: str = "", *, setup: str = "") -> Any:
+    """Call the first pulse of the small campaign an earthquake of Span 1, and give its one piece of advice."""
+    file = small.folder / "campaign.toml"
+    text = file.read_text(encoding="utf-8").replace('id = "pulse-01"\nkind = "pulse"', EARTHQUAKE)
+    if setup:
+        text = text.replace("[setups.frame.channels]", f"[setups.frame]\n{setup}\n[setups.frame.channels]")
+        assert setup in text
+    file.write_text(f"{text}\n{change}\n", encoding="utf-8")
     campaign, summary = load(small.folder), read_summary(small.layout)
     assert summary is not None
-    pooled = restitution_taken(campaign, small.layout, "prism")
-    (advice,) = advise_earthquakes(campaign, small.layout, "prism", pooled, summary.tests)
+    (advice,) = advise_earthquakes(campaign, small.layout, "prism", summary.tests)
+    return campaign, summary, advice
+
+
+EARTHQUAKE = 'id = "pulse-01"\nkind = "earthquake"\nmotion = "half a sine"\nspan = 1.0'
+
+
+def test_the_next_span_is_a_bounded_step_beyond_those_that_only_rocked(small: Any) -> None:
+    campaign, summary, advice = as_earthquake(small)
     assert advice.test.startswith("half a sine, Span ")
-    assert advice.values["span"] > 1.0
-    assert 0.0 < advice.risk <= campaign.next.largest_risk
+    assert 1.0 < advice.values["span"] <= STEP
+    assert advice.risk <= campaign.next.largest_risk
+    assert "bit" not in advice.reason
     assert advice.demand["acceleration"] == pytest.approx(
         advice.values["span"] * summary.tests["pulse-01"].pga, rel=0.05
     )
+
+
+def test_the_tilt_of_the_table_counts_as_in_a_forecast(small: Any) -> None:
+    """The advice and the forecast of one motion, on a table that leans, give one probability."""
+    _, _, advice = as_earthquake(small, setup='table_tilt = "4 deg"')
+    (made,) = foresee(small.folder, motion="pulse-01", levels=[f"{advice.values['span']!r}x"])
+    assert advice.risk == pytest.approx(made.forecast.models["nonlinear"].overturned)
+    assert np.degrees(made.forecast.inputs.table_tilt) == pytest.approx(4.0)
+    assert advice.risk > 0.0

@@ -7,9 +7,12 @@ from math import pi, tan
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from colonnade.campaign import Campaign, load
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.workflow.advising.sine import Known, advise_sines
 
@@ -70,3 +73,23 @@ def test_a_planned_frequency_is_advised_too(undisturbed: Any, tmp_path: Path) ->
     (advice,) = advise_sines(load(tmp_path), "prism", known())
     assert advice.values["frequency"] == pytest.approx(4.0)
     assert advice.test.startswith("4 Hz at ")
+
+
+@pytest.mark.parametrize("tilt", [0.03, -0.03])
+def test_the_boundary_is_that_of_the_tilted_table(campaign: Campaign, tilt: float) -> None:
+    """Against single runs on the sine with the part of gravity that acts along a tilted table."""
+    omega, e = 3.0, 0.75  # a low e: the boundary is sharp
+    (advice,) = advise_sines(campaign, "prism", Known((e, e), 0.0, (MapPoint("s", omega, 0.8, "rocking"),), tilt))
+    block, limit = campaign.block("prism"), advice.values["predicted_boundary"]
+    step = 2 * pi / (omega * block.p) / 200
+    sine = np.sin(2 * pi * np.arange(20 * 200 + 1) / 200)
+    still = np.zeros(2000)
+
+    def overturns(ratio: float) -> bool:
+        shaken = ratio * block.gravity * tan(block.critical_angle) * np.concatenate((sine, still))
+        motion = Motion(shaken - block.gravity * np.sin(tilt), step)
+        return rock(block, motion, restitution=e, model="nonlinear").outcome == "overturned"
+
+    first = next(ratio for ratio in np.arange(0.5, 1.2, 0.02) * limit if overturns(float(ratio)))
+    assert first == pytest.approx(limit, rel=0.08)  # without the tilt it is 2.25, with it 1.13 and 2.37
+    assert limit == pytest.approx({0.03: 1.13, -0.03: 2.37}[tilt], rel=0.02)

@@ -23,7 +23,7 @@ from colonnade.workflow.maps.plans import (
     restitution_of,
 )
 
-FEW = Wanted(points=(3, 4), cycles=2.0)
+FEW = Wanted(("linear",), points=(3, 4), cycles=2.0)
 
 
 def planned(small, wanted=FEW, *points, model="linear"):

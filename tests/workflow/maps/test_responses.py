@@ -15,7 +15,9 @@ from colonnade.workflow.maps.responses import SETTLING, as_response
 from colonnade.workflow.maps.stability import make_maps
 
 BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-FEW = Wanted(frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(6, 10), cycles=5.0, responses=True)
+FEW = Wanted(
+    ("linear",), frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(6, 10), cycles=5.0, responses=True
+)
 
 
 def made(small, **changes):

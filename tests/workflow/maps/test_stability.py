@@ -23,7 +23,7 @@ from colonnade.workflow.maps.plans import Wanted, measured_points
 from colonnade.workflow.maps.stability import as_map, make_maps
 
 BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-FEW = Wanted(frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(6, 10), cycles=5.0)
+FEW = Wanted(("linear",), frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(6, 10), cycles=5.0)
 
 
 def asking(**changes):
@@ -162,7 +162,7 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
         "overturned",
     )
     assert measured_points(small.layout, "another") == []
-    result = made(small, Wanted(points=(3, 4), cycles=2.0))
+    result = made(small, Wanted(("linear",), points=(3, 4), cycles=2.0))
     chart = as_map(files.read(result.path))
     assert chart.frequency_ratio[0] < 6.0 < chart.frequency_ratio[-1]
     assert chart.amplitude_ratio[0] < 4.0 < chart.amplitude_ratio[-1]
@@ -206,7 +206,7 @@ MAP = """
 import sys
 from colonnade.workflow.maps.plans import Wanted
 from colonnade.workflow.maps.stability import make_maps
-wanted = Wanted(frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(60, 10), cycles=5.0)
+wanted = Wanted(("linear",), frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(60, 10), cycles=5.0)
 def told(done, total):
     print(done, flush=True)
 make_maps(sys.argv[1], wanted, workers=1, progress=told)

@@ -1,4 +1,4 @@
-"""The measures of one motion, each with its value or the reason why it has none."""
+"""The measures of one motion, each with its value or the reason why it has none: the one place that decides PGV."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from colonnade.arrays import Array
 from colonnade.assessment.intensity.baselines import NONE, corrected
-from colonnade.assessment.intensity.ground import LARGEST_DRIFT, Ground
+from colonnade.assessment.intensity.ground import LARGEST_DRIFT, LARGEST_DRIFT_AT_REST, Ground
 from colonnade.assessment.intensity.registry import MEASURES, Measure, measure_of
 from colonnade.digest import Digested, written
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
@@ -73,9 +74,10 @@ def intensity_measures(
     block: Block | None = None,
     *,
     measures: Sequence[str] | None = None,
-    drift: float = LARGEST_DRIFT,
+    drift: float | None = None,
     baseline: str = NONE,
     gravity: float | None = None,
+    at_rest: bool = False,
 ) -> IntensityMeasures:
     """
     Measure how strong a ground motion is.
@@ -91,11 +93,15 @@ def intensity_measures(
         accelerations at `PERIODS`.
     drift : float, optional
         Largest ratio of the velocity at the end to the largest one, of a record whose velocity and displacement count.
+        Default 0.1; 0.25 with `at_rest`, where it is the ratio of what the line takes off.
     baseline : str, optional
         Name of a correction of the baseline, done before anything is measured: "linear", "quadratic" or
         "highpass(0.1 Hz)". Default: none.
     gravity : float, optional
         m/s², of the Arias intensity; default that of the block, else 9.81.
+    at_rest : bool, optional
+        Whether it is the motion of a table, which begins and ends at rest: a line through the ends is subtracted from
+        the velocity and from the displacement.
 
     Returns
     -------
@@ -117,12 +123,14 @@ def intensity_measures(
     instance("motion", motion, Motion)
     if block is not None:
         instance("block", block, Block)
-    drift = number("drift", drift, "a positive share of the peak velocity", above=0.0)
+    instance("at_rest", at_rest, bool)
+    usual = LARGEST_DRIFT_AT_REST if at_rest else LARGEST_DRIFT
+    drift = number("drift", usual if drift is None else drift, "a positive share of the peak velocity", above=0.0)
     if gravity is None:
         gravity = STANDARD_GRAVITY if block is None else block.gravity
     gravity = number("gravity", gravity, "a positive acceleration in m/s²", above=0.0)
     asked = _default(block) if measures is None else measures_of(measures)
-    ground = corrected(Ground(motion.acceleration, motion.dt, gravity), baseline)
+    ground = corrected(Ground(motion.acceleration, motion.dt, gravity, at_rest), baseline)
     values, reasons = {}, {}
     for each in asked:
         values[each.id], reason = measured(each, ground, block, drift=drift)
@@ -146,15 +154,27 @@ def measured(
     """
     if measure.needs_block and block is None:
         return float("nan"), "a block is needed"
-    if measure.is_integrated and not ground.drift <= drift:
-        return float("nan"), (
-            f"the record drifts: its velocity ends at {ground.drift:.2g} of its peak; at most {drift:g} was expected"
-        )
+    drifted = ground.drift_of_displacement if measure.id == "pgd" else ground.drift
+    if measure.is_integrated and not drifted <= drift:
+        return float("nan"), f"the record drifts, by {drifted:.2g} of its peak; at most {drift:g} was expected"
     with np.errstate(over="ignore", invalid="ignore"):
         value = measure.value(ground, block)
     if not np.isfinite(value):
         return float("nan"), "the motion is at rest, too short or beyond what can be computed"
     return value, ""
+
+
+def table_measures(
+    acceleration: Array, interval: float, gravity: float = STANDARD_GRAVITY
+) -> tuple[dict[str, float], float]:
+    """
+    Measure pgv, pgd and arias of the motion of a table, SI, NaN if it drifts; and the share by which it does.
+
+    A gap of the acceleration (m/s²) counts as zero.
+    """
+    ground = Ground(np.nan_to_num(acceleration), interval, gravity, at_rest=True)
+    found = {name: measured(MEASURES[name], ground, drift=LARGEST_DRIFT_AT_REST)[0] for name in ("pgv", "pgd", "arias")}
+    return found, ground.drift if ground.drift > LARGEST_DRIFT_AT_REST else ground.drift_of_displacement
 
 
 def measures_of(names: Sequence[str]) -> list[Measure]:

@@ -12,7 +12,6 @@ from colonnade.arrays import Array
 from colonnade.assessment.intensity.ground import Ground
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.spectra.response import response_spectrum
-from colonnade.signals.intensity import arias_intensity
 
 HOUSNER_PERIODS = np.linspace(0.1, 2.5, 121)
 """s, of the oscillators whose pseudo-velocities are integrated: steps of 0.02 s."""
@@ -44,7 +43,7 @@ def ratio_of_peaks(ground: Ground) -> float:
 
 def arias(ground: Ground) -> float:
     """Arias intensity, m/s."""
-    return arias_intensity(ground.acceleration, ground.interval, ground.gravity)
+    return float(pi / (2 * ground.gravity) * scipy.integrate.trapezoid(ground.acceleration**2, dx=ground.interval))
 
 
 def cumulative_velocity(ground: Ground) -> float:

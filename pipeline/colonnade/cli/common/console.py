@@ -7,6 +7,7 @@ import os
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from textwrap import fill as wrap
 
 from rich.console import Console
 from rich.table import Table
@@ -57,7 +58,9 @@ def show_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """
     if not rows:
         return
-    table = Table(*heads, box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
+    for head in heads:
+        table.add_column(head, overflow="fold")
     for row in rows:
         table.add_row(*row)
     console = _Output(markup=False, emoji=False, highlight=False)
@@ -69,6 +72,13 @@ def show_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
         console.print(table)
     for line in captured.get().splitlines():
         say(line.rstrip())
+
+
+def show_paragraph(text: str, bullet: str = "") -> None:
+    """Write text; on a terminal it wraps between words, under its bullet."""
+    console = output()
+    width = console.width if console.is_terminal else 10**6
+    say(wrap(text, width, initial_indent=bullet, subsequent_indent=" " * len(bullet)))
 
 
 def show_fields(fields: Iterable[tuple[str, str]]) -> None:

@@ -24,11 +24,28 @@ class LateChoice(click.Choice):  # type: ignore[type-arg]
         return tuple(self._names())
 
 
+MODEL = "nonlinear"
+"""Default model of every command that runs a single one."""
+
+
 def models() -> Iterable[str]:
     """Names of the models."""
     from colonnade.dynamics.models.registry import MODELS
 
     return MODELS
+
+
+def plane_models() -> Iterable[str]:
+    """Names of the models in the plane."""
+    from colonnade.dynamics.models.registry import PLANE_MODELS
+
+    return PLANE_MODELS
+
+
+def _shapes() -> Iterable[str]:
+    from colonnade.campaign.specimen import SIZED
+
+    return SIZED
 
 
 def meshes() -> Iterable[str]:
@@ -73,6 +90,12 @@ def column_options(command: Command) -> Command:
     options = (
         one_specimen_option,
         click.option("--scale", type=float, metavar="FACTOR", help="How many times larger the column is."),
+        click.option("--shape", type=LateChoice(_shapes), help="Shape of a column that is given by its sizes."),
+        click.option("--width", metavar="LENGTH", help='Of a prism, along the motion, such as "1 m".'),
+        click.option("--diameter", metavar="LENGTH", help="Of a cylinder."),
+        click.option("--base-diameter", metavar="LENGTH", help="Of a truncated cone."),
+        click.option("--top-diameter", metavar="LENGTH", help="Of a truncated cone."),
+        click.option("--height", metavar="LENGTH", help='Of any of them, such as "5 m".'),
         click.option("--critical-angle", metavar="ANGLE", help='Of the column, such as "0.18 rad".'),
         click.option("--p", metavar="FREQUENCY", help='Frequency parameter of the column, such as "1.26 rad/s".'),
         click.option(

@@ -17,7 +17,7 @@ PLANE_MODELS: dict[str, PlaneModel] = {name: model for name, model in MODELS.ite
 """Those that kernels solve, also under harmonic motion."""
 
 DEFAULT = LINEAR.name
-"""Default model of a single run: the fastest."""
+"""Default model of a single run of the library: the fastest."""
 
 
 def model_of(name: str) -> Model:

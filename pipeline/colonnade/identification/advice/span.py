@@ -32,6 +32,9 @@ class SpanAdvice:
         Whether the outcomes of all Spans within the risk are predicted with such certainty that none is worth a test.
     is_within_risk : bool
         Whether any Span is within the risk; if not, the advised one has the least.
+    is_step : bool
+        Whether all outcomes are certain and the specimen stands throughout: the last Span is advised, as a step to
+        where it may fall.
     """
 
     span: float
@@ -39,6 +42,7 @@ class SpanAdvice:
     entropy: float
     is_enough: bool
     is_within_risk: bool
+    is_step: bool
 
 
 def advise_span(span: ArrayLike, rocking: ArrayLike, overturning: ArrayLike, *, largest_risk: float) -> SpanAdvice:
@@ -84,7 +88,13 @@ def advise_span(span: ArrayLike, rocking: ArrayLike, overturning: ArrayLike, *, 
     entropy = scipy.special.entr(outcomes).sum(axis=0) / log(2)
     allowed = falls <= risk
     best = int(np.argmax(np.where(allowed, entropy, -1.0))) if allowed.any() else int(np.argmin(falls))
-    still, rocked, fell = (float(each) for each in outcomes[:, best])
     is_within_risk = bool(allowed.any())
-    is_enough = is_within_risk and bool(entropy[best] < DECIDED)
-    return SpanAdvice(float(spans[best]), (still, rocked, fell), float(entropy[best]), is_enough, is_within_risk)
+    is_decided = is_within_risk and bool(entropy[best] < DECIDED)
+    is_step = is_decided and bool(falls[-1] < min(risk, 0.5))
+    if is_step:
+        best = spans.size - 1
+    still, rocked, fell = (float(each) for each in outcomes[:, best])
+    is_enough = is_decided and not is_step
+    return SpanAdvice(
+        float(spans[best]), (still, rocked, fell), float(entropy[best]), is_enough, is_within_risk, is_step
+    )

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import isnan, nan
 from typing import NamedTuple
 
 import numpy as np
 
-from colonnade.arrays import Array
+from colonnade.assessment.intensity.ground import LARGEST_DRIFT_AT_REST
+from colonnade.assessment.intensity.measured import table_measures
 from colonnade.campaign import Campaign
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.similitude import at_prototype
@@ -19,7 +19,6 @@ from colonnade.figures.stored.base import BaseMotion
 from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.signals.filters import lowpass
-from colonnade.signals.intensity import LARGEST_DRIFT, arias_intensity, table_displacement, table_velocity
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import largest_motion
 from colonnade.store.records.wording import NOTHING, number, quantity
@@ -72,20 +71,18 @@ def _measures(motion: BaseMotion, stored: Stored, gravity: float, scale: float |
         prototype = nan if scale is None else at_prototype(kind, achieved, scale)
         return Measure(name, quantity(achieved, unit), quantity(target, unit), quantity(prototype, unit), how)
 
-    def each(measure: Callable[[Array], float]) -> list[float]:
-        return [nan if values is None else measure(values) for values in series]
-
-    velocity = each(lambda values: table_velocity(values, motion.interval).peak)
+    peaks = [nan if values is None else float(np.abs(values).max()) for values in series]
+    none = dict.fromkeys(("pgv", "pgd", "arias"), nan)
+    tables = [none if values is None else table_measures(values, motion.interval, gravity)[0] for values in series]
+    velocity, displacement, arias = ([each[name] for each in tables] for name in none)
     derived = isnan(velocity[0]) and not isnan(measured)
     if derived:
         velocity[0] = _from_displacement(stored, motion.interval)
-    displacement = each(lambda values: table_displacement(values, motion.interval).peak)
-    drifts = (
-        f"not given: the integral of the acceleration drifts by more than {100 * LARGEST_DRIFT:g}{PERCENT} of its peak"
-    )
+    allowed = f"{100 * LARGEST_DRIFT_AT_REST:g}{PERCENT}"
+    drifts = f"not given: the integral of the acceleration drifts by more than {allowed} of its peak"
     integrated = "integral of the acceleration, less a line through its ends, where the table is at rest"
     return [
-        row("peak acceleration (PGA)", "m/s²", "acceleration", each(lambda values: float(np.abs(values).max())), ""),
+        row("peak acceleration (PGA)", "m/s²", "acceleration", peaks, ""),
         row(
             "peak velocity of the table",
             "mm/s",
@@ -108,7 +105,7 @@ def _measures(motion: BaseMotion, stored: Stored, gravity: float, scale: float |
             "Arias intensity",
             "m/s",
             "velocity",
-            each(lambda values: arias_intensity(values, motion.interval, gravity)),
+            arias,
             "π/(2g) times the integral of the squared acceleration",
         ),
     ]

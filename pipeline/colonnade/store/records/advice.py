@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from math import pi
+from math import inf, pi
 from typing import Any, Literal
 
 from colonnade.campaign.shake_table import ShakeTable
@@ -58,11 +59,15 @@ class Advice:
 
     def text(self) -> str:
         """Write it in a line."""
+        return f"next {self.what()}; {'; '.join((self.reason, *self.beyond))}"
+
+    def what(self) -> str:
+        """Write what is to be done, without the reason."""
         if self.is_enough:
-            return f"next {self.kind} of {self.specimen}: enough; {self.reason}"
+            return f"{self.kind} of {self.specimen}: enough"
         risk = "" if self.risk is None else f", risk {probability(self.risk)}"
         left = "" if self.left is None else f", {count(self.left, 'test')} left"
-        return f"next {self.kind} of {self.specimen}: {self.test}{risk}{left}; {'; '.join((self.reason, *self.beyond))}"
+        return f"{self.kind} of {self.specimen}: {self.test}{risk}{left}"
 
     def row(self) -> tuple[str, str, str, str, str]:
         """Write it under `HEADS`."""
@@ -77,6 +82,23 @@ class Advice:
     def as_json(self) -> dict[str, Any]:
         """Give it for programs."""
         return {"next": vars(self)}
+
+
+def ranked(advice: Iterable[Advice]) -> list[Advice]:
+    """
+    Put what tells most first.
+
+    Free vibrations come first: nothing falls in them, and every prediction uses e. Then by what a test is expected to
+    tell; then what the table cannot do, and last what is enough.
+    """
+    return sorted(advice, key=lambda each: (each.is_enough, bool(each.beyond), -_told(each)))
+
+
+def _told(advice: Advice) -> float:
+    """Give what a test is expected to tell, bit."""
+    if advice.kind == "free-vibration":
+        return inf
+    return advice.values.get("bits", advice.values.get("entropy", 0.0))
 
 
 def demand_of_sine(acceleration: float, frequency: float) -> dict[str, float]:

@@ -84,10 +84,11 @@ def sentences(record: AssessmentSummary) -> list[str]:
     """Say the answer of an assessment: a sentence on each thing that was asked."""
     if record.status == "failed":
         return [f"There is no answer: {record.reason}"]
-    found = [_rocks(record), _overturns(record)]
+    found = [_overturns(record)]
     if record.curve_reason:
         found.append(f"This is read from a curve that only rises, not from a lognormal one: {record.curve_reason}.")
     found += [
+        _rocks(record),
         *_restitution_matters(record),
         *_correction_matters(record),
         *_parts(record),

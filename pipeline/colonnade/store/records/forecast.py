@@ -6,6 +6,12 @@ from colonnade.campaign.forms.forecast import ForecastBand, ForecastTable, Model
 from colonnade.store.records.wording import number, quantity
 from colonnade.units import format_percent
 
+FORESEEN = (
+    *("no rocking", "rocking", "overturned"),
+    *("50 % of max |θ|/α", "80 % of max |θ|/α", "95 % of max |θ|/α", "friction needed"),
+)
+"""What `shown_model` writes."""
+
 
 def shown_table(table: ForecastTable) -> tuple[str, str, str]:
     """Write peak acceleration, velocity and displacement of the table; of an integral that drifts, its drift."""
@@ -37,6 +43,6 @@ def shown_band(band: ForecastBand) -> str:
 
 
 def shown_model(model: ModelForecast) -> tuple[str, ...]:
-    """Write what a model foresees: probabilities, bands of the peak, friction needed."""
+    """Write what a model foresees, as of `FORESEEN`: probabilities, bands of the peak, friction needed."""
     friction = "lifts off" if model.required_friction is None else number(model.required_friction, 2)
     return (*shown_shares(model), *map(shown_band, model.bands), friction)

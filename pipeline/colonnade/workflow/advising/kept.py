@@ -78,7 +78,8 @@ class _Asked:
         for name, test in campaign.tests.items():
             if (test.specimen, test.kind) == (self.specimen, self.kind):
                 record = self.tests[name].model_dump_json() if name in self.tests else None
-                own[name] = [repr(test), record, catalogue.content(layout.stage(name, "rocking"))]
+                tilt = campaign.setups[test.setup].table_tilt
+                own[name] = [repr(test), record, tilt, catalogue.content(layout.stage(name, "rocking"))]
         read = [campaign.specimens[self.specimen], campaign.gravity, campaign.processing, campaign.next, campaign.table]
         entry = json.dumps([*map(repr, read), own])
         pooled = catalogue.content(layout.stage(self.specimen, "specimen"))

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 
 from colonnade.campaign import Campaign, load
@@ -13,7 +14,7 @@ from colonnade.identification.response.boundaries import SAME_FREQUENCY
 from colonnade.stages.predict import sides
 from colonnade.stages.specimen import restitution_spread
 from colonnade.store.layout import Layout
-from colonnade.store.records.advice import Advice
+from colonnade.store.records.advice import Advice, ranked
 from colonnade.store.records.summary import map_points, read_summary, records_of_tests
 from colonnade.workflow.advising.earthquake import advise_earthquakes
 from colonnade.workflow.advising.free import advise_free
@@ -32,7 +33,7 @@ class Next:
     Attributes
     ----------
     advice : tuple of Advice
-        By specimen, in the order of the campaign file: free vibrations, sines, earthquakes.
+        What tells most first, see `store.records.advice.ranked`.
     awaited : dict of str to str
         Tests that have no raw file yet, and the file that is expected.
     """
@@ -41,7 +42,13 @@ class Next:
     awaited: dict[str, str]
 
 
-def advise(campaign: Path | str, *, specimens: Sequence[str] = (), results: Path | str | None = None) -> Next:
+def advise(
+    campaign: Path | str,
+    *,
+    specimens: Sequence[str] = (),
+    results: Path | str | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Next:
     """
     Advise the next tests of a campaign, by the results of its last run.
 
@@ -53,6 +60,8 @@ def advise(campaign: Path | str, *, specimens: Sequence[str] = (), results: Path
         Ids; default all.
     results : Path or str, optional
         As for `run`.
+    progress : callable, optional
+        Called with the number of kinds of test that were looked at, and their total.
 
     Raises
     ------
@@ -70,13 +79,13 @@ def advise(campaign: Path | str, *, specimens: Sequence[str] = (), results: Path
     if summary is None:
         raise StoreError(f"{loaded.folder}: this campaign has no results yet. Run `colonnade run` first.")
     tests = records_of_tests(loaded, summary)
-    advice = [
-        each
-        for name in specimens or loaded.specimens
-        for kind in KINDS
-        for each in advise_kind(loaded, layout, name, kind, tests)
-    ]
-    return Next(tuple(advice), loaded.awaited)
+    advice: list[Advice] = []
+    asked = list(product(specimens or loaded.specimens, KINDS))
+    for done, (name, kind) in enumerate(asked, 1):
+        advice += advise_kind(loaded, layout, name, kind, tests)
+        if progress is not None:
+            progress(done, len(asked))
+    return Next(tuple(ranked(advice)), loaded.awaited)
 
 
 def advise_after(campaign: Campaign, layout: Layout, name: str, measured: Mapping[str, TestSummary]) -> list[Advice]:
@@ -104,7 +113,9 @@ def advise_kind(
         free = advise_free(campaign, specimen, pooled, tests)
         return [] if free is None else [free]
     if kind == "sine":
+        sines = (test for test in campaign.tests.values() if (test.specimen, test.kind) == (specimen, kind))
+        tilts = [campaign.setups[test.setup].table_tilt or 0.0 for test in sines]
         deviation, _ = restitution_spread(pooled, campaign.processing.predict.ensemble)
-        known = Known(sides(pooled), deviation, tuple(map_points(tests, specimen)))
-        return advise_sines(campaign, specimen, known)
-    return advise_earthquakes(campaign, layout, specimen, pooled, tests) if kind == "earthquake" else []
+        points = tuple(map_points(tests, specimen))
+        return advise_sines(campaign, specimen, Known(sides(pooled), deviation, points, max(tilts, key=abs, default=0)))
+    return advise_earthquakes(campaign, layout, specimen, tests) if kind == "earthquake" else []

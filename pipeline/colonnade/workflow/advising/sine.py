@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import isfinite, pi, tan
+from math import atan, isfinite, pi, sin, tan
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from colonnade.identification.advice.sine import SineAdvice, advise_sine_tests
 from colonnade.identification.response.boundaries import SAME_FREQUENCY, MapPoint
 from colonnade.store.records.advice import Advice, beyond, demand_of_sine
 from colonnade.store.records.wording import number, quantity
+from colonnade.units import format_percent
 
 AMPLITUDES = np.linspace(0.5, 8.0, 151)
 """A that are scanned for a predicted limit."""
@@ -25,11 +26,12 @@ AMPLITUDES = np.linspace(0.5, 8.0, 151)
 
 @dataclass(frozen=True)
 class Known:
-    """What is known of a specimen: e of both sides, its standard deviation, and its sine tests."""
+    """What is known of a specimen: e of both sides, its standard deviation, its sine tests, the table's tilt (rad)."""
 
     restitution: tuple[float, float]
     deviation: float
     points: tuple[MapPoint, ...]
+    tilt: float = 0.0
 
 
 def advise_sines(campaign: Campaign, specimen: str, known: Known) -> list[Advice]:
@@ -53,7 +55,7 @@ def advise_sines(campaign: Campaign, specimen: str, known: Known) -> list[Advice
     models = [model for model in campaign.processing.predict.models if not MODELS[model].in_space]
     if not ratios.size or not models:
         return []
-    limits = _limits(block, known.restitution, ratios, models[-1])
+    limits = _limits(block, known, known.restitution, ratios, models[-1])
     sensitivity = _sensitivity(block, known, ratios, models[-1])
     found = [place for place in range(ratios.size) if isfinite(limits[place])]
     tests = [_tests_at(ratios[place], limits[place], sensitivity[place], known) for place in found]
@@ -90,11 +92,15 @@ def _frequency_ratios(campaign: Campaign, specimen: str, block: Block, known: Kn
     return [float(np.mean(group)) for group in groups]
 
 
-def _limits(block: Block, restitution: tuple[float, float], ratios: Array, model: str) -> Array:
+def _limits(block: Block, known: Known, restitution: tuple[float, float], ratios: Array, model: str) -> Array:
+    """Give the A from which the specimen overturns; on a tilted table its critical angles are to the vertical."""
+    lean = atan(sin(known.tilt))
+    negative, positive = (side.critical_angle for side in block.sides)
+    leaning = block.override(critical_angle=(negative + lean, positive - lean)) if lean else block
     chart = stability_map(
-        block, restitution=restitution, frequency_ratio=ratios, amplitude_ratio=AMPLITUDES, model=model
+        leaning, restitution=restitution, frequency_ratio=ratios, amplitude_ratio=AMPLITUDES, model=model
     )
-    return chart.lower
+    return chart.lower * tan(leaning.critical_angle) / tan(block.critical_angle)
 
 
 def _sensitivity(block: Block, known: Known, ratios: Array, model: str) -> Array:
@@ -104,7 +110,7 @@ def _sensitivity(block: Block, known: Known, ratios: Array, model: str) -> Array
     ends = []
     for sign in (-1.0, 1.0):
         negative, positive = (float(np.clip(e + sign * known.deviation, 0.01, 1.0)) for e in pair(known.restitution))
-        ends.append(_limits(block, (negative, positive), ratios, model))
+        ends.append(_limits(block, known, (negative, positive), ratios, model))
     return np.clip(np.nan_to_num(np.log(ends[1] / ends[0]) / 2), -1.0, 1.0)
 
 
@@ -120,17 +126,16 @@ def _advice(campaign: Campaign, specimen: str, ratio: float, block: Block, advis
     demand = demand_of_sine(acceleration, frequency)
     low, high = advised.boundary.interval
     known = (
-        f"overturning begins at A {number(advised.boundary.median)}, from {number(low)} to {number(high)} with 90 % "
-        f"probability ({model} model: {number(advised.boundary.predicted)})"
+        f"overturning begins between A {number(low)} and {number(high)} ({format_percent(0.9)}; {model} model: "
+        f"{number(advised.boundary.predicted)})"
     )
-    says = f"this test is expected to say {number(advised.information, 2)} bit"
-    again = f", the test number {advised.repeats + 1} at this amplitude" if advised.repeats else ""
+    again = f", and outcomes scatter: test {advised.repeats + 1} at this amplitude" if advised.repeats else ""
     return Advice(
         specimen=specimen,
         kind="sine",
         test=f"{number(frequency)} Hz at {quantity(acceleration, 'g')} (A {number(advised.amplitude_ratio)})",
         is_enough=advised.is_enough,
-        reason=f"{known}; {'as narrow as wanted' if advised.is_enough else says + again}",
+        reason=known + (", as narrow as wanted" if advised.is_enough else again),
         risk=advised.risk,
         left=0 if advised.is_enough else advised.left.median,
         demand=demand,

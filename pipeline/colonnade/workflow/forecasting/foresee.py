@@ -49,6 +49,9 @@ SEED = 0
 """The same in all forecasts of a campaign: member k draws the same errors in each, as its tests share them."""
 
 
+LEAST_MEMBERS = 2
+
+
 @dataclass(frozen=True)
 class Foreseen:
     """A forecast, and its file."""
@@ -115,7 +118,9 @@ def foresee(
     catalogue = Catalogue(layout)
     setup = own or asked.test
     tilt = (loaded.setups[setup.setup].table_tilt or 0.0) if setup is not None else 0.0
-    inputs, models = _inputs(loaded, layout, name, tilt), _models(loaded)
+    if loaded.processing.predict.ensemble.members < LEAST_MEMBERS:
+        raise CampaignError(f"processing.predict.ensemble.members: a forecast needs at least {LEAST_MEMBERS} members.")
+    inputs, models = inputs_of(loaded, layout, name, tilt), _models(loaded)
     code, there, found = catalogue.code(MADE_BY), _raw_files(loaded, layout, catalogue, own), []
     for number, level in enumerate(wanted, 1):
         expect_none()
@@ -188,13 +193,12 @@ def _specimen(campaign: Campaign, name: str | None, test: Test | None) -> str:
     return name
 
 
-def _inputs(campaign: Campaign, layout: Layout, specimen: str, tilt: float) -> ForecastInputs:
+def inputs_of(campaign: Campaign, layout: Layout, specimen: str, tilt: float) -> ForecastInputs:
+    """Put together what a forecast of a specimen runs the models with, on a table of this tilt (rad)."""
     from colonnade.stages.predict import sides
     from colonnade.stages.specimen import restitution_spread
 
     pooled, settings = restitution_taken(campaign, layout, specimen), campaign.processing.predict.ensemble
-    if settings.members < 2:
-        raise CampaignError("processing.predict.ensemble.members: a forecast needs at least 2 members.")
     block = campaign.block(specimen)
     rigid = max(block.restitution, 0.0)
     deviation, freedom = restitution_spread(pooled, settings)
@@ -216,7 +220,7 @@ def _inputs(campaign: Campaign, layout: Layout, specimen: str, tilt: float) -> F
         ),
         table_tilt=tilt,
         rest_angle=campaign.processing.predict.rest_angle,
-        members=settings.members,
+        members=max(settings.members, LEAST_MEMBERS),
         seed=SEED,
     )
 
@@ -235,15 +239,14 @@ def _raw_files(campaign: Campaign, layout: Layout, catalogue: Catalogue, test: T
 
 
 def _table(motion: Motion) -> ForecastTable:
-    from colonnade.signals.intensity import table_displacement, table_velocity
+    from colonnade.assessment.intensity.measured import table_measures
 
-    velocity = table_velocity(motion.acceleration, motion.dt)
-    displacement = table_displacement(motion.acceleration, motion.dt)
+    measured, drift = table_measures(motion.acceleration, motion.dt)
     return ForecastTable(
         peak_acceleration=motion.peak,
-        peak_velocity=_known(velocity.peak),
-        peak_displacement=_known(displacement.peak),
-        drift=displacement.drift,
+        peak_velocity=_known(measured["pgv"]),
+        peak_displacement=_known(measured["pgd"]),
+        drift=drift,
     )
 
 

@@ -129,16 +129,16 @@ def level_of(text: str, asked: Asked) -> Level:
 def _strongest(campaign: Campaign, layout: Layout, name: str) -> tuple[Test, Motion] | None:
     """Return the test of this id, or of those with this motion the one whose table moved most, with its motion."""
     if name in campaign.tests:
-        motion = _recorded(layout, campaign.tests[name])
+        motion = recorded(layout, campaign.tests[name])
         if motion is None:
             raise CampaignError(f"{name}: its table motion is not known. Run `colonnade run` first.")
         return campaign.tests[name], motion
     named = [test for test in campaign.tests.values() if test.motion == name]
-    found = [(test, motion) for test in named if (motion := _recorded(layout, test)) is not None]
+    found = [(test, motion) for test in named if (motion := recorded(layout, test)) is not None]
     return max(found, key=lambda pair: pair[1].peak, default=None)
 
 
-def _recorded(layout: Layout, test: Test) -> Motion | None:
+def recorded(layout: Layout, test: Test) -> Motion | None:
     """Return the table motion of a test along x, None if it is not known throughout."""
     try:
         rocking = files.read(layout.stage(test.id, "rocking"))

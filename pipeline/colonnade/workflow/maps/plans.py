@@ -55,7 +55,7 @@ class Wanted:
         Also the steady responses to the sine, over the same Ω and A.
     """
 
-    models: tuple[str, ...] = ("linear",)
+    models: tuple[str, ...] = ("nonlinear",)
     frequency_ratio: tuple[float, float] | None = None
     amplitude_ratio: tuple[float, float] | None = None
     points: tuple[int, int] | None = None

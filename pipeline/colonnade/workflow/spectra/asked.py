@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import sqrt
 from pathlib import Path
+from typing import Literal
 
 from colonnade import units
 from colonnade.assessment.intensity.baselines import NONE, corrected
@@ -15,6 +17,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError, UnitError
 from colonnade.stages.assessing.column import real_column
 from colonnade.store.layout import Layout
+from colonnade.store.records.wording import number
 from colonnade.workflow.real_column import AskedColumn, find_column
 
 
@@ -31,12 +34,15 @@ class Column:
         e of impacts that end an arc at θ < 0, and at θ > 0.
     restitution_source : str
         given, identified or rigid-body.
+    scale : float or None
+        How many times larger it is than what the campaign tests; None if that is not said.
     """
 
     name: str
     block: Block
     restitution: tuple[float, float]
     restitution_source: str
+    scale: float | None = 1.0
 
 
 @dataclass(frozen=True)
@@ -85,23 +91,28 @@ def column_of(asked: AskedColumn, campaign: Campaign | None, layout: Layout | No
         name = f"α = {block.critical_angle:.4g} rad, p = {block.p:.4g} rad/s"
     else:
         name = found.specimen if scale == 1.0 else f"{found.specimen}, {scale:g} times larger"
-    return Column(name, block, pair(column.restitution), source)
+    return Column(name, block, pair(column.restitution), source, None if asked.has_own_size else scale)
 
 
-def motion_of(asked: AskedMotion, campaign: Campaign | None, layout: Layout | None) -> tuple[Motion, str]:
+def motion_of(
+    asked: AskedMotion, campaign: Campaign | None, layout: Layout | None, scale: float | None = 1.0
+) -> tuple[Motion, str, bool]:
     """
-    Find the base motion that is asked for, and say where it comes from.
+    Find the base motion that is asked for, where it comes from, and whether it was recorded on a table.
+
+    What a campaign recorded is in the time of its model. It is stretched by the root of the scale of the column; if
+    that is not said (None), of the specimen that was tested.
 
     Raises
     ------
     CampaignError
-        If there is no such motion, only its shape is known, or an option is out of its range.
+        If there is no such motion, only its shape or not its scale is known, or an option is out of its range.
     ReadError
         If its file cannot be read.
     """
-    motion, source, is_shape = _found(asked, campaign, layout)
+    motion, source, kind = _found(asked, campaign, layout, scale)
     peak = _quantity("--peak", asked.peak, "acceleration")
-    if peak is None and is_shape:
+    if peak is None and kind == "shape":
         raise CampaignError(f'--motion {asked.name}: it is {source}. Give its peak acceleration, --peak "0.3 g".')
     factor = 1.0
     if peak is not None:
@@ -115,11 +126,13 @@ def motion_of(asked: AskedMotion, campaign: Campaign | None, layout: Layout | No
     except ValueError as error:
         raise CampaignError(f"--baseline {error}") from None
     vertical = None if motion.vertical is None else abs(factor) * motion.vertical
-    return Motion(base, motion.dt, vertical), source
+    return Motion(base, motion.dt, vertical), source, kind == "table"
 
 
-def _found(asked: AskedMotion, campaign: Campaign | None, layout: Layout | None) -> tuple[Motion, str, bool]:
-    """Return the motion as it is found, its source, and whether only its shape is known."""
+def _found(
+    asked: AskedMotion, campaign: Campaign | None, layout: Layout | None, scale: float | None
+) -> tuple[Motion, str, Literal["file", "shape", "table"]]:
+    """Return the motion in the time of the column, its source, and what is known of it: its shape alone or all."""
     from colonnade.readers.motion import read_motion
 
     path = Path(asked.name)
@@ -130,11 +143,24 @@ def _found(asked: AskedMotion, campaign: Campaign | None, layout: Layout | None)
             raise CampaignError(f"--motion {asked.name}: there is no such file{' and no campaign' * (not campaign)}.")
         column = int(asked.column) if asked.column is not None and asked.column.isdigit() else asked.column
         interval = _quantity("--interval", asked.interval, "time")
-        return read_motion(path, unit=asked.unit, dt=interval, column=column), f"file {path.name}", False
+        return read_motion(path, unit=asked.unit, dt=interval, column=column), f"file {path.name}", "file"
     from colonnade.workflow.forecasting.motions import motion_asked_for
 
     found = motion_asked_for(campaign, layout, asked.name, None, None)
-    return found.motion, found.source, found.test is None
+    if found.test is None:
+        return found.motion, found.source, "shape"
+    own = found.test.specimen
+    if not (scale := scale or campaign.specimens[own].scale):
+        raise CampaignError(
+            f"--motion {asked.name}: it was recorded in the time of the model {own}, and how many times larger the "
+            f"column is, is not known. Give the `scale` of specimens.{own}, or --specimen {own} with --scale (1 for "
+            "its own size)."
+        )
+    if scale == 1.0:
+        return found.motion, found.source, "table"
+    slower = sqrt(scale)
+    source = f"{found.source}, {number(slower)} times slower for a column {scale:g} times larger"
+    return Motion(found.motion.acceleration, found.motion.dt * slower), source, "table"
 
 
 def _quantity(option: str, given: str | None, dimension: str) -> float | None:

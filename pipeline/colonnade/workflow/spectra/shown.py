@@ -21,6 +21,25 @@ MEASURE_HEADS = ("measure", "symbol", "value", "why not")
 Row = tuple[str, ...]
 
 
+def verdict(found: Rocking | Overturning) -> str:
+    """Say in a sentence what the motion, or the least of the pulses, does to the column."""
+    if isinstance(found, Rocking):
+        peak, model = found.history.peak_ratio, found.history.model
+        rocks = "does not rock" if not peak else f"rocks to |θ|/α = {ratio(peak)} and stands"
+        return f"The column {'overturns' if found.history.outcome == 'overturned' else rocks} ({model} model)."
+    spectrum = found.spectrum
+    by = f"({spectrum.model} model)"
+    if not np.isfinite(spectrum.lower).any():
+        return f"No {spectrum.pulse} pulse up to A = {spectrum.options['largest']:g} overturns the column {by}."
+    least = int(np.nanargmin(spectrum.lower))
+    level = float(spectrum.lower[least])
+    return (
+        f"The least {spectrum.pulse} pulse that overturns the column has A = {number(level)}, "
+        f"{acceleration(level * found.column.block.uplift_acceleration)}, at Ω = "
+        f"{number(float(spectrum.frequency_ratio[least]))} {by}."
+    )
+
+
 def column_fields(column: Column) -> list[tuple[str, str]]:
     """Write what the column is."""
     negative, positive = column.restitution
@@ -59,13 +78,11 @@ def _ended(peak: float, fell: bool, fastest: float) -> Row:
 
 
 def motion_fields(found: Rocking) -> list[tuple[str, str]]:
-    """Write what the motion is, and what it does to the column itself."""
-    history, measures = found.history, found.measures
-    peak = "" if history.peak_ratio is None else f", largest |θ|/α = {ratio(history.peak_ratio)}"
+    """Write what the motion is."""
+    measures = found.measures
     return [
         ("motion", f"{found.source}; {found.motion.duration:.4g} s in steps of {found.motion.dt:.4g} s"),
-        ("drift", f"the velocity ends at {measures.drift:.2g} of its peak; {measures.largest_drift:g} is allowed"),
-        ("the column", f"{history.outcome}{peak} ({history.model} model)"),
+        ("drift", f"the velocity drifts by {measures.drift:.2g} of its peak; {measures.largest_drift:g} is allowed"),
     ]
 
 
@@ -91,7 +108,6 @@ def pulse_fields(found: Overturning) -> list[tuple[str, str]]:
     return [
         ("pulse", f"{kind.name}: {kind.definition}, φ = ω t{shape} ({kind.source})"),
         ("limits", f"of intervals at least {options['width']:g} wide in A, up to A = {options['largest']:g}"),
-        ("model", spectrum.model),
     ]
 
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colonnade.assessment.intensity.ground import LARGEST_DRIFT
 from colonnade.assessment.intensity.measured import IntensityMeasures, intensity_measures
 from colonnade.campaign import Campaign
 from colonnade.campaign.syntax.bounds import MAP_RATIO, MOST_POINTS, outside
@@ -97,7 +96,7 @@ def rocking_of(
     periods: tuple[float, float] | None = None,
     points: int = POINTS,
     model: str = NONLINEAR.name,
-    drift: float = LARGEST_DRIFT,
+    drift: float | None = None,
 ) -> Rocking:
     """
     Compute the rocking spectrum of a motion around a column.
@@ -117,7 +116,7 @@ def rocking_of(
     model : str, optional
         A plane one.
     drift : float, optional
-        As of `intensity_measures`.
+        As of `intensity_measures`; that of a table's motion if a test recorded it.
 
     Raises
     ------
@@ -125,7 +124,7 @@ def rocking_of(
         If something is not known or out of its range.
     """
     known = column_of(column, campaign, layout)
-    motion, source = motion_of(asked, campaign, layout)
+    motion, source, is_table = motion_of(asked, campaign, layout, known.scale)
     own = 2 * pi / known.block.p
     low, high = _range("--periods", periods or (own / REACH, own * REACH), "s")
     sizes = np.geomspace(low, high, _points(points))
@@ -140,7 +139,7 @@ def rocking_of(
             gravity=known.block.gravity,
         )
         history = rock(known.block, motion, restitution=known.restitution, model=model)
-        measures = intensity_measures(motion, known.block, drift=drift)
+        measures = intensity_measures(motion, known.block, drift=drift, at_rest=is_table)
     except ValueError as error:
         raise CampaignError(str(error)) from None
     return Rocking(known, motion, source, history, spectrum, measures)

@@ -1,0 +1,71 @@
+"""Peak velocity and displacement of tables against closed forms; what drifts is refused, in one place for all."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from colonnade.assessment.intensity.ground import Ground
+from colonnade.assessment.intensity.measured import intensity_measures, table_measures
+from colonnade.dynamics.motion import Motion
+
+INTERVAL = 0.002
+TIME = np.arange(0, 10, INTERVAL)
+INSIDE = (TIME >= 2) & (TIME < 6)
+PULSE = np.where(INSIDE, np.sin(2 * np.pi * (TIME - 2) / 4) * 2.0, 0.0)
+"""One period of a sine, 4 s long, 2 m/s²: v = A T/(2π) (1 − cos), largest A T/π; u at the end A T²/(2π)."""
+VELOCITY = 2.0 * 4 / np.pi
+
+
+def measured(values):
+    found, drift = table_measures(values, INTERVAL)
+    return found["pgv"], found["pgd"], drift
+
+
+def test_the_peak_velocity_of_a_sine_pulse():
+    assert measured(PULSE)[0] == pytest.approx(VELOCITY, rel=1e-4)
+
+
+def test_the_displacement_of_a_motion_that_returns():
+    late = (TIME - 4) / 0.5
+    returning = 0.03 / 0.5**2 * (4 * late**2 - 2) * np.exp(-(late**2))  # u = 0.03 exp(−late²)
+    _, displacement, drift = measured(returning)
+    assert displacement == pytest.approx(0.03, rel=1e-4)
+    assert drift < 1e-2
+
+
+def test_a_constant_error_of_the_acceleration_is_taken_off_while_it_is_small():
+    assert measured(PULSE + 0.005)[0] == pytest.approx(VELOCITY, rel=2e-2)
+    spoilt, _, drift = measured(PULSE + 0.1)
+    assert np.isnan(spoilt)
+    assert drift == pytest.approx(Ground(PULSE + 0.1, INTERVAL, at_rest=True).drift)  # of what is refused first
+    assert drift > 0.25
+
+
+def test_a_displacement_that_does_not_return_is_refused():
+    assert np.isnan(measured(PULSE)[1])
+
+
+def test_a_velocity_that_drifts_gives_no_displacement():
+    assert np.isnan(measured(PULSE + 0.1)[1])
+
+
+def test_a_table_at_rest_has_no_intensity():
+    found, drift = table_measures(np.zeros(100), 0.01)
+    assert (found, drift) == ({"pgv": 0.0, "pgd": 0.0, "arias": 0.0}, 0.0)
+
+
+@pytest.mark.parametrize("error", [0.0, 0.005, 0.04, 0.1])
+def test_a_motion_has_one_pgv_whoever_asks(error):
+    """The measures of a motion known to rest at its ends are those of a table; of the ground the rule is another."""
+    values = PULSE + error
+    asked = intensity_measures(Motion(values, INTERVAL), measures=["pgv", "pgd", "arias"], at_rest=True)
+    assert asked.values == pytest.approx(table_measures(values, INTERVAL)[0], nan_ok=True)
+    assert np.isnan(asked.values["pgv"]) == (error == 0.1)
+    ground = intensity_measures(Motion(values, INTERVAL), measures=["pgv"])
+    assert np.isnan(ground.values["pgv"]) == (error >= 0.04)
+
+
+def test_the_line_of_a_constant_error_leaves_the_velocity():
+    clean, off = (Ground(values, INTERVAL, at_rest=True).velocity for values in (PULSE, PULSE + 0.05))
+    np.testing.assert_allclose(off, clean, atol=1e-9)
