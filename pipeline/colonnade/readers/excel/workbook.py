@@ -147,8 +147,8 @@ def _of_rows(text: str) -> str:
 
 
 def _plain(cell: object) -> str:
-    """Text of a cell on one line; a number as Excel shows it."""
-    text = f"{cell:g}" if isinstance(cell, float) else str(cell)
+    """Text of a cell on one line; a number with the digits that Excel keeps."""
+    text = f"{cell:.15g}" if isinstance(cell, float) else str(cell)
     return " ".join(text.split())
 
 
