@@ -17,6 +17,10 @@ EMPTIEST = 100
 """Intervals a sample; a clock with fewer samples is not worth to be made even (nor would it fit into memory)."""
 
 
+THINNED = 4
+"""Samples of a smoothed record for each of a slower clock that it is brought to."""
+
+
 @dataclass(frozen=True)
 class Record:
     """
@@ -88,8 +92,8 @@ def smoothed(record: Record, cutoff_hz: float, order: int) -> tuple[Array, float
     noise : float
         Standard deviation that is left.
     """
-    noise = noise_below(record.values, record.interval, cutoff_hz, order, ~record.missing)
-    return lowpass(record.values, record.interval, cutoff_hz, order), noise
+    smooth = lowpass(record.values, record.interval, cutoff_hz, order)
+    return smooth, noise_below(record.values, smooth, record.interval, cutoff_hz, ~record.missing)
 
 
 def on_clock(record: Record, values: Array, clock: Array) -> tuple[Array, Codes]:
@@ -111,7 +115,12 @@ def on_clock(record: Record, values: Array, clock: Array) -> tuple[Array, Codes]
     flags : ndarray of int8, shape (m,)
         Of the nearest sample as recorded. Bridged samples are suspect, not failed.
     """
-    brought, outside = resample(record.time, values, clock, record.interval)
+    last, coarser = record.time.size - 1, int((clock[1] - clock[0]) / (THINNED * record.interval))
+    if coarser > 1:  # a spline through all samples of a far slower clock would fill the memory
+        knots = np.union1d(np.arange(0, last, coarser), [last])
+        brought, outside = resample(record.time[knots], values[knots], clock, coarser * record.interval)
+    else:
+        brought, outside = resample(record.time, values, clock, record.interval)
     lost = outside | record.missing[_nearest(record.time, clock)]
     near = _nearest(record.stamps, clock)
     flags = record.flags[near].copy()
