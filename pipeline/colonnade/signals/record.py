@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,19 +67,24 @@ def even_record(stamps: Array, values: Array, flags: Codes) -> Record:
     """
     clock = read_clock(stamps)
     timed = np.isfinite(clock.time)
-    bad = ((flags >= Flag.FAIL) | ~np.isfinite(values))[timed]
+    bad = _where(timed, (flags >= Flag.FAIL) | ~np.isfinite(values))
     if (~bad).sum() < 2:
         raise ValueError(f"has no usable sample among its {values.size}")
-    known, interval = clock.time[timed], clock.interval
+    known, interval = _where(timed, clock.time), clock.interval
     span = float(known[-1] - known[0])
     if span > EMPTIEST * interval * known.size:
         raise ValueError(f"has {known.size} samples at {1 / interval:.4g} Hz over {span:.4g} s; check its times")
     time = uniform_clock(known[0], known[-1], interval)
-    used = known[~bad]
-    even, missing = resample(used, values[timed][~bad], time, interval)
+    used = _where(~bad, known)
+    even, missing = resample(used, _where(~bad, _where(timed, values)), time, interval)
     reach = (LONGEST_BRIDGE + 0.5) * interval
     held = ((time < used[0]) & (used[0] - time[0] < reach)) | ((time > used[-1]) & (time[-1] - used[-1] < reach))
-    return Record(time, even, missing & ~held, interval, known, flags[timed].astype(np.int8), bad)
+    return Record(time, even, missing & ~held, interval, known, _where(timed, flags).astype(np.int8), bad)
+
+
+def _where(chosen: Mask, values: NDArray[Any]) -> NDArray[Any]:
+    """Chosen values; those of a long record that are all chosen are not copied."""
+    return values if chosen.all() else values[chosen]
 
 
 def smoothed(record: Record, cutoff_hz: float, order: int) -> tuple[Array, float]:
