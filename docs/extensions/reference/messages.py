@@ -56,7 +56,7 @@ ACTIONS = {
         "end of the range": "Keep it if the peaks that matter are within the range; else `[[flag]]` the stretch.",
         "fewer transducers": "See why the others could not be used; the angle has less redundancy.",
         "flat stretch": "`[[flag]]` the stretch as failed if the block moved during it.",
-        "missing samples": "Short gaps are bridged; `[[trim]]` the test if a long one is at its end.",
+        "missing samples": "Short gaps are bridged; `[[trim]]` one at the end; next to strong motion, repeat the test.",
         "no rocking angle": "See the findings before it; a usable displacement transducer on the specimen is needed.",
         "no steady sine": "`[[trim]]` the test to the part with a steady motion, if it has one.",
         "single shock": "If it is a blow, `[[flag]]` that window of the channel as failed.",
