@@ -140,14 +140,10 @@ def _joined(name: str, traces: Sequence[Any], step: float, origin: Any) -> tuple
     steps = [float(trace.stats.delta) for trace in traces]
     rates_differ = any(abs(each / steps[0] - 1) > ROUNDED for each in steps)
     if rates_differ or total > (1 + LARGEST_GAP) * sum(sizes):
-        each_step = steps if rates_differ else [step] * len(steps)
-        time = np.concatenate([even_times(*each) for each in zip(sizes, each_step, begins, strict=True)])
+        time = np.concatenate([even_times(*each) for each in zip(sizes, steps, begins, strict=True)])
         rates = " and ".join(f"{1 / each:.6g} Hz" for each in dict.fromkeys(steps))
-        told.append(
-            f'"{name}": its {len(traces)} pieces have rates of {rates}; each has its own times, and gaps are not filled'
-            if rates_differ
-            else f'"{name}": its {len(traces)} pieces are far apart; the gaps are not filled'
-        )
+        what = f"have rates of {rates}; each has its own times" if rates_differ else "are far apart"
+        told.append(f'"{name}": its {len(traces)} pieces {what}; the gaps are not filled')
         return time, np.concatenate(pieces), told
     values = np.full(total, np.nan)
     overlaps = 0
