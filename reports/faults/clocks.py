@@ -84,7 +84,8 @@ CLOCKS = Group(
             message="1 gap in time, about 200 samples lost",
             picture=Picture(steps("sine.csv"), ACROSS, STEP, (5.8, 6.6), "With the fault, one step is 0.4 s long."),
             mend="What was not recorded cannot be mended. Results bridge the gap and say where it is. If it is at the "
-            "end of the test, a `[[trim]]` in review.toml keeps what is before it.",
+            "end of the test, a `[[trim]]` in review.toml keeps what is before it; next to strong motion the peak "
+            "may be lost, and the test has to be repeated.",
         ),
         Fault(
             name="Wrong sampling rate",

@@ -112,7 +112,9 @@ SAMPLES = Group(
             plant=in_file("sine.csv", _empty),
             message="channel top: 400 samples without a value, the first at 5 s",
             picture=Picture(signals("top"), ACROSS, READING, WINDOW, "With the fault, a stretch is empty."),
-            mend="Nothing has to be written: NaN is the right way to say that a value is missing.",
+            mend="Nothing has to be written: NaN is the right way to say that a value is missing. But next to "
+            "strong motion the peak may be among what is missing: read the samples from the recorder again, or repeat "
+            "the test.",
         ),
         Fault(
             name="Misnamed column",

@@ -105,6 +105,11 @@ def test_a_log_gives_the_tests_whatever_wrote_it(name, tmp_path):
     assert (tests["3"].frequency, tests["3"].zero, tests["3"].files) == (3.5, "auto", {"main": folder / "d.csv"})
 
 
+def test_a_workbook_is_not_parsed_in_this_process(tmp_path, monkeypatch):
+    monkeypatch.setattr("colonnade.readers.excel.workbook._sheet", None)
+    with_log(tmp_path, "log.xlsx", LOGS["log.xlsx"])
+
+
 def test_a_log_says_who_and_when_and_names_photos(tmp_path):
     heads = [*HEADS, "date", "operator", "photos"]
     said = (

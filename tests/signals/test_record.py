@@ -20,6 +20,18 @@ def test_what_lies_above_the_cut_off_does_not_come_back_at_a_lower_rate():
     assert np.sqrt(np.mean((brought - np.sin(2 * np.pi * clock)) ** 2)) < 1e-4
 
 
+@pytest.mark.parametrize("times", [1, 5, 50, 400])
+def test_a_far_slower_clock_has_the_values_of_the_smoothed_record(times):
+    rate = 400 * times
+    time, clock = np.arange(6 * rate + 1) / rate, np.arange(2401) / 400
+    noise = np.random.default_rng(2).normal(0, 0.01, time.size)
+    record = even_record(time, np.sin(2 * np.pi * 7 * time) + noise, np.full(time.size, Flag.GOOD, dtype=np.int8))
+    smooth, _ = smoothed(record, 35.0, 4)
+    brought, flags = on_clock(record, smooth, clock)
+    np.testing.assert_allclose(brought, smooth[::times], atol=1e-5)
+    assert (flags == Flag.GOOD).all()
+
+
 def test_a_long_run_without_values_is_missing_and_a_short_one_a_suspect_line():
     values, flags = 5 * TIME, GOOD.copy()
     for run in (slice(500, 504), slice(1000, 1180)):

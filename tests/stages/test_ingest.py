@@ -175,6 +175,45 @@ def test_one_wild_time_stamp_costs_one_sample(small_campaign, free_vibration):
     assert np.flatnonzero(recorded["top_quality"] != Flag.GOOD).tolist() == [9]
 
 
+def _with_times(recordings, time):
+    main = recordings["main"]
+    return {"main": replace(main, channels=tuple(replace(channel, time=time) for channel in main.channels))}
+
+
+@pytest.mark.parametrize("change", ["starts again", "a block goes back", "runs backwards"])
+@pytest.mark.parametrize("share", [0.1, 0.3, 0.5])
+def test_a_clock_that_goes_back_where_the_block_rocks_is_serious(small_campaign, shaken, change, share):
+    recordings, time, angle, _ = shaken
+    peak, stamps = int(np.argmax(np.abs(angle))), time.copy()
+    length = int(share * min(peak, time.size - peak))
+    if change == "starts again":
+        # What is longer is kept: the peak is in what is shorter.
+        jump = peak + length if peak + length < time.size / 2 else peak - length
+        stamps[jump:] -= stamps[jump]
+    elif change == "a block goes back":
+        jump = peak - length // 2
+        stamps[jump : jump + length] -= 2 * length / 500
+    else:
+        jump = peak - length // 2 + 1
+        stamps[jump - 1 : jump - 1 + length] = stamps[jump - 1 : jump - 1 + length][::-1]
+    recorded = ingest(
+        _with_times(recordings, stamps), IngestInputs.of(small_campaign, small_campaign.tests["shake-01"])
+    )
+    [told] = [each for each in recorded.attrs["warnings"] if "out of order" in each.text]
+    assert told.severity == "serious"
+    assert f"at sample {jump + 1:,}" in told.text
+
+
+def test_a_clock_that_goes_back_at_rest_is_a_warning(small_campaign, free_vibration):
+    recordings, time, _, _ = free_vibration
+    stamps = time.copy()
+    stamps[5500:] -= stamps[5500]
+    recorded = ingest(_with_times(recordings, stamps), IngestInputs.of(small_campaign, small_campaign.tests["free-01"]))
+    [told] = recorded.attrs["warnings"]
+    assert told.severity == "warning"
+    assert "the clock goes from 10.998 to 0 s at sample 5,501" in told.text
+
+
 def test_the_time_of_the_file_is_kept_and_another_day_is_a_warning(small_campaign, free_vibration):
     recordings, test = free_vibration[0], small_campaign.tests["free-01"]
     assert ingest(recordings, IngestInputs.of(small_campaign, test)).attrs["recorded_at"] == ""

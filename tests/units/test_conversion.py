@@ -85,6 +85,12 @@ def test_what_is_not_such_a_quantity_is_refused_in_words(text, dimension, words)
         ("millimetres", "mm"),
         ("Kg", "kg"),
         ("N.m", "N m"),
+        ("KN", "kN"),
+        ("kn", "kN"),
+        ("MPA", "MPa"),
+        ("Mpa", "MPa"),
+        ("KPA", "kPa"),
+        ("MG", "mg"),
         ("", ""),
     ],
 )
@@ -96,6 +102,18 @@ def test_letters_that_differ_by_case_only_stay_apart():
     assert units.si_factor("Ms") == (1e6, "s")
     assert units.si_factor("ms") == (1e-3, "s")
     assert not units.same_unit("mV", "MV")
+
+
+def test_capitals_that_can_only_be_one_unit_have_its_size():
+    assert units.to_si("3 KN", "force") == 3000.0
+    assert units.to_si("2 MPA", "pressure") == 2e6
+    assert units.to_si("500 MG", "acceleration") == pytest.approx(0.5 * 9.80665, rel=1e-14)
+
+
+@pytest.mark.parametrize(("unit", "meant"), [("MV", "mV"), ("MA", "mA"), ("Mg", "mg"), ("NM", "N m"), ("mm/MV", "mV")])
+def test_capitals_that_may_be_two_units_are_asked_about(unit, meant):
+    with pytest.raises(UnitError, match=f'Unknown unit .* it may be two. Did you mean "{meant}"'):
+        units.si_factor(unit)
 
 
 def test_kilogram_is_not_a_thousand_gravities():

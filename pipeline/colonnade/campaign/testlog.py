@@ -7,7 +7,6 @@ import io
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import date, time
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
@@ -76,7 +75,7 @@ def read_log(path: Path) -> Log:
     heads_row = next((index for index, row in enumerate(cells) if any(map(_filled, row))), None)
     if heads_row is None:
         raise ValueError(f"{path.name} is empty. A row of column heads was expected: {', '.join(Test.purposes())}.")
-    heads = [str(_plain(head)).strip() for head in cells[heads_row]]
+    heads = [head.strip() for head in cells[heads_row]]
     problems, warnings = _judge(heads, path.name, heads_row + 1)
     tests, rows = [], []
     for index, row in enumerate(cells[heads_row + 1 :], start=heads_row + 2):
@@ -84,7 +83,7 @@ def read_log(path: Path) -> Log:
             continue
         surplus = [cell for cell in row[len(heads) :] if _filled(cell)]
         if surplus:
-            first = quoted(str(_plain(surplus[0])))
+            first = quoted(surplus[0])
             problems.append(
                 f"{path.name}, row {index}: more cells than the {len(heads)} column heads ({first}). "
                 "Put a cell that holds the separator in quotes."
@@ -94,7 +93,7 @@ def read_log(path: Path) -> Log:
     return Log(path.name, tuple(tests), tuple(rows), tuple(problems), tuple(warnings))
 
 
-def _cells(path: Path) -> tuple[list[list[Any]], bool]:
+def _cells(path: Path) -> tuple[list[list[str]], bool]:
     """Rows of cells, and whether a comma between digits is a decimal sign."""
     if kind := irregular(path):
         raise ValueError(f"{path.name} is {kind}. A test log was expected: a CSV file or a workbook.")
@@ -129,11 +128,11 @@ def _decoded(raw: bytes) -> str:
         return raw.decode("cp1252", errors="replace")
 
 
-def _workbook(path: Path) -> list[list[Any]]:
-    from colonnade.readers.excel.workbook import rows_of_first_sheet
+def _workbook(path: Path) -> list[list[str]]:
+    from colonnade.readers.bounded import process as bounded
 
     try:
-        rows = rows_of_first_sheet(path)
+        rows = bounded.cells(path)
     except ReadError as error:
         raise ValueError(str(error)) from None
     widest = max(map(len, rows), default=0)
@@ -160,18 +159,18 @@ def _judge(heads: Sequence[str], name: str, row: int) -> tuple[list[str], list[F
     return problems, warnings
 
 
-def _test(cells: dict[str, Any], decimal_comma: bool) -> dict[str, Any]:
+def _test(cells: dict[str, str], decimal_comma: bool) -> dict[str, Any]:
     keys = Test.purposes()
     filled = {head: cell for head, cell in cells.items() if _filled(cell)}
     test = {head: _value(head, cell, decimal_comma) for head, cell in filled.items() if head in keys}
-    files = {head.removeprefix("file."): str(_plain(cell)) for head, cell in filled.items() if head.startswith("file.")}
+    files = {head.removeprefix("file."): cell for head, cell in filled.items() if head.startswith("file.")}
     if files:
         test["file"] = ({MAIN: test["file"]} if "file" in test else {}) | files
     return test
 
 
-def _value(key: str, cell: Any, decimal_comma: bool) -> Any:
-    text = str(_plain(cell)).strip()
+def _value(key: str, cell: str, decimal_comma: bool) -> Any:
+    text = cell.strip()
     if decimal_comma and key in (*_NUMBERS, *_QUANTITIES):
         text = re.sub(r"(?<=[0-9]),(?=[0-9])", ".", text)
     if key in _NUMBERS:
@@ -187,12 +186,5 @@ def _value(key: str, cell: Any, decimal_comma: bool) -> Any:
     return text
 
 
-def _filled(cell: Any) -> bool:
-    return cell is not None and str(cell).strip() != ""
-
-
-def _plain(cell: Any) -> Any:
-    """Excel keeps every number as a float: 1.0 was typed as 1."""
-    if isinstance(cell, float) and cell.is_integer() and abs(cell) < 1e15:
-        return int(cell)
-    return cell.isoformat() if isinstance(cell, (date, time)) else cell
+def _filled(cell: str) -> bool:
+    return cell.strip() != ""

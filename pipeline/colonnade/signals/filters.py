@@ -107,20 +107,21 @@ def second_derivative(values: Array, interval: float, cutoff_hz: float) -> Array
     return derivative
 
 
-def noise_below(values: Array, interval: float, cutoff_hz: float, order: int, counted: Mask) -> float:
+def noise_below(values: Array, smooth: Array, interval: float, cutoff_hz: float, counted: Mask) -> float:
     """
     Standard deviation of what noise a low-pass leaves, taken the noise is white.
 
     Parameters
     ----------
-    values : ndarray, shape (n,)
-        Before the filter.
-    interval, cutoff_hz, order
+    values, smooth : ndarray, shape (n,)
+        Before and after the filter.
+    interval, cutoff_hz
         As for `lowpass`.
     counted : ndarray of bool, shape (n,)
         Samples that were recorded: bridges have no noise.
     """
-    above = (values - lowpass(values, interval, cutoff_hz, order))[counted]
+    above = (values - smooth)[counted]
     kept = min(2 * cutoff_hz * interval, 0.9)
-    deviation = 1.4826 * float(np.median(np.abs(above - np.median(above))))
+    above -= np.median(above)
+    deviation = 1.4826 * float(np.median(np.abs(above, out=above), overwrite_input=True))
     return deviation * float(np.sqrt(kept / (1 - kept)))

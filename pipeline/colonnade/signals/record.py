@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,10 @@ from colonnade.signals.quality import Flag
 
 EMPTIEST = 100
 """Intervals a sample; a clock with fewer samples is not worth to be made even (nor would it fit into memory)."""
+
+
+THINNED = 4
+"""Samples of a smoothed record for each of a slower clock that it is brought to."""
 
 
 @dataclass(frozen=True)
@@ -62,19 +67,24 @@ def even_record(stamps: Array, values: Array, flags: Codes) -> Record:
     """
     clock = read_clock(stamps)
     timed = np.isfinite(clock.time)
-    bad = ((flags >= Flag.FAIL) | ~np.isfinite(values))[timed]
+    bad = _where(timed, (flags >= Flag.FAIL) | ~np.isfinite(values))
     if (~bad).sum() < 2:
         raise ValueError(f"has no usable sample among its {values.size}")
-    known, interval = clock.time[timed], clock.interval
+    known, interval = _where(timed, clock.time), clock.interval
     span = float(known[-1] - known[0])
     if span > EMPTIEST * interval * known.size:
         raise ValueError(f"has {known.size} samples at {1 / interval:.4g} Hz over {span:.4g} s; check its times")
     time = uniform_clock(known[0], known[-1], interval)
-    used = known[~bad]
-    even, missing = resample(used, values[timed][~bad], time, interval)
+    used = _where(~bad, known)
+    even, missing = resample(used, _where(~bad, _where(timed, values)), time, interval)
     reach = (LONGEST_BRIDGE + 0.5) * interval
     held = ((time < used[0]) & (used[0] - time[0] < reach)) | ((time > used[-1]) & (time[-1] - used[-1] < reach))
-    return Record(time, even, missing & ~held, interval, known, flags[timed].astype(np.int8), bad)
+    return Record(time, even, missing & ~held, interval, known, _where(timed, flags).astype(np.int8), bad)
+
+
+def _where(chosen: Mask, values: NDArray[Any]) -> NDArray[Any]:
+    """Chosen values; those of a long record that are all chosen are not copied."""
+    return values if chosen.all() else values[chosen]
 
 
 def smoothed(record: Record, cutoff_hz: float, order: int) -> tuple[Array, float]:
@@ -88,8 +98,8 @@ def smoothed(record: Record, cutoff_hz: float, order: int) -> tuple[Array, float
     noise : float
         Standard deviation that is left.
     """
-    noise = noise_below(record.values, record.interval, cutoff_hz, order, ~record.missing)
-    return lowpass(record.values, record.interval, cutoff_hz, order), noise
+    smooth = lowpass(record.values, record.interval, cutoff_hz, order)
+    return smooth, noise_below(record.values, smooth, record.interval, cutoff_hz, ~record.missing)
 
 
 def on_clock(record: Record, values: Array, clock: Array) -> tuple[Array, Codes]:
@@ -111,7 +121,12 @@ def on_clock(record: Record, values: Array, clock: Array) -> tuple[Array, Codes]
     flags : ndarray of int8, shape (m,)
         Of the nearest sample as recorded. Bridged samples are suspect, not failed.
     """
-    brought, outside = resample(record.time, values, clock, record.interval)
+    last, coarser = record.time.size - 1, int((clock[1] - clock[0]) / (THINNED * record.interval))
+    if coarser > 1:  # a spline through all samples of a far slower clock would fill the memory
+        knots = np.union1d(np.arange(0, last, coarser), [last])
+        brought, outside = resample(record.time[knots], values[knots], clock, coarser * record.interval)
+    else:
+        brought, outside = resample(record.time, values, clock, record.interval)
     lost = outside | record.missing[_nearest(record.time, clock)]
     near = _nearest(record.stamps, clock)
     flags = record.flags[near].copy()

@@ -14,7 +14,7 @@ from colonnade.campaign import Campaign, Test
 from colonnade.campaign.decision import Review
 from colonnade.campaign.settings import QualitySettings
 from colonnade.errors import StageError
-from colonnade.findings import Finding
+from colonnade.findings import Finding, Severity
 from colonnade.readers.recording import RecordedChannel, Recording, Window
 from colonnade.signals import quality
 from colonnade.signals.clocks import timing
@@ -202,11 +202,22 @@ def _of_clocks(tracks: list[_Track], timed: Mapping[str, list[quality.Verdict]])
     """Findings about a clock, once for all channels on it."""
     found = []
     for dimension, verdicts in timed.items():
-        names = [track.name for track in tracks if track.dimension == dimension]
-        whose = f"channel{'s' if len(names) > 1 else ''} {', '.join(names)}"
-        found += [
-            replace(verdict.finding, text=f"{whose}: {verdict.reason}.") for verdict in verdicts if verdict.reason
-        ]
+        timed_so = [track for track in tracks if track.dimension == dimension]
+        names = ", ".join(track.name for track in timed_so)
+        whose = f"channel{'s' if len(timed_so) > 1 else ''} {names}"
+        for verdict in verdicts:
+            if not verdict.reason:
+                continue
+            finding = replace(verdict.finding, text=f"{whose}: {verdict.reason}.")
+            telling = [track for track in timed_so if track.channel.on == "specimen"] or timed_so
+            if verdict.flag == quality.Flag.FAIL and any(
+                timing.loses_motion(track.values, verdict.where) for track in telling
+            ):
+                text = (
+                    f"{finding} They are left out, and the largest readings may be among them: repair the time column."
+                )
+                finding = replace(finding, text=text, severity=Severity.SERIOUS)
+            found.append(finding)
     return found
 
 

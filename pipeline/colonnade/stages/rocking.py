@@ -12,19 +12,28 @@ from colonnade.campaign import Campaign, Test
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline
 from colonnade.errors import StageError
-from colonnade.findings import Finding, warning
+from colonnade.findings import Finding, serious, warning
 from colonnade.identification.fusion.motion import SEEN, SpecimenMotion, specimen_motion
 from colonnade.identification.fusion.readings import Circumstances, TableReadings
 from colonnade.identification.fusion.separation import UnseenRotationError
 from colonnade.identification.response.features import angle_features
+from colonnade.signals.clocks.timing import STRONG
 from colonnade.signals.quality import Flag
 from colonnade.signals.shock import single_shock
+from colonnade.signals.stretches import stretches
 from colonnade.stages.parts.conditioned import LEAST_NOISE, axes, base_motion, group
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.transducers import Transducers, outline, transducers
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+NEARBY = 0.5
+"""s, on either side of missing samples, of motion that they may go on with; as long as they last, if that is longer."""
+
+LEAST_RISE = 0.02
+"""Of the peak; what the block cannot rise by within missing samples is not worth a word."""
 
 
 class RockingInputs(Inputs):
@@ -121,6 +130,8 @@ def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
         variables |= _motion_variables(time, motion, inputs, attributes)
         variables["rocking_angle"] += ({"cutoff_hz": cutoff},) if (cutoff := _cutoff(conditioned, motion, used)) else ()
         variables |= _quality(conditioned, motion, used)
+        if not inputs.free_vibration:
+            warnings += _hidden_peak(time, motion.angle, inputs.block)
     return xr.Dataset(variables, coords={"elapsed": ("elapsed", time)}, attrs=attributes)
 
 
@@ -139,6 +150,26 @@ def _shock(acceleration: Array, time: Array) -> list[Finding]:
             follows=("gain", "unit"),
         )
     ]
+
+
+def _hidden_peak(time: Array, angle: Array, block: Block) -> list[Finding]:
+    """Report missing samples next to strong motion, in which the block has time to rise above the recorded peak."""
+    interval, size = float(time[1] - time[0]), np.abs(angle)
+    peak = float(np.nanmax(size))
+    for start, stop in zip(*stretches(np.isnan(angle)), strict=True):
+        duration = (stop - start) * interval
+        reach = max(stop - start, round(NEARBY / interval))
+        near = float(np.nanmax(size[max(start - reach, 0) : stop + reach], initial=0.0))
+        # Standing up, the block turns back with p² α.
+        rise = block.critical_angle * (block.p * duration) ** 2 / 8
+        if near >= STRONG * peak and rise > LEAST_RISE * peak and peak < block.critical_angle:
+            text = (
+                f"The rocking angle is missing for {duration:.3g} s from {time[start]:.4g} s on, next to motion of "
+                f"{near / block.critical_angle:.3g} α: the peak of {peak / block.critical_angle:.3g} α may be too "
+                "small. Repair the raw file, or repeat the test."
+            )
+            return [serious("missing samples", text)]
+    return []
 
 
 def _motion(

@@ -59,6 +59,10 @@ rpm = revolution / minute
 
 # Hints at what was meant.
 COMMON = ("mm", "cm", "m", "kg", "s", "ms", "Hz", "g", "Gal", "m/s^2", "mm/s", "V", "mV", "N", "kN", "rad", "deg")
+SHOUTED = {"KN": "kN", "KPA": "kPa", "MPA": "MPa", "GPA": "GPa", "MG": "mg"}
+"""Units in capitals that can only be one: nobody records 10⁶ g or 10⁻³ Pa."""
+UNCLEAR = {"MV": "mV", "MA": "mA", "Mg": "mg", "NM": "N m"}
+"""Units that may be another one, which is more likely; they are asked about."""
 LARGEST_POWER = 9
 LONGEST = 100
 """Characters of a unit."""
@@ -169,8 +173,11 @@ def _factors(text: str, dimension: str | None) -> list[tuple[str, int]]:
 def _symbol(name: str, text: str, dimension: str | None) -> str:
     import pint
 
+    if name in UNCLEAR:
+        raise UnitError(f"Unknown unit {quoted(name)}: it may be two. Did you mean {quoted(UNCLEAR[name])}?")
+    known = SHOUTED.get(name, name)
     # A spelled-out or shouted unit ("Volts", "MM", "SEC") is taken in lower case; one letter is not: M and m differ.
-    for spelling in (name, name.lower()) if len(name) > 1 else (name,):
+    for spelling in (known, name.lower(), SHOUTED.get(name.upper(), known)) if len(name) > 1 else (name,):
         try:
             return str(_registry().get_symbol(spelling))
         except pint.UndefinedUnitError:

@@ -73,3 +73,17 @@ def test_unknown_columns_alone_are_asked_about_up_to_a_number():
 def test_a_channel_of_another_recorder_says_so():
     drafted = draft_channels({"main": [column(1, "LVDT 1", "mm")], "daq2": [column(1, "ACC", "g")]})
     assert [line.text() for line in drafted.channels[1].lines if isinstance(line, Line)][1] == 'recorder = "daq2"'
+
+
+@pytest.mark.parametrize("letter", ["V", "A"])
+def test_a_letter_that_may_be_a_label_is_asked_about(letter):
+    (lines,) = lines_of((f"Acc ({letter})", letter))
+    assert lines["unit"].value == '"?"'
+    assert lines["unit"].question.startswith(f'is "({letter})" a label?')
+    assert "gain" not in lines
+
+
+def test_several_columns_in_volts_are_not_asked_about():
+    for lines in lines_of(("LVDT 1 (V)", "V"), ("Acc (V)", "V"), ("LVDT [V]", "V")):
+        assert (lines["unit"].value, lines["unit"].reason) == ('"V"', "as in the file")
+    assert lines_of(("LVDT 1 [V]", "V"))[0]["unit"].value == '"V"'

@@ -194,6 +194,14 @@ def test_the_clock_and_the_rows_of_names_can_be_given(tmp_path: Path) -> None:
     np.testing.assert_allclose(recording.channel("x").time, np.arange(9) * 0.005)
 
 
+def test_heads_that_are_numbers_keep_their_digits(tmp_path: Path) -> None:
+    heads = ["t", 1234567, 123456789012345]
+    path = xlsx(tmp_path / "record.xlsx", log=sheet_xml([heads, *SAMPLES]))
+    recording = read(path, options={"names_row": 1, "time": 1})
+    assert [channel.name for channel in recording.channels] == ["t", "1234567", "123456789012345"]
+    np.testing.assert_array_equal(recording.channel("1234567").values, [row[1] for row in SAMPLES])
+
+
 def test_a_stray_cell_far_outside_is_refused_before_it_fills_the_memory(tmp_path: Path) -> None:
     far = sheet_xml([["t", "x"], *[row[:2] for row in SAMPLES]]).replace(
         "</sheetData>", '<row r="1048576"><c r="XFD1048576"><v>1</v></c></row></sheetData>'

@@ -166,3 +166,49 @@ def test_a_file_without_samples_is_refused(tmp_path: Path, text: str, message: s
 def test_an_option_that_cannot_be_is_told(tmp_path: Path, options: dict[str, Any], message: str) -> None:
     with pytest.raises(ReadError, match=message):
         recorded(tmp_path, "a;b;c\n" + ROWS, **options)
+
+
+def noisy_decay(peak: float) -> list[int]:
+    """Whole numbers of a decaying oscillation with noise, at rest for 300 samples."""
+    time = 0.002 * np.arange(4000)
+    motion = np.where(time < 0.6, 0.0, peak * np.exp(-0.2 * (time - 0.6)) * np.sin(9 * (time - 0.6)))
+    return np.rint(motion + np.random.default_rng(3).normal(0, 3, time.size)).astype(int).tolist()
+
+
+MARKS = [".", ",", "'", "\N{RIGHT SINGLE QUOTATION MARK}", " ", "\N{NO-BREAK SPACE}", "\N{NARROW NO-BREAK SPACE}"]
+
+
+@pytest.mark.parametrize("peak", [1100, 2200, 250_000, 3_000_000], ids=lambda peak: f"up to {peak}")
+@pytest.mark.parametrize("decimal", [".", ","])
+@pytest.mark.parametrize("mark", MARKS, ids=ascii)
+def test_whole_numbers_keep_their_size_with_a_mark_between_thousands(
+    tmp_path: Path, mark: str, decimal: str, peak: int
+) -> None:
+    whole = noisy_decay(peak)
+    rows = (
+        f"{row / 500:.3f}".replace(".", decimal) + f";{value:,};{value}".replace(",", mark)
+        for row, value in enumerate(whole)
+    )
+    recording = recorded(tmp_path, "time [s];marked [um];plain [um]\n" + "\n".join(rows) + "\n")
+    assert values(recording, "marked") == whole
+    assert values(recording, "plain") == whole
+    assert recording.channels[1].time is not None
+    assert recording.channels[1].time[-1] == pytest.approx(3999 / 500)
+    assert not recording.warnings
+    assert any("thousands" in note for note in recording.notes) is (mark in ".,")
+
+
+@pytest.mark.parametrize("written", ["{:.3f}", "{:.6g}"], ids=["always three decimals", "zeros at the end left out"])
+def test_decimals_are_not_taken_for_thousands(tmp_path: Path, written: str) -> None:
+    numbers = [float(written.format(550 + number / 3000)) for number in noisy_decay(1_000_000)]
+    text = "".join(f"{row / 500};{written.format(number)}\n" for row, number in enumerate(numbers))
+    assert values(recorded(tmp_path, "time;pressure\n" + text), "pressure") == numbers
+    whole = [float(number) for number in noisy_decay(400)]
+    text = "".join(f"{row / 500};{number:g}\n" for row, number in enumerate([*whole, 998.5, 1.012]))
+    assert values(recorded(tmp_path, "time;counts\n" + text), "counts")[-2:] == [998.5, 1.012]
+
+
+def test_a_decimal_sign_that_is_given_is_no_mark_between_thousands(tmp_path: Path) -> None:
+    text = "time;top\n" + "".join(f"{row / 500};{number}\n" for row, number in enumerate([997, 998, 999, "1.012"] * 9))
+    assert max(values(recorded(tmp_path, text), "top")) == 1012
+    assert max(values(recorded(tmp_path, text, decimal="."), "top")) == 999

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from colonnade.readers.text.heading import looks_like_unit, take_apart
+from colonnade.readers.text.heading import HeadingLines, describe_columns, looks_like_unit, take_apart
+from colonnade.readers.text.lines.cells import Dialect
 
 
 @pytest.mark.parametrize(
@@ -47,3 +48,22 @@ def test_the_unit_in_front_of_a_graphs_name_is_found() -> None:
     assert take_apart("Time [s] - Plot 0") == ("Time - Plot 0", "s")
     assert take_apart("Amplitude (mm) - Plot 0") == ("Amplitude - Plot 0", "mm")
     assert take_apart("Table [North] - Plot 0") == ("Table [North] - Plot 0", None)
+
+
+@pytest.mark.parametrize(
+    ("heads", "units"),
+    [
+        (("Acc (V)", "Acc (H)"), (None, None)),
+        (("LVDT (A)", "LVDT (B)"), (None, None)),
+        (("LVDT 1 (V)", "LVDT 2 (V)"), ("V", "V")),
+        (("Acc (V)", "Weg (mm)"), ("V", "mm")),
+        (("Acc [V]", "Acc [g]"), ("V", "g")),
+    ],
+)
+def test_letters_that_tell_columns_of_one_name_apart_are_no_units(
+    heads: tuple[str, ...], units: tuple[str | None, ...]
+) -> None:
+    dialect = Dialect("utf-8", delimiter=";", decimal=".")
+    heading = describe_columns([";".join(heads), "1;2"], HeadingLines(0, None), 1, dialect, 2)
+    assert heading.units == units
+    assert all((name == head) is (unit is None) for name, head, unit in zip(heading.names, heads, units, strict=True))

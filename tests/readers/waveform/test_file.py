@@ -80,6 +80,23 @@ def test_pieces_that_lie_years_apart_are_not_filled_up(tmp_path: Path) -> None:
     assert "far apart" in recording.warnings[0]
 
 
+@pytest.mark.parametrize(("first", "second"), [(200, 160), (200, 100), (50, 200)])
+def test_pieces_of_different_rates_keep_their_own_times(tmp_path: Path, first: float, second: float) -> None:
+    rng, times = np.random.default_rng(1), (np.arange(400) / first, 400 / first + np.arange(300) / second)
+    values = [np.sin(12 * each) + rng.normal(0, 1e-3, each.size) for each in times]
+    path = stored(
+        tmp_path / "r.mseed",
+        "MSEED",
+        trace("ACC", values[0], first),
+        trace("ACC", values[1], second, after=400 / first),
+    )
+    recording = read(path)
+    [channel] = recording.channels
+    np.testing.assert_allclose(channel.time, np.concatenate(times), atol=1e-5)
+    np.testing.assert_allclose(channel.values, np.sin(12 * np.asarray(channel.time)), atol=6e-3)
+    assert f"2 pieces have rates of {first} Hz and {second} Hz; each has its own times" in recording.warnings[0]
+
+
 def test_the_step_of_a_sac_file_is_not_rounded_to_microseconds(tmp_path: Path) -> None:
     path = stored(tmp_path / "r.sac", "SAC", trace("ACC", np.ones(4096), 2048))
     assert obspy.read(str(path))[0].stats.delta == pytest.approx(1 / 2048, rel=1e-3, abs=0)

@@ -95,6 +95,13 @@ def test_times_that_go_back_are_flagged():
     assert np.flatnonzero(check_order(stamps, read_clock(stamps)).where).tolist() == [50, 51, 52]
 
 
+@pytest.mark.parametrize("jump", [1000, 3500])
+def test_a_clock_that_starts_again_is_told_where_it_does(jump):
+    stamps = np.concatenate((EVEN[:jump], EVEN[: EVEN.size - jump]))
+    reason = check_order(stamps, read_clock(stamps)).reason
+    assert reason.endswith(f"the clock goes from {EVEN[jump - 1]:.6g} to {EVEN[0]:.6g} s at sample {jump + 1:,}")
+
+
 def test_jitter_is_told_apart_from_rounding():
     jittered = EVEN + np.random.default_rng(0).uniform(-3e-4, 3e-4, EVEN.size)
     assert "off an even clock" in _reasons(jittered)[2]

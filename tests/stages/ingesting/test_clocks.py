@@ -224,6 +224,13 @@ def test_a_rate_that_is_asked_for_is_that_of_the_clock():
     np.testing.assert_allclose(clock, np.arange(501) / 125)
 
 
+@pytest.mark.parametrize(("rate", "own"), [(5000, 5000), (5001, 5001), (8000, 5000), (100_000, 5000)])
+def test_a_clock_far_faster_than_rocking_is_slowed_down_unless_it_is_asked_for(rate, own):
+    records = {"a": record(0.1, 0.6, rate)}
+    assert 1 / np.diff(common(records)) == pytest.approx(own)
+    assert 1 / np.diff(common(records, rate=float(rate))) == pytest.approx(rate)
+
+
 @pytest.mark.parametrize("late", [0.5, -0.5])
 def test_the_shared_time_counts_on_the_clock_of_the_main_recorder(late):
     records = {"own": record(0, 4, 100), "other": record(0, 4, 100)}

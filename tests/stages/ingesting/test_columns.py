@@ -89,6 +89,14 @@ def test_units_that_agree_or_are_not_given_are_not_told(of_file, of_campaign):
     assert unit_findings(RECORDING, column, "top", channel(unit=of_campaign)) == []
 
 
+def test_a_letter_that_the_campaign_file_takes_for_a_label_is_not_told():
+    lettered = RecordedChannel("Acc", "V", VALUES, heading="Acc (V)")
+    assert unit_findings(RECORDING, lettered, "top", channel(unit="g")) == []
+    assert unit_findings(RECORDING, lettered, "top", channel(unit="mV", gain="1 g/V")) != []
+    bracketed = RecordedChannel("Acc", "V", VALUES, heading="Acc [V]")
+    assert unit_findings(RECORDING, bracketed, "top", channel(unit="g")) != []
+
+
 @pytest.mark.parametrize(("of_file", "of_campaign"), [("cm", "mm"), ("mV", "V"), ("g", "m/s^2")])
 def test_units_that_differ_are_serious_and_both_are_shown(of_file, of_campaign):
     column = RecordedChannel("Top", of_file, VALUES, heading="Top left")

@@ -13,6 +13,7 @@ from colonnade.campaign.draft.meaning import PLACE_OF, Meaning, meaning
 from colonnade.campaign.draft.naming import unique
 from colonnade.campaign.draft.survey import Column
 from colonnade.campaign.draft.vocabulary import AXES, plain, words
+from colonnade.readers.text.heading import LETTERED
 
 MOST_UNKNOWN = 12
 """Unknown columns are asked about one by one up to this many."""
@@ -78,7 +79,9 @@ def draft_channels(recorders: dict[str, Sequence[Column]]) -> DraftChannels:
     for name, (recorder, each) in zip(names, taken, strict=True):
         alone = called[recorder].count(each.column.name) == 1
         column = each.column.name if alone and each.column.name.strip() else each.column.number
-        channels.append(DraftChannel(name, recorder, each, tuple(_lines(each, recorder, column))))
+        # One column is labelled (V), as vertical; several of them are in volts.
+        is_volts = [other.unit for other in recorders[recorder]].count("V") > 1
+        channels.append(DraftChannel(name, recorder, each, tuple(_lines(each, recorder, column, is_volts=is_volts))))
     return DraftChannels(tuple(channels), tuple(left_out))
 
 
@@ -111,20 +114,20 @@ def _id_parts(name: str) -> list[str]:
     return re.findall(r"[a-z0-9]+", plain(name))
 
 
-def _lines(each: Meaning, recorder: str, column: str | int) -> list[Line | str]:
+def _lines(each: Meaning, recorder: str, column: str | int, *, is_volts: bool) -> list[Line | str]:
     lines: list[Line | str] = [Line("column", value(column))]
     if recorder != MAIN:
         lines.append(Line("recorder", value(recorder)))
     if each.quantity is None:
         choices = ", ".join(f'"{quantity}"' for quantity in units.QUANTITY_DIMENSIONS)
         question = f"what it measures: {choices}; or delete these lines"
-        return [*lines, Line("quantity", '"?"', question=question), *_unit(each), *_place(each)]
+        return [*lines, Line("quantity", '"?"', question=question), *_unit(each, is_volts=is_volts), *_place(each)]
     lines.append(Line("quantity", value(each.quantity), each.because, each.conflict))
-    lines += _unit(each)
+    lines += _unit(each, is_volts=is_volts)
     return lines + _place(each)
 
 
-def _unit(each: Meaning) -> list[Line]:
+def _unit(each: Meaning, *, is_volts: bool) -> list[Line]:
     column = each.column
     dimension = units.QUANTITY_DIMENSIONS[each.quantity or "other"]
     if not column.unit:
@@ -132,6 +135,10 @@ def _unit(each: Meaning) -> list[Line]:
         question = (
             f'the file gives no unit: write one such as "{usual}", or "V" with a line gain = "10 {usual}/V" below it'
         )
+        return [Line("unit", '"?"', question=question)]
+    is_letter = LETTERED.fullmatch(column.heading) is not None and not each.is_physical
+    if is_letter and not (is_volts and column.unit == "V"):
+        question = f'is "({column.unit})" a label? Write the unit of the values, or "{column.unit}" with its line gain'
         return [Line("unit", '"?"', question=question)]
     if not each.unit_known:
         return [Line("unit", '"?"', question=f'the file says "{column.unit}", which is not a known unit')]

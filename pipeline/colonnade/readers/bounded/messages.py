@@ -53,7 +53,8 @@ class Request:
     Attributes
     ----------
     wanted : str
-        What it holds, the names of the other files that it is in, or the pixels of a photo.
+        What it holds, the names of the other files that it is in, the cells of a workbook's first sheet, or the pixels
+        of a photo.
     path, within : str
         The file, and the folder whose files may be read.
     format : str
@@ -62,7 +63,7 @@ class Request:
     bounds : Bounds
     """
 
-    wanted: Literal["recording", "companions", "photo"]
+    wanted: Literal["recording", "companions", "cells", "photo"]
     path: str
     within: str
     format: str
@@ -117,6 +118,7 @@ class Answer(BaseModel):
     out_of_memory: bool = False
     exit_code: int | None = None
     companions: tuple[str, ...] = ()
+    cells: tuple[tuple[Text, ...], ...] = ()
     format: str = ""
     start: datetime | None = None
     notes: tuple[Text, ...] = ()

@@ -86,6 +86,19 @@ def companions(request: Request) -> tuple[Path, ...]:
     return tuple(Path(request.path).with_name(name) for name in dict.fromkeys(names))
 
 
+def cells(path: Path) -> list[list[str]]:
+    """
+    Read all cells of a workbook's first sheet as text in the bounded process.
+
+    Raises
+    ------
+    ReadError
+        If the workbook is refused, or reading it crashes, swells or does not end.
+    """
+    request = Request("cells", str(path.absolute()), str(path.resolve().parent), "excel", {}, None, bounds_of(path))
+    return [list(row) for row in _answer(request)[0].cells]
+
+
 def decode(path: Path, within: Path) -> Pixels:
     """
     Decode a photo in the bounded process.

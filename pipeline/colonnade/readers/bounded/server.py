@@ -90,12 +90,15 @@ def _handle(request: Request, answers: IO[bytes], announce: Callable[[], object]
 
 
 def _answer(request: Request) -> tuple[Answer, list[Array]]:
+    from colonnade.readers.excel.workbook import rows_of_first_sheet
     from colonnade.readers.registry import companions_here, read_here
 
     path = Path(request.path)
     try:
         if request.wanted == "photo":
             return messages.pixels_told(photo.decode_here(path))
+        if request.wanted == "cells":
+            return Answer(cells=tuple(map(tuple, rows_of_first_sheet(path)))), []
         if request.wanted == "companions":
             return Answer(companions=companions_here(path, request.format, request.options)), []
         return messages.told(read_here(path, request.format, request.options, request.window))

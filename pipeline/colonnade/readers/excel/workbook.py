@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from datetime import date, time
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -120,9 +121,9 @@ def _unread(headings: Sequence[str], columns: Sequence[CellColumn]) -> list[str]
     ]
 
 
-def rows_of_first_sheet(path: Path) -> list[list[Any]]:
+def rows_of_first_sheet(path: Path) -> list[list[str]]:
     """
-    Read all cells of a workbook's first sheet as text, as for a table that people wrote.
+    Read all cells of a workbook's first sheet as text, as for a table that people wrote; dates as ISO 8601.
 
     Raises
     ------
@@ -130,7 +131,14 @@ def rows_of_first_sheet(path: Path) -> list[list[Any]]:
         If it is not a workbook, is damaged, or would exhaust the memory.
     """
     _expect_sound(path)
-    return _sheet(path, 1)[1]
+    return [[_typed(cell) for cell in row] for row in _sheet(path, 1)[1]]
+
+
+def _typed(cell: object) -> str:
+    """Text of a cell; Excel keeps every number as a float: 1.0 was typed as 1."""
+    if isinstance(cell, float) and cell.is_integer() and abs(cell) < 1e15:
+        return str(int(cell))
+    return cell.isoformat() if isinstance(cell, (date, time)) else str(cell)
 
 
 def _expect_sound(path: Path) -> None:
@@ -147,8 +155,8 @@ def _of_rows(text: str) -> str:
 
 
 def _plain(cell: object) -> str:
-    """Text of a cell on one line; a number as Excel shows it."""
-    text = f"{cell:g}" if isinstance(cell, float) else str(cell)
+    """Text of a cell on one line; a number with the digits that Excel keeps."""
+    text = f"{cell:.15g}" if isinstance(cell, float) else str(cell)
     return " ".join(text.split())
 
 

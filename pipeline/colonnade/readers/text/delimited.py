@@ -59,7 +59,7 @@ def read(path: Path, options: DelimitedOptions, window: Window | None = None) ->
         raise ReadError(f"{path.name}: {reason}")
     header = read_header(path, options)
     stretch = None if window is None else _stretch(header, options, window)
-    rows = _rows(header, stretch)
+    header, rows = _grouped(header, _rows(header, stretch), stretch, options)
     verdict = _layout(header, rows, options)
     if verdict.layout == "columns":
         return _recording(header, rows, options)
@@ -78,6 +78,21 @@ def _rows(header: Header, stretch: Stretch | None) -> Rows:
             "times and the test's `window`, which counts from the file's own zero."
         )
     return rows
+
+
+def _grouped(header: Header, rows: Rows, stretch: Stretch | None, options: DelimitedOptions) -> tuple[Header, Rows]:
+    """Read columns again as text whose numbers seem to have signs between thousands, until all of these have them."""
+    signs = rows.grouped if options.thousands is None else {}
+    while signs := {column: sign for column, sign in signs.items() if sign != options.decimal}:
+        form = replace(header.form, grouped=signs)
+        again = _rows(replace(header, form=form), stretch)
+        kept = {column: sign for column, sign in again.grouped.items() if column in signs}
+        if kept == signs:
+            named = ", ".join(f'"{header.heading.headings[column]}"' for column in signs)
+            note = f"{named}: whole numbers with a sign between thousands ({' '.join(sorted({*signs.values()}))})"
+            return replace(header, form=form, notes=(*header.notes, note)), again
+        signs = kept
+    return header, rows
 
 
 def _layout(header: Header, rows: Rows, options: DelimitedOptions) -> Verdict:

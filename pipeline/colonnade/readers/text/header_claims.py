@@ -9,9 +9,11 @@ from colonnade.arrays import Array
 from colonnade.readers.clock import even_times
 
 _NUMBER = r"(\d*\.\d+|\d+\.?)"
+_STEPS = r"(?:spacing|interval|steps?|increments?)"
 STEP = re.compile(
-    rf"(?:\bdt\b|\bdelta\s*t\b|spacing|interval|steps?|increments?)[^\d.\n]{{0,20}}{_NUMBER}\s*(?:s\b|sec|,|$)"
-    rf"|{_NUMBER}\s*s(?:ec(?:onds?)?)?\s*(?:spacing|interval|steps?|increments?)",
+    rf"(?:\bdt\b|\bdelta\s*t\b|\b(?:time|sampl\w*)\W+{_STEPS})[^\d.\n]{{0,20}}{_NUMBER}\s*(?:s\b|sec|,|$)"
+    rf"|{_STEPS}[^\d.\n]{{0,20}}{_NUMBER}\s*s(?:\b|ec)"  # a load step has a number, too, but no unit
+    rf"|{_NUMBER}\s*s(?:ec(?:onds?)?)?\s*{_STEPS}",
     re.IGNORECASE | re.MULTILINE,
 )
 UNIT = re.compile(

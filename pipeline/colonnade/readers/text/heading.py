@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -22,6 +22,8 @@ BRACKETED = re.compile(r"(?P<name>.*?)(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^
 BEFORE_PLOT = re.compile(r"(?P<name>.*?\w)\s*[\[(](?P<unit>[^\[\]()]*)[\])]\s*(?P<plot>-\s.*)")
 """`Time [s] - Plot 0`, as LabVIEW exports its graphs."""
 SOLIDUS = re.compile(r"(?P<name>.*\w{2}.*?)(?:\s*/\s*|\s+in\s+)(?P<unit>\S+)")
+LETTERED = re.compile(r"(.+?)\s*\([A-Z]\)\s*")
+"""`LVDT (A)`, `Acc (V)`: the letter is a unit or a label."""
 RULE = re.compile(r"[\s\-=_*+|;,.]*")
 
 
@@ -198,7 +200,8 @@ def describe_columns(lines: list[str], where: HeadingLines, first: int, dialect:
     """Take names and units from their lines; columns without a name are called by their number."""
     names_row = _row(lines, where.names, dialect, columns)
     units_row = _row(lines, where.units, dialect, columns)
-    parts = [take_apart(cell) for cell in names_row]
+    labels = _labels(names_row)
+    parts = [(cell, None) if cell in labels else take_apart(cell) for cell in names_row]
     units: list[str | None] = []
     for cell, (_, unit) in zip(units_row, parts, strict=True):
         bare = re.sub(r"^[\[(](.*)[\])]$", r"\1", cell).strip()
@@ -218,6 +221,15 @@ def describe_columns(lines: list[str], where: HeadingLines, first: int, dialect:
     if repeated:
         warnings.append(f'several columns are called "{repeated[0]}": give the number of the right one')
     return Heading(first, headings, names, tuple(units), tuple(notes), tuple(warnings))
+
+
+def _labels(cells: list[str]) -> set[str]:
+    """Find heads that tell columns of one name apart by a letter: in `Acc (V)` next to `Acc (H)` it is not a unit."""
+    alike: defaultdict[str, set[str]] = defaultdict(set)
+    for cell in cells:
+        if match := LETTERED.fullmatch(cell):
+            alike[match[1]].add(cell)
+    return {cell for heads in alike.values() if len(heads) > 1 for cell in heads}
 
 
 def _names_notes(where: HeadingLines, headings: tuple[str, ...], units: list[str | None]) -> list[str]:

@@ -57,9 +57,14 @@ def sniff(
     delimiter, decimal, thousands : str or None
         Not sniffed if they are given.
     """
-    sample = [line for line in lines if line.strip() and not given.is_comment(line)][-SAMPLE_LINES:]
+    filled = [line for line in lines if line.strip() and not given.is_comment(line)]
+    first, sample = filled[:SAMPLE_LINES], filled[-SAMPLE_LINES:]
     fits = [_fit(sample, dialect) for dialect in _candidates(sample, given, delimiter, decimal, thousands)]
-    best = max(fits, key=lambda fit: (fit.score, fit.columns > 1))
+    top = max((fit.score, fit.columns > 1) for fit in fits)
+    # At rest, before numbers reach a thousand, their decimal sign is plainer.
+    best = max(
+        (fit for fit in fits if (fit.score, fit.columns > 1) == top), key=lambda fit: _fit(first, fit.dialect).score
+    )
     if best.rows == 0:
         return Sniffed(best.dialect, 0)
     dialect = best.dialect
@@ -114,7 +119,10 @@ def _weigh(cells: list[str], dialect: Dialect) -> tuple[float, int]:
         if kind in ("number", "time"):
             # "05" is hardly a whole number; rather the decimals of "1,05" cut at the comma.
             digits = cell.lstrip("+-")
-            weight += 0.5 if len(digits) > 1 and digits[0] == "0" and digits.isdigit() else 1.0
+            is_half = len(digits) > 1 and digits[0] == "0" and digits.isdigit()
+            # Nor is "1.012" surely a number where commas are the decimal signs.
+            is_half |= kind == "number" and not dialect.is_number(cell)
+            weight += 0.5 if is_half else 1.0
     return weight, filled
 
 

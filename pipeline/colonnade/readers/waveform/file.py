@@ -137,10 +137,13 @@ def _joined(name: str, traces: Sequence[Any], step: float, origin: Any) -> tuple
     places = [round((begin - begins[0]) / step) for begin in begins]
     sizes = [piece.size for piece in pieces]
     total = max(place + size for place, size in zip(places, sizes, strict=True))
-    rates_differ = any(abs(trace.stats.delta / traces[0].stats.delta - 1) > ROUNDED for trace in traces)
+    steps = [float(trace.stats.delta) for trace in traces]
+    rates_differ = any(abs(each / steps[0] - 1) > ROUNDED for each in steps)
     if rates_differ or total > (1 + LARGEST_GAP) * sum(sizes):
-        time = np.concatenate([even_times(size, step, begin) for begin, size in zip(begins, sizes, strict=True)])
-        told.append(f'"{name}": its {len(traces)} pieces differ in rate or are far apart; the gaps are not filled')
+        time = np.concatenate([even_times(*each) for each in zip(sizes, steps, begins, strict=True)])
+        rates = " and ".join(f"{1 / each:.6g} Hz" for each in dict.fromkeys(steps))
+        what = f"have rates of {rates}; each has its own times" if rates_differ else "are far apart"
+        told.append(f'"{name}": its {len(traces)} pieces {what}; the gaps are not filled')
         return time, np.concatenate(pieces), told
     values = np.full(total, np.nan)
     overlaps = 0

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from colonnade.arrays import Array
-from colonnade.signals.clocks.clock import sampling_interval
+from colonnade.arrays import Array, Mask
+from colonnade.signals.clocks.clock import LONGEST_BRIDGE, sampling_interval
 from colonnade.signals.quality import Flag, Verdict, blocks, counted, first_at
+from colonnade.signals.stretches import stretches
 
 ROUNDING = 0.75
 """Of the last digit; times that lie closer to an even clock than this were rounded (or cut off) from it."""
@@ -20,6 +21,9 @@ COARSEST = 0.01
 
 EXACT = 1e-7
 """Of an interval; times that lie closer than this to an even clock are on it."""
+
+STRONG = 0.5
+"""Of the largest departure from the median; samples with as much belong to the strong part of a record."""
 
 LAG = 200
 """Samples over which the interval of rounded times is first taken."""
@@ -91,11 +95,21 @@ def check_order(stamps: Array, clock: Clock) -> Verdict:
     where = np.isfinite(stamps) & ~np.isfinite(clock.time)
     if not where.any():
         return Verdict.good(stamps.size)
-    return Verdict(
-        Flag.FAIL,
-        where,
-        f"{counted(where)} whose time is out of order; the first is sample {int(np.argmax(where)) + 1}",
-        "time column",
+    back = np.flatnonzero(np.diff(stamps) <= 0) + 1
+    first = (
+        f"the first is sample {int(np.argmax(where)) + 1}"
+        if back.size == 0
+        else f"the clock goes from {stamps[back[0] - 1]:.6g} to {stamps[back[0]]:.6g} s at sample {back[0] + 1:,}"
+    )
+    return Verdict(Flag.FAIL, where, f"{counted(where)} whose time is out of order; {first}", "time column")
+
+
+def loses_motion(values: Array, where: Mask) -> bool:
+    """Whether samples that are left out, more than can be bridged, belong to the strong part of a channel's record."""
+    starts, stops = stretches(where)
+    size = np.abs(values - np.nanmedian(values))
+    return bool((stops - starts > LONGEST_BRIDGE).any()) and bool(
+        np.nanmax(size[where], initial=0.0) >= STRONG * np.nanmax(size[~where], initial=0.0)
     )
 
 

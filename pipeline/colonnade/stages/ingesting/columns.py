@@ -11,6 +11,7 @@ from colonnade.arrays import Array
 from colonnade.errors import StageError
 from colonnade.findings import Finding, note, serious
 from colonnade.readers.recording import RecordedChannel, Recording
+from colonnade.readers.text.heading import LETTERED
 from colonnade.signals.clocks import timing
 from colonnade.stages.ingesting.quality import ChannelInputs
 from colonnade.store.description import variable_name
@@ -62,6 +63,8 @@ def unit_findings(recording: Recording, column: RecordedChannel, name: str, chan
     """
     if column.unit is None or channel.unit is None or units.same_unit(column.unit, channel.unit):
         return []
+    if LETTERED.fullmatch(column.heading) and column.unit in ("V", "A") and channel.gain is None:
+        return []  # a label
     if channel.gain is not None and not units.is_physical(column.unit):
         return [
             note(

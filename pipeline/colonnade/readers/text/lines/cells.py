@@ -26,6 +26,13 @@ MISSING = frozenset(
 )
 """What recorders write in place of a number."""
 
+MARKED = re.compile(r"[+\-\N{MINUS SIGN}]?[1-9]\d{0,2}([.,])\d{3}(?:\1\d{3})*", re.ASCII)
+"""A decimal number, or a whole one with a point or a comma between its thousands."""
+
+BLANKS = " '\N{RIGHT SINGLE QUOTATION MARK}\N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}"
+"""Between thousands; none of them can be a decimal sign."""
+_WITHOUT_BLANKS = str.maketrans("", "", BLANKS)
+
 TIMESTAMP = re.compile(
     r"(?:(?:\d{4}([-/])\d{1,2}\1\d{1,2}|\d{1,2}\.\d{1,2}\.\d{4})[T ]+)?"  # a date, year first or dotted, may be absent
     r"\d{1,2}:\d{2}(?::\d{2}(?:[.,]\d+)?)?(?:\s?(?:Z|[+-]\d{2}:?\d{2}))?"
@@ -96,7 +103,7 @@ class Dialect:
         return cell.casefold() in self.missing
 
     def is_number(self, cell: str) -> bool:
-        """Whether a cell is a number, read in one way only: `1.234` with decimal commas is not."""
+        """Whether a cell is a number, read in one way only: `1'234` is one, `1.234` with decimal commas is not."""
         return self._number.fullmatch(cell) is not None
 
     def number(self, cell: object) -> float:
@@ -107,8 +114,8 @@ class Dialect:
         if text.casefold() in self.missing:
             return float("nan")
         if self.is_number(text) or (self.thousands and self._grouped.fullmatch(text)):
-            plain = text.replace(self.other_sign, "").replace(self.decimal, ".")
-            return float(plain.replace(" ", "").replace("'", "").replace("d", "e").replace("D", "E"))
+            plain = text.replace(self.other_sign, "").replace(self.decimal, ".").translate(_WITHOUT_BLANKS)
+            return float(plain.replace("d", "e").replace("D", "E"))
         return {"true": 1.0, "false": 0.0}.get(text.casefold(), float("nan"))
 
     @cached_property
@@ -117,6 +124,7 @@ class Dialect:
         plain = rf"(?:\d+(?:{decimal}\d*)?|{decimal}\d+)(?:[eEdD][+-]?\d+)?"
         # Groups of three cannot be decimals only if a decimal sign or another group follows.
         grouped = rf"\d{{1,3}}(?:{other}\d{{3}})+{decimal}\d*|\d{{1,3}}(?:{other}\d{{3}}){{2,}}"
+        grouped += rf"|\d{{1,3}}(?:[{BLANKS}]\d{{3}})+(?:{decimal}\d*)?"
         return re.compile(rf"[+\-\N{{MINUS SIGN}}]?(?:{plain}|{grouped})", re.ASCII)
 
     @cached_property
@@ -153,7 +161,7 @@ def kind_of(cell: str, dialect: Dialect) -> str:
     """Name what a cell holds: `missing`, `number`, `time` or `text`."""
     if dialect.is_missing(cell):
         return "missing"
-    if dialect.is_number(cell):
+    if dialect.is_number(cell) or MARKED.fullmatch(cell):
         return "number"
     return "time" if is_timestamp(cell) else "text"
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from colonnade.readers.text.lines.cells import Dialect, is_sample, kind_of, looks_like_numbers
@@ -29,6 +30,8 @@ class RowForm:
         end in empty cells.
     ragged : bool
         Whether columns may end before the last row, as those of channels with fewer samples.
+    grouped : dict of int to str
+        Columns of whole numbers with a sign between their thousands.
     """
 
     dialect: Dialect
@@ -37,6 +40,12 @@ class RowForm:
     remark: bool = False
     by_instrument: bool = False
     ragged: bool = False
+    grouped: Mapping[int, str] = field(default_factory=dict)
+
+    def dialect_of(self, column: int) -> Dialect:
+        """How the numbers of a column are written."""
+        sign = self.grouped.get(column)
+        return self.dialect if sign is None else replace(self.dialect, decimal=".,".replace(sign, ""), thousands=sign)
 
     @property
     def cells(self) -> int:

@@ -20,6 +20,7 @@ from colonnade.arrays import Array, Mask
 from colonnade.errors import ReadError
 from colonnade.readers.text.lines.cells import WHITESPACE, Dialect
 from colonnade.readers.text.lines.faults import Fault, Row, RowForm, fault_of
+from colonnade.readers.text.lines.grouping import Grouping
 from colonnade.readers.text.lines.pieces import UNREADABLE, Piece
 from colonnade.readers.text.lines.timestamps import Timestamps
 from colonnade.signals.parallel import side_by_side, threads
@@ -68,7 +69,13 @@ class Rows:
         # A column's pieces are joined one column at a time, so that little is held twice.
         self._pieces: list[list[Array]] = [[] for _ in kinds]
         self._clocks = {column: Timestamps() for column, kind in enumerate(kinds) if kind == "time"}
+        self._grouping = {column: Grouping(self.form.dialect) for column, kind in enumerate(kinds) if kind == "number"}
         self._complete = set(range(len(kinds)))
+
+    @property
+    def grouped(self) -> dict[int, str]:
+        """The sign between thousands of the columns whose numbers seem to have one."""
+        return {column: found.sign for column, found in self._grouping.items() if found.sign is not None}
 
     @property
     def start(self) -> datetime | None:
@@ -89,9 +96,11 @@ class Rows:
         columns = [
             self._clocks[column].seconds(frame[column])
             if kind == "time"
-            else numbers_of(frame[column], self.form.dialect)
+            else numbers_of(frame[column], self.form.dialect_of(column))
             for column, kind in enumerate(kinds)
         ]
+        for column, grouping in self._grouping.items():
+            grouping.look(frame[column], columns[column])
         absent = [np.isnan(values) for values in columns]
         self._look(piece, _doubtful(frame, absent, self.form), absent)
         for pieces, values in zip(self._pieces, columns, strict=True):
@@ -144,12 +153,12 @@ class Stretch:
     high: float
     column: int | None = None
 
-    def place(self, frame: pd.DataFrame, before: int, dialect: Dialect) -> int:
+    def place(self, frame: pd.DataFrame, before: int, form: RowForm) -> int:
         """Say whether a piece, with `before` rows in front, is wholly ahead of it (-1) or behind it (1); else 0."""
         if self.column is None:
             first, last = float(before), float(before + len(frame) - 1)
         else:
-            times = numbers_of(frame[self.column], dialect)
+            times = numbers_of(frame[self.column], form.dialect_of(self.column))
             if np.isnan(times).all():
                 return 0
             first, last = float(np.nanmin(times)), float(np.nanmax(times))
@@ -182,7 +191,7 @@ def read_rows(path: Path, pieces: Iterable[Piece], form: RowForm, stretch: Stret
             warnings.simplefilter("error", ParserWarning)  # pandas only warns when it drops cells
             with closing(_cut(pieces, form)) as frames:
                 for piece, frame in frames:
-                    place = 0 if stretch is None else stretch.place(frame, taken.skipped + taken.size, form.dialect)
+                    place = 0 if stretch is None else stretch.place(frame, taken.skipped + taken.size, form)
                     if place < 0 and not taken.size:
                         taken.skipped += len(frame)
                         continue
@@ -234,6 +243,7 @@ def _frame(text: str, form: RowForm) -> pd.DataFrame:
         "quoting": csv.QUOTE_NONE,
         "skipinitialspace": dialect.padded,  # costs a quarter of the speed
         "na_values": list(dialect.own_missing),
+        "dtype": dict.fromkeys(form.grouped, str),
         "low_memory": False,
     }
     if not dialect.quoted:
