@@ -81,7 +81,7 @@ ACTIONS = {
         "forecast": "The file was altered or damaged; it is left out.",
         "ground motion": "See which records or components are left out of the assessment, and why.",
         "motion across": "The models in the plane ignore it; compare with the contact model.",
-        "sampling rate": "Record faster, or expect the predicted response to be smaller by the share that the warning gives.",
+        "sampling rate": "Record faster, or expect the response to be too small by the share that the warning gives.",
         "moving table": "Was the table at rest? e of single impacts scatters more than impacts alone do.",
         "no restitution": "See the reason; release from a larger angle, or repeat the test.",
         "sliding": "Part of the loss is friction; a rougher base, or a smaller release.",
