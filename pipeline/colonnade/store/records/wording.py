@@ -255,14 +255,19 @@ def _agrees(test: TestSummary, found: PredictionSummary) -> bool | None:
 
 def _prediction(test: TestSummary, found: PredictionSummary) -> str:
     if test.outcome == found.outcome == "rocking":
-        return ratio(found.peak_ratio)
+        return _peak(found.peak_ratio)
     return _with_peak(found.outcome or "", found.peak_ratio)
 
 
 def _with_peak(outcome: str, peak_ratio: float | None, unit: str = "") -> str:
     """Write an outcome, and the peak of a block that rocks."""
-    peak = f" {ratio(peak_ratio)}{unit}" if outcome == "rocking" and peak_ratio is not None else ""
+    peak = f" {_peak(peak_ratio)}{unit}" if outcome == "rocking" and peak_ratio is not None else ""
     return _words(outcome) + peak
+
+
+def _peak(peak_ratio: float | None) -> str:
+    """Write a peak over α to the thousandth, the least that counts."""
+    return ratio(peak_ratio) if peak_ratio is None or peak_ratio < LEAST_RATIO else f"{peak_ratio:.3f}"
 
 
 def _words(outcome: str) -> str:
