@@ -84,7 +84,7 @@ def test_a_summary_that_was_damaged_is_told(colonnade, campaign, text):
 def test_a_test_is_a_row_that_fits_on_80_columns_and_its_details_have_units(colonnade, campaign, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.setenv("FORCE_COLOR", "1")
-    path, long = campaign / "campaign.toml", "free-02-after-the-repair-of-the-frame"
+    path, long = campaign / "campaign.toml", "free-02-frame-repaired"
     path.write_text(path.read_text(encoding="utf-8").replace('id = "free-02"', f'id = "{long}"'), encoding="utf-8")
     assert colonnade("run", "--workers", "1").returncode == 0
     head, *rows = re.sub(r"\x1b\[[\d;]*m", "", colonnade("show", "tests").stdout).splitlines()
@@ -95,4 +95,4 @@ def test_a_test_is_a_row_that_fits_on_80_columns_and_its_details_have_units(colo
     assert told["test"] == "free-01"
     assert re.fullmatch(r"0\.\d+ α", told["peak_ratio"])
     assert re.fullmatch(r"1[12](\.\d+)? s", told["duration"])
-    assert re.fullmatch(r"0\.9[45]\d+", told["restitution.value"])
+    assert re.fullmatch(r"0\.9[45]\d*", told["restitution.value"])
