@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +13,11 @@ from colonnade.cli.common.progress import work_progress
 
 if TYPE_CHECKING:
     from colonnade.workflow.forecasting.foresee import Foreseen
+
+HEADS = (
+    *("level", "model", "peak table acceleration", "velocity", "displacement"),
+    *("no rocking", "rocking", "overturned", "50 % of max |θ|/α", "80 %", "95 %", "friction needed"),
+)
 
 
 @click.command(
@@ -76,23 +80,15 @@ def foresee(
     if as_json:
         show_json([{"file": each.path, **each.forecast.model_dump(mode="json", by_alias=True)} for each in made])
         return 0
-    _show(made)
+    show_table(HEADS, [row for each in made for row in _rows(each)])
     for each in made:
         say(f"forecast: {each.path}")
     return 0
 
 
-def _show(made: Sequence[Foreseen]) -> None:
-    """Show what the table has to do, and what the models foresee, in tables that fit on 80 columns."""
+def _rows(made: Foreseen) -> list[tuple[str, ...]]:
     from colonnade.store.records.forecast import shown_model, shown_table
 
-    levels = [(each.forecast.level, *shown_table(each.forecast.table)) for each in made]
-    show_table(("level", "table's peak acceleration", "velocity", "displacement"), levels)
-    shares, bands = [], []
-    for each in made:
-        for model, found in each.forecast.models.items():
-            *three, narrow, middle, wide, friction = shown_model(found)
-            shares.append((each.forecast.level, model, *three, friction))
-            bands.append((each.forecast.level, model, narrow, middle, wide))
-    show_table(("level", "model", "no rocking", "rocking", "overturned", "friction needed"), shares)
-    show_table(("level", "model", "max |θ|/α: 50 %", "80 %", "95 % of runs"), bands)
+    forecast = made.forecast
+    table = shown_table(forecast.table)
+    return [(forecast.level, name, *table, *shown_model(model)) for name, model in forecast.models.items()]

@@ -5,8 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import isfinite, nan
 
-from colonnade.campaign.forms.summary import IdentifiedSummary, Order, PredictionSummary, TestSummary
+from colonnade.campaign.forms.summary import (
+    IdentifiedSummary,
+    Order,
+    PredictionSummary,
+    RestitutionSummary,
+    TestSummary,
+)
 from colonnade.dynamics.models.registry import MODELS
+from colonnade.errors import count
 from colonnade.identification.response.rank import is_within
 from colonnade.units import PERCENT, format_percent, format_quantity, format_uncertain, from_si, with_minus
 
@@ -122,6 +129,23 @@ def interval(value: float | None, low: float | None, high: float | None, level: 
         "" if level is None or not isfinite(level) or level == USUAL_LEVEL else f" ({format_percent(level)} interval)"
     )
     return format_uncertain(value, (high - low) / 2) + named
+
+
+def pooled(found: RestitutionSummary) -> str:
+    """
+    Write the e of a specimen that predictions use, and where it comes from.
+
+    Examples
+    --------
+    >>> pooled(RestitutionSummary(value=0.976, low=0.9756, high=0.9764, source="identified", tests=("a", "b")))
+    'e 0.9760 ± 0.0004, identified from 2 free vibrations'
+    >>> pooled(RestitutionSummary(value=(0.95, 0.96), source="given"))
+    'e 0.95 and 0.96, given'
+    """
+    values = found.value if isinstance(found.value, tuple) else (found.value,)
+    told = " and ".join(interval(value, found.low, found.high, found.level) for value in values)
+    source = f" from {count(len(found.tests), 'free vibration')}" if found.tests else ""
+    return f"e {told}, {found.source}{source}"
 
 
 def share(part: int, whole: int) -> str:
