@@ -21,9 +21,10 @@ def times(folder):
 def test_run_gives_a_line_a_redone_test_then_agreement_and_says_where_the_report_is(colonnade, campaign):
     told = colonnade("run", "--workers", "1")
     assert (told.returncode, told.stderr) == (0, "")
-    first, second, specimen, agreement, *_ = told.stdout.splitlines()
+    first, second, legend, specimen, agreement, *_ = told.stdout.splitlines()
     assert re.fullmatch(r"free-01  e 0\.9[45]\d+ ± 0\.0+\d{1,2}", first)
     assert re.fullmatch(r"free-02  e 0\.9[45]\d+ ± 0\.0+\d{1,2}", second)
+    assert legend.startswith("✓ history inside the 95 % band")
     assert re.fullmatch(r"specimen prism  e 0\.9[45]\d+ ± 0\.0+\d{1,2}, identified from 2 free vibrations", specimen)
     assert agreement.startswith("The linear model predicts the outcome of 2 of 2 tests.")
     assert "never run" not in told.stdout

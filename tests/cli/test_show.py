@@ -7,6 +7,8 @@ import re
 
 import pytest
 
+from colonnade.store.records.wording import LEGEND
+
 
 def test_tests_that_were_never_run_are_pending(colonnade, campaign):
     told = colonnade("show", "tests", "--json")
@@ -87,10 +89,11 @@ def test_a_test_is_a_row_that_fits_on_80_columns_and_its_details_have_units(colo
     path, long = campaign / "campaign.toml", "free-02-frame-repaired"
     path.write_text(path.read_text(encoding="utf-8").replace('id = "free-02"', f'id = "{long}"'), encoding="utf-8")
     assert colonnade("run", "--workers", "1").returncode == 0
-    head, *rows = re.sub(r"\x1b\[[\d;]*m", "", colonnade("show", "tests").stdout).splitlines()
+    head, *rows, legend = re.sub(r"\x1b\[[\d;]*m", "", colonnade("show", "tests").stdout).splitlines()
+    assert legend == LEGEND
     assert head.split() == ["test", "measured", "nonlinear", "linear", "findings"]
     assert [row.split()[:2] for row in rows] == [["free-01", "e"], [long, "e"]]
-    assert all(len(row) <= 80 for row in rows)
+    assert all(len(row) <= 80 for row in (*rows, legend))
     told = dict(line.split(maxsplit=1) for line in colonnade("show", "tests", "free-01").stdout.splitlines())
     assert told["test"] == "free-01"
     assert re.fullmatch(r"0\.\d+ α", told["peak_ratio"])

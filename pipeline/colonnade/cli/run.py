@@ -147,7 +147,7 @@ def _show_result(result: RunResult, *, verbose: bool) -> None:
     """Show each redone test, agreement, findings, failures, and the paths of the results."""
     from colonnade.campaign.forms.summary import Summary
     from colonnade.report.overview_page.agreement import agreement
-    from colonnade.store.records.wording import pooled
+    from colonnade.store.records.wording import LEGEND, pooled, predicted
 
     redone = [stage for stage in result.stages if stage.action == "done"]
     if verbose:
@@ -155,6 +155,8 @@ def _show_result(result: RunResult, *, verbose: bool) -> None:
     known = Summary.model_validate_json(result.summary.read_bytes())
     for line in lines_of_tests(known, {stage.subject: stage.stage for stage in redone if stage.of == "test"}):
         say(line)
+    if any(predicted(known.tests[stage.subject]) for stage in redone if stage.of == "test"):
+        say(LEGEND)
     for name in dict.fromkeys(stage.subject for stage in redone if stage.of == "specimen"):
         say(f"specimen {name}  {pooled(known.specimens[name].restitution)}")
     for sentence in agreement(known.model_dump(mode="json")["tests"]):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import show_fields, show_json, show_table, shown
+from colonnade.cli.common.console import say, show_fields, show_json, show_table, shown
 from colonnade.cli.common.findings import counted, line_of
 from colonnade.cli.common.options import campaign_and_id, campaign_and_id_argument, json_option, results_option
 from colonnade.findings import Severity
@@ -49,12 +49,12 @@ def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> in
     """
     Show the tests, measured and predicted, from the last run; with an ID, all that is known of one test.
 
-    Peaks are over the critical angle α. ✓ is inside the 95 % band of the model's runs, ≠ outside or another outcome.
+    Peaks are over the critical angle α.
 
     A single argument is taken as CAMPAIGN if such a file or folder exists, else as ID.
     """
     from colonnade.store.records.summary import records_of_tests
-    from colonnade.store.records.wording import measured, predicted
+    from colonnade.store.records.wording import LEGEND, measured, predicted
 
     campaign, identifier = campaign_and_id(arguments)
     known, summary = _known(campaign, results)
@@ -70,7 +70,10 @@ def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> in
         rows.append((name, told, *(said.get(model, "") for model in models), counted(found)))
     heads = ("test", "measured", *models, "findings")
     dumped = {name: each.model_dump(mode="json") for name, each in records.items()}
-    return _show_records("test", dumped, identifier, heads, rows, as_json=as_json)
+    _show_records("test", dumped, identifier, heads, rows, as_json=as_json)
+    if models and identifier is None and not as_json:
+        say(LEGEND)
+    return 0
 
 
 @show.command(epilog="Example: colonnade show specimens demo")

@@ -28,6 +28,9 @@ USUAL_LEVEL = 0.95
 WITHIN, DIFFERS = "✓", "≠"
 """Verdicts on a prediction, see `verdict`."""
 
+LEGEND = "✓ history inside the 95 % band of the model's runs; ≠ outside or another outcome"
+"""What they mean; 80 columns."""
+
 CHANNEL_UNITS = {
     "displacement": "mm",
     "velocity": "mm/s",
