@@ -39,12 +39,13 @@ def _index(numbers: Numbers) -> str:
             [
                 VIRTUAL,
                 "# The paper, statement by statement",
+                f"**Of its {len(STATEMENTS)} statements {counts['agrees']} agree, {counts['differs']} differ, and "
+                f"{counts['undecided']} cannot be decided with synthetic data.**",
                 f"{REFERENCES['manos']} The copy at hand shows neither title nor year: these words describe it. Its "
                 "recordings are not public.",
                 "`make reproduce` runs the paper's programme on the virtual shake table (seed "
-                f"{numbers['made']['seed']}), draws its figures and answers its {len(STATEMENTS)} statements by "
-                f"rule: {counts['agrees']} agree, {counts['differs']} differ, {counts['undecided']} cannot be "
-                "decided with synthetic data. All numbers are in [results.json](results.json).",
+                f"{numbers['made']['seed']}), draws its figures and answers each statement by rule. All numbers are in "
+                "[results.json](results.json).",
                 table(("page", "of the paper", "agree", "differ", "undecided"), listed),
                 "The paper calls agreement good or very good without a measure. Ours: two histories of θ agree well "
                 f"up to an RMS difference of {HISTORIES['good']:g} α; for boundaries on the map see [Maps](maps.md).",

@@ -46,8 +46,7 @@ def test_a_good_campaign_passes_and_nothing_is_written(colonnade, campaign):
     before = snapshot(campaign)
     told = colonnade("check")
     assert (told.returncode, told.stderr) == (0, "")
-    assert "free-01: good" in told.stdout
-    assert told.stdout.endswith("All good. Nothing was written.\n")
+    assert told.stdout == "All good: 2 tests. Nothing was written.\n"
     assert snapshot(campaign) == before
 
 
@@ -57,9 +56,8 @@ def test_check_finds_what_run_finds_in_the_channels(colonnade, campaign):
     path.write_text(text.replace('unit = "mm"\n', 'unit = "mm"\ngain = "10 mm/mm"\n'), encoding="utf-8")
     told = colonnade("check")
     assert told.returncode == 0
-    assert "free-01: doubtful" in told.stdout
+    assert told.stdout.startswith("2 tests: 2 would give wrong results. Nothing was written.\n")
     assert "serious (gain): free-01: Channel top shows 9.9 times the rotation" in told.stdout
-    assert told.stdout.endswith("2 tests would give wrong results.\n")
     assert colonnade("check", "--strict").returncode == 1
     found = json.loads(colonnade("check", "--json").stdout)["tests"]["free-02"]["warnings"]
     assert [(each["severity"], each["kind"]) for each in found] == [("serious", "gain")]
@@ -73,8 +71,10 @@ def test_a_hole_in_the_base_motion_is_a_problem_before_anything_is_predicted(col
     raw.write_text("\n".join([*lines, ""]), encoding="utf-8")
     told = colonnade("check")
     assert told.returncode == 1
-    assert "problem: The base acceleration is missing 200 of 1600 samples, the first at 5.005 s" in told.stdout
-    assert "shake-01: would fail" in told.stdout
+    verdict, problem, *_ = told.stdout.splitlines()
+    assert verdict == "3 tests: 1 would fail, 2 good. Nothing was written."
+    said = "would fail: shake-01: The base acceleration is missing 200 of 1600 samples, the first at 5.005 s"
+    assert problem.startswith(said)
     ran = colonnade("predict", "--workers", "1", "--only", "shake-01")
     assert ran.returncode == 1
     assert "missing 200 of 1600 samples" in ran.stdout
@@ -90,7 +90,7 @@ def test_every_missing_file_and_column_is_told_with_the_nearest_name(colonnade, 
     assert 'Did you mean "free_01.csv"?' in told.stdout
     assert 'channel top: free-02.csv: no column is called "top"' in told.stdout
     assert 'Did you mean "tops"?' in told.stdout
-    assert "2 tests would fail." in told.stdout
+    assert told.stdout.startswith("2 tests: 2 would fail. Nothing")
 
 
 def test_what_ingest_would_refuse_is_told_too(colonnade, campaign):
@@ -99,7 +99,7 @@ def test_what_ingest_would_refuse_is_told_too(colonnade, campaign):
     file.write_text("\n".join(rows), encoding="utf-8")
     told = colonnade("check")
     assert told.returncode == 1
-    assert "free-01: good" in told.stdout
+    assert told.stdout.startswith("2 tests: 1 would fail, 1 good.")
     assert "sampling_rate" in told.stdout
 
 
@@ -133,7 +133,7 @@ def test_numbers_that_run_on_are_told_as_the_cause_of_a_missing_column(colonnade
         raw.write_text("\n".join(" ".join(values[row : row + 8]) for row in range(0, len(values), 8)) + "\n")
     told = colonnade("check")
     assert told.returncode == 1
-    assert "free-01: would fail" in told.stdout
+    assert "would fail: free-01: " in told.stdout
     said = " ".join(told.stdout.split())
     assert "column 8 is missing; it has 1 column." in said
     assert "Its numbers, 8 in a row, run on from row to row and are read as one series of 2400" in said
@@ -146,8 +146,8 @@ def test_a_problem_names_the_serious_finding_that_it_follows_from(colonnade, cam
     text = path.read_text(encoding="utf-8")
     path.write_text(text.replace('unit = "mm"\n', 'unit = "mm"\ngain = "0.001 mm/mm"\n'), encoding="utf-8")
     lines = colonnade("check").stdout.splitlines()
-    (problem, *_) = (line for line in lines if line.startswith("  problem: "))
-    said = r"  problem: probably because of the serious findings below \(([^)]+)\): This free vibration"
+    (problem, *_) = (line for line in lines if line.startswith("would fail: free-01"))
+    said = r"would fail: free-01: probably because of the serious findings below \(([^)]+)\): This free vibration"
     kind = re.match(said, problem)
     assert kind, lines
     assert any(line.startswith(f"serious ({kind[1]}): ") for line in lines[lines.index(problem) :])
@@ -158,7 +158,7 @@ def test_the_drawing_is_the_one_file_that_is_written(colonnade, campaign, ending
     before = snapshot(campaign)
     told = colonnade("check", "--drawing", f"plan{ending}")
     assert (told.returncode, told.stderr) == (0, "")
-    assert told.stdout.endswith(f"drawing: plan{ending}\nAll good. Only the drawing was written.\n")
+    assert told.stdout == f"All good: 2 tests. Nothing was written but plan{ending}.\n"
     assert set(snapshot(campaign)) - set(before) == {campaign / f"plan{ending}"}
 
 
@@ -170,3 +170,14 @@ def test_a_drawing_replaces_nothing_of_yours(colonnade, campaign, name):
     assert told.returncode == 2
     assert name in told.stderr
     assert snapshot(campaign) == before
+
+
+def test_serious_findings_are_in_colour_on_a_terminal(colonnade, campaign, monkeypatch):
+    path = campaign / "campaign.toml"
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace('unit = "mm"\n', 'unit = "mm"\ngain = "10 mm/mm"\n'), encoding="utf-8")
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("TERM", "xterm-256color")
+    assert "\x1b[1;31mserious (gain)\x1b[0m: free-01: " in colonnade("check").stdout
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert "\x1b[1;31m" not in colonnade("check").stdout

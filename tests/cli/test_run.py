@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 import zipfile
 
 import pytest
 
-from colonnade.cli.common import progress
+from colonnade.campaign.forms.summary import Summary
 from colonnade.cli.common.findings import show_by_kind
+from colonnade.cli.run import lines_of_tests
 from colonnade.findings import in_order, note, serious, warning
 
 
@@ -16,16 +18,23 @@ def times(folder):
     return {path: path.stat().st_mtime_ns for path in folder.rglob("*") if path.is_file()}
 
 
-def test_run_lists_what_was_redone_and_why_and_says_where_the_report_is(colonnade, campaign):
+def test_run_gives_a_line_a_redone_test_then_agreement_and_says_where_the_report_is(colonnade, campaign):
     told = colonnade("run", "--workers", "1")
     assert (told.returncode, told.stderr) == (0, "")
-    assert "never run" in told.stdout
+    first, second, legend, specimen, agreement, *_ = told.stdout.splitlines()
+    assert re.fullmatch(r"free-01  e 0\.9[45]\d+ ± 0\.0+\d{1,2}", first)
+    assert re.fullmatch(r"free-02  e 0\.9[45]\d+ ± 0\.0+\d{1,2}", second)
+    assert legend.startswith("✓ history inside the 95 % band")
+    assert re.fullmatch(r"specimen prism  e 0\.9[45]\d+ ± 0\.0+\d{1,2}, identified from 2 free vibrations", specimen)
+    assert agreement.startswith("The linear model predicts the outcome of 2 of 2 tests.")
+    assert "never run" not in told.stdout
     assert told.stdout.endswith(f"report: {campaign / 'report' / 'index.html'}\n")
 
     before = times(campaign)
     again = colonnade("run", "--workers", "1")
     assert again.returncode == 0
-    assert again.stdout.startswith("0 redone")
+    assert again.stdout.startswith("The linear model predicts")
+    assert "\n0 redone" in again.stdout
     assert times(campaign) == before
 
     raw = campaign / "raw" / "free-02.csv"
@@ -34,6 +43,39 @@ def test_run_lists_what_was_redone_and_why_and_says_where_the_report_is(colonnad
     redone = [stage for stage in third["stages"] if stage["action"] == "done"]
     assert {stage["subject"] for stage in redone} == {"free-02", "prism", "free-01"}
     assert {stage["stage"] for stage in redone if stage["subject"] == "free-01"} <= {"predict", "ensemble", "compare"}
+
+
+def test_a_line_has_what_was_measured_and_each_prediction_with_its_verdict():
+    models = {
+        "linear": {"outcome": "rocking", "peak_ratio": 0.298, "within_spread": 0.97},
+        "nonlinear": {"outcome": "rocking", "peak_ratio": 0.275, "within_spread": 0.4},
+    }
+    shaken = {"status": "done", "kind": "earthquake", "specimen": "prism", "outcome": "rocking"}
+    free = shaken | {"kind": "free-vibration", "restitution": {"value": 0.976, "low": 0.9756, "high": 0.9764}}
+    tests = {
+        "free-01": free | {"predicted": models},
+        "span-2.5": shaken | {"peak_ratio": 0.281, "predicted": models},
+        "span-3.0": shaken | {"outcome": "overturned", "predicted": models},
+        "later": shaken | {"status": "pending", "outcome": None},
+        "not redone": shaken,
+    }
+    e = {"value": 0.976, "low": 0.9756, "high": 0.9764, "level": 0.95, "source": "identified"}
+    prism = {"critical_angle": 0.1864, "p": 5.631, "pole_distance": 0.232, "inertia": 1.9, "restitution": e}
+    known = {"schema": 1, "campaign": "a", "colonnade": "1", "specimens": {"prism": prism}, "tests": tests}
+    last = {"later": "ingest"} | dict.fromkeys(("span-2.5", "free-01", "span-3.0"), "compare")
+    assert lines_of_tests(Summary.model_validate(known), last) == [
+        "free-01   e 0.9760 ± 0.0004",
+        "span-2.5  rocking 0.281 α     nonlinear 0.275 ✓           linear 0.298 ≠",
+        "span-3.0  overturned          nonlinear rocking 0.275 ≠   linear rocking 0.298 ≠",
+        "later     done up to ingest",
+    ]
+
+
+def test_verbose_lists_the_stages_and_why(colonnade, campaign):
+    told = colonnade("ingest", "--workers", "1", "--only", "free-01", "--verbose").stdout
+    assert re.search(r"^free-01 +ingest +never run +\d+\.\d$", told, re.MULTILINE)
+    assert "free-01  done up to ingest\n" in told
+    assert "free-02" not in told
 
 
 def test_one_bad_file_fails_its_test_alone(colonnade, campaign):
@@ -135,18 +177,6 @@ def test_many_findings_of_a_kind_are_not_as_many_lines(capsys):
         in lines
     )
     assert lines[-1] == "490 serious findings, 490 notes"
-
-
-def test_a_log_gets_a_line_of_progress_now_and_then(capsys, monkeypatch):
-    moments = iter([0.0, 1.0, 11.0, 12.0, 22.0])
-    monkeypatch.setattr(progress.time, "monotonic", lambda: next(moments))
-    with progress.work_progress("Reading raw files") as advance:
-        for done in range(1, 5):
-            advance(done, 5)
-    assert capsys.readouterr().err.splitlines() == [
-        "Reading raw files: 2 of 5 after 11 s",
-        "Reading raw files: 4 of 5 after 22 s",
-    ]
 
 
 def test_the_report_is_typeset_and_bundled_if_asked(colonnade, campaign, tmp_path):

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import json
+import re
 
 import pytest
+
+from colonnade.store.records.wording import LEGEND
 
 
 def test_tests_that_were_never_run_are_pending(colonnade, campaign):
@@ -78,3 +81,21 @@ def test_a_summary_that_was_damaged_is_told(colonnade, campaign, text):
     told = colonnade("show", "tests")
     assert told.returncode == 1
     assert "summary.json: it was altered or damaged. Run `colonnade run` to make it again." in told.stderr
+
+
+def test_a_test_is_a_row_that_fits_on_80_columns_and_its_details_have_units(colonnade, campaign, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    path, long = campaign / "campaign.toml", "free-02-frame-repaired"
+    path.write_text(path.read_text(encoding="utf-8").replace('id = "free-02"', f'id = "{long}"'), encoding="utf-8")
+    assert colonnade("run", "--workers", "1").returncode == 0
+    head, *rows, legend = re.sub(r"\x1b\[[\d;]*m", "", colonnade("show", "tests").stdout).splitlines()
+    assert legend == LEGEND
+    assert head.split() == ["test", "measured", "nonlinear", "linear", "findings"]
+    assert [row.split()[:2] for row in rows] == [["free-01", "e"], [long, "e"]]
+    assert all(len(row) <= 80 for row in (*rows, legend))
+    told = dict(line.split(maxsplit=1) for line in colonnade("show", "tests", "free-01").stdout.splitlines())
+    assert told["test"] == "free-01"
+    assert re.fullmatch(r"0\.\d+ α", told["peak_ratio"])
+    assert re.fullmatch(r"1[12](\.\d+)? s", told["duration"])
+    assert re.fullmatch(r"0\.9[45]\d*", told["restitution.value"])

@@ -29,6 +29,13 @@ def test_the_figures_of_the_verification_page_are_those_of_the_studies():
     assert verification.renewed(changed, verification.measured()) == document
 
 
+@pytest.mark.parametrize("page", ["docs/index.md", "docs/explanation/paper.md"])
+def test_a_page_counts_the_papers_statements_as_their_page_does(page):
+    counted = r"(\d+) statements\D+(\d+) agree, (\d+) differ,? and (\d+) cannot be decided"
+    [due] = re.findall(counted, (PROJECT / "reports" / "manos" / "index.md").read_text(encoding="utf-8"))
+    assert re.findall(counted, (PROJECT / page).read_text(encoding="utf-8")) == [due]
+
+
 @pytest.mark.parametrize(("change", "outcome"), [(0.0, "overturned"), (1e-3, "rocking")])
 def test_a_motion_that_is_stronger_by_a_thousandth_does_not_overturn_the_block(change, outcome):
     motion = earthquake(1)

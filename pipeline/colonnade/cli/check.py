@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
-from colonnade.cli.common.console import say, show_json
-from colonnade.cli.common.findings import probable_cause, records_of, show_by_kind
+from colonnade.cli.common.console import say_marked, show_json
+from colonnade.cli.common.findings import STYLES, probable_cause, records_of, show_by_kind
 from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_option, strict_option
 from colonnade.cli.common.progress import work_progress
 from colonnade.errors import count
+from colonnade.findings import Severity
 
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign
@@ -82,32 +83,30 @@ def _record(checked: CampaignCheck) -> dict[str, object]:
 
 
 def _show(checked: CampaignCheck, drawing: Path | None) -> None:
-    campaign, findings = checked.campaign, checked.findings
-    say(f"{campaign.path}: {count(len(campaign.tests), 'test')}, {count(len(campaign.specimens), 'specimen')}")
-    for name, each in checked.tests.items():
-        say(f"{name}: {each.status}")
+    findings = checked.findings
+    say_marked(*_verdict(checked), f" Nothing was written{'.' if drawing is None else f' but {drawing}.'}")
+    failing = [*checked.tests.items(), *((f"assessment {name}", each) for name, each in checked.assessments.items())]
+    for name, each in failing:
         for problem in each.problems:
-            say(f"  problem: {probable_cause(findings[name], where='below')}{_indented(problem)}")
-    for name, each in checked.assessments.items():
-        say(f"assessment {name}: {each.status}")
-        for problem in each.problems:
-            say(f"  problem: {_indented(problem)}")
+            cause = probable_cause(findings[name], where="below")
+            say_marked("would fail", STYLES[Severity.SERIOUS], f": {name}: {cause}{_indented(problem)}")
     show_by_kind(findings)
-    if drawing is not None:
-        say(f"drawing: {drawing}")
-    written = "Nothing was written." if drawing is None else "Only the drawing was written."
+
+
+def _verdict(checked: CampaignCheck) -> tuple[str, str]:
+    """Say in a line how many tests are good, and give its colour."""
+    tests = count(len(checked.tests), "test")
     statuses = Counter(each.status for each in checked.tests.values())
-    unanswered = sum(bool(each.problems) for each in checked.assessments.values())
-    if unanswered:
-        say(f"{count(unanswered, 'assessment')} would fail.")
-    if statuses["would fail"] or statuses["doubtful"]:
-        words = {"would fail": "would fail", "doubtful": "would give wrong results"}
-        say(" ".join(f"{count(statuses[each], 'test')} {what}." for each, what in words.items() if statuses[each]))
-    elif checked.has_warnings and not unanswered:
-        say(f"No test would fail, but see the findings above. {written}")
-    elif not unanswered:
-        say(f"All good. {written}")
+    words = {"would fail": "would fail", "doubtful": "would give wrong results", "good": "good"}
+    parts = [f"{statuses[each]} {said}" for each, said in words.items() if statuses[each]]
+    if unanswered := sum(bool(each.problems) for each in checked.assessments.values()):
+        parts.append(f"{count(unanswered, 'assessment')} would fail")
+    if checked.fails or statuses["doubtful"]:
+        return f"{tests}: {', '.join(parts)}.", STYLES[Severity.SERIOUS]
+    if checked.has_warnings:
+        return f"No test would fail, but see the findings: {', '.join(parts)}.", STYLES[Severity.WARNING]
+    return f"All good: {tests}.", "bold green"
 
 
 def _indented(text: str) -> str:
-    return text.replace("\n", "\n    ")
+    return text.replace("\n", "\n  ")

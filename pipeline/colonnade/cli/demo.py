@@ -7,7 +7,7 @@ from typing import Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import complain, say, show_json, show_table, shown, shown_ratio
+from colonnade.cli.common.console import complain, say, show_json, show_table, shown
 from colonnade.cli.common.options import json_option, workers_option
 from colonnade.cli.run import failed_rows, run_with_progress
 
@@ -68,7 +68,7 @@ def demo(
 def _show(comparison: dict[str, Any]) -> None:
     from colonnade.laboratory.plans.ladder import KEPT_AWAY
     from colonnade.report.overview_page.agreement import agreement
-    from colonnade.store.records.wording import interval
+    from colonnade.store.records.wording import interval, ratio
 
     for specimen, restitution in comparison["restitution"].items():
         true, value, low, high = (restitution[key] for key in ("true", "value", "low", "high"))
@@ -82,14 +82,9 @@ def _show(comparison: dict[str, Any]) -> None:
     rows = []
     for name, test in comparison["tests"].items():
         right = "right" if test["outcome"] == test["true_outcome"] else "wrong"
-        predicted = "; ".join(
-            f"{model}: {result['outcome']} {shown_ratio(result['peak_ratio'])}".rstrip()
-            for model, result in test["predicted"].items()
-            if result.get("outcome")
-        )
-        ratios = (shown_ratio(test["peak_ratio"]), shown_ratio(test["true_peak_ratio"]))
-        rows.append((name, shown(test["outcome"]), test["true_outcome"], right, *ratios, predicted))
-    show_table(("test", "outcome", "true", "", "|θ|/α", "true", "predicted"), rows)
+        ratios = (ratio(test["peak_ratio"], 4), ratio(test["true_peak_ratio"], 4))
+        rows.append((name, shown(test["outcome"]), test["true_outcome"], right, *ratios))
+    show_table(("test", "outcome", "true", "", "|θ|/α", "true"), rows)
     say(f"{sum(row[3] == 'right' for row in rows)} of {len(rows)} measured outcomes are right")
     for sentence in agreement(comparison["tests"]):
         say(sentence)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
-from itertools import groupby
+from itertools import groupby, zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,7 @@ from colonnade.cli.common.progress import run_progress
 from colonnade.store.results import RUN_STAGES
 
 if TYPE_CHECKING:
+    from colonnade.campaign.forms.summary import Summary
     from colonnade.workflow import RunResult, StageRun
 
 
@@ -25,8 +26,9 @@ if TYPE_CHECKING:
     help=f"""
     Run all stages and the report; redo only what is out of date.
 
-    {CAMPAIGN} Each redone result is listed with its reason. A test that fails does not stop the others; the
-    exit code is then 1.
+    {CAMPAIGN} Each redone test is a line: what was measured, and what each model predicts. ✓ is inside the 95 % band
+    of the model's runs, ≠ outside or another outcome. A test that fails does not stop the others; the exit code is
+    then 1.
 
     Stages are ingest, condition, rocking, restitution, predict, ensemble, compare and report.
     """,
@@ -37,13 +39,19 @@ if TYPE_CHECKING:
     "--from", "start_from", type=click.Choice(RUN_STAGES), metavar="STAGE", help="Redo this stage and all that follow."
 )
 @work_options
-def run(campaign: Path, *, as_json: bool, strict: bool, **choices: Any) -> int:
+def run(campaign: Path, **choices: Any) -> int:
     """Run a campaign, with the choices of `colonnade.workflow.run`, and show what was done; return the exit code."""
-    return _run_and_show(campaign, {}, as_json=as_json, strict=strict, **choices)
+    return _run_and_show(campaign, {}, **choices)
 
 
 def _run_and_show(
-    campaign: Path, documents: Mapping[str, Callable[[], Path]], *, as_json: bool, strict: bool, **choices: Any
+    campaign: Path,
+    documents: Mapping[str, Callable[[], Path]],
+    *,
+    as_json: bool,
+    strict: bool,
+    verbose: bool,
+    **choices: Any,
 ) -> int:
     """Run a campaign, write the documents that are asked for, and show what was done; return the exit code."""
     result = run_with_progress(campaign, **choices)
@@ -51,7 +59,7 @@ def _run_and_show(
     if as_json:
         show_json(_record(result) | written)
     else:
-        show_result(result)
+        _show_result(result, verbose=verbose)
         for name, path in written.items():
             say(f"{name}: {path}")
     return int(result.failed or (strict and result.has_warnings))
@@ -135,10 +143,24 @@ def run_with_progress(campaign: Path, **choices: Any) -> RunResult:
         return run(campaign, progress=progress, **choices)
 
 
-def show_result(result: RunResult) -> None:
-    """List what was redone and why, the findings, the failures, and the paths of the results."""
+def _show_result(result: RunResult, *, verbose: bool) -> None:
+    """Show each redone test, agreement, findings, failures, and the paths of the results."""
+    from colonnade.campaign.forms.summary import Summary
+    from colonnade.report.overview_page.agreement import agreement
+    from colonnade.store.records.wording import LEGEND, pooled, predicted
+
     redone = [stage for stage in result.stages if stage.action == "done"]
-    show_table(("redone", "stages", "why", "seconds"), list(_grouped(redone)))
+    if verbose:
+        show_table(("redone", "stages", "why", "seconds"), list(_grouped(redone)))
+    known = Summary.model_validate_json(result.summary.read_bytes())
+    for line in lines_of_tests(known, {stage.subject: stage.stage for stage in redone if stage.of == "test"}):
+        say(line)
+    if any(predicted(known.tests[stage.subject]) for stage in redone if stage.of == "test"):
+        say(LEGEND)
+    for name in dict.fromkeys(stage.subject for stage in redone if stage.of == "specimen"):
+        say(f"specimen {name}  {pooled(known.specimens[name].restitution)}")
+    for sentence in agreement(known.model_dump(mode="json")["tests"]):
+        say(sentence)
     show_by_kind(result.findings)
     failed = failed_rows(result)
     show_table(("failed", "stage", "reason"), alike(failed))
@@ -151,6 +173,27 @@ def show_result(result: RunResult) -> None:
         if result.findings:
             say(f"all findings: {result.report.parent / 'problems.html'}")
         say(f"report: {result.report}")
+
+
+def lines_of_tests(summary: Summary, last: Mapping[str, str]) -> list[str]:
+    """Write what each redone test gave, in columns; of a test that is not complete, the last stage that ran."""
+    from colonnade.store.records.wording import measured, predicted
+
+    rows = []
+    for name, test in summary.tests.items():
+        if name not in last:
+            continue
+        found = measured(test, summary.specimens[test.specimen].restitution.level)
+        models = {} if test.restitution else predicted(test)
+        rows.append(
+            [
+                f"{name}  ",
+                f"done up to {last[name]}" if found == test.status == "pending" else found,
+                *(f"   {model} {said}" for model, said in models.items()),
+            ]
+        )
+    widths = [max(map(len, column)) for column in zip_longest(*rows, fillvalue="")]
+    return ["".join(map(str.ljust, row, widths)).rstrip() for row in rows]
 
 
 def failed_rows(result: RunResult) -> list[tuple[str, str, str]]:

@@ -2,21 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from colonnade.cli.common.console import show_fields, show_json, show_table, shown, shown_ratio
-from colonnade.cli.common.findings import line_of
+from colonnade.cli.common.console import say, show_fields, show_json, show_table, shown
+from colonnade.cli.common.findings import counted, line_of
 from colonnade.cli.common.options import campaign_and_id, campaign_and_id_argument, json_option, results_option
+from colonnade.findings import Severity
 
 if TYPE_CHECKING:
     from colonnade.campaign import Campaign
     from colonnade.campaign.forms.summary import Summary
 
 Record = dict[str, Any]
+
+UNITS = {
+    "α": ("peak_ratio", "release_ratio", "nrmse", "peak_low", "peak_high"),
+    "s": ("duration", "peak_time", "horizon"),
+    "Hz": ("frequency",),
+    "m/s²": ("pga",),
+    "mm": ("peak_slide",),
+    "mrad": ("residual",),
+    "rad": ("critical_angle",),
+    "rad/s": ("p",),
+    "m": ("pole_distance", "width", "depth", "height", "diameter", "base_diameter", "top_diameter"),
+    "kg": ("mass",),
+    "kg m²": ("inertia",),
+}
+"""Keys of the summary that have a unit; all other numbers have none."""
 
 
 @click.group()
@@ -32,16 +49,31 @@ def tests(arguments: tuple[str, ...], results: Path | None, as_json: bool) -> in
     """
     Show the tests, measured and predicted, from the last run; with an ID, all that is known of one test.
 
+    Peaks are over the critical angle α.
+
     A single argument is taken as CAMPAIGN if such a file or folder exists, else as ID.
     """
     from colonnade.store.records.summary import records_of_tests
+    from colonnade.store.records.wording import LEGEND, measured, predicted
 
     campaign, identifier = campaign_and_id(arguments)
-    records = {
-        name: each.model_dump(mode="json") for name, each in records_of_tests(*_known(campaign, results)).items()
-    }
-    heads = ("test", "kind", "specimen", "status", "outcome", "|θ|/α", "predicted", "reason or warnings")
-    return _show_records("test", records, identifier, heads, _test_cells, as_json=as_json)
+    known, summary = _known(campaign, results)
+    records = records_of_tests(known, summary)
+    levels = {} if summary is None else {name: each.restitution.level for name, each in summary.specimens.items()}
+    models = list(dict.fromkeys(model for record in records.values() for model in predicted(record)))
+
+    rows = []
+    for name, record in records.items():
+        said = predicted(record)
+        found = Counter[Severity](each.severity for each in record.warnings if each.severity is not Severity.NOTE)
+        told = measured(record, levels.get(record.specimen))
+        rows.append((name, told, *(said.get(model, "") for model in models), counted(found)))
+    heads = ("test", "measured", *models, "findings")
+    dumped = {name: each.model_dump(mode="json") for name, each in records.items()}
+    _show_records("test", dumped, identifier, heads, rows, as_json=as_json)
+    if models and identifier is None and not as_json:
+        say(LEGEND)
+    return 0
 
 
 @show.command(epilog="Example: colonnade show specimens demo")
@@ -58,8 +90,9 @@ def specimens(arguments: tuple[str, ...], results: Path | None, as_json: bool) -
 
     campaign, identifier = campaign_and_id(arguments)
     records = records_of_specimens(*_known(campaign, results))
+    rows = [(name, *_specimen_cells(record)) for name, record in records.items()]
     heads = ("specimen", "shape", "α rad", "R m", "I₀ kg m²", "p rad/s", "rigid-body e", "e", "source")
-    return _show_records("specimen", records, identifier, heads, _specimen_cells, as_json=as_json)
+    return _show_records("specimen", records, identifier, heads, rows, as_json=as_json)
 
 
 @show.command(epilog="Example: colonnade show settings demo")
@@ -128,7 +161,7 @@ def _show_records(
     records: Mapping[str, Record],
     identifier: str | None,
     heads: Sequence[str],
-    cells: Callable[[Record], tuple[str, ...]],
+    rows: Sequence[tuple[str, ...]],
     *,
     as_json: bool,
 ) -> int:
@@ -139,34 +172,10 @@ def _show_records(
     if as_json:
         show_json(records if identifier is None else records[identifier])
     elif identifier is None:
-        show_table(heads, [(name, *cells(record)) for name, record in records.items()])
+        show_table(heads, rows)
     else:
-        show_fields(_flat(records[identifier]))
+        show_fields([(what, identifier), *_flat(records[identifier])])
     return 0
-
-
-def _test_cells(record: Record) -> tuple[str, ...]:
-    outcome = record["outcome"] or (f"{record['observed_outcome']} (seen)" if record["observed_outcome"] else "")
-    predicted = [
-        f"{model}: {' '.join(filter(None, (result['outcome'], shown_ratio(result['peak_ratio']), _until(result))))}"
-        for model, result in record["predicted"].items()
-        if result.get("outcome")
-    ]
-    return (
-        record["kind"],
-        record["specimen"],
-        record["status"],
-        outcome,
-        shown_ratio(record["peak_ratio"]),
-        ", ".join(predicted),
-        record["reason"] or "; ".join(map(line_of, record["warnings"])),
-    )
-
-
-def _until(predicted: Record) -> str:
-    """Write the time up to which a model predicts; empty if it is not known."""
-    horizon = predicted.get("horizon")
-    return "" if horizon is None else f"up to {horizon:.4g} s"
 
 
 def _specimen_cells(record: Record) -> tuple[str, ...]:
@@ -189,5 +198,12 @@ def _flat(record: Mapping[str, Any], prefix: str = "") -> list[tuple[str, str]]:
         elif key == "warnings":
             lines += [(f"{prefix}{key}", line_of(each)) for each in value]
         elif value is not None and value != []:
-            lines.append((f"{prefix}{key}", shown(value)))
+            lines.append((f"{prefix}{key}", _with_unit(f"{prefix}{key}", value)))
     return lines
+
+
+def _with_unit(key: str, value: object) -> str:
+    unit = next((unit for unit, keys in UNITS.items() if key.rpartition(".")[2] in keys), "")
+    if isinstance(value, float) and unit in ("mm", "mrad"):
+        value = 1000 * value
+    return f"{shown(value)} {unit}".rstrip()

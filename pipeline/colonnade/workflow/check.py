@@ -9,7 +9,7 @@ from pathlib import Path
 
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.assessing.assessment import Assessment
-from colonnade.errors import ReadError, StageError
+from colonnade.errors import ReadError, StageError, count
 from colonnade.findings import Finding, Severity, at_stage, in_order, note, warning
 from colonnade.interruption import expect_none
 from colonnade.readers.recording import Recording
@@ -155,7 +155,7 @@ def _records_checked(asked: Assessment) -> Checked:
     else:
         if len(records.records) < FEWEST:
             checked.problems.append(
-                f"{len(records.records)} ground motions can be used; at least {FEWEST} were expected."
+                f"{count(len(records.records), 'ground motion')} can be used; at least {FEWEST} were expected."
             )
         said = (
             f"{each.name} is left out: {each.reason.removeprefix(f'{each.name}: ').splitlines()[0]}"

@@ -46,6 +46,7 @@ def test_a_steady_sine_is_drawn_over_the_phase_of_the_base():
     )
     record = TestSummary(status="done", kind="sine", specimen="prism", outcome="rocking", order=2)
     picture = closer.picture(Test.model_construct(id="sine"), record, stored, BLOCK)
+    assert picture.note == "Right: the rocking angle, last 12 periods of the steady part."
     portrait, steady = picture.figure.axes
     phase, ratio = steady.lines[0].get_data()
     assert steady.get_xlabel() == "phase of the base (periods)"
@@ -71,6 +72,19 @@ def test_an_earthquake_is_enlarged_about_its_largest_angle(known):
     low, high = np.nanmin(axes.lines[0].get_xdata()), np.nanmax(axes.lines[0].get_xdata())
     assert low < record.peak_time < high
     assert axes.texts[0].get_text() == "about the largest angle"
+    assert closer.picture(*known("span-2.0")).note == "Right: the rocking angle, about the largest angle."
+
+
+def test_a_sine_without_a_steady_part_is_not_said_to_have_one():
+    time = np.arange(0, 12, 0.004)
+    rocking = {name: ("elapsed", 0.05 * np.sin(6.0 * time)) for name in ("rocking_angle", "base_acceleration")}
+    forcing = {"forcing_frequency": 2.0, "steady_start": np.nan, "steady_stop": np.nan}
+    stored = Stored({("rocking", None): xr.Dataset(rocking, {"elapsed": time}), ("compare", None): xr.Dataset(forcing)})
+    record = TestSummary(
+        status="done", kind="sine", specimen="prism", outcome="rocking", frequency_ratio=2.2, peak_time=4.0
+    )
+    picture = closer.picture(Test.model_construct(id="sine"), record, stored, BLOCK)
+    assert picture.note == "Right: the rocking angle, about the largest angle."
 
 
 def test_what_was_not_run_has_no_picture(known):

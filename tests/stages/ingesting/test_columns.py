@@ -141,7 +141,7 @@ def test_a_window_beside_the_record_leaves_nothing():
 
 
 @pytest.mark.parametrize(
-    ("window", "words"), [(None, "has 1 samples; at least"), ((2.0, 2.5), "has 1 samples between 2 and 2.5 s; at")]
+    ("window", "words"), [(None, "has 1 sample; at least"), ((2.0, 2.5), "has 1 sample between 2 and 2.5 s; at")]
 )
 def test_too_few_samples_are_told_with_the_window_that_cut_them(window, words):
     error = too_short("top", 1, window)

@@ -86,12 +86,12 @@ def test_what_another_outcome_than_rocking_was_predicted_is_named_with_its_peak(
     said = wording.predicted(
         shaken("overturned", None, linear=("rocking", 0.8, 0.2), nonlinear=("overturned", None, 0.2))
     )
-    assert list(said.items()) == [("nonlinear", "overturned ✓"), ("linear", "rocking 0.8 ≠")]
+    assert list(said.items()) == [("nonlinear", "overturned ✓"), ("linear", "rocking 0.800 ≠")]
     assert wording.predicted(shaken("rocking", 0.281, linear=(None, None, None))) == {}
 
 
 def test_a_test_is_said_in_a_few_words():
-    assert wording.measured(shaken("rocking", 0.2811)) == "rocking 0.281 α"
+    assert wording.measured(shaken("rocking", 0.2804)) == "rocking 0.280 α"
     assert wording.measured(shaken("no-rocking", 0.002)) == "no rocking"
     assert wording.measured(shaken("overturned", None)) == "overturned"
     free = summary.TestSummary(

@@ -11,6 +11,7 @@ from textwrap import fill as wrap
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 
 class _Output(Console):
@@ -31,9 +32,14 @@ def messages() -> Console:
     return Console(stderr=True, markup=False, emoji=False, highlight=False, soft_wrap=True)
 
 
-def say(text: str = "") -> None:
+def say(text: str | Text = "") -> None:
     """Write a line of result."""
     output().print(text)
+
+
+def say_marked(mark: str, style: str, text: str) -> None:
+    """Write a line that begins with a mark in colour, on a terminal."""
+    say(Text.assemble((mark, style), text))
 
 
 def complain(text: str) -> None:
@@ -54,13 +60,15 @@ def show_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """
     Write rows under their heads, in columns; nothing if there are no rows.
 
-    On a terminal long cells wrap inside their column; elsewhere each row is one line, whatever its length.
+    On a terminal long cells wrap inside their column, but for the first, which is whole; elsewhere each row is one
+    line, whatever its length.
     """
     if not rows:
         return
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
     for head in heads:
         table.add_column(head, overflow="fold")
+    table.columns[0].no_wrap = True
     for row in rows:
         table.add_row(*row)
     console = _Output(markup=False, emoji=False, highlight=False)
@@ -98,13 +106,6 @@ def shown(value: object) -> str:
     if isinstance(value, (list, tuple)):
         return "; ".join(shown(item) for item in value)
     return str(value)
-
-
-def shown_ratio(value: float | None) -> str:
-    """Write an angle over the critical angle for people: nothing for None."""
-    from colonnade.store.records.wording import ratio
-
-    return "" if value is None else ratio(value, 4)
 
 
 def close_output() -> None:

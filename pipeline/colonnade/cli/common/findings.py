@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from colonnade.cli.common.console import say
+from colonnade.cli.common.console import say, say_marked
 from colonnade.errors import count
 from colonnade.findings import Finding, Severity, in_order
 
@@ -16,6 +16,12 @@ IN_FULL = 3
 
 NAMED = 8
 """Tests that are named after them."""
+
+STYLES = {Severity.SERIOUS: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "dim"}
+"""How a severity looks on a terminal."""
+
+WORDS = {Severity.SERIOUS: "serious finding", Severity.WARNING: "warning", Severity.NOTE: "note"}
+"""What a finding of a severity is called."""
 
 Findings = Mapping[str, Sequence[tuple[Finding, bool]]]
 """By subject, in order, each with whether it follows from one before it."""
@@ -83,22 +89,20 @@ def show_by_kind(findings: Findings) -> None:
         members = groups[severity, kind]
         shown = members[: 1 if severity is Severity.NOTE else IN_FULL]
         for subject, text in shown:
-            say(f"{severity} ({kind}): {subject}: {text}")
+            say_marked(f"{severity} ({kind})", STYLES[severity], f": {subject}: {text}")
         rest = [subject for subject, _ in members[len(shown) :]]
         if rest:
             say(f"  and {len(rest)} more of this kind: {_named(rest)}")
     for kind, subjects in behind.items():
         say(f"follows from the above: {kind}: {_named(subjects)}")
-    _show_counts(groups)
-
-
-def _show_counts(groups: Mapping[tuple[Severity, str], Sequence[tuple[str, str]]]) -> None:
-    counts = Counter[Severity]()
-    for (severity, _), members in groups.items():
-        counts[severity] += len(members)
-    words = {Severity.SERIOUS: "serious finding", Severity.WARNING: "warning", Severity.NOTE: "note"}
+    counts = Counter(severity for (severity, _), members in groups.items() for _ in members)
     if counts:
-        say(", ".join(count(counts[each], word) for each, word in words.items() if counts[each]))
+        say(counted(counts))
+
+
+def counted(severities: Mapping[Severity, int]) -> str:
+    """Count findings, the worst first: "1 serious finding, 2 notes"."""
+    return ", ".join(count(severities[each], word) for each, word in WORDS.items() if severities.get(each))
 
 
 def _named(subjects: Sequence[str]) -> str:

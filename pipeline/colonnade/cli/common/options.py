@@ -138,6 +138,7 @@ def work_options(command: Command) -> Command:
     """Add the options of all commands that run stages."""
     for option in (
         json_option,
+        click.option("--verbose", is_flag=True, help="Also list each redone stage, why it was redone, and its time."),
         strict_option,
         click.option(
             "--verify",

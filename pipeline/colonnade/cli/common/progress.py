@@ -1,7 +1,8 @@
-"""Progress on stderr: a bar on a terminal, otherwise a line now and then."""
+"""Progress on stderr: a bar on a terminal, otherwise a line every ten seconds."""
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -37,7 +38,8 @@ def _shown(what: str) -> Iterator[Callable[[str, int, int], None]]:
     """Show a bar or lines; the callable takes the present item, how much is done, and the total."""
     console = messages()
     if not console.is_terminal:
-        yield _Lines()
+        with _lines(what) as show:
+            yield show
         return
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True) as bar:
@@ -45,14 +47,22 @@ def _shown(what: str) -> Iterator[Callable[[str, int, int], None]]:
         yield lambda now, done, total: bar.update(task, description=now, completed=done, total=total)
 
 
-class _Lines:
-    """Progress for a log: a line after `EVERY` seconds without one."""
+@contextmanager
+def _lines(what: str) -> Iterator[Callable[[str, int, int], None]]:
+    """Write a line every `EVERY` seconds, also while nothing ends."""
+    began, over, last = time.monotonic(), threading.Event(), [what]
 
-    def __init__(self) -> None:
-        self._began = self._last = time.monotonic()
+    def write() -> None:
+        while not over.wait(min(EVERY, threading.TIMEOUT_MAX)):
+            complain(f"{last[0]}, after {time.monotonic() - began:.0f} s")
 
-    def __call__(self, now: str, done: int, total: int) -> None:
-        moment = time.monotonic()
-        if moment - self._last >= EVERY and done < total:
-            self._last = moment
-            complain(f"{now}: {done} of {total} after {moment - self._began:.0f} s")
+    def show(now: str, done: int, total: int) -> None:
+        last[0] = f"{now}: {done} of {total}" if done < total else f"{done} of {total} done, finishing"
+
+    writer = threading.Thread(target=write, daemon=True)
+    writer.start()
+    try:
+        yield show
+    finally:
+        over.set()
+        writer.join()

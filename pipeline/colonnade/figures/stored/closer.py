@@ -47,6 +47,7 @@ def picture(test: Test, record: TestSummary, stored: Stored, block: Block) -> Pi
         f"closer-{test.id}",
         f"{test.id}: phase portrait" + ("" if enlarged is None else f", and the rocking angle over {enlarged.label}"),
         "Angular velocity over p α against θ/α, measured and by model, with the separatrix of the free motion.",
+        "" if enlarged is None else f"Right: the rocking angle, {enlarged.remark}.",
     )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.campaign import Test
 from colonnade.dynamics.block import Block
+from colonnade.errors import count
 from colonnade.figures.files.output import Picture
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow, estimators_side_by_side
@@ -80,10 +81,10 @@ def peaks(identity: str, series: Sequence[PeakSeries], block: Block) -> Picture 
         return None
     if len(series) > MOST_SIDE_BY_SIDE:
         used, total = sum(int(one.used.sum()) for one in series), sum(one.used.size for one in series)
-        said = f"{used} of {total} peaks of {len(series)} free vibrations used."
+        said = f"{used} of {count(total, 'peak')} of {len(series)} free vibrations used."
         title = "Energy of successive peaks against the impact number, of all free vibrations"
         return Picture(peaks_of_many(series, block), identity, title, said, f"{SUMMARISED} {said}")
-    described = [f"{one.title}: {int(one.used.sum())} of {one.used.size} peaks used." for one in series]
+    described = [f"{one.title}: {int(one.used.sum())} of {count(one.used.size, 'peak')} used." for one in series]
     title = "Energy of successive peaks against the impact number, with the fitted line and its band"
     return Picture(peak_decay(series, block), identity, title, " ".join(described))
 
@@ -108,7 +109,7 @@ def impacts(identity: str, series: Sequence[ImpactSeries], level: Level, rigid: 
         draw(series, level=level, rigid=rigid),
         identity,
         "e of each impact against the angular velocity before it",
-        f"{used} of {total} impacts used. {level.name}: {number(level.value, 4)}.",
+        f"{used} of {count(total, 'impact')} used. {level.name}: {number(level.value, 4)}.",
         f"{SUMMARISED} {used} of {total} impacts of {len(series)} free vibrations used." if are_many else "",
     )
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from colonnade.dynamics.motion import Motion
-from colonnade.errors import ReadError
+from colonnade.errors import ReadError, count
 from colonnade.readers.ground_motions.listed import Entry, LeftOut, inside
 from colonnade.readers.ground_motions.names import direction_of, named
 from colonnade.readers.hashing import sha256_of
@@ -85,7 +85,7 @@ def components_of(entry: Entry, notes: list[str]) -> Iterator[Component]:
 def _usable(motion: Motion, scale: float) -> Motion:
     """Return a component times its scale, if it can be the motion of a column's base."""
     if motion.acceleration.size < FEWEST_SAMPLES:
-        raise ReadError(f"it has {motion.acceleration.size} samples; at least {FEWEST_SAMPLES} were expected.")
+        raise ReadError(f"it has {count(motion.acceleration.size, 'sample')}; at least {FEWEST_SAMPLES} were expected.")
     if motion.dt > LONGEST_INTERVAL:
         raise ReadError(f"its samples are {motion.dt:.3g} s apart; at most {LONGEST_INTERVAL:g} s were expected.")
     scaled = motion if scale == 1.0 else Motion(scale * motion.acceleration, motion.dt)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Mask
+from colonnade.errors import count
 from colonnade.signals.clocks.clock import LONGEST_BRIDGE, sampling_interval
 from colonnade.signals.quality import Flag, Verdict, blocks, counted, first_at
 from colonnade.signals.stretches import stretches
@@ -125,9 +126,9 @@ def check_gaps(clock: Clock, *, factor: float) -> Verdict:
     where = np.zeros(clock.time.size, dtype=bool)
     where[kept[after]] = where[kept[after + 1]] = True
     lost = int(np.rint(longer[after] - 1).sum())
-    gaps = f"{after.size} gap{'s' if after.size > 1 else ''} in time"
+    gaps = f"{count(after.size, 'gap')} in time"
     return Verdict(
-        Flag.SUSPECT, where, f"{gaps}, about {lost} samples lost{first_at(clock.time, where)}", "lost samples"
+        Flag.SUSPECT, where, f"{gaps}, about {count(lost, 'sample')} lost{first_at(clock.time, where)}", "lost samples"
     )
 
 

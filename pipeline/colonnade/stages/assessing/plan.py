@@ -17,7 +17,7 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.assessing.assessed import UNCORRECTED
 from colonnade.campaign.assessing.assessment import Assessment
 from colonnade.dynamics.block import pair
-from colonnade.errors import StageError
+from colonnade.errors import StageError, count
 from colonnade.readers.ground_motions.record_set import RecordSet
 from colonnade.stages.assessing.column import USUAL_MARGIN, ColumnInputs, real_column
 
@@ -101,7 +101,7 @@ def plan_assessment(pooled: xr.Dataset, records: RecordSet, hazard: Hazard | Non
     if len(records.records) < FEWEST:
         reasons = "; ".join(f"{each.name}: {each.reason}" for each in records.left_out[:3])
         raise StageError(
-            f"{len(records.records)} ground motions can be used; at least {FEWEST} were expected."
+            f"{count(len(records.records), 'ground motion')} can be used; at least {FEWEST} were expected."
             + (f" Left out: {reasons}" if reasons else "")
         )
     motions = {each.name: each.motion for each in records.records}
@@ -142,7 +142,7 @@ def _expect_enough(study: Study) -> None:
     if len(study.names) < FEWEST:
         name, reason = next(iter(study.left_out.items()))
         raise StageError(
-            f"{len(study.names)} ground motions have a {study.measure.name}; at least {FEWEST} were expected. "
+            f"{count(len(study.names), 'ground motion')} with a {study.measure.name}; at least {FEWEST} were expected. "
             f"Left out: {name}: {reason}"
         )
 

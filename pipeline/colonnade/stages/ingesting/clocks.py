@@ -10,7 +10,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.campaign import Channel
 from colonnade.campaign.setup import Align, Recorder
-from colonnade.errors import StageError
+from colonnade.errors import StageError, count
 from colonnade.findings import Finding, note, serious, warning
 from colonnade.signals.clocks.alignment import Offset, link
 from colonnade.signals.clocks.clock import uniform_clock
@@ -209,8 +209,8 @@ def common_clock(
     clock = uniform_clock(leader.time[0] + steps * interval, stop, interval)
     if clock.size < FEWEST_SAMPLES:
         raise StageError(
-            f"The channels share {max(stop - start, 0.0):.3g} s, {clock.size} samples; at least {FEWEST_SAMPLES} were "
-            "expected. Check the start times of the recorders and the test's `window`."
+            f"The channels share {max(stop - start, 0.0):.3g} s, {count(clock.size, 'sample')}; at least "
+            f"{FEWEST_SAMPLES} were expected. Check the start times of the recorders and the test's `window`."
         )
     return clock
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from colonnade import units
 from colonnade.arrays import Array
-from colonnade.errors import StageError
+from colonnade.errors import StageError, count
 from colonnade.findings import Finding, note, serious
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.heading import LETTERED
@@ -96,7 +96,7 @@ def too_short(name: str, size: int, window: Window | None) -> StageError:
     """Say that a channel has too few samples for a clock."""
     part = "" if window is None else f" between {window[0]:g} and {window[1]:g} s"
     return StageError(
-        f"channel {name} has {size} samples{part}; at least two at increasing times were expected. "
+        f"channel {name} has {count(size, 'sample')}{part}; at least two at increasing times were expected. "
         "Check the file's time column and the test's `window`."
     )
 

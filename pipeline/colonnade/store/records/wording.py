@@ -5,8 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import isfinite, nan
 
-from colonnade.campaign.forms.summary import IdentifiedSummary, Order, PredictionSummary, TestSummary
+from colonnade.campaign.forms.summary import (
+    IdentifiedSummary,
+    Order,
+    PredictionSummary,
+    RestitutionSummary,
+    TestSummary,
+)
 from colonnade.dynamics.models.registry import MODELS
+from colonnade.errors import count
 from colonnade.identification.response.rank import is_within
 from colonnade.units import PERCENT, format_percent, format_quantity, format_uncertain, from_si, with_minus
 
@@ -20,6 +27,9 @@ USUAL_LEVEL = 0.95
 
 WITHIN, DIFFERS = "✓", "≠"
 """Verdicts on a prediction, see `verdict`."""
+
+LEGEND = "✓ history inside the 95 % band of the model's runs; ≠ outside or another outcome"
+"""What they mean; 80 columns."""
 
 CHANNEL_UNITS = {
     "displacement": "mm",
@@ -122,6 +132,23 @@ def interval(value: float | None, low: float | None, high: float | None, level: 
         "" if level is None or not isfinite(level) or level == USUAL_LEVEL else f" ({format_percent(level)} interval)"
     )
     return format_uncertain(value, (high - low) / 2) + named
+
+
+def pooled(found: RestitutionSummary) -> str:
+    """
+    Write the e of a specimen that predictions use, and where it comes from.
+
+    Examples
+    --------
+    >>> pooled(RestitutionSummary(value=0.976, low=0.9756, high=0.9764, source="identified", tests=("a", "b")))
+    'e 0.9760 ± 0.0004, identified from 2 free vibrations'
+    >>> pooled(RestitutionSummary(value=(0.95, 0.96), source="given"))
+    'e 0.95 and 0.96, given'
+    """
+    values = found.value if isinstance(found.value, tuple) else (found.value,)
+    told = " and ".join(interval(value, found.low, found.high, found.level) for value in values)
+    source = f" from {count(len(found.tests), 'free vibration')}" if found.tests else ""
+    return f"e {told}, {found.source}{source}"
 
 
 def share(part: int, whole: int) -> str:
@@ -255,14 +282,19 @@ def _agrees(test: TestSummary, found: PredictionSummary) -> bool | None:
 
 def _prediction(test: TestSummary, found: PredictionSummary) -> str:
     if test.outcome == found.outcome == "rocking":
-        return ratio(found.peak_ratio)
+        return _peak(found.peak_ratio)
     return _with_peak(found.outcome or "", found.peak_ratio)
 
 
 def _with_peak(outcome: str, peak_ratio: float | None, unit: str = "") -> str:
     """Write an outcome, and the peak of a block that rocks."""
-    peak = f" {ratio(peak_ratio)}{unit}" if outcome == "rocking" and peak_ratio is not None else ""
+    peak = f" {_peak(peak_ratio)}{unit}" if outcome == "rocking" and peak_ratio is not None else ""
     return _words(outcome) + peak
+
+
+def _peak(peak_ratio: float | None) -> str:
+    """Write a peak over α to the thousandth, the least that counts."""
+    return ratio(peak_ratio) if peak_ratio is None or peak_ratio < LEAST_RATIO else f"{peak_ratio:.3f}"
 
 
 def _words(outcome: str) -> str:

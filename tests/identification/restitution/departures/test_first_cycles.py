@@ -38,6 +38,10 @@ def test_the_largest_share_is_the_size_and_the_last_spoilt_arc_the_end(arcs):
     assert "the first 5 of 20 arcs" in departure.sentence
 
 
+def test_a_single_arc_is_written_as_one(arcs):
+    assert "left out: the first of 20 arcs, above " in shared(arcs, {0: 0.15}).sentence
+
+
 def test_a_share_of_a_tenth_is_let_pass(arcs):
     assert shared(arcs, dict.fromkeys(range(20), 0.099)) is None
     assert shared(arcs, {3: 0.101}) is not None

@@ -150,11 +150,12 @@ def _other_durations(series: ArcSeries, fit: RandomWalkFit, count: int) -> Depar
 def _named(series: ArcSeries, count: int, size: float, error: float, finding: str) -> Departure:
     """Leave the first `count` arcs of a series out, and say so."""
     total = series.number.size
+    first = f"the first {f'{count} ' if count > 1 else ''}of {total} arcs"
     left_out = int(series.number[count - 1]) + 1
     refuses = total - count < FEWEST_LATER
     if refuses:
-        end = f"; without the first {count} of {total} arcs too few are left."
+        end = f"; too few are left without {first}."
     else:
         largest = float((series.peak / series.critical)[count:].max())
-        end = f"; the first {count} of {total} arcs, above {largest:.2g} α, are left out."
+        end = f"; left out: {first}, above {largest:.2g} α."
     return Departure(NAME, size, error, "1", finding + end, left_out, refuses)

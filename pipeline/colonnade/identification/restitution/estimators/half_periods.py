@@ -83,7 +83,7 @@ class HalfPeriods(Estimator[Fit]):
         level : float
         """
         if impacts.size < len(ALWAYS) + FEWEST_SPARE or not np.isfinite(impacts).all():
-            reason = f"{impacts.size} impacts in a row are too few; {len(ALWAYS) + FEWEST_SPARE} are needed."
+            reason = f"{len(ALWAYS) + FEWEST_SPARE} impacts in a row are needed; the record has {impacts.size}."
             return self.refuse(level, reason)
         try:
             whitener = np.linalg.inv(np.linalg.cholesky(covariance))

@@ -132,7 +132,7 @@ class WholeHistory(Estimator[HistoryFit]):
         names = ALWAYS + record.free
         followed, stretch, noise = _through_lowpass(followed, record.samples, names, self.lowpass(record), from_release)
         if followed.decay.count < FEWEST_ARCS:
-            raise UnfollowedError(f"only {followed.decay.count} arcs could be followed, {FEWEST_ARCS} are needed")
+            raise UnfollowedError(f"{FEWEST_ARCS} arcs are needed, and {followed.decay.count} could be followed")
         probability = _probability(followed, noise, len(names))
         covariance = _covariance(followed, names, noise, consistent=probability >= UNLIKELY)
         counted = int(np.isfinite(followed.residual).sum())

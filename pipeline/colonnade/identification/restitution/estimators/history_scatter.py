@@ -146,7 +146,7 @@ class ScatteredHistory(Estimator[ScatteredFit]):
 
     def _fitted(self, record: FreeVibration, path: RockingPath, *, from_release: bool) -> ScatteredFit:
         if path.decay.count < FEWEST_ARCS:
-            raise UnfollowedError(f"only {path.decay.count} arcs could be followed, {FEWEST_ARCS} are needed")
+            raise UnfollowedError(f"{FEWEST_ARCS} arcs are needed, and {path.decay.count} could be followed")
         samples, names = record.samples, ALWAYS + record.free
         margin = BLURRED / float(path.decay.p.max())
         stretch = stretch_of(samples, path.decay, from_release=from_release, margin=margin)

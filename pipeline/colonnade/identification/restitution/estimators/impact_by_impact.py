@@ -70,9 +70,9 @@ class ImpactByImpact(Estimator[ImpactFit]):
         """
         impacts = single_impacts(arcs, offset, usable, block)
         used = impacts.used
-        count = int(used.sum())
-        if count < FEWEST_IMPACTS:
-            reason = f"{count} impacts lie between two peaks that can be used; {FEWEST_IMPACTS} are needed."
+        number = int(used.sum())
+        if number < FEWEST_IMPACTS:
+            reason = f"{FEWEST_IMPACTS} impacts between two peaks that can be used are needed; the record has {number}."
             return ImpactFit(self.refuse(level, reason).estimate, None, impacts)
         peak = arcs.peak_angle - offset
         slope = energy_slope(peak, block.critical_angle_at(peak))
@@ -82,10 +82,10 @@ class ImpactByImpact(Estimator[ImpactFit]):
         by_offset = difference @ np.where(known, np.sign(peak) * slope, 0.0)
         problem = _ScatteredMean(np.log(impacts.restitution[used]), covariance)
 
-        design = np.column_stack((np.ones(count), by_offset))
+        design = np.column_stack((np.ones(number), by_offset))
         scatter = problem.scatter(design)
         coefficients, inverse, _ = problem.fit(design, scatter)
-        mean = mean_of_student(float(coefficients[0]), sqrt(inverse[0, 0]), count - design.shape[1], level)
+        mean = mean_of_student(float(coefficients[0]), sqrt(inverse[0, 0]), number - design.shape[1], level)
         estimate = self.estimate_of(mean, level)
         e = float(np.exp(mean.value))
 
