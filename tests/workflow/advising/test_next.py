@@ -39,6 +39,6 @@ def test_after_a_test_only_its_own_kind_is_advised(undisturbed: Any) -> None:
 
     campaign, summary = load(undisturbed.folder), read_summary(undisturbed.layout)
     assert summary is not None
-    (free,) = advise_after(campaign, undisturbed.layout, "free-01", summary.tests["free-01"])
+    (free,) = advise_after(campaign, undisturbed.layout, "free-01", summary.tests)
     assert free.kind == "free-vibration"
-    assert advise_after(campaign, undisturbed.layout, "pulse-01", summary.tests["pulse-01"]) == []
+    assert advise_after(campaign, undisturbed.layout, "pulse-01", summary.tests) == []
