@@ -112,9 +112,8 @@ def test_results_may_lie_on_another_disk(untouched, undisturbed, tmp_path, capsy
     assert (result.summary, result.report) == (other / "processed/summary.json", other / "report/index.html")
     assert sorted(path.name for path in untouched.folder.iterdir()) == ["campaign.toml", "raw"]
     written = {path.relative_to(other).as_posix() for path in other.rglob("*") if path.is_file()}
-    assert written == {name for name in undisturbed.files() if not name.startswith(("raw/", "campaign"))} | {
-        "processed/.lock"
-    }
+    results = {name for name in undisturbed.files() if not name.startswith(("raw/", "campaign"))}
+    assert written == results | {"processed/.lock", "processed/.campaign"}
     assert untouched.redone(results=other) == {}
     (made,) = make_maps(untouched.folder, Wanted(points=(2, 3), cycles=2.0), results=other, workers=1)
     assert made.path.is_relative_to(other)
