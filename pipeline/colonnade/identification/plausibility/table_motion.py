@@ -13,11 +13,9 @@ from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.findings import Finding, serious, warning
 from colonnade.identification.plausibility.factors import UNKNOWN, as_expected, cause
-from colonnade.identification.plausibility.transducers import Rotation
 from colonnade.signals.clocks.alignment import RIVAL_EVIDENCE, find_offset
 from colonnade.signals.filters import lowpass, second_derivative
 from colonnade.signals.hum import find_hum
-from colonnade.signals.stretches import filled_in
 from colonnade.units import format_percent
 
 BANDWIDTH = 10.0
@@ -216,7 +214,9 @@ def with_displacement(interval: float, acceleration: TableChannel, displacement:
     return found if found.correlation >= SAME_MOTION else None
 
 
-def by_rocking(interval: float, name: str, acceleration: Array, rotation: Rotation, block: Block) -> Finding | None:
+def by_rocking(
+    interval: float, name: str, acceleration: Array, angle: Array, noise: float, block: Block
+) -> Finding | None:
     """
     Say of an acceleration that it is late or lacks its slow part, by what the specimen's rocking requires.
 
@@ -224,10 +224,6 @@ def by_rocking(interval: float, name: str, acceleration: Array, rotation: Rotati
     -----
     While it rocks, a/g = θ − α sgn θ − θ̈/p².
     """
-    levers = np.abs(rotation.levers)
-    longest = int(levers.argmax())
-    angle = filled_in(rotation.readings[longest]) / rotation.levers[longest]
-    noise = float(rotation.noise[longest] / levers[longest])
     bandwidth = min(BANDWIDTH, 0.2 / interval)
     critical = block.critical_angle_at(angle)
     near = max(int(1.6 / block.p / interval), 3)
@@ -333,7 +329,7 @@ def humming(interval: float, channel: TableChannel) -> Finding | None:
     return weight(
         "hum",
         f"channel {channel.name} hums at {frequency:g} Hz with ±{amplitude:.2g} m/s², at rest too: that is "
-        f"{format_percent(amplitude / peak)} of its peak of {peak:.3g} m/s², which is larger for it. The mains get into "
+        f"{format_percent(amplitude / peak)} of its peak of {peak:.3g} m/s², which is larger for it. Mains get into "
         "its cable or amplifier (ground and shield them), or a pump shakes the table. "
         f'`base_lowpass` = "{HUMLESS * frequency:g} Hz" under [processing] takes it off, and all faster motion',
     )

@@ -22,6 +22,7 @@ from colonnade.identification.plausibility.factors import as_expected, cause
 from colonnade.identification.plausibility.transducers import Rotation
 from colonnade.signals.named_motion import Series, check_motion
 from colonnade.signals.quality import Flag
+from colonnade.signals.stretches import filled_in
 from colonnade.stages.ingesting.zero_error import Effect, on_angle, on_base
 from colonnade.stages.ingesting.zeroing import COUPLED
 from colonnade.stages.parts.inputs import Inputs
@@ -120,10 +121,15 @@ def doubts(conditioned: xr.Dataset, inputs: PlausibilityInputs) -> list[Finding]
     accelerations = _along_x(conditioned, inputs.accelerations)
     displacements = _along_x(conditioned, inputs.displacements)
     rotation = _rotation(conditioned, inputs, displacements)
-    found, acceleration = _table(interval, accelerations, displacements, rotation, inputs.block)
-    found += [said for each in accelerations if (said := table_motion.humming(interval, each))]
+    seen = None
+    if rotation is not None and accelerations:
+        seen = plausibility.base_scale(interval, rotation, accelerations[0].values, inputs.block)
+    found, acceleration, agree = _table(interval, accelerations, displacements, seen)
+    if rotation is not None and accelerations and not found:
+        found, acceleration = _by_rocking(interval, accelerations, rotation, None if agree else seen, inputs.block)
     if rotation is not None and not any(each.kind in table_motion.MISPLACED for each in found):
         found += plausibility.suspicions(interval, rotation, acceleration, inputs.block)
+    found += [hums for each in accelerations if (hums := table_motion.humming(interval, each))]
     found += _gravity(conditioned, inputs.block.gravity)
     if inputs.motion and accelerations and acceleration is not None:
         found += _named_motion(acceleration, interval, inputs)
@@ -208,17 +214,13 @@ def _table(
     interval: float,
     accelerations: list[table_motion.TableChannel],
     displacements: list[table_motion.TableChannel],
-    rotation: Rotation | None,
-    block: Block,
-) -> tuple[list[Finding], Array | None]:
-    """Doubts about the table's channels, and its acceleration with a scale that they show to be wrong put right."""
+    seen: float | None,
+) -> tuple[list[Finding], Array | None, bool]:
+    """Doubts by the table's channels alone, its acceleration put right, and whether two of them agree."""
     if not accelerations:
-        derived = [table_motion.derived(interval, each) for each in displacements[:1]]
-        return [], derived[0] if derived else None
-    acceleration = accelerations[0].values
-    seen = None if rotation is None else plausibility.base_scale(interval, rotation, acceleration, block)
+        return [], table_motion.derived(interval, displacements[0]) if displacements else None, False
     found: list[Finding] = []
-    agrees = False
+    agree = False
     for one, other in product(accelerations, displacements):
         compared = table_motion.with_displacement(interval, one, other)
         if compared is None:
@@ -228,21 +230,33 @@ def _table(
             wrong = table_motion.guilty(compared.factor, seen)
             found.append(table_motion.disagreement(one, other, compared, wrong))
             if wrong == "acceleration":
-                return found, acceleration / compared.factor
+                return found, accelerations[0].values / compared.factor, agree
         else:
-            agrees = True
-    if found or rotation is None:
-        return found, acceleration
-    names = " and ".join(each.name for each in accelerations)
-    misplaced = table_motion.by_rocking(interval, names, acceleration, rotation, block)
+            agree = True
+    return found, accelerations[0].values, agree
+
+
+def _by_rocking(
+    interval: float,
+    accelerations: list[table_motion.TableChannel],
+    rotation: Rotation,
+    seen: float | None,
+    block: Block,
+) -> tuple[list[Finding], Array]:
+    """Doubts about the table's acceleration by what it does to the specimen, and the acceleration put right."""
+    names, values = " and ".join(each.name for each in accelerations), accelerations[0].values
+    longest = int(np.abs(rotation.levers).argmax())
+    lever = float(rotation.levers[longest])
+    angle, noise = filled_in(rotation.readings[longest]) / lever, float(rotation.noise[longest]) / abs(lever)
+    misplaced = table_motion.by_rocking(interval, names, values, angle, noise, block)
     if misplaced is not None:
-        return [misplaced], acceleration
-    if seen is None or as_expected(seen) or agrees or not accelerations[0].is_good:
-        return [], acceleration
+        return [misplaced], values
+    if seen is None or as_expected(seen) or not accelerations[0].is_good:
+        return [], values
     text = (
         f"channel {names} is {abs(seen):.3g} times what the specimen's rocking requires: {cause(seen, 'acceleration')}"
     )
-    return [serious("gain", text)], acceleration / abs(seen)
+    return [serious("gain", text)], values / abs(seen)
 
 
 def _gravity(conditioned: xr.Dataset, gravity: float) -> list[Finding]:

@@ -76,7 +76,7 @@ def channel_verdicts(
         found.append(quality.check_clipping(stamps, values, full_scale=channel.range_recorded))
     elif channel.full_scale is not None:
         found.append(quality.check_clipping(stamps, physical, full_scale=channel.full_scale))
-    if not any(verdict.kind == "end of the range" for verdict in found):
+    if channel.on == "table" and not any(verdict.kind == "end of the range" for verdict in found):
         found.append(check_rails(stamps, values))
     return found
 
