@@ -1,4 +1,4 @@
-"""Sound virtual tests of every kind: blocks, rigs, motions and noise are drawn, and nothing is wrong with any of them."""
+"""Sound virtual tests of every kind: block, rig, motion and noise are drawn, and nothing is wrong with any of them."""
 
 from __future__ import annotations
 

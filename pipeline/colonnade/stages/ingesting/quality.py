@@ -76,7 +76,9 @@ def channel_verdicts(
         found.append(quality.check_clipping(stamps, values, full_scale=channel.range_recorded))
     elif channel.full_scale is not None:
         found.append(quality.check_clipping(stamps, physical, full_scale=channel.full_scale))
-    if channel.on == "table" and not any(verdict.kind == "end of the range" for verdict in found):
+    # A table and a specimen hold a place, and nothing but a saturated channel an acceleration.
+    is_acceleration = channel.on == "table" and channel.quantity == "acceleration"
+    if is_acceleration and not any(verdict.kind == "end of the range" for verdict in found):
         found.append(check_rails(stamps, values))
     return found
 
