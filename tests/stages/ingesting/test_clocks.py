@@ -289,7 +289,11 @@ def cut(first, second, offsets=None):
 @pytest.mark.parametrize(
     ("first", "second", "words"),
     [
-        ((0, 4), (0, 9), "Recorder main ends already at 4 s, in the motion of own, other; recorder second has 5 s more"),
+        (
+            (0, 4),
+            (0, 9),
+            "Recorder main ends already at 4 s, in the motion of own, other; recorder second has 5 s more",
+        ),
         ((0, 9), (0, 6.5), "Recorder second ends already at 6.5 s, in the motion of own, other; recorder main has 2.5"),
         ((0, 9), (2, 9), "Recorder second begins only at 2 s, in the motion of own, other; recorder main has 2 s more"),
     ],

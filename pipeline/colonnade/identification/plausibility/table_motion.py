@@ -286,10 +286,15 @@ def disagreement(acceleration: TableChannel, displacement: TableChannel, found: 
         )
     why = cause(found.factor, "acceleration")
     if why == UNKNOWN:
-        another = f", or the file of recorder {acceleration.recorder} is that of another test"
-        why = f"look at gain, range and AC coupling{another if acceleration.recorder != displacement.recorder else ''}"
-    if wrong != "displacement":
-        why += f". If it is {acceleration.name}, the peak acceleration is {1 / found.factor:.3g} times what is given"
+        why = "look at gain, range and AC coupling"
+        if acceleration.recorder != displacement.recorder:
+            why += f", or whether the file of recorder {acceleration.recorder} is that of another test"
+    ratio = 1 / found.factor
+    if wrong == "acceleration":
+        why += f". The peak acceleration is then {ratio:.3g} times what is given"
+    elif wrong == "either":
+        why += f". If it is {acceleration.name}, the peak acceleration is {ratio:.3g} times what is given"
+        why += f"; if it is the sampling rate of both, that is {ratio**-0.5:.3g} times what is given"
     weight = serious if abs(found.factor - 1) > MISLEADING else warning
     return weight(
         "gain",
