@@ -202,7 +202,7 @@ TABLE = {
     "late": (
         (0.015, 0.03, 0.3),
         lambda size: lambda time, values: np.interp(time - size, time, values),
-        r"\(late recorder\): quake: Channel acceleration is 0\.\d+ ± \S+ s late against what table shows",
+        r"\(late recorder\): quake: Channel acceleration is [\d.]+ ± \S+ ms late against what table shows",
     ),
     "AC": (
         (0.5, 1.0, 2.0),

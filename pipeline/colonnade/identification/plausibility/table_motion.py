@@ -11,12 +11,12 @@ import scipy
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
-from colonnade.findings import Finding, serious, warning
+from colonnade.findings import Finding, Severity, serious
 from colonnade.identification.plausibility.factors import UNKNOWN, as_expected, cause
 from colonnade.signals.clocks.alignment import RIVAL_EVIDENCE, find_offset
 from colonnade.signals.filters import lowpass, second_derivative
 from colonnade.signals.hum import find_hum
-from colonnade.units import format_percent
+from colonnade.units import format_percent, format_uncertain
 
 BANDWIDTH = 10.0
 """Hz, below which the two are compared: above it a displacement's noise is larger than its motion."""
@@ -66,8 +66,8 @@ SEEN = 0.2
 LEAST_ROCKING = 0.03
 """Of the critical angle, above which the specimen is taken to rock."""
 
-MISPLACED = ("late recorder", "AC coupling")
-"""Kinds of findings of an acceleration that is not where its values belong: the rocking does not judge its scale."""
+MISPLACED = ("late recorder", "AC coupling", "table motion")
+"""Kinds of findings of an acceleration that does not shake the specimen: no transducer is judged by it."""
 
 FEWEST_SECONDS = 5.0
 """Of rocking, over p."""
@@ -295,11 +295,12 @@ def disagreement(acceleration: TableChannel, displacement: TableChannel, found: 
     elif wrong == "either":
         why += f". If it is {acceleration.name}, the peak acceleration is {ratio:.3g} times what is given"
         why += f"; if it is the sampling rate of both, that is {ratio**-0.5:.3g} times what is given"
-    weight = serious if abs(found.factor - 1) > MISLEADING else warning
-    return weight(
-        "gain",
-        f"channel {acceleration.name} is {found.factor:.3g} ± {2 * found.factor_error:.1g} times the second derivative "
+    severity = Severity.SERIOUS if abs(found.factor - 1) > MISLEADING else Severity.WARNING
+    return Finding(
+        f"channel {acceleration.name} is {_written(found.factor, found.factor_error)} times the second derivative "
         f"of {displacement.name}: {which}; {why}",
+        "gain",
+        severity,
     )
 
 
@@ -309,19 +310,25 @@ def misplaced(name: str, found: Comparison, shows: str) -> Finding:
     if found.corner:
         return serious(
             "AC coupling",
-            f"channel {name} lacks what is slower than about {found.corner:.2g} ± {2 * found.corner_error:.1g} Hz of "
+            f"channel {name} lacks what is slower than about {_written(found.corner, found.corner_error)} Hz of "
             f"what {shows}; {agree}: its amplifier blocks slow changes (AC coupling), or a high-pass was applied to "
             "it. Predictions lack that motion: record it with DC coupling and without a high-pass",
         )
     how = "late" if found.delay > 0 else "early"
-    weight = serious if abs(found.delay) > WRONG_DELAY else warning
-    return weight(
-        "late recorder",
-        f"channel {name} is {abs(found.delay):.3f} ± {2 * found.delay_error:.1g} s {how} against what {shows}; "
+    severity = Severity.SERIOUS if abs(found.delay) > WRONG_DELAY else Severity.WARNING
+    return Finding(
+        f"channel {name} is {_written(1e3 * abs(found.delay), 1e3 * found.delay_error)} ms {how} against what {shows}; "
         f"{agree}: its recorder started at another time (align it by its `clock`), or its amplifier or a filter delays "
         "it (`delay` of the channel)",
+        "late recorder",
+        severity,
         follows=("clock",),
     )
+
+
+def _written(value: float, error: float) -> str:
+    """Write a value with its 95 % interval, of which less than a thousandth says nothing."""
+    return format_uncertain(value, max(2 * error, 1e-3 * abs(value)))
 
 
 def humming(interval: float, channel: TableChannel) -> Finding | None:
@@ -330,13 +337,14 @@ def humming(interval: float, channel: TableChannel) -> Finding | None:
     if hum is None or hum[1] < LEAST_HUM * peak:
         return None
     frequency, amplitude = hum
-    weight = serious if amplitude > MISLEADING * peak else warning
-    return weight(
-        "hum",
+    severity = Severity.SERIOUS if amplitude > MISLEADING * peak else Severity.WARNING
+    return Finding(
         f"channel {channel.name} hums at {frequency:g} Hz with ±{amplitude:.2g} m/s², at rest too: that is "
         f"{format_percent(amplitude / peak)} of its peak of {peak:.3g} m/s², which is larger for it. Mains get into "
         "its cable or amplifier (ground and shield them), or a pump shakes the table. "
         f'`base_lowpass` = "{HUMLESS * frequency:g} Hz" under [processing] takes it off, and all faster motion',
+        "hum",
+        severity,
     )
 
 
@@ -358,8 +366,8 @@ def dead(interval: float, acceleration: TableChannel, displacement: TableChannel
         return serious(
             "table motion",
             f"channels {acceleration.name} and {displacement.name} both move, but not like one table (correlation "
-            f"{_correlation(recorded, due):.2f}): one of them was read from another column, measures "
-            "another component of the motion, or is on a recorder that did not start with the other (`clock`)",
+            f"{_correlation(recorded, due):.2f}): one of them was read from another column or another test's file, "
+            "measures another component of the motion, or is on a recorder that did not start with the other (`clock`)",
             follows=("late recorder",),
         )
     return None

@@ -265,6 +265,7 @@ def cut_short(
                 f"{channels[longest].recorder} has {beyond[longest]:.3g} s more, which are not used. The peak and the "
                 f"end may be missing: {shortest}'s file was cut, or it was stopped too early. Find the whole file, or "
                 "repeat the test",
+                follows=("table motion",),
             )
         )
     return [replace(each, text=f"{each.text[0].upper()}{each.text[1:]}.") for each in found]
