@@ -116,7 +116,11 @@ def test_the_specimen_tells_which_of_the_two_is_wrong(found, by_specimen, wrong)
     ("factor", "severity", "words"),
     [
         (9.8, Severity.SERIOUS, r"ACC is 9\.\d* ± .* times .*: one of the two is wrong, ACC or ACT; g read as m/s²"),
-        (0.7, Severity.SERIOUS, r"0\.(70|69)\d* ± .*range and AC coupling, or whether the file of recorder daq2 .* is 1\.43 times"),
+        (
+            0.7,
+            Severity.SERIOUS,
+            r"0\.(70|69)\d* ± .*range and AC coupling, or whether the file of recorder daq2 .* is 1\.43 times",
+        ),
         (1.08, Severity.WARNING, r"1\.0[78]\d* ± "),
         (-1.0, Severity.SERIOUS, "opposite signs: one of the two is wrong, ACC or ACT"),
     ],

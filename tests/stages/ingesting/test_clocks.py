@@ -254,7 +254,7 @@ def test_a_drift_moves_the_ends_of_the_shared_time():
     assert clock[-1] == pytest.approx(4.0 * (1 - 0.01))
 
 
-@pytest.mark.parametrize(("stop", "words"), [(0.14, "share 0.14 s, 15 samples"), (-0.5, "share 0 s, 0 samples")])
+@pytest.mark.parametrize(("stop", "words"), [(0.14, "share 0.14 s, 15 samples"), (-0.5, "share 0 s, no sample")])
 def test_channels_that_share_too_little_are_refused(stop, words):
     with pytest.raises(StageError, match=f"{words}; at least 16 were expected"):
         common({"a": record(-1.0, stop, 100), "b": record(0.0, 4, 100)})
