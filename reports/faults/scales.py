@@ -46,8 +46,8 @@ SCALES = Group(
             test="sine",
             happens="The gain of the accelerometer was copied without its unit.",
             plant=channel_line("rig", "table_acceleration", "0.2 g/V", "0.2 m/s^2/V"),
-            message=r"table_acceleration is 0.10\d times the second derivative of table_displacement: the specimen's "
-            r"rocking shows that table_acceleration is wrong; g read as m/s²",
+            message=r"table_acceleration is 0.10\d* ± \S+ times the second derivative of table_displacement: the "
+            r"specimen's rocking shows that table_acceleration is wrong; g read as m/s²",
             picture=Picture(
                 table, ACROSS, "table's acceleration, m/s²", SINE, "With the fault, the accelerometer shows a tenth."
             ),

@@ -7,6 +7,7 @@ import shutil
 
 import numpy as np
 import pytest
+import scipy
 
 from colonnade.cli import invoke
 from colonnade.dynamics.block import Block
@@ -125,6 +126,13 @@ def _copy(folder):
     path.write_text(f"{text}\n{again}", encoding="utf-8")
 
 
+def _twice(folder):
+    path = folder / "campaign.toml"
+    text = path.read_text(encoding="utf-8")
+    entry = text[text.index("[[tests]]") : text.index("[[tests]]", text.index("[[tests]]") + 1)]
+    path.write_text(text + "\n" + entry.replace('id = "free"', 'id = "free-2"'), encoding="utf-8")
+
+
 MISTAKES = {
     "gain x 10": (
         _in_campaign((r'gain = "15 mm/V"', 'gain = "150 mm/V"')),
@@ -145,14 +153,98 @@ MISTAKES = {
         r'\(another motion\): quake: .* did not move as "Valley EW" .*: it moved as "Valley NS" .*another component',
     ),
     "empty file": (lambda folder: (folder / "raw" / "free.csv").write_bytes(b""), r"free.csv: the file is empty"),
+    "one file twice": (
+        _twice,
+        r"serious \(copied file\): campaign file: free, free-2 are one recording: all name raw/free.csv",
+    ),
     "copied folder": (
         _copy,
         r"serious \(copied file\): campaign file: 2 raw files hold the same bytes .* Was a folder copied",
     ),
 }
 
-SOUND = {"wrapped rows", "copied folder"}
+
+def _in_quake(change):
+    """Change the table's acceleration, V, at its times, in the earthquake's file."""
+
+    def plant(folder):
+        path = folder / "raw" / "quake.csv"
+        head = path.read_text(encoding="utf-8").splitlines()[:2]
+        rows = np.loadtxt(path, delimiter=",", skiprows=2)
+        rest = rows[:100, -1].mean()
+        rows[:, -1] = rest + change(rows[:, 0], rows[:, -1] - rest)
+        lines = [",".join(f"{value:.6f}" for value in row) for row in rows]
+        path.write_text("\n".join([*head, *lines, ""]), encoding="utf-8")
+
+    return plant
+
+
+def _high_pass(corner):
+    return lambda time, values: scipy.signal.lfilter(
+        *scipy.signal.butter(1, corner, "high", fs=1 / (time[1] - time[0])), values
+    )
+
+
+def _saturated(share):
+    def change(time, values):
+        limit = (1 - share) * np.abs(values).max()
+        return np.clip(values, -limit, limit) + np.random.default_rng(0).normal(0, 2e-3, values.size)
+
+    return change
+
+
+TABLE = {
+    "gain": (
+        (0.92, 0.84, 0.7),
+        lambda size: lambda time, values: size * values,
+        r"\(gain\): quake: .* ± .* times the se",
+    ),
+    "late": (
+        (0.015, 0.03, 0.3),
+        lambda size: lambda time, values: np.interp(time - size, time, values),
+        r"\(late recorder\): quake: Channel acceleration is [\d.]+ ± \S+ ms late against what table shows",
+    ),
+    "AC": (
+        (0.5, 1.0, 2.0),
+        _high_pass,
+        r"serious \(AC coupling\): quake: Channel acceleration lacks what is slower than",
+    ),
+    "saturation": (
+        (0.15, 0.25, 0.38),
+        _saturated,
+        r"\(end of the range\): quake: channel acceleration: .* the channel saturates, .* Its peaks are lower bounds",
+    ),
+    "hum": (
+        (0.12, 0.25, 0.5),
+        lambda size: lambda time, values: values + size * np.abs(values).max() * np.sin(2 * np.pi * 50 * time),
+        r"\(hum\): quake: Channel acceleration hums at 50 Hz",
+    ),
+}
+"""Mistakes of the table's accelerometer: three sizes, how each is planted, the finding."""
+
+SOUND = {"wrapped rows", "copied folder", "one file twice"}
 """Their free vibration is sound, so that its e takes its time and adds nothing: whole only in `make study`."""
+
+
+@pytest.mark.parametrize(
+    ("mistake", "size"), [(mistake, size) for mistake, (sizes, _, _) in TABLE.items() for size in sizes]
+)
+@pytest.mark.parametrize(
+    "command", [("check",), ("run", "--until", "condition", "--workers", "1")], ids=["check", "run"]
+)
+def test_a_mistake_of_the_table_is_on_the_first_screen_at_any_size(
+    command, mistake, size, sound, tmp_path, capsys, monkeypatch
+):
+    monkeypatch.setenv("COLUMNS", "400")
+    _, change, expected = TABLE[mistake]
+    folder = tmp_path / "campaign"
+    shutil.copytree(sound, folder)
+    _in_quake(change(size))(folder)
+    invoke((command[0], str(folder), *command[1:]))
+    screen = "\n".join(capsys.readouterr().out.splitlines()[:SCREEN])
+    assert re.search(expected, screen), screen
+    first = re.search(r"^serious .*", screen, re.MULTILINE)
+    assert first is None or re.search(expected, first[0]), screen
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Raw files of two tests with the same bytes give a warning; files that cannot be the same are not hashed."""
+"""Tests of one recording give a warning, by its name or by its bytes; files that cannot be the same are not hashed."""
 
 from __future__ import annotations
 
@@ -22,6 +22,38 @@ def test_files_that_differ_say_nothing(told):
 
 def test_a_file_that_two_tests_share_is_no_copy(told):
     assert told({"a": {"raw/a.csv": "1"}, "b": {"raw/a.csv": "1"}}) == []
+
+
+@pytest.fixture
+def shared(small):
+    """Give the findings with free-02 naming the file of free-01, with lines added to both entries."""
+
+    def give(first="", second=""):
+        small.edit('file = "raw/free-01.csv"', f'file = "raw/free-01.csv"{first}')
+        small.edit('file = "raw/free-02.csv"', f'file = "raw/free-01.csv"{second}')
+        return [found.text for found in with_copies(load(small.folder), {}).warnings]
+
+    return give
+
+
+def test_two_tests_of_one_file_are_one_recording(shared):
+    (text,) = shared()
+    assert text.startswith("free-01, free-02 are one recording: all name raw/free-01.csv, and no `window` keeps them")
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "is_told"),
+    [
+        (("0 s", "10 s"), ("10 s", "20 s"), False),
+        (("0 s", "11 s"), ("9 s", "20 s"), False),
+        (("0 s", "10 s"), ("4 s", "14 s"), True),
+        (None, ("4 s", "14 s"), True),
+    ],
+    ids=["apart", "rest in both", "mostly the same", "one has no window"],
+)
+def test_windows_keep_two_tests_of_one_file_apart(first, second, is_told, shared):
+    first, second = ("" if each is None else f'\nwindow = ["{each[0]}", "{each[1]}"]' for each in (first, second))
+    assert bool(shared(first, second)) == is_told
 
 
 def test_two_recorders_of_one_test_may_write_the_same(told):

@@ -28,8 +28,9 @@ CAMPAIGN, RECORDING, LABORATORY, RESULT, NOTHING = (
 )
 ACTIONS = {
     CAMPAIGN: {
+        "amplitude": "Correct the `amplitude` of the test, or the `gain` of the table's accelerometer.",
         "another motion": "Name the motion that was played, or the column of the component along x.",
-        "copied file": "Give each test its own raw file.",
+        "copied file": "Give each test its own raw file, or its own `window` of a file.",
         "date": "Correct the `date` of the test, or its `file`.",
         "frequency": "Correct the `frequency` of the test, or the `sampling_rate` of the recorder.",
         "gain": "Compare the `gain` and the `unit` of the channel with its calibration sheet; mind powers of ten.",
@@ -64,10 +65,14 @@ ACTIONS = {
         "zero": "Look at the rests before and after; `[[flag]]` or `[[exclude]]` the channel if it was moved.",
     },
     LABORATORY: {
+        "AC coupling": "Use a coupling that passes slow changes (DC), and no high-pass.",
         "clock": "Record a common channel on both recorders, or a common trigger.",
         "cut motion": "Start the recorder earlier; see whether the table followed its command.",
+        "cut record": "Find the whole file, or repeat the test and stop all recorders at rest.",
         "dead channel": "Check cable, sensor, core and range; `[[exclude]]` the channel for this test.",
         "gravity": "Use a coupling that passes constant values (DC), and do not zero the sensor in the recorder.",
+        "hum": "Ground and shield the cable; until then set `base_lowpass` below the hum.",
+        "late recorder": "Align the recorder by what both see (`clock`), or give the `delay` of the channel.",
         "lost samples": "Check the recorder's buffer, disk and rate.",
         "table motion": "Check which column and recorder each table channel is read from.",
         "time column": "Check the recorder's clock; the even clock that fits best is used.",

@@ -22,13 +22,14 @@ if TYPE_CHECKING:
 
 
 class CompareInputs(Inputs):
-    """What `compare` reads of the campaign: block, kind, the outcome that was seen, of a sine its frequency (Hz)."""
+    """What `compare` reads of the campaign: block, kind, outcome as seen; of a sine its frequency (Hz), amplitude."""
 
     block: Block
     observed_outcome: str | None
     free_vibration: bool = False
     is_sine: bool = False
     frequency: float | None = None
+    amplitude: float | None = None
 
     @classmethod
     def of(cls, campaign: Campaign, test: Test) -> CompareInputs:
@@ -39,6 +40,7 @@ class CompareInputs(Inputs):
             free_vibration=test.kind == "free-vibration",
             is_sine=test.kind == "sine",
             frequency=test.frequency,
+            amplitude=test.amplitude,
         )
 
 
@@ -84,7 +86,7 @@ def compare(
     if measured and observed and not _agree(measured, observed):
         text = f"The transducers show {measured}, the test log says {observed}: check the record."
         warnings.append(serious("outcome", text, follows=MEASUREMENT))
-    steady = sine(rocking, predicted, inputs.block, inputs.frequency) if inputs.is_sine else Sine()
+    steady = sine(rocking, predicted, inputs.block, inputs.frequency, inputs.amplitude) if inputs.is_sine else Sine()
     return xr.Dataset(
         {
             "nrmse": ("model", np.array([row[0] for row in rows])),

@@ -18,6 +18,7 @@ from colonnade.stages.ingesting.clocks import (
     TOGETHER,
     ChannelOnClock,
     common_clock,
+    cut_short,
     find_links,
     own_records,
     recorder_offsets,
@@ -122,14 +123,15 @@ def condition(recorded: xr.Dataset, inputs: ConditionInputs) -> xr.Dataset:
     offsets = {name: known.get(channels[name].recorder, TOGETHER) for name in records}
     clock = common_clock(records, offsets, channels, inputs.settings.sampling_rate)
 
+    cutoffs = {name: _cutoff(name, float(clock[1] - clock[0]), records[name].interval, inputs) for name in records}
+    smooth = {name: smoothed(records[name], cutoffs[name], inputs.settings.filter_order) for name in records}
+    warnings += cut_short(records, offsets, channels, smooth, clock)
     values, flags, attributes = {}, {}, {}
     for name, record in records.items():
-        cutoff = _cutoff(name, float(clock[1] - clock[0]), record.interval, inputs)
-        smooth, noise = smoothed(record, cutoff, inputs.settings.filter_order)
-        values[name], flags[name] = on_clock(record, smooth, clock + offsets[name].at(clock))
+        values[name], flags[name] = on_clock(record, smooth[name][0], clock + offsets[name].at(clock))
         attributes[name] = recorded[variable_name(name)].attrs | {
-            "cutoff_hz": cutoff,
-            "noise": noise,
+            "cutoff_hz": cutoffs[name],
+            "noise": smooth[name][1],
             **_clock_attributes(offsets[name], channels[name].delay),
         }
         attributes[name].pop("quality_report", None)

@@ -194,6 +194,7 @@ def _measure(campaign: Campaign, test: Test, recordings: dict[str, Recording], f
         As the stages do.
     """
     from colonnade.stages import condition, ingest, predict, restitution, rocking
+    from colonnade.stages.parts import sine
     from colonnade.stages.parts.beginning import begin
 
     recorded = ingest.ingest(recordings, ingest.IngestInputs.of(campaign, test))
@@ -204,6 +205,8 @@ def _measure(campaign: Campaign, test: Test, recordings: dict[str, Recording], f
     findings += at_stage(measured.attrs["warnings"], "rocking")
     if test.kind == "free-vibration":
         restitution.expect_angle(measured)
+    elif test.kind == "sine":
+        findings += at_stage(sine.contradictions(measured, test.frequency, test.amplitude), "compare")
     for model in models_of(campaign, test)[:1]:  # the base motion and the start are the same for all
         beginning = begin(measured, predict.PredictInputs.of(campaign, test, model))
         findings += at_stage(beginning.warnings, "predict")

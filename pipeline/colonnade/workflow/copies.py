@@ -1,9 +1,10 @@
-"""Raw files of different tests with the same bytes, as in a folder that was copied but not yet filled."""
+"""Tests of one recording: raw files with the same bytes, as in a folder that was copied, or the same file."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from math import inf
 from pathlib import Path
 
 from colonnade.campaign import Campaign
@@ -18,8 +19,40 @@ Digests = Mapping[str, Mapping[str, str | None]]
 
 
 def with_copies(campaign: Campaign, digests: Digests) -> Campaign:
-    """Return the campaign, with a warning if raw files of different tests hold the same bytes."""
-    return replace(campaign, warnings=(*campaign.warnings, *_copies(digests)))
+    """Return the campaign, with a warning if different tests are of one recording or of copies of it."""
+    return replace(campaign, warnings=(*campaign.warnings, *_copies(digests), *_shared(campaign)))
+
+
+def _shared(campaign: Campaign) -> Iterator[Finding]:
+    """Name the tests of one specimen that are of the same part of one raw file."""
+    named: dict[tuple[str, str], list[str]] = {}
+    for name, test in campaign.tests.items():
+        for path in () if campaign.left_out(name) else test.files.values():
+            named.setdefault((_within(campaign, path), test.specimen), []).append(name)
+    again: dict[str, list[str]] = {}
+    for (shared, _), tests in named.items():
+        same = [each for each in tests if any(_overlap(campaign, each, other) for other in tests if other != each)]
+        if same:
+            again.setdefault(_listed(same), []).append(shared)
+    for tests_of, paths in again.items():
+        yield serious(
+            "copied file",
+            f"{tests_of} are one recording: all name {', '.join(paths)}, and no `window` keeps them apart. What it "
+            "shows, e too, counts several times. Correct `file`, or give each its `window`; of two bodies on the "
+            "table, each is a specimen.",
+        )
+
+
+def _within(campaign: Campaign, path: Path) -> str:
+    return path.relative_to(campaign.folder).as_posix()
+
+
+def _overlap(campaign: Campaign, test: str, other: str) -> bool:
+    """Whether two tests share more than half of the shorter one's window."""
+    windows = [campaign.review(each).within(campaign.tests[each].window) for each in (test, other)]
+    given = [window or (-inf, inf) for window in windows]
+    shared = min(stop for _, stop in given) - max(start for start, _ in given)
+    return shared == inf or shared > 0.5 * min(stop - start for start, stop in given)
 
 
 def _copies(digests: Digests) -> Iterator[Finding]:
@@ -60,7 +93,7 @@ def digests_of_equal_sizes(campaign: Campaign) -> Digests:
     alike = {path for path, size in names.items() if size and sizes.count(size) > 1}
     hashed = {path: sha256_of(path) for path in alike}
     return {
-        name: {path.relative_to(campaign.folder).as_posix(): hashed.get(path) for path in test.files.values()}
+        name: {_within(campaign, path): hashed.get(path) for path in test.files.values()}
         for name, test in campaign.tests.items()
         if not campaign.left_out(name)
     }

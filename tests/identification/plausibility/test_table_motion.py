@@ -1,39 +1,108 @@
+import re
+
 import numpy as np
 import pytest
+import scipy
 
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
+from colonnade.findings import Severity
 from colonnade.identification.plausibility.factors import as_expected, cause
-from colonnade.identification.plausibility.table_motion import TableChannel, dead, disagreement, guilty, ratio
+from colonnade.identification.plausibility.table_motion import (
+    TableChannel,
+    by_rocking,
+    dead,
+    disagreement,
+    guilty,
+    humming,
+    with_displacement,
+)
 
 INTERVAL = 1 / 500
 TIME = np.arange(0, 12, INTERVAL)
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 
 
-def _pair(*, acceleration=1.0, displacement=1.0, noise=(0.01, 2e-5)):
-    """Channels of a table that shakes at 3 Hz, each times a factor."""
+def _pair(*, acceleration=1.0, displacement=1.0, noise=(0.01, 2e-5), change=lambda shaken: shaken):
+    """Channels of a table that shakes at 3 Hz and a little at 1 and 5 Hz, each times a factor."""
     shape = np.clip(np.minimum(TIME - 1, 9 - TIME), 0, 1)
-    moved = 0.01 * shape * np.sin(6 * np.pi * TIME)
-    shaken = np.gradient(np.gradient(moved, INTERVAL), INTERVAL)
+    moved = 0.01 * shape * (np.sin(6 * np.pi * TIME) + np.sin(2 * np.pi * TIME) + 0.2 * np.sin(10 * np.pi * TIME))
+    shaken = change(np.gradient(np.gradient(moved, INTERVAL), INTERVAL))
     rng = np.random.default_rng(0)
     return (
-        TableChannel("ACC", acceleration * shaken + rng.normal(0, noise[0], TIME.size), noise[0]),
+        TableChannel("ACC", acceleration * shaken + rng.normal(0, noise[0], TIME.size), noise[0], "daq2"),
         TableChannel("ACT", displacement * moved + rng.normal(0, noise[1], TIME.size), noise[1]),
     )
 
 
-@pytest.mark.parametrize("factor", [1.0, 9.81, -1.0, 0.1])
-def test_the_ratio_of_acceleration_and_displacement_is_found(factor):
-    assert ratio(INTERVAL, *_pair(acceleration=factor)) == pytest.approx(factor, rel=0.02)
+def _late(seconds):
+    return lambda shaken: np.interp(TIME - seconds, TIME, shaken)
+
+
+def _coupled(corner, order=1):
+    sections = scipy.signal.butter(order, corner, "high", fs=1 / INTERVAL, output="sos")
+    return lambda shaken: scipy.signal.sosfilt(sections, shaken)
+
+
+@pytest.mark.parametrize("factor", [1.0, 9.81, -1.0, 0.1, 0.93, 1.4])
+def test_the_ratio_of_acceleration_and_displacement_is_found_with_its_error(factor):
+    found = with_displacement(INTERVAL, *_pair(acceleration=factor))
+    assert abs(found.factor - factor) < max(4 * found.factor_error, 0.002 * abs(factor))
+    assert found.factor_error < 0.01 * abs(factor)
+    assert not found.is_misplaced
+    assert found.differs == (factor != 1.0)
     assert dead(INTERVAL, *_pair(acceleration=factor)) is None
+
+
+def test_the_error_of_the_ratio_is_its_scatter():
+    found = [
+        with_displacement(INTERVAL, channel, TableChannel("ACT", values, 1e-3))
+        for channel, displacement in [_pair()]
+        for seed in range(30)
+        for values in [displacement.values + np.random.default_rng(seed).normal(0, 1e-3, TIME.size)]
+    ]
+    scatter = np.std([each.factor for each in found], ddof=1)
+    # The noise of a second derivative is above the motion's frequencies: the error is on the safe side.
+    assert 0.3 < scatter / np.mean([each.factor_error for each in found]) < 1.2
+
+
+@pytest.mark.parametrize("late", [0.015, -0.05, 0.3])
+def test_a_late_acceleration_is_late_and_not_of_another_scale(late):
+    found = with_displacement(INTERVAL, *_pair(change=_late(late)))
+    assert found.delay == pytest.approx(late, abs=1e-3)
+    assert (found.factor, found.corner) == (pytest.approx(1.0, abs=0.01), 0.0)
+    told = disagreement(*_pair(), found, "either")
+    assert (told.kind, told.severity) == ("late recorder", Severity.SERIOUS if abs(late) > 0.03 else Severity.WARNING)
+    assert re.search(rf"is {1e3 * abs(late):.0f}\.\d+ ± .* ms ", told.text) or late == -0.05
+    assert ("late against" in told.text) == (late > 0)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_a_high_pass_is_found_with_its_corner(order):
+    found = with_displacement(INTERVAL, *_pair(change=_coupled(1.0, order)))
+    # √2 ω is the coefficient of the integral behind a Butterworth high-pass of the second order.
+    assert found.corner == pytest.approx(np.sqrt(order), rel=0.1)
+    assert found.delay == 0.0
+    assert "AC coupling" in disagreement(*_pair(), found, "either").text
+
+
+def test_a_corner_far_below_the_motion_is_none():
+    found = with_displacement(INTERVAL, *_pair(change=_coupled(0.02)))
+    assert not found.differs
 
 
 @pytest.mark.parametrize(
     ("found", "by_specimen", "wrong"),
     [
-        (1.1, None, ""),
-        (1.1, -1.0, ""),
+        (1.1, -1.0, "either"),
+        (1.1, 1.0, "either"),
         (9.8, None, "either"),
         (9.8, 1.02, "displacement"),
         (9.8, 9.7, "acceleration"),
+        (1.4, 1.38, "acceleration"),
+        (0.7, 0.71, "acceleration"),
+        (0.7, 1.02, "displacement"),
         (-1.0, -0.98, "acceleration"),
         (-1.0, 1.0, "displacement"),
         (0.1, 5.0, "either"),
@@ -43,11 +112,68 @@ def test_the_specimen_tells_which_of_the_two_is_wrong(found, by_specimen, wrong)
     assert guilty(found, by_specimen) == wrong
 
 
-def test_a_disagreement_names_channels_and_cause():
-    assert "the specimen's rocking shows that ACC is wrong; g read as m/s²" in str(
-        disagreement("ACC", "ACT", 9.8, "acceleration")
-    )
-    assert "opposite signs: one of the two is wrong, ACC or ACT" in str(disagreement("ACC", "ACT", -1.0, "either"))
+@pytest.mark.parametrize(
+    ("factor", "severity", "words"),
+    [
+        (9.8, Severity.SERIOUS, r"ACC is 9\.\d* ± .* times .*: one of the two is wrong, ACC or ACT; g read as m/s²"),
+        (
+            0.7,
+            Severity.SERIOUS,
+            r"0\.(70|69)\d* ± .*range and AC coupling, or whether the file of recorder daq2 .* is 1\.43 times",
+        ),
+        (1.08, Severity.WARNING, r"1\.0[78]\d* ± "),
+        (-1.0, Severity.SERIOUS, "opposite signs: one of the two is wrong, ACC or ACT"),
+    ],
+)
+def test_a_disagreement_names_channels_factor_and_causes(factor, severity, words):
+    pair = _pair(acceleration=factor)
+    told = disagreement(*pair, with_displacement(INTERVAL, *pair), "either")
+    assert re.search(words, told.text), told.text
+    assert told.severity == severity
+
+
+@pytest.fixture(scope="module")
+def rocked():
+    """The prism's angle on a table that shakes it at random, and the table's acceleration."""
+    rng = np.random.default_rng(5)
+    shaken = scipy.signal.sosfiltfilt(
+        scipy.signal.butter(2, [0.7, 5.0], "bandpass", fs=1 / INTERVAL, output="sos"), rng.normal(size=TIME.size)
+    ) * np.clip(np.minimum(TIME - 1, 10 - TIME), 0, 1)
+    shaken *= 2.0 * PRISM.uplift_acceleration / np.abs(shaken).max()
+    history = rock(PRISM, Motion(shaken, INTERVAL), restitution=0.93)
+    assert history.outcome == "rocking"
+    angle = np.interp(TIME, history.time, history.angle) + rng.normal(0, 1e-4, TIME.size)
+    return angle, shaken
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda shaken: shaken, ""),
+        (lambda shaken: 0.8 * shaken, ""),
+        (_late(0.3), "ACC is (29[89]|30[012]) ± .* ms late against what the specimen's rocking requires"),
+        (_late(-0.05), r"ACC is (4[89]|5[012])(\.\d)? ± .* ms early"),
+        (_coupled(2.0), "ACC lacks what is slower than about (1.[89]|2.[012])\\d* ± "),
+    ],
+    ids=["sound", "scale", "late", "early", "AC"],
+)
+def test_the_rocking_alone_shows_a_late_or_coupled_acceleration(change, said, rocked):
+    angle, shaken = rocked
+    found = by_rocking(INTERVAL, "ACC", change(shaken), angle, 1e-4, PRISM)
+    assert bool(found) == bool(said)
+    assert found is None or re.search(said, found.text), found
+
+
+def test_a_hum_is_told_by_its_share_of_the_peak():
+    sound = _pair()[0]
+    assert humming(INTERVAL, sound) is None
+    peak = np.abs(sound.values).max()
+    for share, severity in ((0.02, None), (0.08, Severity.WARNING), (0.5, Severity.SERIOUS)):
+        hum = share * peak * np.sin(2 * np.pi * 50 * TIME + 1.0)
+        told = humming(INTERVAL, TableChannel("ACC", sound.values + hum, 0.01))
+        assert (told and told.severity) == severity
+    assert "hums at 50 Hz" in told.text
+    assert '`base_lowpass` = "30 Hz"' in told.text
 
 
 @pytest.mark.parametrize(
@@ -61,7 +187,7 @@ def test_a_disagreement_names_channels_and_cause():
 )
 def test_a_dead_channel_is_told_from_a_table_that_stands(changed, said):
     pair = _pair(**changed)
-    assert ratio(INTERVAL, *pair) is None
+    assert with_displacement(INTERVAL, *pair) is None
     found = dead(INTERVAL, *pair)
     assert ("" if found is None else found.text).startswith(said)
     assert (found is not None) == bool(said)

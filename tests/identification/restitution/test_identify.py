@@ -16,7 +16,7 @@ ALPHA, P = PRISM.critical_angle, PRISM.p
 
 
 @functools.cache
-def _nonlinear_decay(restitution, released=0.5, interval=0.002, duration=14.0):
+def _nonlinear_decay(restitution, released=0.5, interval=0.002, duration=14.0, tilt=0.0):
     time = np.arange(0, duration, interval)
     angle = np.zeros_like(time)
     start, state, side = 0.0, [released * ALPHA, 0.0], 1.0
@@ -24,7 +24,7 @@ def _nonlinear_decay(restitution, released=0.5, interval=0.002, duration=14.0):
         landing = lambda t, y: y[0]  # noqa: E731
         landing.terminal, landing.direction = True, -side
         solution = solve_ivp(
-            lambda t, y, s=side: [y[1], -(P**2) * np.sin(ALPHA * s - y[0])],
+            lambda t, y, s=side: [y[1], -(P**2) * np.sin(ALPHA * s + tilt - y[0])],
             (start, duration), state, method="DOP853", rtol=1e-11, atol=1e-13, events=landing, dense_output=True,
         )  # fmt: skip
         inside = (time >= start) & (time < solution.t[-1])
@@ -39,6 +39,18 @@ def test_the_nonlinear_truth_is_found_without_noise(restitution):
     result = identify_restitution(*_nonlinear_decay(restitution), PRISM)
     assert result.value == pytest.approx(restitution, abs=3e-5)
     assert result.zero_offset == pytest.approx(0, abs=1e-5 * ALPHA)
+
+
+@pytest.mark.parametrize("degrees", [0.02, 0.05, -0.1, 0.2])
+@pytest.mark.parametrize("noise", [1e-6, 2e-5])
+def test_a_tilted_table_is_found_and_does_not_refuse_e(degrees, noise):
+    time, angle = _nonlinear_decay(0.976, tilt=np.deg2rad(degrees))
+    result = identify_restitution(time, angle + np.random.default_rng(0).normal(0, noise, time.size), PRISM)
+    assert result.low <= 0.976 <= result.high
+    assert result.value == pytest.approx(0.976, abs=1e-4)
+    assert "moving table" not in {each.name for each in result.departures}
+    (sides,) = [each for each in result.departures if each.name == "unequal sides"]
+    assert sides.size == pytest.approx(np.deg2rad(degrees), rel=0.03)
 
 
 def test_intervals_hold_the_truth_as_often_as_they_say():

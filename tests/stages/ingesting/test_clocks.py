@@ -15,7 +15,14 @@ from colonnade.signals.clocks.rate import ClockRate
 from colonnade.signals.quality import Flag
 from colonnade.signals.record import Record
 from colonnade.stages.ingesting import clocks
-from colonnade.stages.ingesting.clocks import ChannelOnClock, common_clock, find_links, own_records, recorder_offsets
+from colonnade.stages.ingesting.clocks import (
+    ChannelOnClock,
+    common_clock,
+    cut_short,
+    find_links,
+    own_records,
+    recorder_offsets,
+)
 
 TOGETHER = Offset(0.0, np.nan, 0.0)
 LATE = 0.03
@@ -267,3 +274,45 @@ def test_a_long_record_may_be_sampled_twice_as_finely(monkeypatch):
     assert common({"a": record(0, 4, 100)}, rate=200.0).size == 801
     with pytest.raises(StageError, match="at most 802 were expected"):
         common({"a": record(0, 4, 100)}, rate=201.0)
+
+
+def cut(first, second, offsets=None):
+    """Findings about a channel of the main recorder and one of a second, which move from 1 to 7 s."""
+    records = {name: record(*span, 200, shaking) for name, span in (("own", first), ("other", second))}
+    channels = {"own": on_clock(), "other": on_clock("second")}
+    offsets = {"own": TOGETHER, "other": offsets or TOGETHER}
+    noise = np.random.default_rng(0).normal(0, 0.01, 2000)
+    smooth = {name: (each.values + noise[: each.time.size], 0.01) for name, each in records.items()}
+    return cut_short(records, offsets, channels, smooth, common_clock(records, offsets, channels, "auto"))
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "words"),
+    [
+        (
+            (0, 4),
+            (0, 9),
+            "Recorder main ends already at 4 s, in the motion of own, other; recorder second has 5 s more",
+        ),
+        ((0, 9), (0, 6.5), "Recorder second ends already at 6.5 s, in the motion of own, other; recorder main has 2.5"),
+        ((0, 9), (2, 9), "Recorder second begins only at 2 s, in the motion of own, other; recorder main has 2 s more"),
+    ],
+    ids=["main cut", "second cut", "second late"],
+)
+def test_a_record_cut_in_the_motion_is_serious_if_another_goes_on(first, second, words):
+    (finding,) = cut(first, second)
+    assert finding.text.startswith(words)
+    assert (finding.kind, finding.severity) == ("cut record", Severity.SERIOUS)
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [((0, 8), (0, 9)), ((0.5, 9), (0, 9)), ((0, 4), (0, 4.2)), ((0, 4), (0, 4))],
+    ids=["ends at rest", "begins at rest", "hardly shorter", "both end in the motion"],
+)
+def test_records_of_unequal_length_are_usual_at_rest(first, second):
+    assert cut(first, second) == []
+
+
+def test_a_recorder_that_starts_by_hand_is_as_long_on_its_own_clock():
+    assert cut((0, 9), (0, 9), offsets=Offset(0.4, 0.001, 0.99)) == []

@@ -75,6 +75,18 @@ def test_another_frequency_than_the_given_one_is_told_and_the_recorded_one_used(
     assert near.attrs["warnings"] == []
 
 
+@pytest.mark.parametrize("ratio", [0.5, 0.87, 0.95, 1.05, 1.15, 2.0])
+def test_another_amplitude_than_the_given_one_is_told_with_what_follows(
+    ratio, small_campaign, sine_test, measured, predicted
+):
+    recorded = AMPLITUDE * small_campaign.block("prism").uplift_acceleration
+    asked = sine_test.model_copy(update={"amplitude": recorded / ratio})
+    told = [each.text for each in compared(small_campaign, asked, measured, predicted).attrs["warnings"]]
+    assert len(told) == (abs(ratio - 1) > 0.1)
+    assert all(f"{ratio:.2f} times the test's `amplitude`" in text for text in told)
+    assert all(f"then A is {1 / ratio:.2f} times" in text for text in told)
+
+
 @pytest.mark.parametrize(("outcome", "words"), [("overturned", "overturned"), ("no-rocking", "did not rock")])
 def test_what_overturned_or_did_not_rock_has_no_order(outcome, words, small_campaign, sine_test, measured, predicted):
     result = compared(small_campaign, sine_test, measured.assign_attrs(outcome=outcome), predicted)

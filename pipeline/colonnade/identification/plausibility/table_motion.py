@@ -1,22 +1,25 @@
-"""Whether the table's acceleration and displacement are the same motion in the same units."""
+"""Whether the table's acceleration is that of its displacement, and that which rocks the specimen."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import log
 from typing import Literal
 
 import numpy as np
+import scipy
 
 from colonnade.arrays import Array
-from colonnade.findings import Finding, serious
-from colonnade.identification.plausibility.factors import as_expected, cause
+from colonnade.dynamics.block import Block
+from colonnade.findings import Finding, Severity, serious
+from colonnade.identification.plausibility.comparison import SLOWEST, Comparison, compare
+from colonnade.identification.plausibility.factors import UNKNOWN, as_expected, cause
 from colonnade.signals.filters import lowpass, second_derivative
+from colonnade.signals.hum import find_hum
+from colonnade.units import format_percent, format_uncertain
 
 BANDWIDTH = 10.0
 """Hz, below which the two are compared: above it a displacement's noise is larger than its motion."""
-
-SLOWEST = 0.5
-"""Hz, above which an acceleration is integrated to see whether a displacement should show."""
 
 SAME_MOTION = 0.9
 """Correlation from which on the two are of one motion, so that their ratio means something."""
@@ -30,37 +33,97 @@ STANDING = 8.0
 DEAD = 0.1
 """Share of what the other gives below which a channel is dead."""
 
+MISLEADING, WRONG_DELAY = 0.1, 0.03
+"""Relative departure of a scale, and delay in s, from which on predictions are wrong."""
+
+LEAST_HUM = 0.05
+"""Of an accelerometer's peak, from which on a hum is told."""
+
+HUMLESS = 0.6
+"""Of the frequency of a hum: a cut-off that takes it off."""
+
+SEEN = 0.2
+"""Logarithm of a ratio from which on the specimen shows which of two channels is wrong."""
+
+LEAST_ROCKING = 0.03
+"""Of the critical angle, above which the specimen is taken to rock."""
+
+MISPLACED = ("late recorder", "AC coupling", "table motion")
+"""Kinds of findings of an acceleration that does not shake the specimen: no transducer is judged by it."""
+
+FEWEST_SECONDS = 5.0
+"""Of rocking, over p."""
+
+EXPLAINED = 0.85
+"""Correlation with what the specimen's rocking requires, from which on it shows a delay or a high-pass."""
+
 
 @dataclass(frozen=True)
 class TableChannel:
-    """A channel of the table along x: its name, its values (m/s² or m) and the standard deviation of their noise."""
+    """
+    A channel of the table along x.
+
+    Attributes
+    ----------
+    name : str
+    values : ndarray, shape (n,)
+        m/s² or m.
+    noise : float
+        Its standard deviation.
+    recorder : str
+    is_good : bool
+        Whether its peaks are beyond doubt.
+    """
 
     name: str
     values: Array
     noise: float
+    recorder: str = "main"
+    is_good: bool = True
 
 
-def ratio(interval: float, acceleration: TableChannel, displacement: TableChannel) -> float | None:
-    """
-    Acceleration over the second derivative of the displacement, with its sign; None if they do not agree.
+def derived(interval: float, displacement: TableChannel) -> Array:
+    """Acceleration of a displacement, below `BANDWIDTH`."""
+    return second_derivative(displacement.values, interval, min(BANDWIDTH, 0.2 / interval))
 
-    Parameters
-    ----------
-    interval : float
-        s.
-    acceleration, displacement : TableChannel
-        On one clock; finite.
-    """
-    recorded, derived = _band(interval, acceleration, displacement)
-    agreement = _correlation(recorded, derived)
-    if abs(agreement) < SAME_MOTION:
+
+def with_displacement(interval: float, acceleration: TableChannel, displacement: TableChannel) -> Comparison | None:
+    """Compare with the second derivative of a displacement; None if they do not agree in any way."""
+    due = derived(interval, displacement)
+    if not (due.any() and acceleration.values.any()):
         return None
-    return float(np.copysign(recorded.std() / derived.std(), agreement))
+    found = compare(interval, acceleration.values, due, min(BANDWIDTH, 0.2 / interval), np.ones(due.size, dtype=bool))
+    return found if found.correlation >= SAME_MOTION else None
 
 
-def guilty(found: float, by_specimen: float | None) -> Literal["", "acceleration", "displacement", "either"]:
+def by_rocking(
+    interval: float, name: str, acceleration: Array, angle: Array, noise: float, block: Block
+) -> Finding | None:
     """
-    Say which of the two is wrong; empty if both are right.
+    Say of an acceleration that it is late or lacks its slow part, by what the specimen's rocking requires.
+
+    Notes
+    -----
+    While it rocks, a/g = θ − α sgn θ − θ̈/p².
+    """
+    bandwidth = min(BANDWIDTH, 0.2 / interval)
+    critical = block.critical_angle_at(angle)
+    near = max(int(1.6 / block.p / interval), 3)
+    largest = scipy.ndimage.maximum_filter1d(np.abs(angle), near)
+    rocks = (largest > max(STANDING * noise, LEAST_ROCKING * block.critical_angle)) & (np.abs(angle) < critical)
+    if rocks.sum() * interval < FEWEST_SECONDS / block.p or not acceleration.any():
+        return None
+    required = lowpass(angle - critical * np.sign(angle), interval, bandwidth)
+    required -= second_derivative(angle, interval, bandwidth) / block.p**2
+    found = compare(interval, acceleration, block.gravity * required, bandwidth, rocks)
+    if found.correlation < EXPLAINED or not found.is_misplaced:
+        return None
+    return misplaced(name, found, "the specimen's rocking requires")
+
+
+def guilty(found: float, by_specimen: float | None) -> Literal["acceleration", "displacement", "either"]:
+    """
+    Say which of two that differ is wrong.
 
     Parameters
     ----------
@@ -69,65 +132,124 @@ def guilty(found: float, by_specimen: float | None) -> Literal["", "acceleration
     by_specimen : float or None
         How many times too large the acceleration is by what it does to the specimen.
     """
-    if as_expected(found) and found > 0:
-        return ""
-    if by_specimen is not None and as_expected(by_specimen) and by_specimen > 0:
+    if by_specimen is None or (found > 0 and abs(log(found)) < SEEN):
+        return "either"
+    if by_specimen > 0 and as_expected(by_specimen) and (found < 0 or 2 * abs(log(by_specimen)) < abs(log(found))):
         return "displacement"
-    if by_specimen is not None and as_expected(by_specimen / found) and by_specimen * found > 0:
+    ratio = by_specimen / found
+    if ratio > 0 and as_expected(ratio) and (found < 0 or 2 * abs(log(ratio)) < abs(log(found))):
         return "acceleration"
     return "either"
 
 
-def disagreement(acceleration: str, displacement: str, found: float, wrong: str) -> Finding:
+def disagreement(acceleration: TableChannel, displacement: TableChannel, found: Comparison, wrong: str) -> Finding:
     """
-    Say what a ratio that is not one means.
+    Say what a comparison that differs means.
 
     Parameters
     ----------
-    acceleration, displacement : str
-        Names of the channels.
-    found : float
-        Their ratio.
+    acceleration, displacement : TableChannel
+    found : Comparison
     wrong : str
         See `guilty`.
     """
+    if found.is_misplaced:
+        return misplaced(acceleration.name, found, f"{displacement.name} shows")
     which = {
-        "acceleration": f"the specimen's rocking shows that {acceleration} is wrong",
-        "displacement": f"the specimen's rocking shows that {displacement} is wrong",
-        "either": f"one of the two is wrong, {acceleration} or {displacement}",
+        "acceleration": f"the specimen's rocking shows that {acceleration.name} is wrong",
+        "displacement": f"the specimen's rocking shows that {displacement.name} is wrong",
+        "either": f"one of the two is wrong, {acceleration.name} or {displacement.name}",
     }[wrong]
-    if as_expected(found):
+    if found.factor < 0:
         return serious(
             "sign",
-            f"channel {acceleration} and the second derivative of {displacement} have opposite signs: {which} "
-            "(`direction`, or the sign of the gain)",
+            f"channel {acceleration.name} and the second derivative of {displacement.name} have opposite signs: "
+            f"{which} (`direction`, or the sign of the gain)",
         )
-    return serious(
+    why = cause(found.factor, "acceleration")
+    if why == UNKNOWN:
+        why = "look at gain, range and AC coupling"
+        if acceleration.recorder != displacement.recorder:
+            why += f", or whether the file of recorder {acceleration.recorder} is that of another test"
+    ratio = 1 / found.factor
+    if wrong == "acceleration":
+        why += f". The peak acceleration is then {ratio:.3g} times what is given"
+    elif wrong == "either":
+        why += f". If it is {acceleration.name}, the peak acceleration is {ratio:.3g} times what is given"
+        why += f"; if it is the sampling rate of both, that is {ratio**-0.5:.3g} times what is given"
+    severity = Severity.SERIOUS if abs(found.factor - 1) > MISLEADING else Severity.WARNING
+    return Finding(
+        f"channel {acceleration.name} is {_written(found.factor, found.factor_error)} times the second derivative "
+        f"of {displacement.name}: {which}; {why}",
         "gain",
-        f"channel {acceleration} is {found:.3g} times the second derivative of {displacement}: {which}; "
-        f"{cause(found, 'acceleration')}",
+        severity,
+    )
+
+
+def misplaced(name: str, found: Comparison, shows: str) -> Finding:
+    """Say of an acceleration that it is late, or that a high-pass took its slow part off; `shows` names what does."""
+    agree = f"with that they agree (correlation {found.correlation:.2f})"
+    if found.corner:
+        return serious(
+            "AC coupling",
+            f"channel {name} lacks what is slower than about {_written(found.corner, found.corner_error)} Hz of "
+            f"what {shows}; {agree}: its amplifier blocks slow changes (AC coupling), or a high-pass was applied to "
+            "it. Predictions lack that motion: record it with DC coupling and without a high-pass",
+        )
+    how = "late" if found.delay > 0 else "early"
+    severity = Severity.SERIOUS if abs(found.delay) > WRONG_DELAY else Severity.WARNING
+    return Finding(
+        f"channel {name} is {_written(1e3 * abs(found.delay), 1e3 * found.delay_error)} ms {how} against what {shows}; "
+        f"{agree}: its recorder started at another time (align it by its `clock`), or its amplifier or a filter delays "
+        "it (`delay` of the channel)",
+        "late recorder",
+        severity,
+        follows=("clock",),
+    )
+
+
+def _written(value: float, error: float) -> str:
+    """Write a value with its 95 % interval, of which less than a thousandth says nothing."""
+    return format_uncertain(value, max(2 * error, 1e-3 * abs(value)))
+
+
+def humming(interval: float, channel: TableChannel) -> Finding | None:
+    """Say of an accelerometer that it hums, if its peak is larger for it."""
+    hum, peak = find_hum(channel.values, interval), float(np.abs(channel.values).max())
+    if hum is None or hum[1] < LEAST_HUM * peak:
+        return None
+    frequency, amplitude = hum
+    severity = Severity.SERIOUS if amplitude > MISLEADING * peak else Severity.WARNING
+    return Finding(
+        f"channel {channel.name} hums at {frequency:g} Hz with ±{amplitude:.2g} m/s², at rest too: that is "
+        f"{format_percent(amplitude / peak)} of its peak of {peak:.3g} m/s², which is larger for it. Mains get into "
+        "its cable or amplifier (ground and shield them), or a pump shakes the table. "
+        f'`base_lowpass` = "{HUMLESS * frequency:g} Hz" under [processing] takes it off, and all faster motion',
+        "hum",
+        severity,
     )
 
 
 def dead(interval: float, acceleration: TableChannel, displacement: TableChannel) -> Finding | None:
     """Say which of the two stands still, or that they are not of one motion; None if there is no problem."""
-    recorded, derived = _band(interval, acceleration, displacement)
-    if abs(_correlation(recorded, derived)) > OTHER_MOTION:
+    recorded = lowpass(acceleration.values, interval, min(BANDWIDTH, 0.2 / interval))
+    due = derived(interval, displacement)
+    if abs(_correlation(recorded, due)) > OTHER_MOTION:
         return None
-    due, shown = _integrated(recorded, interval), _integrated(derived, interval)
+    expected, shown = _integrated(recorded, interval), _integrated(due, interval)
     # Noise in a second derivative is separated from motion where the displacement itself is.
     moves = shown.std() > STANDING * displacement.noise
     shakes = recorded.std() > STANDING * acceleration.noise
-    if shakes and due.std() > STANDING * displacement.noise and shown.std() < DEAD * due.std():
-        return _standing(displacement.name, acceleration.name, 1e3 * shown.std(), 1e3 * due.std(), "mm")
-    if moves and derived.std() > STANDING * acceleration.noise and recorded.std() < DEAD * derived.std():
-        return _standing(acceleration.name, displacement.name, recorded.std(), derived.std(), "m/s²")
+    if shakes and expected.std() > STANDING * displacement.noise and shown.std() < DEAD * expected.std():
+        return _standing(displacement.name, acceleration.name, 1e3 * shown.std(), 1e3 * expected.std(), "mm")
+    if moves and due.std() > STANDING * acceleration.noise and recorded.std() < DEAD * due.std():
+        return _standing(acceleration.name, displacement.name, recorded.std(), due.std(), "m/s²")
     if moves and shakes:
         return serious(
             "table motion",
             f"channels {acceleration.name} and {displacement.name} both move, but not like one table (correlation "
-            f"{_correlation(recorded, derived):.2f}): one of them was read from another column, measures "
-            "another component of the motion, or is on a recorder that did not start with the other (`clock`)",
+            f"{_correlation(recorded, due):.2f}): one of them was read from another column or another test's file, "
+            "measures another component of the motion, or is on a recorder that did not start with the other (`clock`)",
             follows=("late recorder",),
         )
     return None
@@ -138,14 +260,6 @@ def _standing(still: str, other: str, shown: float, due: float, unit: str) -> Fi
         "dead channel",
         f"channel {still} hardly moves ({shown:.2g} {unit} RMS), although {other} gives {due:.2g} {unit}: it is dead, "
         "or its gain is far too small. Check cable and sensor",
-    )
-
-
-def _band(interval: float, acceleration: TableChannel, displacement: TableChannel) -> tuple[Array, Array]:
-    bandwidth = min(BANDWIDTH, 0.2 / interval)
-    return (
-        lowpass(acceleration.values, interval, bandwidth),
-        second_derivative(displacement.values, interval, bandwidth),
     )
 
 

@@ -15,6 +15,7 @@ from colonnade.identification.restitution.departures.departure import Departure
 from colonnade.identification.restitution.departures.findings import find_departures
 from colonnade.identification.restitution.departures.free_rocking import objection
 from colonnade.identification.restitution.departures.single_impacts import found_by_impact, scatters
+from colonnade.identification.restitution.departures.two_sides import LEAST_TILT, UNEQUAL_SIDES
 from colonnade.identification.restitution.estimators.history import NonlinearHistory
 from colonnade.identification.restitution.estimators.history_scatter import ScatteredHistory
 from colonnade.identification.restitution.estimators.impact_by_impact import ImpactByImpact
@@ -122,6 +123,9 @@ def identify_restitution(
         record = record.about(zero)
         departures = _departures(record, times, angles - zero, out_of_plane=out_of_plane, slide=slide, uplift=uplift)
         record = record.without_first(max((departure.left_out for departure in departures), default=0))
+        if scatters(record.fitted(ScatteredHistory())):
+            measured = {"out_of_plane": out_of_plane, "slide": slide, "uplift": uplift}
+            record, departures = _on_tilted_table(record, departures, times, angles - zero, **measured)
     whole = record.fitted(ScatteredHistory())
     result = _result(record, departures + found_by_impact(whole, driven=record.base is not None))
     return replace(result, table_moves=None if base_acceleration is None else record.base is not None)
@@ -144,8 +148,25 @@ def _driven(record: FreeVibration, base: BaseMotion | None) -> FreeVibration:
     return driven if with_motion is not None and with_motion < at_rest.estimate.residual else record
 
 
+def _on_tilted_table(
+    record: FreeVibration, departures: tuple[Departure, ...], time: Array, angle: Array, **measured: ArrayLike | None
+) -> tuple[FreeVibration, tuple[Departure, ...]]:
+    """Give the block the sides that a tilted table makes, if e of single impacts scatters no more then."""
+    found = _departures(record, time, angle, least_tilt=0.0, **measured)
+    for sides in (each for each in found if each.name == UNEQUAL_SIDES):
+        block = record.block
+        negative, positive = (
+            replace(side, critical_angle=side.critical_angle + sign * sides.size)
+            for side, sign in zip(block.sides, (-1.0, 1.0), strict=True)
+        )
+        tilted = replace(record, block=replace(block, negative=negative, positive=positive), fits={})
+        if not scatters(tilted.fitted(ScatteredHistory())):
+            return tilted, (*(each for each in departures if each.name != UNEQUAL_SIDES), sides)
+    return record, departures
+
+
 def _departures(
-    record: FreeVibration, time: Array, angle: Array, **measured: ArrayLike | None
+    record: FreeVibration, time: Array, angle: Array, *, least_tilt: float = LEAST_TILT, **measured: ArrayLike | None
 ) -> tuple[Departure, ...]:
     """Find the departures that arcs and samples show; the angle (rad) is about its zero."""
     arcs, (impact_time, covariance) = record.arcs, record.arcs.impacts
@@ -158,6 +179,7 @@ def _departures(
         peak_angle=arcs.peak_angle,
         peak_standard_error=arcs.peak_standard_error,
         used=record.usable,
+        least_tilt=least_tilt,
         **measured,
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,6 +33,16 @@ HIGHEST_RATE = 5000.0
 
 MOST_SAMPLES = 20_000_000
 """Of a test on its one clock, where fewer than half as many were recorded."""
+
+
+LEAST_CUT = 0.3
+"""s, by which the records of a test may differ in length without a word, and in which a motion at their ends shows."""
+
+MOVES = 6.0
+"""Times its noise, from which on a record moves, ..."""
+
+LEAST_MOTION = 0.01
+"""... if that is more than this of all that it moves."""
 
 
 class ChannelOnClock(Inputs):
@@ -213,6 +224,60 @@ def common_clock(
             f"{FEWEST_SAMPLES} were expected. Check the start times of the recorders and the test's `window`."
         )
     return clock
+
+
+def cut_short(
+    records: Mapping[str, Record],
+    offsets: Mapping[str, Offset],
+    channels: Mapping[str, ChannelOnClock],
+    smooth: Mapping[str, tuple[Array, float]],
+    clock: Array,
+) -> list[Finding]:
+    """
+    Say that a recorder begins late or ends early while something moves that another one shows.
+
+    Parameters
+    ----------
+    records, offsets, channels
+        As of `common_clock`.
+    smooth : mapping of str to (ndarray, float)
+        Values of each record on its own clock, and the standard deviation of their noise, SI.
+    clock : ndarray, shape (n,)
+        What the channels share, s.
+    """
+    found = []
+    for edge, place, sign, words in ((clock[0], 0, -1.0, "begins only at"), (clock[-1], -1, 1.0, "ends already at")):
+        reach = {name: sign * (_on_main(record.time[place], offsets[name]) - edge) for name, record in records.items()}
+        beyond = {name: length for name, length in reach.items() if length > LEAST_CUT}
+        shown = {
+            name: offsets[name].at(np.asarray(edge)) + edge + sign * np.array([-LEAST_CUT, max(reach[name], 0.0)])
+            for name in records
+        }
+        moving = [name for name, record in records.items() if _moves(record.time, *smooth[name], *sorted(shown[name]))]
+        if not beyond or not moving:
+            continue
+        shortest = channels[min(reach, key=lambda name: reach[name])].recorder
+        longest = max(beyond, key=lambda name: beyond[name])
+        found.append(
+            serious(
+                "cut record",
+                f"recorder {shortest} {words} {edge:.4g} s, in the motion of {', '.join(moving)}; recorder "
+                f"{channels[longest].recorder} has {beyond[longest]:.3g} s more, which are not used. The peak and the "
+                f"end may be missing: {shortest}'s file was cut, or it was stopped too early. Find the whole file, or "
+                "repeat the test",
+                follows=("table motion",),
+            )
+        )
+    return [replace(each, text=f"{each.text[0].upper()}{each.text[1:]}.") for each in found]
+
+
+def _moves(time: Array, values: Array, noise: float, start: float, stop: float) -> bool:
+    """Whether a record is not at rest on a stretch, beyond its noise and beyond a drift."""
+    inside = values[(time >= start) & (time <= stop)]
+    if inside.size < FEWEST_SAMPLES:
+        return False
+    spread = float(inside.std())
+    return spread > MOVES * noise and spread > LEAST_MOTION * float(np.ptp(values))
 
 
 def _on_main(time: float, offset: Offset) -> float:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colonnade.arrays import Array, Mask
+from colonnade.arrays import Array, Codes, Mask
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.channel import ALONG
 from colonnade.dynamics.block import Block
@@ -21,6 +21,8 @@ from colonnade.identification.plausibility import transducers as plausibility
 from colonnade.identification.plausibility.factors import as_expected, cause
 from colonnade.identification.plausibility.transducers import Rotation
 from colonnade.signals.named_motion import Series, check_motion
+from colonnade.signals.quality import Flag
+from colonnade.signals.stretches import filled_in
 from colonnade.stages.ingesting.zero_error import Effect, on_angle, on_base
 from colonnade.stages.ingesting.zeroing import COUPLED
 from colonnade.stages.parts.inputs import Inputs
@@ -42,6 +44,10 @@ HALF_LEVER = 0.5
 
 SENSES_GRAVITY = 0.7
 """Of gravity, that has to lie along an accelerometer before its value at rest is judged."""
+
+
+PEAKS = 0.8
+"""Of the largest value, above which samples are its peaks."""
 
 
 class PlausibilityInputs(Inputs):
@@ -114,18 +120,19 @@ def doubts(conditioned: xr.Dataset, inputs: PlausibilityInputs) -> list[Finding]
     interval = float(time[1] - time[0])
     accelerations = _along_x(conditioned, inputs.accelerations)
     displacements = _along_x(conditioned, inputs.displacements)
-    acceleration = accelerations[0].values if accelerations else None
     rotation = _rotation(conditioned, inputs, displacements)
-    by_specimen = None
-    if rotation is not None and acceleration is not None:
-        by_specimen = plausibility.base_scale(interval, rotation, acceleration, inputs.block)
-    found, blamed = _table(interval, accelerations, displacements, by_specimen)
-    if rotation is not None:
-        right = acceleration / blamed if acceleration is not None else None
-        found += plausibility.suspicions(interval, rotation, right, inputs.block)
+    seen = None
+    if rotation is not None and accelerations:
+        seen = plausibility.base_scale(interval, rotation, accelerations[0].values, inputs.block)
+    found, acceleration, agree = _table(interval, accelerations, displacements, seen)
+    if rotation is not None and accelerations and not found:
+        found, acceleration = _by_rocking(interval, accelerations, rotation, None if agree else seen, inputs.block)
+    if rotation is not None and not any(each.kind in table_motion.MISPLACED for each in found):
+        found += plausibility.suspicions(interval, rotation, acceleration, inputs.block)
+    found += [hums for each in accelerations if (hums := table_motion.humming(interval, each))]
     found += _gravity(conditioned, inputs.block.gravity)
-    if inputs.motion and acceleration is not None:
-        found += _named_motion(acceleration / blamed, interval, inputs)
+    if inputs.motion and accelerations and acceleration is not None:
+        found += _named_motion(acceleration, interval, inputs)
     return [replace(each, text=f"{each.text[0].upper()}{each.text[1:]}.") for each in found]
 
 
@@ -156,10 +163,18 @@ def _along_x(conditioned: xr.Dataset, channels: Mapping[str, float]) -> list[tab
             conditioned[name].attrs["channel"],
             np.nan_to_num(conditioned[name].to_numpy() / part),
             float(conditioned[name].attrs.get("noise", 0.0)),
+            str(conditioned[name].attrs.get("recorder", "main")),
+            _is_good(conditioned[name].to_numpy(), conditioned[f"{name}_quality"].to_numpy()),
         )
         for name, part in channels.items()
         if name in conditioned
     ]
+
+
+def _is_good(values: Array, flags: Codes) -> bool:
+    """Whether the largest values are beyond doubt, so that the scale of a channel can be judged by them."""
+    magnitude = np.nan_to_num(np.abs(values))
+    return bool((flags[magnitude >= PEAKS * magnitude.max()] == Flag.GOOD).mean() > 0.5)
 
 
 def _rotation(
@@ -199,32 +214,49 @@ def _table(
     interval: float,
     accelerations: list[table_motion.TableChannel],
     displacements: list[table_motion.TableChannel],
-    by_specimen: float | None,
-) -> tuple[list[Finding], float]:
-    """Doubts about the table's channels, and by which factor they show its acceleration to be too large."""
+    seen: float | None,
+) -> tuple[list[Finding], Array | None, bool]:
+    """Doubts by the table's channels alone, its acceleration put right, and whether two of them agree."""
+    if not accelerations:
+        return [], table_motion.derived(interval, displacements[0]) if displacements else None, False
     found: list[Finding] = []
-    for acceleration, displacement in product(accelerations, displacements):
-        ratio = table_motion.ratio(interval, acceleration, displacement)
-        if ratio is None:
-            said = table_motion.dead(interval, acceleration, displacement)
+    agree = False
+    for one, other in product(accelerations, displacements):
+        compared = table_motion.with_displacement(interval, one, other)
+        if compared is None:
+            said = table_motion.dead(interval, one, other)
             found += [said] if said else []
-            continue
-        wrong = table_motion.guilty(ratio, by_specimen)
-        if wrong:
-            found.append(table_motion.disagreement(acceleration.name, displacement.name, ratio, wrong))
-        if wrong == "acceleration":
-            return found, ratio
-    if not found and by_specimen is not None and not as_expected(by_specimen):
-        names = " and ".join(each.name for each in accelerations)
-        found.append(
-            serious(
-                "gain",
-                f"channel {names} is {abs(by_specimen):.3g} times what the specimen's rocking requires: "
-                f"{cause(by_specimen, 'acceleration')}",
-            )
-        )
-        return found, abs(by_specimen)
-    return found, 1.0
+        elif compared.differs and (compared.is_misplaced or (one.is_good and other.is_good)):
+            wrong = table_motion.guilty(compared.factor, seen)
+            found.append(table_motion.disagreement(one, other, compared, wrong))
+            if wrong == "acceleration":
+                return found, accelerations[0].values / compared.factor, agree
+        else:
+            agree = True
+    return found, accelerations[0].values, agree
+
+
+def _by_rocking(
+    interval: float,
+    accelerations: list[table_motion.TableChannel],
+    rotation: Rotation,
+    seen: float | None,
+    block: Block,
+) -> tuple[list[Finding], Array]:
+    """Doubts about the table's acceleration by what it does to the specimen, and the acceleration put right."""
+    names, values = " and ".join(each.name for each in accelerations), accelerations[0].values
+    longest = int(np.abs(rotation.levers).argmax())
+    lever = float(rotation.levers[longest])
+    angle, noise = filled_in(rotation.readings[longest]) / lever, float(rotation.noise[longest]) / abs(lever)
+    misplaced = table_motion.by_rocking(interval, names, values, angle, noise, block)
+    if misplaced is not None:
+        return [misplaced], values
+    if seen is None or as_expected(seen) or not accelerations[0].is_good:
+        return [], values
+    text = (
+        f"channel {names} is {abs(seen):.3g} times what the specimen's rocking requires: {cause(seen, 'acceleration')}"
+    )
+    return [serious("gain", text)], values / abs(seen)
 
 
 def _gravity(conditioned: xr.Dataset, gravity: float) -> list[Finding]:

@@ -14,6 +14,7 @@ from colonnade.campaign.settings import QualitySettings
 from colonnade.findings import Finding
 from colonnade.signals import quality
 from colonnade.signals.clocks import timing
+from colonnade.signals.rails import check_rails
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.store.description import variable_name
 
@@ -75,6 +76,10 @@ def channel_verdicts(
         found.append(quality.check_clipping(stamps, values, full_scale=channel.range_recorded))
     elif channel.full_scale is not None:
         found.append(quality.check_clipping(stamps, physical, full_scale=channel.full_scale))
+    # A table and a specimen hold a place, and nothing but a saturated channel an acceleration.
+    is_acceleration = channel.on == "table" and channel.quantity == "acceleration"
+    if is_acceleration and not any(verdict.kind == "end of the range" for verdict in found):
+        found.append(check_rails(stamps, values))
     return found
 
 

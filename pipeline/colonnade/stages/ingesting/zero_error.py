@@ -109,7 +109,7 @@ def find_zero_error(
             f"The zero of the {result} is uncertain by {errors[worst]:.2g} {effect.unit}, "
             f"{errors[worst] / effect.scale:.2g} of {held}: {worst} moves from {window.start:.3g} to "
             f"{window.stop:.3g} s, where zero is taken. {_advice(clock, values, effects, size, free_vibration)}",
-            follows=MEASUREMENT,
+            follows=(*MEASUREMENT, "hum"),
         )
     ]
 

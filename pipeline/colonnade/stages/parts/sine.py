@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 FREQUENCY_TOLERANCE = 0.01
 """Largest departure of the recorded frequency from the given one, as a fraction, that is not reported."""
 
+AMPLITUDE_TOLERANCE = 0.1
+"""The same of its amplitude: a table hardly does better."""
+
 
 @dataclass
 class Sine:
@@ -30,7 +33,13 @@ class Sine:
     warnings: list[Finding] = field(default_factory=list)
 
 
-def sine(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], block: Block, frequency: float | None) -> Sine:
+def sine(
+    rocking: xr.Dataset,
+    predicted: Mapping[str, xr.Dataset],
+    block: Block,
+    frequency: float | None,
+    amplitude: float | None,
+) -> Sine:
     """
     Find frequency and amplitude ratio of a sine test, and the order of the measured and of each predicted response.
 
@@ -41,8 +50,8 @@ def sine(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], block: Block,
     predicted : mapping of str to xr.Dataset
         Results of `predict` by model.
     block : Block
-    frequency : float or None
-        As given in the campaign, Hz.
+    frequency, amplitude : float or None
+        As given in the campaign, Hz and m/s².
 
     Returns
     -------
@@ -50,7 +59,7 @@ def sine(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], block: Block,
         An order is text: "1" harmonic, "n" sub-harmonic 1/n, "irregular", or empty if unknown; the
         attributes `response_order` and `response_order_reason` are the measured one's.
     """
-    forcing = fit_forcing(rocking["elapsed"], rocking["base_acceleration"]) if "base_acceleration" in rocking else None
+    forcing = _forcing(rocking)
     if forcing is None:
         reason = (
             f"The table's recorded motion along x has no stretch of {FEWEST_CYCLES} periods of an even amplitude, so "
@@ -58,16 +67,7 @@ def sine(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], block: Block,
         )
         given = {} if frequency is None else {"frequency_ratio": ((), 2 * np.pi * frequency / block.p)}
         return Sine(given, {"response_order": "", "response_order_reason": reason}, [warning("no steady sine", reason)])
-    result = Sine(_forcing_variables(forcing, block))
-    if frequency is not None and abs(forcing.frequency / frequency - 1) > FREQUENCY_TOLERANCE:
-        result.warnings.append(
-            warning(
-                "frequency",
-                f"The table moved at {forcing.frequency:.4g} Hz; the test's frequency is given as {frequency:g} Hz. "
-                "The recorded one is used: correct the test's `frequency`, or the recorder's sampling rate if that is "
-                "wrong.",
-            )
-        )
+    result = Sine(_forcing_variables(forcing, block), warnings=contradictions(rocking, frequency, amplitude))
     measured = _measured(rocking, forcing)
     orders = [_text(_predicted(predicted[model], forcing, block)) for model in sorted(predicted)]
     result.attributes = {"response_order": _text(measured), "response_order_reason": measured.reason}
@@ -77,6 +77,39 @@ def sine(rocking: xr.Dataset, predicted: Mapping[str, xr.Dataset], block: Block,
         "predicted_response_order": ("model", np.array(orders, dtype=object)),
     }
     return result
+
+
+def contradictions(rocking: xr.Dataset, frequency: float | None, amplitude: float | None) -> list[Finding]:
+    """Say where the table's recorded motion is not the sine that was asked for; see `sine`."""
+    forcing, found = _forcing(rocking), []
+    if forcing is None:
+        return []
+    if frequency is not None and abs(forcing.frequency / frequency - 1) > FREQUENCY_TOLERANCE:
+        found.append(
+            warning(
+                "frequency",
+                f"The table moved at {forcing.frequency:.4g} Hz; the test's frequency is given as {frequency:g} Hz. "
+                "The recorded one is used: correct the test's `frequency`, or the recorder's sampling rate if that is "
+                "wrong.",
+            )
+        )
+    if amplitude is not None and abs(forcing.amplitude / amplitude - 1) > AMPLITUDE_TOLERANCE:
+        ratio = forcing.amplitude / amplitude
+        found.append(
+            warning(
+                "amplitude",
+                f"The table's acceleration has an amplitude of {forcing.amplitude:.3g} ± "
+                f"{2 * forcing.amplitude_spread:.1g} m/s², {ratio:.2f} times the test's `amplitude` of "
+                f"{amplitude:.3g} m/s². The recorded one is used: the table did not do what was asked for, or the "
+                f"accelerometer's gain is wrong; then A is {1 / ratio:.2f} times what is given.",
+                follows=("gain", "unit", "AC coupling", "hum", "end of the range", "dead channel"),
+            )
+        )
+    return found
+
+
+def _forcing(rocking: xr.Dataset) -> Forcing | None:
+    return fit_forcing(rocking["elapsed"], rocking["base_acceleration"]) if "base_acceleration" in rocking else None
 
 
 def _forcing_variables(forcing: Forcing, block: Block) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from colonnade.identification.restitution.departures.contacts import find_bounci
 from colonnade.identification.restitution.departures.departure import Departure
 from colonnade.identification.restitution.departures.first_cycles import out_of_plane_share, signature
 from colonnade.identification.restitution.departures.two_sides import FEWEST_ARCS as FEWEST_COMPARED
-from colonnade.identification.restitution.departures.two_sides import OFFSET, compare_sides, sides_problem
+from colonnade.identification.restitution.departures.two_sides import LEAST_TILT, OFFSET, compare_sides, sides_problem
 
 __all__ = ["Departure", "find_departures"]
 
@@ -38,6 +38,7 @@ def find_departures(
     out_of_plane: ArrayLike | None = None,
     slide: ArrayLike | None = None,
     uplift: ArrayLike | None = None,
+    least_tilt: float = LEAST_TILT,
 ) -> tuple[Departure, ...]:
     """
     Find how a free vibration departs from plane rocking of a rigid block with one e.
@@ -57,6 +58,8 @@ def find_departures(
         Rotation about x, rad.
     slide, uplift : array_like, shape (m,), optional
         Displacement of the pole relative to the table, and height of the base's lowest point, m.
+    least_tilt : float, optional
+        Share of α by which the sides have to differ.
 
     Returns
     -------
@@ -88,7 +91,7 @@ def find_departures(
         spatial,
         None if slid is None else find_sliding(time, angle, slid, block, whole),
         find_bouncing(time, angle, lifted, block, whole),
-        *compare_sides(whole if spatial is None else _about_zero(series, spatial.left_out, offset)[0]),
+        *compare_sides(whole if spatial is None else _about_zero(series, spatial.left_out, offset)[0], least_tilt),
     ]
     return tuple(departure for departure in found if departure is not None)
 

@@ -11,6 +11,8 @@ from colonnade.identification.restitution.arcs.series import ArcSeries
 from colonnade.identification.restitution.departures.departure import Departure
 from colonnade.identification.restitution.fitting.random_walk_fit import RandomWalkFit, RandomWalkProblem
 
+UNEQUAL_SIDES = "unequal sides"
+
 FEWEST_ARCS = 8
 
 SURE = 4.0
@@ -35,13 +37,15 @@ LOSS, UNEQUAL, OFFSET, TILT, DRIFT = 1, 2, 3, 4, 7
 """Places of unknowns in `sides_problem`."""
 
 
-def compare_sides(series: ArcSeries) -> tuple[Departure, ...]:
+def compare_sides(series: ArcSeries, least_tilt: float = LEAST_TILT) -> tuple[Departure, ...]:
     """
     Compare impacts from, and arcs on, the two sides.
 
     Parameters
     ----------
     series : ArcSeries
+    least_tilt : float, optional
+        See `LEAST_TILT`.
 
     Returns
     -------
@@ -67,7 +71,7 @@ def compare_sides(series: ArcSeries) -> tuple[Departure, ...]:
     fit = drifting if drifts else problem.fit()
     critical = float(series.critical.min())
     drift = _zero_drift(fit, critical) if drifts else None
-    found = (_unequal_restitution(fit), _unequal_sides(fit, critical), drift)
+    found = (_unequal_restitution(fit), _unequal_sides(fit, least_tilt * critical), drift)
     return tuple(departure for departure in found if departure is not None)
 
 
@@ -141,12 +145,12 @@ def _unequal_restitution(fit: RandomWalkFit) -> Departure | None:
     )
 
 
-def _unequal_sides(fit: RandomWalkFit, critical: float) -> Departure | None:
+def _unequal_sides(fit: RandomWalkFit, least: float) -> Departure | None:
     tilt, error = float(fit.coefficients[TILT]), fit.error(TILT)
-    if not fit.is_sure(TILT, SURE) or abs(tilt) < LEAST_TILT * critical:
+    if not fit.is_sure(TILT, SURE) or abs(tilt) < least:
         return None
     return Departure(
-        "unequal sides",
+        UNEQUAL_SIDES,
         tilt,
         error,
         "rad",

@@ -1,0 +1,41 @@
+"""Nothing is said of sound tests, whatever the block, the rig, the motion and the noise."""
+
+from __future__ import annotations
+
+import pytest
+
+from colonnade.campaign import load
+from colonnade.findings import Severity
+from colonnade.workflow.check import check
+from sound_tests import KINDS, RIGS, write_sound
+
+MOST = 0.01
+"""Share of the tests with a false warning."""
+
+
+def _doubted(folder, seeds):
+    """What `check` says, above notes, of the campaigns of some seeds: by campaign and test."""
+    said = {}
+    for seed in seeds:
+        checked = check(load(write_sound(folder / str(seed), seed)))
+        for test, findings in checked.findings.items():
+            above = [finding.text for finding, _ in findings if finding.severity is not Severity.NOTE]
+            above += checked.tests[test].problems if test in checked.tests else []
+            if above:
+                said[seed, test] = above
+    return said
+
+
+def test_one_campaign_of_each_rig_is_sound(tmp_path):
+    assert _doubted(tmp_path, range(len(RIGS))) == {}
+
+
+@pytest.mark.slow
+def test_of_500_sound_tests_at_most_one_in_a_hundred_is_doubted(tmp_path, capsys):
+    seeds = range(500 // len(KINDS))
+    said = _doubted(tmp_path, seeds)
+    with capsys.disabled():
+        print(f"\n{len(said)} of {len(KINDS) * len(seeds)} sound tests are doubted")
+        for (seed, test), texts in said.items():
+            print(f"{seed} ({RIGS[seed % len(RIGS)]}), {test}: {' | '.join(texts)}")
+    assert len(said) <= MOST * len(KINDS) * len(seeds)

@@ -1,0 +1,120 @@
+"""Sound virtual tests of every kind: block, rig, motion and noise are drawn, and nothing is wrong with any of them."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
+from colonnade.laboratory.files import COMMAS
+from colonnade.laboratory.instruments import Imperfections, Transducer
+from colonnade.laboratory.programme import write
+from colonnade.laboratory.table import TableMotion, ramped_sine, recorded, still
+from colonnade.signals.filters import lowpass
+
+KINDS = ("free-vibration", "sine", "earthquake", "pulse")
+RIGS = ("one", "two", "ground", "acceleration", "displacement")
+"""One recorder; two, the accelerometer's late; transducers to the ground; one of the table's two channels alone."""
+
+CALIBRATION = 0.005
+"""Standard deviation of a gain, relative, as a calibrated chain has it."""
+
+
+def write_sound(folder: Path, seed: int) -> Path:
+    """Write a campaign of a block's four tests, one of each kind, on the rig of this seed."""
+    rng = np.random.default_rng([26, seed])
+    height = rng.uniform(0.4, 1.2)
+    width = height * rng.uniform(0.16, 0.3)
+    mass = rng.uniform(1500.0, 7800.0) * width**2 * height
+    block = Block.prism(width=width, depth=width, height=height, mass=mass)
+    sizes = {"width": width, "depth": width, "height": height}
+    shape = {"shape": "prism", **{name: f"{1e3 * size:.6g} mm" for name, size in sizes.items()}, "mass": f"{mass:g} kg"}
+    trials = tuple(_trial(kind, block, rng) for kind in KINDS)
+    plan = Plan(
+        campaign=f"sound-{seed}",
+        title="Nothing is wrong",
+        specimens={"block": Specimen(shape, block, rng.uniform(0.9, 0.985))},
+        setups=_setups(RIGS[seed % len(RIGS)], trials, block, height, width, rng),
+        trials=trials,
+        imperfections=Imperfections(noise=10 ** rng.uniform(-4.0, -3.0), drift=rng.uniform(0.0, 0.001)),
+    )
+    path = write(plan, folder, seed=seed).path
+    text = re.sub(
+        r'(gain = ")([\d.e+-]+)',
+        lambda found: f"{found[1]}{float(found[2]) * (1 + CALIBRATION * rng.standard_normal()):.7g}",
+        path.read_text(encoding="utf-8"),
+    )
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def _trial(kind: str, block: Block, rng: np.random.Generator) -> Trial:
+    quiet = rng.uniform(1.2, 2.0)
+    if kind == "free-vibration":
+        held = rng.choice([-1.0, 1.0]) * rng.uniform(0.3, 0.7) * block.critical_angle
+        return Trial(kind, kind, "bench", 130.0 / block.p, theta0=held, release=quiet)
+    frequency, strength = rng.uniform(0.35, 1.0) * block.p, rng.uniform(0.6, 2.5)
+    if kind == "earthquake":
+        table = recorded(_earthquake(strength * block.uplift_acceleration, block.p, rng), start=quiet)
+        return Trial(kind, kind, "rig", table.stop + 12.0 / block.p, table=table)
+    cycles = int(rng.integers(8, 25)) if kind == "sine" else 1
+    table = ramped_sine(
+        frequency, strength * block.uplift_acceleration, start=quiet, cycles=cycles, ramp=int(rng.integers(1, 4))
+    )
+    given = {"frequency": f"{frequency:.9g} Hz", "amplitude": f"{strength * block.uplift_acceleration:.9g} m/s^2"}
+    return Trial(kind, kind, "rig", table.stop + 12.0 / block.p, table=table, entry=given)
+
+
+def _earthquake(peak: float, p: float, rng: np.random.Generator) -> Motion:
+    """Draw an earthquake whose frequencies suit the block."""
+    interval = 0.03 / p
+    time = interval * np.arange(int(rng.integers(800, 1600)))
+    values = lowpass(rng.normal(size=time.size), interval, rng.uniform(0.7, 2.0) * p)
+    values -= lowpass(values, interval, 0.1 * p)
+    values *= np.exp(-(((time - 12.0 / p) / (rng.uniform(3.0, 8.0) / p)) ** 2))
+    return Motion(peak * values / np.abs(values).max(), interval)
+
+
+def _setups(
+    name: str, trials: tuple[Trial, ...], block: Block, height: float, width: float, rng: np.random.Generator
+) -> dict[str, Setup]:
+    moves = [_range(trial.table) for trial in trials]
+    spare = rng.uniform(1.2, 2.5)
+    moved, shaken = (spare * max(each) for each in zip(*moves, strict=True))
+    catch = rng.uniform(1.2, 1.6) * block.critical_angle
+    fixed = "ground" if name == "ground" else "table"
+    frame = tuple(
+        Transducer(
+            channel,
+            column,
+            "displacement",
+            "specimen",
+            spare * height * place * catch + (moved if fixed == "ground" else 0.0) + 0.15 * width,
+            "mm",
+            at=(width / 2, 0.0, height * place),
+            relative_to=fixed,
+        )
+        for channel, column, place in (("top", "LVDT 1", 0.95), ("bottom", "LVDT 2", rng.uniform(0.08, 0.5)))
+    )
+    displacement = Transducer("table_displacement", "ACT", "displacement", "table", moved, "mm")
+    acceleration = Transducer("table_acceleration", "ACC", "acceleration", "table", shaken, "m/s^2")
+    rate = float(rng.choice([200.0, 250.0, 500.0]))
+    bench = Setup({MAIN: Recorder(frame, rate, COMMAS)}, catch=catch)
+    if name == "two":
+        second = Recorder((acceleration,), 400.0, COMMAS, late=0.02, align=(displacement.channel, acceleration.channel))
+        recorders = {MAIN: Recorder((*frame, displacement), rate, COMMAS), "daq2": second}
+    else:
+        table = {"acceleration": (acceleration,), "displacement": (displacement,)}
+        recorders = {MAIN: Recorder((*frame, *table.get(name, (displacement, acceleration))), rate, COMMAS)}
+    return {"bench": bench, "rig": Setup(recorders, catch=catch)}
+
+
+def _range(table: TableMotion) -> tuple[float, float]:
+    if table.stop == still().stop:
+        return 0.0, 0.0
+    time = np.linspace(0.0, table.stop, 5000)
+    return float(np.abs(table.displacement(time)).max()), float(np.abs(table.acceleration(time)).max())
