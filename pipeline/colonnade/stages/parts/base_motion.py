@@ -24,6 +24,9 @@ VERTICAL = "vertical motion"
 LARGEST_WEAKENING = 0.01
 """Of the base motion's root mean square: what straight lines between its samples may take without a word."""
 
+LEAST_CONTENT = 0.01
+"""Of the largest energy at a frequency of the base motion: below it lies noise."""
+
 LEAST_VERTICAL = 1e-6
 """m/s², from lowest to highest: an accelerometer that reads less is dead."""
 
@@ -124,6 +127,8 @@ def weakened(base: Array) -> list[Finding]:
     energy = np.abs(np.fft.rfft(base - base.mean())) ** 2
     if not energy.any():
         return []
+    # Noise is spread over all frequencies, a little in each.
+    energy[energy < LEAST_CONTENT * energy.max()] = 0.0
     kept = float(energy @ np.sinc(np.fft.rfftfreq(base.size)) ** 4 / energy.sum())
     loss = 1.0 - sqrt(kept)
     if loss <= LARGEST_WEAKENING:
