@@ -62,7 +62,10 @@ def test_check_finds_what_run_finds_in_the_channels(colonnade, campaign):
     assert told.stdout.endswith("2 tests would give wrong results.\n")
     assert colonnade("check", "--strict").returncode == 1
     found = json.loads(colonnade("check", "--json").stdout)["tests"]["free-02"]["warnings"]
-    assert [(each["severity"], each["kind"]) for each in found] == [("serious", "gain"), ("serious", "impossible angle")]
+    assert [(each["severity"], each["kind"]) for each in found] == [
+        ("serious", "gain"),
+        ("serious", "impossible angle"),
+    ]
 
 
 def test_a_hole_in_the_base_motion_is_a_problem_before_anything_is_predicted(colonnade, shaken_campaign):
