@@ -92,7 +92,7 @@ CLOCKS = Group(
             test="quake",
             happens="The clock of the file was made with 250 Hz, but the recorder ran at 500 Hz.",
             plant=both(in_file("quake.csv", times(TIME, 2.0)), in_file("quake-daq2.csv", times(TIME, 2.0))),
-            message=r"channels top and bottom all show 0\.\d+ times the rotation .* or the sampling rate",
+            message=r"channels top and bottom all show 0\.\d+ times the rotation .*: a sampling rate × 2 \(",
             picture=Picture(
                 rotations("top", "bottom"),
                 ACROSS,

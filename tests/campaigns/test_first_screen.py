@@ -133,7 +133,26 @@ def _twice(folder):
     path.write_text(text + "\n" + entry.replace('id = "free"', 'id = "free-2"'), encoding="utf-8")
 
 
+def _top_saturated(folder):
+    """The top transducer saturates at 80 % of the largest peak, under noise, and no range says so."""
+    _in_campaign((r'unit = "V", gain = "15 mm/V", range = "10 V"', 'unit = "V", gain = "15 mm/V"'))(folder)
+    path = folder / "raw" / "quake.csv"
+    head, rows = path.read_text(encoding="utf-8").splitlines()[:2], np.loadtxt(path, delimiter=",", skiprows=2)
+    zero, noise = np.median(rows[:200, 1]), np.random.default_rng(0).normal(0, 0.002, len(rows))
+    limit = 0.8 * np.abs(rows[:, 1] - zero).max()
+    rows[:, 1] = np.clip(rows[:, 1], zero - limit, zero + limit) + noise
+    path.write_text("\n".join([*head, *(",".join(f"{x:.6f}" for x in row) for row in rows), ""]), encoding="utf-8")
+
+
 MISTAKES = {
+    "saturated under noise": (
+        _top_saturated,
+        r"serious \(end of the range\): quake: Channel top stands still .*: its transducer .* saturates",
+    ),
+    "another block": (
+        _in_campaign((r'width = "86 mm"', 'width = "97 mm"')),
+        r"serious \((specimen|gain)\): \w+: Channels top and bottom all show .* a base of 8[567].* mm for 97 mm",
+    ),
     "gain x 10": (
         _in_campaign((r'gain = "15 mm/V"', 'gain = "150 mm/V"')),
         r"serious \(gain\): free: Channel top shows .* times the rotation .*: a gain wrong by a factor of 10",
@@ -222,7 +241,7 @@ TABLE = {
 }
 """Mistakes of the table's accelerometer: three sizes, how each is planted, the finding."""
 
-SOUND = {"wrapped rows", "copied folder", "one file twice"}
+SOUND = {"saturated under noise", "another block", "wrapped rows", "copied folder", "one file twice"}
 """Their free vibration is sound, so that its e takes its time and adds nothing: whole only in `make study`."""
 
 

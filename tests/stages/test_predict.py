@@ -169,6 +169,13 @@ def test_a_base_motion_with_a_hole_is_refused_with_its_place(small_campaign, mea
         predicting.predict(broken.drop_vars("base_acceleration"), pooled, read)
 
 
+def test_a_free_vibration_whose_peak_is_no_angle_of_a_block_is_refused_with_what_to_check(small_campaign, measured):
+    degrees = measured["free-01"].assign(rocking_angle=np.rad2deg(measured["free-01"]["rocking_angle"]))
+    read = predicting.PredictInputs.of(small_campaign, small_campaign.tests["free-01"], "linear")
+    with pytest.raises(StageError, match=r"first peak .* rad; less than a right angle was expected\. Check unit"):
+        begin(degrees, read)
+
+
 def test_a_tilted_table_is_felt_as_a_base_acceleration_the_other_way(small_campaign, measured, pooled):
     read = predicting.PredictInputs.of(small_campaign, small_campaign.tests["shake-01"], "linear")
     tilt = 0.3 * read.block.critical_angle

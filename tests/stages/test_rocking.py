@@ -4,6 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from colonnade.campaign import load
 from colonnade.errors import StageError
 from colonnade.stages import condition as conditioning
 from colonnade.stages import ingest as ingesting
@@ -156,3 +157,22 @@ def test_several_table_accelerometers_are_named_and_held_against_each_other(smal
         assert told.severity == severity
         assert "The base acceleration along x is the mean of table_acceleration and second" in told.text
         assert said in told.text
+
+
+@pytest.mark.parametrize("share", [0.06, 0.12, 0.4])
+def test_a_block_that_walks_under_its_only_transducer_is_told(share, small_campaign, shaken):
+    recordings, time, _, _ = shaken
+    main = recordings["main"]
+    walk = (
+        share * small_campaign.specimens["prism"].block(9.81).critical_angle * 400 / 12 * np.clip((time - 1) / 6, 0, 1)
+    )
+    channels = [
+        replace(each, values=each.values + walk) if each.name == "LVDT 1" else each
+        for each in main.channels
+        if each.name != "LVDT 2"
+    ]
+    text = re.sub(r"\[setups.frame.channels.bottom\](.|\n)*?\n\n", "", small_campaign.path.read_text(encoding="utf-8"))
+    small_campaign.path.write_text(text, encoding="utf-8")
+    motion = _rocking(load(small_campaign.path), "shake-01", {"main": replace(main, channels=tuple(channels))})
+    (told,) = [str(each) for each in motion.attrs["warnings"] if "walked" in str(each)]
+    assert f"comes to rest at, {share:.2g} α" in told

@@ -16,6 +16,7 @@ from colonnade.findings import Finding, serious, warning
 from colonnade.identification.fusion.motion import SEEN, SpecimenMotion, specimen_motion
 from colonnade.identification.fusion.readings import Circumstances, TableReadings
 from colonnade.identification.fusion.separation import UnseenRotationError
+from colonnade.identification.response.ending import ending
 from colonnade.identification.response.features import angle_features
 from colonnade.signals.clocks.timing import STRONG
 from colonnade.signals.quality import Flag
@@ -127,7 +128,7 @@ def rocking(conditioned: xr.Dataset, inputs: RockingInputs) -> xr.Dataset:
     variables["peak_ground_acceleration"] = ((), peak_acceleration)
     attributes = {"outcome": "", "separation": separation, "warnings": warnings}
     if motion is not None:
-        variables |= _motion_variables(time, motion, inputs, attributes)
+        variables |= _motion_variables(time, motion, acceleration, inputs, attributes)
         variables["rocking_angle"] += ({"cutoff_hz": cutoff},) if (cutoff := _cutoff(conditioned, motion, used)) else ()
         variables |= _quality(conditioned, motion, used)
         if not inputs.free_vibration:
@@ -225,7 +226,7 @@ def _contradicting(motion: SpecimenMotion, known: Transducers, used: list[str]) 
 
 
 def _motion_variables(
-    time: Array, motion: SpecimenMotion, inputs: RockingInputs, attributes: dict[str, Any]
+    time: Array, motion: SpecimenMotion, acceleration: Array | None, inputs: RockingInputs, attributes: dict[str, Any]
 ) -> dict[str, Any]:
     median = {name: float(np.nanmedian(errors)) for name, errors in motion.standard_error.items()}
     found = angle_features(
@@ -237,6 +238,11 @@ def _motion_variables(
         catch=inputs.catch,
     )
     attributes |= {"outcome": found.verdict.outcome, "separation": motion.separation}
+    ended = ending(
+        time, motion.angle, None if inputs.free_vibration else acceleration, found.verdict, inputs.block,
+        error=median["rocking_angle"], duration=inputs.rest_duration, lever=_only_lever(inputs.transducers),
+    )  # fmt: skip
+    attributes["warnings"] += [ended] if ended else []
     variables: dict[str, Any] = {f"{name}_standard_error": ((), error) for name, error in median.items()}
     variables |= {name: ("elapsed", values) for name, values in motion.values.items()}
     if motion.is_integrated:
@@ -251,6 +257,14 @@ def _motion_variables(
         "overturning_time": ((), found.verdict.overturning_time),
         "noise_threshold": ((), found.threshold),
     }
+
+
+def _only_lever(known: Transducers) -> float | None:
+    """Height of the one displacement transducer along x, m, that cannot separate a slide; None of others."""
+    along = [
+        each.at[2] for each in known.positions.values() if each.sensing != "angle" and abs(each.direction[0]) > SEEN
+    ]
+    return along[0] if len(along) == 1 == len(known.on_specimen) else None
 
 
 def _cutoff(conditioned: xr.Dataset, motion: SpecimenMotion, used: list[str]) -> float | None:

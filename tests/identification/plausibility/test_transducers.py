@@ -1,5 +1,6 @@
 """Each planted fault of a rocking specimen's transducers is named, and a sound set-up is not."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -9,8 +10,9 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
+from colonnade.identification.plausibility.rotation import Rotation
 from colonnade.identification.plausibility.scale import scale_of
-from colonnade.identification.plausibility.transducers import Rotation, base_scale, suspicions
+from colonnade.identification.plausibility.transducers import base_scale, suspicions
 
 RATE = 500.0
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
@@ -158,3 +160,57 @@ def test_of_a_specimen_that_stands_nothing_is_told():
     base = 0.5 * PRISM.uplift_acceleration * np.sin(2 * np.pi * 5 * np.arange(5000) / RATE)
     assert suspicions(1 / RATE, rotation, base, PRISM) == []
     assert base_scale(1 / RATE, rotation, base, PRISM) is None
+
+
+CORRECT = [1.05, 1.1, 1.4, 0.7]
+"""Factors: where a wrong one begins to matter, twice that, and gross."""
+
+
+@pytest.mark.parametrize("factor", CORRECT)
+def test_gains_that_are_all_wrong_alike_are_named_with_the_factor_that_would_agree(sound, factor):
+    (told,) = _said(
+        sound, lambda rotation: replace(rotation, readings=factor * rotation.readings, noise=factor * rotation.noise)
+    )
+    assert float(re.search(r"all gains × ([\d.]+)", told)[1]) == pytest.approx(1 / factor, rel=0.02)
+    assert "a base of" in told
+
+
+@pytest.mark.parametrize("width", [0.0903, 0.0946, 0.120])
+def test_a_wrong_width_is_named_first_where_the_table_shows_that_the_gains_are_right(width):
+    rotation, base = _shaken(PRISM, (0.44, 0.04))
+    believed = Block.prism(width=width, depth=0.086, height=0.456, mass=26.10)
+    (told,) = suspicions(1 / RATE, rotation, base, believed)
+    assert told.kind == "specimen"
+    found = re.search(r"a base of ([\d.]+) mm for ([\d.]+) mm", told.text)
+    assert float(found[1]) == pytest.approx(86.0, rel=0.02)
+    assert float(found[2]) == pytest.approx(1e3 * width, rel=2e-3)
+
+
+@pytest.mark.parametrize("rate", [0.95, 1.1, 2.0])
+def test_a_wrong_clock_is_named_with_the_sampling_rate_that_would_agree(rate):
+    rotation, base = _free(PRISM, (0.44, 0.04))
+    (told,) = suspicions(rate / RATE, rotation, base, PRISM)
+    assert told.kind == "clock"
+    assert float(re.search(r"a sampling rate × ([\d.]+)", told.text)[1]) == pytest.approx(rate, rel=0.02)
+
+
+@pytest.mark.parametrize("height", [0.418, 0.396, 0.300])
+def test_a_wrong_height_is_named_with_the_lever_that_would_agree(sound, height):
+    rotation, base, block = sound
+    if block is not PRISM:
+        pytest.skip("its transducers are elsewhere")
+    responses = rotation.responses.copy()
+    responses[0] = point_displacement(ANGLES, [[0.043, 0.0, height]], block)[0, :, 0]
+    (told,) = suspicions(1 / RATE, replace(rotation, responses=responses), base, block)
+    assert told.text.startswith("channel top shows")
+    assert "and that bottom shows" in told.text
+    assert float(re.search(r"whose lever is ([\d.]+) mm", told.text)[1]) == pytest.approx(440, rel=0.01)
+
+
+def test_degrees_read_as_radians_are_named_as_such():
+    rotation, base = _free(PRISM, (0.44,))
+    angle = np.rad2deg(rotation.readings / 0.44)
+    inclinometer = Rotation(("tilt",), angle, ANGLES[None], ANGLES, *np.full((2, 1), 1e-3), ("angle",))
+    (told,) = map(str, suspicions(1 / RATE, inclinometer, base, PRISM))
+    assert "degrees read as radians" in told
+    assert "volts" not in told

@@ -64,3 +64,18 @@ def test_samples_that_are_missing_are_passed_over():
     angle[100:200] = np.nan
     assert judge(TIME, angle, PRISM, threshold=1e-4, catch=CATCH).outcome == "overturned"
     assert judge(TIME, np.full(TIME.size, np.nan), PRISM, threshold=1e-4).outcome == "no-rocking"
+
+
+@pytest.mark.parametrize("share", [0.5, 0.7, 0.9])
+@pytest.mark.parametrize("excess", [-0.05, 0.05])
+def test_a_record_that_ends_in_motion_is_continued_on_a_table_at_rest(share, excess):
+    # The model continues it: outwards it passes α if ω > p (α − θ).
+    velocity = (1 + excess) * PRISM.p * (1 - share) * ALPHA
+    time = np.arange(-0.1, 0.0005, 0.001)
+    back = (share - 1) * ALPHA
+    angle = ALPHA + back * np.cosh(PRISM.p * time) + velocity / PRISM.p * np.sinh(PRISM.p * time)
+    on = rock(
+        PRISM, Motion(np.zeros(4000), 0.002), theta0=share * ALPHA, omega0=velocity, restitution=0.5, model="linear"
+    )
+    assert on.outcome == ("overturned" if excess > 0 else "rocking")
+    assert judge(time, angle, PRISM, threshold=1e-4).outcome == on.outcome

@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
-from colonnade.signals.filters import lowpass, second_derivative
 from colonnade.signals.stretches import filled_in
 
-BANDWIDTH = 2.0
-"""Hz for each rad/s of p, below which the equation of motion is held against the record."""
+WINDOW = 0.4
+"""Length over which the equation of motion is held against the record, over p: shorter than all arcs that count."""
 
-FEWEST_SECONDS = 1.0
-"""Of rocking, in units of 5/p; a shorter record gives no scale."""
+BLURRED = 0.1
+"""Over p: what a low-pass rounds on either side of an impact."""
+
+FEWEST_SECONDS = 2.0
+"""Of rocking between impacts, over p; a shorter record gives no scale."""
+
+CALIBRATED = 0.025
+"""Relative departure of a scale from one that calibration and sizes leave; ..."""
+
+SURE = 4.0
+"""... and the standard errors that it also has to exceed."""
 
 CERTAIN = 0.15
 """Largest standard error of a scale, relative to it, with which it is used."""
@@ -28,7 +36,17 @@ MOVES = 0.03
 """Of the largest angle, above which the specimen is taken to rock."""
 
 HELD = 0.02
-"""Of the largest angle, below which the deviation of one that is far from rest means that the specimen is held."""
+"""Of the largest angle, below which the deviation of one that is not upright means that the specimen is held."""
+
+BEYOND = 1.3
+"""Times the critical angle, from which on a specimen falls into its frame."""
+
+UNEXPLAINED = 0.5
+"""Of what bends the angle: if more is left, the record is not that of a rocking block on this table."""
+
+STEPS = 12
+LARGEST_STEP = 2.0
+"""Factor by which a step changes the scale at most."""
 
 
 @dataclass(frozen=True)
@@ -42,12 +60,24 @@ class Scale:
         1 where it is right; standard error.
     base, base_error : float
         The same from what the table's acceleration does to it, with its sign; NaN where that is not known.
+    rate, rate_error : float
+        How many times p of the block is that of the record, which a wrong clock changes, ...
+    without_rate : float
+        ... and the value that is left then.
     """
 
     value: float
     error: float
-    base: float
-    base_error: float
+    base: float = np.nan
+    base_error: float = np.nan
+    rate: float = np.nan
+    rate_error: float = np.nan
+    without_rate: float = np.nan
+
+    def times(self, factor: float) -> Scale:
+        """The same of an angle that is so many times as large."""
+        scaled = ("value", "error", "base", "base_error", "without_rate")
+        return replace(self, **{name: factor * getattr(self, name) for name in scaled})
 
     @property
     def is_known(self) -> bool:
@@ -55,12 +85,22 @@ class Scale:
         return bool(self.value > 0 and self.error < CERTAIN * self.value)
 
     @property
+    def differs(self) -> bool:
+        """Whether it is known, and not one."""
+        return self.is_known and abs(self.value - 1) > max(CALIBRATED * self.value, SURE * self.error)
+
+    @property
     def base_is_known(self) -> bool:
         """Whether the record shows what the table does to the specimen."""
         return bool(abs(self.base) > 0 and self.base_error < CERTAIN * abs(self.base))
 
 
-def scale_of(interval: float, angle: Array, noise: float, acceleration: Array | None, block: Block) -> Scale:
+UNKNOWN_SCALE = Scale(np.nan, np.nan)
+
+
+def scale_of(
+    interval: float, angle: Array, noise: float, acceleration: Array | None, block: Block, *, blur: float = 0.0
+) -> Scale:
     """
     Find how many times too large an angle is, by the equation of motion.
 
@@ -75,6 +115,8 @@ def scale_of(interval: float, angle: Array, noise: float, acceleration: Array | 
     acceleration : ndarray, shape (n,), or None
         Of the table along x, m/s².
     block : Block
+    blur : float, optional
+        What a low-pass rounds on either side of an impact, s; at least `BLURRED` is left out.
 
     Returns
     -------
@@ -83,45 +125,87 @@ def scale_of(interval: float, angle: Array, noise: float, acceleration: Array | 
 
     Notes
     -----
-    Between impacts θ̈ = p² (θ − α sgn θ − a/g). An angle that is c times the true one obeys it with c α and c a/g
-    instead, which gives c by a regression of θ̈ − p² θ on sgn θ and a. Impacts do not disturb it: their pulses are even
-    about θ = 0, where sgn θ is odd.
+    Between impacts θ̈ = −p² [sin(α sgn θ − θ) + (a/g) cos(α sgn θ − θ)]. Both sides are averaged with the same smooth
+    weight over windows that hold no impact, so that noise is not differentiated, and α (a times larger angle looks like
+    a times larger α), the share of a, and then p are found by least squares. The errors are those of the residuals.
     """
-    nothing = Scale(np.nan, np.nan, np.nan, np.nan)
-    bandwidth = min(BANDWIDTH * block.p, 0.2 / interval)
+    weight = _weight(interval, block.p)
     filled = filled_in(angle)
-    moving = _rocking(interval, filled, noise, block.p) & np.isfinite(angle)
-    if moving.sum() * interval < FEWEST_SECONDS * 5 / block.p:
-        return nothing
-    critical = block.critical_angle_at(filled)
-    squared = block.p**2
-    bend = second_derivative(filled, interval, bandwidth) - squared * lowpass(filled, interval, bandwidth)
-    columns = [lowpass(-squared * critical * np.sign(filled), interval, bandwidth)]
-    if acceleration is not None:
-        shaken = lowpass(-squared / block.gravity * filled_in(acceleration), interval, bandwidth)
-        if shaken[moving].std() > 0:
-            columns.append(shaken)
-    matrix = np.column_stack(columns)[moving]
-    normal = matrix.T @ matrix
-    found = np.linalg.solve(normal, matrix.T @ bend[moving])
-    residual = bend[moving] - matrix @ found
-    independent = max(2 * bandwidth * interval * moving.sum(), 3.0)
-    variance = float(residual @ residual) / independent
-    errors = np.sqrt(np.diag(np.linalg.inv(normal)) * variance)
-    base, base_error = (found[1], errors[1]) if len(columns) > 1 else (np.nan, np.nan)
-    return Scale(float(found[0]), float(errors[0]), float(base), float(base_error))
+    gaps = scipy.ndimage.maximum_filter1d(~np.isfinite(angle), weight.size)
+    around = weight.size + 2 * int(max(BLURRED / block.p, blur) / interval)
+    free = _between_impacts(interval, filled, noise, block.p, around) & ~gaps
+    bend = _averaged(np.gradient(np.gradient(filled, interval), interval), weight)
+    value = max(float(np.abs(filled).max()) / (BEYOND * block.critical_angle), 1.0)
+    for _ in range(STEPS):
+        within = free & (np.abs(filled) < BEYOND * value * block.critical_angle)
+        if within.sum() * interval < FEWEST_SECONDS / block.p:
+            return UNKNOWN_SCALE
+        turning, *columns = (_averaged(each, weight) for each in bending(filled / value, acceleration, block))
+        found, errors = _least_squares(bend / value - turning, columns, within, interval * block.p)
+        step = float(np.clip(1 + found[0], 1 / LARGEST_STEP, LARGEST_STEP))
+        value *= step
+        if abs(step - 1) < 0.1 * errors[0]:
+            break
+    freed, freed_errors = _least_squares(bend / value, [turning, *columns], within, interval * block.p)
+    bent, explained = bend[within] / value, np.column_stack([turning, *columns])[within] @ freed
+    if float(np.std(bent - explained)) > UNEXPLAINED * float(np.std(bent)):
+        return UNKNOWN_SCALE
+    squared, is_shaken = max(float(freed[0]), 1e-9), acceleration is not None
+    return Scale(
+        value,
+        float(value * errors[0]),
+        base=float(value * found[1]) if is_shaken else np.nan,
+        base_error=float(value * errors[1]) if is_shaken else np.nan,
+        rate=squared**0.5,
+        rate_error=float(freed_errors[0]) / 2,
+        without_rate=value * (1 + float(freed[1]) / squared),
+    )
 
 
-def _rocking(interval: float, angle: Array, noise: float, p: float) -> Mask:
-    """Samples of a movement that is neither noise nor held still far from rest."""
+def bending(angle: Array, acceleration: Array | None, block: Block) -> list[Array]:
+    """What bends an angle, rad/s²: at a table at rest, per relative change of α, and by the table if that is known."""
+    critical, squared = np.copysign(block.critical_angle_at(angle), angle), block.p_at(angle) ** 2
+    pull = -squared * np.cos(critical - angle)
+    terms = [-squared * np.sin(critical - angle), pull * critical]
+    return terms if acceleration is None else [*terms, pull * filled_in(acceleration) / block.gravity]
+
+
+def _least_squares(values: Array, columns: list[Array], chosen: Mask, step: float) -> tuple[Array, Array]:
+    """Coefficients and their standard errors; a window has three of its own (`step` is p times the interval)."""
+    matrix = np.column_stack(columns)[chosen]
+    inverse = np.linalg.pinv(matrix.T @ matrix)
+    found = inverse @ (matrix.T @ values[chosen])
+    residual = values[chosen] - matrix @ found
+    independent = max(3 * chosen.sum() * step / WINDOW - found.size, 1.0)
+    return found, np.sqrt(np.diag(inverse) * float(residual @ residual) / independent)
+
+
+def _weight(interval: float, p: float) -> Array:
+    """Weight of the samples of a window, that falls to zero with its slope and curvature."""
+    half = max(round(WINDOW / 2 / p / interval), 3)
+    weight = (1 - (np.arange(-half, half + 1) / (half + 1)) ** 2) ** 3
+    return np.asarray(weight / weight.sum())
+
+
+def _averaged(values: Array, weight: Array) -> Array:
+    return np.asarray(scipy.signal.oaconvolve(values, weight, mode="same"))
+
+
+def _between_impacts(interval: float, angle: Array, noise: float, p: float, around: int) -> Mask:
+    """Samples about which so many have no impact, of a movement that is neither noise nor held far from rest."""
     magnitude = np.abs(angle)
     largest = float(magnitude.max())
     window = max(int(1.6 / p / interval), 3)
     moves = scipy.ndimage.maximum_filter1d(magnitude, window) > max(STANDING * noise, MOVES * largest)
+    lowest, highest = (each(angle, around) for each in (scipy.ndimage.minimum_filter1d, scipy.ndimage.maximum_filter1d))
     deviation = np.sqrt(
         np.maximum(
             scipy.ndimage.uniform_filter1d(angle**2, window) - scipy.ndimage.uniform_filter1d(angle, window) ** 2, 0.0
         )
     )
-    held = (deviation < HELD * largest) & (magnitude > 0.1 * largest)
-    return np.asarray(moves & ~scipy.ndimage.binary_dilation(held, iterations=window))
+    held = (deviation < HELD * largest) & (magnitude > max(STANDING * noise, 0.3 * MOVES * largest))
+    inside = np.zeros(angle.size, dtype=bool)
+    inside[around:-around] = True
+    return np.asarray(
+        inside & moves & ((lowest > 0) | (highest < 0)) & ~scipy.ndimage.binary_dilation(held, iterations=window)
+    )

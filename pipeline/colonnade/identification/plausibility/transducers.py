@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from itertools import combinations
+from math import cos, log, tan
 
 import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.findings import Finding, serious
+from colonnade.findings import Finding, Severity, serious
 from colonnade.identification.plausibility.factors import UNKNOWN, as_expected, cause
-from colonnade.identification.plausibility.scale import Scale, scale_of
+from colonnade.identification.plausibility.rotation import Rotation
+from colonnade.identification.plausibility.scale import SURE, Scale
+from colonnade.identification.plausibility.stuck import stuck
+from colonnade.identification.plausibility.undone import undone
 from colonnade.signals.stretches import filled_in
-
-SMALL = 0.05
-"""rad; slope of a transducer's reading over the angle is taken between ± this."""
 
 STANDING = 8.0
 """Times the noise below which a transducer does not move."""
@@ -24,76 +23,23 @@ STANDING = 8.0
 DEAD = 0.1
 """Share of what the others give below which a transducer is dead."""
 
-STEPS = 5
-"""Towards the rotation that two transducers share."""
+ALIKE = 0.05
+"""Relative difference up to which scales are one."""
 
-BETTER = 4.0
-"""Times less that has to be left unexplained with two transducers exchanged."""
+MISLEADING = 0.1
+"""Relative departure of a scale from which on the results are wrong."""
+
+FAR = 2.3
+"""Factor from which on a scale is not that of a size or a calibration."""
+
+LEAST_RATE = 0.01
+"""Relative departure of p that a clock is suspected of."""
 
 PLAIN_UNITS = {1.0: "m", 1e-2: "cm", 1e-3: "mm", 1e-6: "µm", 0.0254: "inches"}
 """Units by the gain that a channel has which is given none."""
 
 FOLLOWS = 0.9
 """Correlation with which one transducer turns with another."""
-
-
-@dataclass(frozen=True)
-class Rotation:
-    """
-    Transducers that see the rotation.
-
-    Attributes
-    ----------
-    names : tuple of str
-        Of their channels, m.
-    readings, responses : ndarray, shapes (m, n) and (m, k)
-        Relative to the table, and as they have to be at `angles`; m or rad.
-    angles : ndarray, shape (k,)
-        θ, rad, increasing through 0.
-    noise : ndarray, shape (m,)
-        Standard deviation.
-    gains : ndarray, shape (m,)
-        Physical over recorded value.
-    """
-
-    names: tuple[str, ...]
-    readings: Array
-    responses: Array
-    angles: Array
-    noise: Array
-    gains: Array
-
-    @property
-    def levers(self) -> Array:
-        """Reading over angle about rest, shape (m,)."""
-        return np.array([self.lever(self.angles, response) for response in self.responses])
-
-    @staticmethod
-    def lever(angles: Array, response: Array) -> float:
-        """Give the slope about rest of what a transducer reads (m or rad) over the angle (rad)."""
-        low, high = np.interp((-SMALL, SMALL), angles, response)
-        return float(high - low) / (2 * SMALL)
-
-    def only(self, chosen: Sequence[int]) -> Rotation:
-        """Some of them."""
-        picked = list(chosen)
-        return replace(
-            self,
-            names=tuple(self.names[index] for index in picked),
-            readings=self.readings[picked],
-            responses=self.responses[picked],
-            noise=self.noise[picked],
-            gains=self.gains[picked],
-        )
-
-    def exchanged(self, first: int, second: int, *, with_gains: bool) -> Rotation:
-        """The same with the readings of two exchanged: as recorded, or with the gains that made them."""
-        order = list(range(len(self.names)))
-        order[first], order[second] = second, first
-        factors = np.ones(len(order)) if with_gains else self.gains / self.gains[order]
-        return replace(
-            self, readings=factors[:, None] * self.readings[order], noise=np.abs(factors) * self.noise[order]
-        )
 
 
 def suspicions(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> list[Finding]:
@@ -118,16 +64,18 @@ def suspicions(interval: float, rotation: Rotation, acceleration: Array | None, 
     -----
     Each transducer's scale is found separately, see `scale_of`, so that a wrong one can be named.
     """
-    scales = _scales(interval, rotation, acceleration, block)
+    scales = rotation.scales(interval, acceleration, block)
     known = [index for index, scale in enumerate(scales) if scale.is_known]
+    mistake = undone(interval, rotation, acceleration, block)
+    if mistake:
+        return [mistake]
+    if standing := stuck(interval, rotation, scales, acceleration, block):
+        return standing
     if not known:
         return []
-    right = [index for index in known if as_expected(scales[index].value)]
-    swapped = _swapped(interval, rotation, acceleration, block)
-    if swapped:
-        return [swapped]
+    right = [index for index in known if not scales[index].differs]
     return [
-        *_gains(rotation, scales, known, right),
+        *_gains(rotation, scales, known, block),
         *_dead(rotation, scales, right),
         *_signs(rotation, scales, known),
     ]
@@ -139,86 +87,105 @@ def base_scale(interval: float, rotation: Rotation, acceleration: Array, block: 
 
     See `suspicions` for the arguments. Negative where its sign, or that of all transducers, is wrong.
     """
+    scales = rotation.scales(interval, acceleration, block)
     found = [
         scale.value / scale.base
-        for scale in _scales(interval, rotation, acceleration, block)
+        for scale in scales
         if scale.is_known and scale.base_is_known and as_expected(scale.value)
     ]
-    if not found:
+    mistaken = found and (
+        undone(interval, rotation, acceleration, block) or stuck(interval, rotation, scales, acceleration, block)
+    )
+    if not found or mistaken:
         return None
     # Transducers that turn against each other do not show the sign; see `suspicions`.
     return float(np.median(np.abs(found))) * (-1.0 if max(found) < 0 else 1.0)
 
 
-def _scales(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> list[Scale]:
-    angles = rotation.readings / rotation.levers[:, None]
-    noises = rotation.noise / np.abs(rotation.levers)
-    return [scale_of(interval, angle, noise, acceleration, block) for angle, noise in zip(angles, noises, strict=True)]
-
-
-def _swapped(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> Finding | None:
-    """Say of two transducers that with their readings exchanged they agree on one rotation, and far better."""
-    for first, second in combinations(range(len(rotation.names)), 2):
-        before = _residual(rotation, (first, second))
-        for with_gains, what in ((False, "columns"), (True, "places")):
-            exchanged = rotation.exchanged(first, second, with_gains=with_gains)
-            after = _residual(exchanged, (first, second))
-            if not before > BETTER * after:
-                continue
-            again = _scales(interval, exchanged, acceleration, block)
-            if all(again[index].is_known and as_expected(again[index].value) for index in (first, second)):
-                return serious(
-                    "swapped channels",
-                    f"channels {rotation.names[first]} and {rotation.names[second]} look swapped: with their {what} "
-                    f"exchanged, their residual about one rotation falls from {1e3 * before:.2g} to "
-                    f"{1e3 * after:.2g} mm",
-                )
-    return None
-
-
-def _residual(rotation: Rotation, used: tuple[int, ...]) -> float:
-    """RMS of readings less those of one common rotation."""
-    some = rotation.only(used)
-    levers, angle = some.levers, np.zeros(some.readings.shape[1])
-    # The responses are nearly straight, so that steps along their levers settle at once.
-    for _ in range(STEPS):
-        misfit = some.readings - np.array([np.interp(angle, some.angles, response) for response in some.responses])
-        angle = angle + levers @ misfit / float(levers @ levers)
-    return float(np.sqrt(np.nanmean(misfit**2)))
-
-
-def _gains(rotation: Rotation, scales: Sequence[Scale], known: list[int], right: list[int]) -> list[Finding]:
-    wrong = [index for index in known if index not in right]
-    common = float(np.median([scales[index].value for index in wrong])) if wrong else 1.0
-    alike = [index for index in wrong if as_expected(scales[index].value / common)]
-    if not right and len(alike) == len(rotation.names) > 1:
-        return [
-            serious(
-                "gain",
-                f"channels {' and '.join(rotation.names)} all show {common:.3g} times the rotation that the equation "
-                f"of motion gives for this specimen: {cause(common, 'displacement')}, in all of them; or the "
-                "specimen's dimensions, or the sampling rate",
-                follows=("unit", "specimen"),
-            )
-        ]
-    others = f", and that {', '.join(rotation.names[index] for index in right)} shows" if right else ""
+def _gains(rotation: Rotation, scales: Sequence[Scale], known: list[int], block: Block) -> list[Finding]:
+    """Name transducers whose rotation is not that of the equation of motion, or what all of them share."""
+    wrong = [index for index in known if scales[index].differs]
+    if not wrong:
+        return []
+    common = scales[min(wrong, key=lambda index: scales[index].error / scales[index].value)]
+    if all(_is_near(scales[index], common.value) for index in known):
+        return [_of_all(rotation, known, common, block)]
+    others = [rotation.names[index] for index in known if index not in wrong]
+    shown = f", and that {', '.join(others)} {'shows' if len(others) == 1 else 'show'}" if others else ""
     return [
-        serious(
+        _weighted(
             "gain",
+            scales[index],
             f"channel {rotation.names[index]} shows {scales[index].value:.3g} times the rotation that the equation of "
-            f"motion gives{others}: {_why(scales[index].value, float(rotation.gains[index]))}",
+            f"motion gives{shown}: {_why(rotation, index, scales[index].value)}",
             follows=("unit",),
         )
         for index in wrong
     ]
 
 
-def _why(scale: float, gain: float) -> str:
+def _is_near(scale: Scale, value: float) -> bool:
+    """Whether a scale may be another one, and rather that than one."""
+    departure = abs(scale.value / value - 1)
+    return departure < max(ALIKE, SURE * scale.error / scale.value) and departure < abs(scale.value - 1)
+
+
+def _weighted(kind: str, scale: Scale, text: str, *, follows: tuple[str, ...]) -> Finding:
+    gross = abs(log(abs(scale.value))) > log(1 + MISLEADING)
+    return Finding(text, kind, Severity.SERIOUS if gross else Severity.WARNING, follows)
+
+
+def _of_all(rotation: Rotation, wrong: list[int], scale: Scale, block: Block) -> Finding:
+    """
+    Say what all transducers show, and which mistakes explain it, the likeliest first.
+
+    A wrong critical angle leaves alone what the table does to the specimen, a gain does not; a clock changes p, too.
+    """
+    value, several = scale.value, len(wrong) > 1
+    names = " and ".join(rotation.names[index] for index in wrong)
+    text = (
+        f"{f'channels {names} all show' if several else f'channel {names} shows'} {value:.3g} times the rotation that "
+        "the equation of motion gives for this specimen: "
+    )
+    gains = f"{'all gains' if several else 'its gain'} × {1 / value:.3g} (all angles change alike)"
+    half, height = (side := block.governing).half_width, side.pole_distance * cos(side.critical_angle)
+    critical = min(value * side.critical_angle, 1.5)
+    wide, high = height * tan(critical), half / tan(critical) / height
+    sizes = (
+        f"sizes that make α {critical:.3g} rad and not {side.critical_angle:.3g} rad, as a base of {2e3 * wide:.3g} mm "
+        f"for {2e3 * half:.3g} mm or a height × {high:.3g}"
+    )
+    kind, causes = "gain", (gains, sizes, "another sampling rate")
+    is_clock = abs(log(max(scale.without_rate, 1e-9))) < abs(log(value)) / 2
+    if is_clock and abs(scale.rate - 1) > max(SURE * scale.rate_error, LEAST_RATE):
+        clock = f"a sampling rate × {1 / scale.rate:.3g} (all times change alike), or all sizes × {scale.rate**-2:.3g}"
+        kind, causes = "clock", (clock, gains, sizes)
+    elif not 1 / FAR < value < FAR or _cause(rotation, wrong[0], value) != UNKNOWN:
+        end = f"{', in all of them' if several else ''}; or the specimen's dimensions, or the sampling rate"
+        return _weighted("gain", scale, text + _why(rotation, wrong[0], value) + end, follows=("unit", "specimen"))
+    elif scale.base_is_known and scale.base > 0:
+        if abs(log(scale.base)) < abs(log(scale.base / value)):
+            kind, causes = "specimen", (sizes, f"{gains}, and that of the table's acceleration", causes[2])
+        else:
+            causes = (gains, f"a sampling rate × {scale.base**-0.5:.3g}", f"{sizes}, and another table's acceleration")
+    likeliest = f"{causes[0]}; or {causes[1]}; or {causes[2]}"
+    return _weighted(kind, scale, f"{text}{likeliest}, would make them agree", follows=("unit",))
+
+
+def _cause(rotation: Rotation, index: int, scale: float) -> str:
+    return cause(scale, "angle" if rotation.measures_angle(index) else "displacement")
+
+
+def _why(rotation: Rotation, index: int, scale: float) -> str:
     """Probable cause of a scale; an odd one of a channel that is given no gain is that of a transducer in volts."""
-    known = cause(scale, "displacement")
-    if known == UNKNOWN and gain in PLAIN_UNITS:
-        return f"its values are probably not {PLAIN_UNITS[gain]} but volts, and its `gain` is missing"
-    return known
+    known, is_angle = _cause(rotation, index, scale), rotation.measures_angle(index)
+    unit = PLAIN_UNITS.get(float(rotation.gains[index]))
+    if known != UNKNOWN or not 1 / FAR < scale < FAR:
+        is_plain = known == UNKNOWN and unit and not is_angle
+        return f"its values are probably not {unit} but volts, and its `gain` is missing" if is_plain else known
+    lever = 1e3 * float(rotation.levers[index])
+    place = f", or a place (`at`) whose lever is {scale * lever:.3g} mm and not {lever:.3g} mm,"
+    return f"its gain × {1 / scale:.3g}{'' if is_angle else place} would make them agree"
 
 
 def _dead(rotation: Rotation, scales: Sequence[Scale], right: list[int]) -> list[Finding]:

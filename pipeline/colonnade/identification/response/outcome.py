@@ -43,8 +43,9 @@ def judge(time: Array, angle: Array, block: Block, *, threshold: float, catch: f
     Returns
     -------
     verdict : Verdict
-        Overturned where the angle, at the record's end, is beyond α and not on its way back; or where the catch angle
-        (without one, any angle beyond α) was reached and held for `HELD`, even if the specimen was righted later.
+        Overturned where the specimen, from the record's end on, passes α on a table at rest, or is beyond and not on
+        its way back; or where the catch angle (without one, any angle beyond α) was reached and held for `HELD`, even
+        if the specimen was righted later.
     """
     finite = np.isfinite(angle)
     time, angle = time[finite], angle[finite]
@@ -54,13 +55,12 @@ def judge(time: Array, angle: Array, block: Block, *, threshold: float, catch: f
     caught = _held(time, angle, block, catch)
     if caught is not None:
         return Verdict("overturned", _passing(time, ratio, caught))
-    if ratio[-1] > 1:
-        tail = time >= time[-1] - 0.02
-        slope = np.polyfit(time[tail], np.abs(angle[tail]), 1)[0] if tail.sum() > 1 else 0.0
-        # Inwards faster than the unstable equilibrium's own rate, it still comes back (linear model, base at rest).
-        beyond = (ratio[-1] - 1) * block.critical_angle
-        if beyond + slope / block.p > 0:
-            return Verdict("overturned", _passing(time, ratio, time.size - 1))
+    tail = time >= time[-1] - 0.02
+    slope = np.polyfit(time[tail], np.abs(angle[tail]), 1)[0] if tail.sum() > 1 else 0.0
+    # On a base at rest (linear model) |θ| − α + ω/p keeps its sign: outwards of the unstable equilibrium it falls.
+    beyond = float(np.mean(np.abs(angle[tail]) - block.critical_angle_at(angle[tail])))
+    if beyond + slope / block.p > 0:
+        return Verdict("overturned", _passing(time, ratio, time.size - 1))
     return Verdict("rocking", np.nan)
 
 

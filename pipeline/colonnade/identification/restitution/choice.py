@@ -101,6 +101,7 @@ def disagreement(result: Restitution) -> str:
     return (
         f"The whole history gives e = {history.value:.5f}, the peaks {peaks.value:.5f}: "
         f"{abs(difference) / error:.2g} standard errors apart; at most {DISAGREEMENT:g} were expected. The times of "
-        "impact are not quite those of this block: check its dimensions and mass, and for slide or rotation out of "
-        f"plane. The value of the {'peaks' if result.recommended == PeakDecay.name else 'whole history'} is used."
+        "impact are not quite those of this block: check the sampling rate, its dimensions and mass, and for slide or "
+        "rotation out of plane. The value of the "
+        f"{'peaks' if result.recommended == PeakDecay.name else 'whole history'} is used."
     )

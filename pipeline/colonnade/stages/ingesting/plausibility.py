@@ -19,7 +19,7 @@ from colonnade.identification.fusion.sensors import Transducer, predict
 from colonnade.identification.plausibility import table_motion
 from colonnade.identification.plausibility import transducers as plausibility
 from colonnade.identification.plausibility.factors import as_expected, cause
-from colonnade.identification.plausibility.transducers import Rotation
+from colonnade.identification.plausibility.rotation import Rotation
 from colonnade.signals.named_motion import Series, check_motion
 from colonnade.signals.quality import Flag
 from colonnade.signals.stretches import filled_in
@@ -186,10 +186,13 @@ def _rotation(
         return None
     responses = _responses(inputs)
     readings = np.array([conditioned[name].to_numpy() for name in names])
-    for reading, name in zip(readings, names, strict=True):
-        transducer = inputs.positions[name]
-        if transducer.on_ground and displacements:
-            reading -= transducer.direction[0] * displacements[0].values
+    refixed = None
+    if displacements:
+        read = [each.direction[0] * (each.sensing != "angle") for each in map(inputs.positions.__getitem__, names)]
+        refixed = np.outer(read, displacements[0].values)
+        on_ground = np.array([inputs.positions[name].on_ground for name in names])
+        readings[on_ground] -= refixed[on_ground]
+        refixed[on_ground] *= -1
     seen = Rotation(
         tuple(conditioned[name].attrs["channel"] for name in names),
         readings,
@@ -197,8 +200,11 @@ def _rotation(
         ANGLES,
         np.array([float(conditioned[name].attrs.get("noise", 0.0)) for name in names]),
         np.array([inputs.gains[name] for name in names]),
+        tuple("angle" if inputs.positions[name].sensing == "angle" else "displacement" for name in names),
+        refixed,
+        max(0.5 / float(conditioned[name].attrs.get("cutoff_hz", np.inf)) for name in names),
     )
-    useful = _seeing(seen, np.array([inputs.positions[name].sensing == "angle" for name in names]))
+    useful = _seeing(seen, np.array([quantity == "angle" for quantity in seen.quantities]))
     return seen.only(useful) if useful else None
 
 

@@ -171,5 +171,10 @@ def _start(rocking: xr.Dataset, block: Block, identified: xr.Dataset | None) -> 
             "from. Was the specimen released within the record?"
         )
     when, peak = float(arcs.peak_time[whole[0]]), float(arcs.peak_angle[whole[0]])
+    if not abs(peak) < np.pi / 2:
+        raise StageError(
+            f"The first peak of this free vibration is {peak:.3g} rad; less than a right angle was expected. Check "
+            "unit, gain and range of the transducers on the specimen; a code such as -9999 has to be an empty cell."
+        )
     first = min(int(np.searchsorted(time, when)), time.size - 2)
     return first, peak, float(time[first] - when), offset

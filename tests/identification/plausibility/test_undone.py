@@ -1,0 +1,76 @@
+"""Mistakes whose undoing makes transducers agree: each is named, and a block that walks is not mistaken for one."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy
+
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.kinematics import point_displacement
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
+from colonnade.identification.plausibility.rotation import Rotation
+from colonnade.identification.plausibility.undone import undone
+
+INTERVAL = 1 / 500
+TIME = np.arange(0, 12, INTERVAL)
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+POINTS = [[0.043, 0.0, 0.44], [0.043, 0.0, 0.04]]
+ANGLES = np.linspace(-0.4, 0.4, 161)
+NOISE = 2e-5
+OMEGA = 2 * np.pi * 4.0
+
+
+@pytest.fixture(scope="module")
+def shaken():
+    """Sound rotation, acceleration and displacement of the table."""
+    envelope = np.clip(np.minimum(TIME - 1, 8 - TIME), 0, 1)
+    base = 1.7 * PRISM.uplift_acceleration * envelope * np.sin(OMEGA * TIME)
+    angle = rock(PRISM, Motion(base, INTERVAL), restitution=0.93, model="nonlinear").angle
+    noise = np.random.default_rng(0).normal(0, NOISE, (2, TIME.size))
+    readings = point_displacement(angle, POINTS, PRISM)[..., 0] + noise
+    responses = point_displacement(ANGLES, POINTS, PRISM)[..., 0]
+    moved = -base / OMEGA**2
+    rotation = Rotation(
+        ("top", "bottom"), readings, responses, ANGLES, *np.full((2, 2), NOISE), refixed=np.array([moved, moved])
+    )
+    return rotation, base, moved
+
+
+def _changed(rotation, chosen, added):
+    readings = rotation.readings.copy()
+    readings[chosen] += added
+    return replace(rotation, readings=readings)
+
+
+def test_sound_transducers_have_nothing_to_undo(shaken):
+    rotation, base, _ = shaken
+    assert undone(INTERVAL, rotation, base, PRISM) is None
+
+
+@pytest.mark.parametrize(
+    ("chosen", "names"), [([0], "channel top"), ([1], "channel bottom"), ([0, 1], "channels top and bottom")]
+)
+def test_transducers_on_the_wall_that_are_declared_to_the_table_are_named(chosen, names, shaken):
+    rotation, base, moved = shaken
+    found = undone(INTERVAL, _changed(rotation, chosen, moved), base, PRISM)
+    assert found.text.startswith(f"{names}: `relative_to` is wrong")
+
+
+@pytest.mark.parametrize("corner", [0.3, 0.6, 2.0])
+def test_a_transducer_behind_a_high_pass_is_named_with_its_corner(corner, shaken):
+    rotation, base, _ = shaken
+    numerator, denominator = scipy.signal.butter(1, corner, "high", fs=1 / INTERVAL)
+    readings = rotation.readings.copy()
+    readings[0] = scipy.signal.lfilter(numerator, denominator, readings[0])
+    found = undone(INTERVAL, replace(rotation, readings=readings), base, PRISM)
+    assert found.text.startswith("channel top does not hold a constant value")
+    assert f"{corner:.1g}" in found.text
+
+
+@pytest.mark.parametrize("walked", [0.0016, 0.005])
+def test_a_block_that_walks_is_no_mistake(walked, shaken):
+    rotation, base, _ = shaken
+    walk = walked * np.clip((TIME - 2) / 5, 0, 1)
+    assert undone(INTERVAL, _changed(rotation, [0, 1], walk), base, PRISM) is None
