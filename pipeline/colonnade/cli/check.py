@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import rich_click as click
 
 from colonnade.cli.common.console import say_marked, show_json
-from colonnade.cli.common.findings import STYLES, probable_cause, records_of, show_by_kind
+from colonnade.cli.common.findings import STYLES, alike, probable_cause, records_of, show_by_kind
 from colonnade.cli.common.options import CAMPAIGN, campaign_argument, json_option, strict_option
 from colonnade.cli.common.progress import work_progress
 from colonnade.errors import count
@@ -86,10 +86,13 @@ def _show(checked: CampaignCheck, drawing: Path | None) -> None:
     findings = checked.findings
     say_marked(*_verdict(checked), f" Nothing was written{'.' if drawing is None else f' but {drawing}.'}")
     failing = [*checked.tests.items(), *((f"assessment {name}", each) for name, each in checked.assessments.items())]
-    for name, each in failing:
-        for problem in each.problems:
-            cause = probable_cause(findings[name], where="below")
-            say_marked("would fail", STYLES[Severity.SERIOUS], f": {name}: {cause}{_indented(problem)}")
+    problems = [
+        (name, probable_cause(findings[name], where="below") + problem.replace("\n", "\n  "))
+        for name, each in failing
+        for problem in each.problems
+    ]
+    for name, said in alike(problems):
+        say_marked("would fail", STYLES[Severity.SERIOUS], f": {name}: {said}")
     show_by_kind(findings)
 
 
@@ -106,7 +109,3 @@ def _verdict(checked: CampaignCheck) -> tuple[str, str]:
     if checked.has_warnings:
         return f"No test would fail, but see the findings: {', '.join(parts)}.", STYLES[Severity.WARNING]
     return f"All good: {tests}.", "bold green"
-
-
-def _indented(text: str) -> str:
-    return text.replace("\n", "\n  ")
