@@ -33,6 +33,6 @@ def findings(command: str, folder: Path) -> str:
         invoke(list(COMMANDS[command]))
     said = out.getvalue() + err.getvalue()
     kept = re.findall(
-        r"^ *(?:serious|warning|note|follows from the above|problem)\b.*(?:\n {4}.*)*", said, re.MULTILINE
+        r"^ *(?:serious|warning|note|follows from the above|problem|would fail)\b.*(?:\n {4}.*)*", said, re.MULTILINE
     )
     return textwrap.dedent("\n".join(kept))

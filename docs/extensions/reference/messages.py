@@ -54,6 +54,9 @@ ACTIONS = {
     },
     RECORDING: {
         "channel left out": "Give the test another `zero` or `window`, or `[[exclude]]` the channel.",
+        "impossible angle": "Look for a wrong gain or unit, or a code such as -9999 for missing values.",
+        "record ends in motion": "Find the whole file; else the outcome is that on a table at rest from its end on.",
+        "rest": "Look at the transducers and the video: it probably overturned, or a cable tore.",
         "end of the range": "Keep it if the peaks that matter are within the range; else `[[flag]]` the stretch.",
         "fewer transducers": "See why the others could not be used; the angle has less redundancy.",
         "flat stretch": "`[[flag]]` the stretch as failed if the block moved during it.",

@@ -27,28 +27,28 @@ def undone(interval: float, rotation: Rotation, acceleration: Array | None, bloc
     everything = range(len(rotation.names))
     before, moved = rotation.residual(everything), float(np.nanstd(rotation.readings, axis=1).min())
     found: dict[float, Finding] = {}
-    for kind, changed, text in (*_exchanged(rotation), *_refixed(rotation), *_coupled(interval, rotation)):
+    for named, changed in (*_exchanged(rotation), *_refixed(rotation), *_coupled(interval, rotation)):
         after = changed.residual(everything)
         if before < LEAST * moved or not before > BETTER * after:
             continue
         scales = changed.scales(interval, acceleration, block)
         # What agrees by chance, or with a block that walks, does not obey the equation of motion as well.
-        proved = kind == "geometry" or all(each.is_known for each in scales)
+        proved = named.kind == "geometry" or all(each.is_known for each in scales)
         if proved and all(as_expected(each.value) for each in scales if each.is_known):
             fall = f"their residual about one rotation falls from {1e3 * before:.2g} to {1e3 * after:.2g} mm"
-            found[after] = serious(kind, f"{text}, {fall}")
+            found[after] = replace(named, text=f"{named.text}, {fall}")
     return found[min(found)] if found else None
 
 
-def _exchanged(rotation: Rotation) -> Iterator[tuple[str, Rotation, str]]:
+def _exchanged(rotation: Rotation) -> Iterator[tuple[Finding, Rotation]]:
     for first, second in combinations(range(len(rotation.names)), 2):
         for with_gains, what in ((False, "columns"), (True, "places")):
             names = f"{rotation.names[first]} and {rotation.names[second]}"
             text = f"channels {names} look swapped: with their {what} exchanged"
-            yield "swapped channels", rotation.exchanged(first, second, with_gains=with_gains), text
+            yield serious("swapped channels", text), rotation.exchanged(first, second, with_gains=with_gains)
 
 
-def _refixed(rotation: Rotation) -> Iterator[tuple[str, Rotation, str]]:
+def _refixed(rotation: Rotation) -> Iterator[tuple[Finding, Rotation]]:
     """Some of the transducers on the ground and not on the table, or the reverse."""
     if rotation.refixed is None:
         return
@@ -61,10 +61,10 @@ def _refixed(rotation: Rotation) -> Iterator[tuple[str, Rotation, str]]:
             f"channel{'s' if len(chosen) > 1 else ''} {names}: `relative_to` is wrong, the table for the ground or the "
             "reverse: with the table's displacement taken off or added"
         )
-        yield "geometry", replace(rotation, readings=readings), text
+        yield serious("geometry", text), replace(rotation, readings=readings)
 
 
-def _coupled(interval: float, rotation: Rotation) -> Iterator[tuple[str, Rotation, str]]:
+def _coupled(interval: float, rotation: Rotation) -> Iterator[tuple[Finding, Rotation]]:
     """Each behind a high-pass of the first order, r' = r + ω∫r dt, with the ω that leaves least; from either end."""
     misfit = rotation.misfit()
     for index, name in enumerate(rotation.names):
@@ -79,4 +79,4 @@ def _coupled(interval: float, rotation: Rotation) -> Iterator[tuple[str, Rotatio
                     f"channel {name} does not hold a constant value (AC-coupled, or a high-pass of "
                     f"{corner / (2 * np.pi):.2g} Hz), which shows as a slide: with that undone"
                 )
-                yield "coupling", replace(rotation, readings=rotation.readings + corner * lost), text
+                yield serious("AC coupling", text), replace(rotation, readings=rotation.readings + corner * lost)

@@ -178,10 +178,10 @@ class Restitution(Digested):
     --------
     >>> import colonnade
     >>> block = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-    >>> history = colonnade.rock(block, theta0=0.09, restitution=0.9, duration=5.0)
+    >>> history = colonnade.rock(block, theta0=0.09, restitution=0.9, duration=5.0, model="nonlinear")
     >>> found = colonnade.identify_restitution(history.time, history.angle, block)
-    >>> round(found.value, 3), found.low < 0.9 < found.high, found.recommended, found.reason
-    (0.9, True, 'peaks', '')
+    >>> round(found.value, 6), found.recommended, found.reason
+    (0.9, 'peaks', '')
     >>> sorted(found.digest())
     ['e', 'method', 'peaks used']
     """
