@@ -53,6 +53,7 @@ SETTINGS = """
 lowpass = "25 Hz"
 
 [processing.predict.ensemble]
+restitution = 0.0005
 members = 20
 """
 REVIEW = f"""
