@@ -9,25 +9,16 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.findings import Finding, Severity, serious
-from colonnade.identification.plausibility.factors import UNKNOWN, as_expected, cause
+from colonnade.findings import Finding, serious, warning
+from colonnade.identification.plausibility.factors import DEAD, MISLEADING, STANDING, UNKNOWN, as_expected, cause, dead
 from colonnade.identification.plausibility.rotation import Rotation
 from colonnade.identification.plausibility.scale import SURE, Scale
 from colonnade.identification.plausibility.stuck import stuck
 from colonnade.identification.plausibility.undone import undone
 from colonnade.signals.stretches import filled_in
 
-STANDING = 8.0
-"""Times the noise below which a transducer does not move."""
-
-DEAD = 0.1
-"""Share of what the others give below which a transducer is dead."""
-
 ALIKE = 0.05
 """Relative difference up to which scales are one."""
-
-MISLEADING = 0.1
-"""Relative departure of a scale from which on the results are wrong."""
 
 FAR = 2.3
 """Factor from which on a scale is not that of a size or a calibration."""
@@ -131,8 +122,8 @@ def _is_near(scale: Scale, value: float) -> bool:
 
 
 def _weighted(kind: str, scale: Scale, text: str, *, follows: tuple[str, ...]) -> Finding:
-    gross = abs(log(abs(scale.value))) > log(1 + MISLEADING)
-    return Finding(text, kind, Severity.SERIOUS if gross else Severity.WARNING, follows)
+    build = serious if abs(log(abs(scale.value))) > log(1 + MISLEADING) else warning
+    return build(kind, text, follows=follows)
 
 
 def _of_all(rotation: Rotation, wrong: list[int], scale: Scale, block: Block) -> Finding:
@@ -199,19 +190,10 @@ def _dead(rotation: Rotation, scales: Sequence[Scale], right: list[int]) -> list
     for index, name in enumerate(rotation.names):
         expected = float(np.std(levers[index] * angle))
         shown = float(np.nanstd(rotation.readings[index]))
-        if (
-            not scales[index].is_known
-            and expected > STANDING * max(rotation.noise[index], 1e-12)
-            and shown < 0.1 * expected
-        ):
-            found.append(
-                serious(
-                    "dead channel",
-                    f"channel {name} hardly moves ({1e3 * shown:.2g} mm RMS), although the rotation measured by "
-                    f"{others} would give {1e3 * expected:.2g} mm: it is dead, or its gain is far too small. Check "
-                    "cable and sensor",
-                )
-            )
+        moves = expected > STANDING * max(rotation.noise[index], 1e-12)
+        if not scales[index].is_known and moves and shown < DEAD * expected:
+            by = f"the rotation measured by {others}"
+            found.append(dead(name, 1e3 * shown, 1e3 * expected, "mm", by))
     return found
 
 
