@@ -57,11 +57,8 @@ def suspicions(interval: float, rotation: Rotation, acceleration: Array | None, 
     """
     scales = rotation.scales(interval, acceleration, block)
     known = [index for index, scale in enumerate(scales) if scale.is_known]
-    mistake = undone(interval, rotation, acceleration, block)
-    if mistake:
-        return [mistake]
-    if standing := stuck(interval, rotation, scales, acceleration, block):
-        return standing
+    if mistakes := _mistakes(interval, rotation, scales, acceleration, block):
+        return mistakes
     if not known:
         return []
     right = [index for index in known if not scales[index].differs]
@@ -84,13 +81,18 @@ def base_scale(interval: float, rotation: Rotation, acceleration: Array, block: 
         for scale in scales
         if scale.is_known and scale.base_is_known and as_expected(scale.value)
     ]
-    mistaken = found and (
-        undone(interval, rotation, acceleration, block) or stuck(interval, rotation, scales, acceleration, block)
-    )
-    if not found or mistaken:
+    if not found or _mistakes(interval, rotation, scales, acceleration, block):
         return None
     # Transducers that turn against each other do not show the sign; see `suspicions`.
     return float(np.median(np.abs(found))) * (-1.0 if max(found) < 0 else 1.0)
+
+
+def _mistakes(
+    interval: float, rotation: Rotation, scales: Sequence[Scale], acceleration: Array | None, block: Block
+) -> list[Finding]:
+    """What has to be mended before a scale means anything."""
+    mistake = undone(interval, rotation, acceleration, block)
+    return [mistake] if mistake else stuck(interval, rotation, scales, acceleration, block)
 
 
 def _gains(rotation: Rotation, scales: Sequence[Scale], known: list[int], block: Block) -> list[Finding]:
