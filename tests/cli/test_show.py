@@ -62,7 +62,7 @@ def test_formats_list_their_options(colonnade):
 
 def test_every_format_says_what_it_is_and_how_its_files_end(colonnade):
     known = json.loads(colonnade("show", "formats", "--json").stdout)
-    assert {"delimited", "mdf", "waveform"} <= known.keys()
+    assert {"delimited", "tdms", "waveform"} <= known.keys()
     assert all(each["summary"] and each["suffixes"] for each in known.values())
     told = colonnade("show", "formats").stdout
     assert all(name in told for name in known)

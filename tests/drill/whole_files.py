@@ -11,7 +11,7 @@ from types import ModuleType
 import numpy as np
 
 READERS = Path(__file__).parents[1] / "readers"
-BY_PACKAGES = ("mdf", "waveform")
+BY_PACKAGES = ("waveform",)
 """Formats whose parsers are other people's; they are drilled where those live."""
 
 
@@ -39,7 +39,7 @@ def format_of(name: str) -> str:
 
 def _writers() -> dict[str, Callable[[Path], Path]]:
     instruments, binary, excel = _room("conftest"), _room("test_binary_mutations"), _room("excel/test_workbook")
-    text, diadem = _room("text/test_delimited_mutations"), _room("diadem/test_file")
+    text, diadem = _room("text/test_delimited_mutations"), _room("binary/test_diadem")
     time = np.arange(40) / 200
     columns = [
         instruments.Column("top", "mm", 10 * np.sin(40 * time)),

@@ -63,24 +63,6 @@ def peer(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
     return path
 
 
-def bhrc(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
-    text = ""
-    for column in columns:
-        head = ["* VOL1DS FILE:  0001/01", "Inst Type = SSA-2", "Origin Time : 2013/04/26   10:15:00", "", "L", ""]
-        head += [
-            f"COMP {column.name}",
-            "Table   Station   37.734 N 47.801 E",
-            "Epicenter 38.520 N 46.860 E",
-            "INSTR PERIOD",
-        ]
-        head += [f"NO. OF POINTS = {time.size:6d}      DURATION = {time[-1] - time[0]:7.3f}"]
-        head += ["UNITS ARE SECONDS AND G/10", "", *["    0" * 14] * 7]
-        head += ["  .100000E+00" * 5 + "  .00", "  .200000E+03" * 5 + "  .00", *["  .000000E+00" * 5] * 5]
-        text += "\n".join([*head, *_fixed(10 * column.values, "{:13.6E}", 10), "/&", ""])
-    path.write_text(text, encoding="ascii")
-    return path
-
-
 def cosmos(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
     text = ""
     for number, column in enumerate(columns, 1):
@@ -148,21 +130,24 @@ def famos(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
 
 
 def diadem(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
-    lines = ["DIAEXTENDED  {@:ENGLISH", "#BEGINGLOBALHEADER", "111,9.9E+34", "112,High -> Low", "#ENDGLOBALHEADER"]
     written = [Column("Time", "s", time), *columns]
+    blocks, data = "", ""
     for number, column in enumerate(written):
-        lines += ["#BEGINCHANNELHEADER", f"200,{column.name}", f"202,{column.unit}", "210,EXPLICIT"]
-        lines += [
-            f"211,{path.stem}.R32",
-            "213,CHANNEL",
-            "214,REAL32",
-            f"220,{time.size}",
-            f"221,{1 + number * time.size}",
-        ]
-        lines += ["240,0", "241,1", "252,Yes", "#ENDCHANNELHEADER"]
-    path.write_bytes("\r\n".join([*lines, ""]).encode("utf-16"))
+        place, size = 4 * number * time.size, time.size
+        blocks += f'<block byteOffset="{place}" id="inc{number}" length="{size}" valueType="eFloat32Usi"/>\n'
+        data += f'<tdm_channel id="c{number}"><name>{column.name}</name><unit_string>{column.unit}</unit_string>'
+        data += f'<local_columns>#xpointer(id("l{number}"))</local_columns></tdm_channel>\n<localcolumn id="l{number}">'
+        data += "<sequence_representation>explicit</sequence_representation>"
+        data += f'<values>#xpointer(id("s{number}"))</values></localcolumn>\n'
+        data += f'<float_sequence id="s{number}"><values external="inc{number}"/></float_sequence>\n'
+    path.write_text(
+        '<?xml version="1.0" encoding="UTF-8"?><usi:tdm xmlns:usi="http://www.ni.com/Schemas/USI/1_0" version="1.0">\n'
+        f'<usi:include><file byteOrder="littleEndian" url="{path.stem}.tdx">\n{blocks}</file></usi:include>\n'
+        f"<usi:data>\n{data}</usi:data></usi:tdm>\n",
+        encoding="utf-8",
+    )
     values = np.concatenate([column.values for column in written]).astype("<f4")
-    path.with_suffix(".R32").write_bytes(values.tobytes())
+    path.with_suffix(".tdx").write_bytes(values.tobytes())
     return path
 
 
@@ -191,17 +176,6 @@ def uff(path: Path, time: np.ndarray, columns: Sequence[Column], *, is_binary: b
     return path
 
 
-def mdf(path: Path, time: np.ndarray, columns: Sequence[Column]) -> Path:
-    import asammdf
-
-    signals = [
-        asammdf.Signal(column.values.astype("<f4"), time, name=column.name, unit=column.unit) for column in columns
-    ]
-    with asammdf.MDF(version="4.10") as file:
-        file.append(signals)
-        return Path(file.save(path, overwrite=True))
-
-
 def waveform(path: Path, time: np.ndarray, columns: Sequence[Column], kind: str = "MSEED") -> Path:
     import obspy
 
@@ -226,7 +200,7 @@ def _fixed(values: np.ndarray, form: str, count: int) -> list[str]:
 
 
 WRITERS: dict[str, Writer] = {
-    writer.__name__: writer for writer in (bhrc, catman, cosmos, diadem, famos, lvm, mdf, mts, peer, uff, waveform)
+    writer.__name__: writer for writer in (catman, cosmos, diadem, famos, lvm, mts, peer, uff, waveform)
 }
 
 

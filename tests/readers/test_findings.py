@@ -15,9 +15,9 @@ import pytest
 import xlwt
 
 from colonnade.errors import ReadError
+from colonnade.readers.binary.diadem import stored_channels
 from colonnade.readers.binary.stored_numbers import beside
 from colonnade.readers.clock import even_times
-from colonnade.readers.diadem.tdm import channels_in_tdm
 from colonnade.readers.registry import read
 
 TIME = np.arange(60) * 0.01
@@ -48,19 +48,16 @@ def test_a_channel_without_its_last_blocks_is_told(written: Callable[..., Path],
 @pytest.mark.parametrize(
     ("name", "begin", "kept"),
     [
-        ("bhrc", "* VOL", 60),
         ("cosmos", "Corrected acceleration", 40),
-        ("diadem", "#BEGINCHANNELHEADER", 10),
     ],
 )
 def test_a_file_that_ends_within_the_first_line_of_a_channel_says_so(
     written: Callable[..., Path], name: str, begin: str, kept: int
 ) -> None:
     path = written(name)
-    encoding = "utf-16" if name == "diadem" else "ascii"
-    text = path.read_bytes().decode(encoding)
+    text = path.read_bytes().decode("ascii")
     whole = len(read(path).channels)
-    path.write_bytes(text[: text.rindex(begin) + kept].encode(encoding))
+    path.write_bytes(text[: text.rindex(begin) + kept].encode("ascii"))
     recording = read(path)
     assert len(recording.channels) == whole - 1
     assert "cut off" in " ".join(recording.warnings)
@@ -71,9 +68,8 @@ def test_a_file_that_ends_within_the_first_line_of_a_channel_says_so(
     [
         ("cosmos", r"(?i)(follow on\s+)\d+(\s+lines)", r"\g<1>99999999999999999999\g<2>"),
         ("cosmos", r"(?i)(with\s+)\d+(\s+text lines)", r"\g<1>99999999999999999999\g<2>"),
-        ("bhrc", r"(DURATION\s*=\s*)[\d.]+()", r"\g<1>.\g<2>"),
     ],
-    ids=["COSMOS lines of values", "COSMOS lines of text", "BHRC duration"],
+    ids=["COSMOS lines of values", "COSMOS lines of text"],
 )
 def test_a_number_in_a_header_that_is_none_is_a_refusal(
     written: Callable[..., Path], name: str, count: str, damaged: str
@@ -143,14 +139,8 @@ def test_a_name_that_is_too_long_for_a_file_is_a_file_that_is_not_there(tmp_path
     assert len(str(refused.value)) < 300
 
 
-def test_a_separator_before_a_number_of_a_line_is_white_space(written: Callable[..., Path]) -> None:
-    path = written("diadem")
-    path.write_bytes(path.read_bytes().replace("\n200,".encode("utf-16-le"), "\n\x1c200,".encode("utf-16-le")))
-    assert [channel.name for channel in read(path).channels] == ["Time", "top", "table"]
-
-
 def test_a_header_in_an_encoding_that_there_is_not_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "a.tdm"
     path.write_bytes(b'<?xml version="1.0" encoding="UTF-6"?><usi:tdm xmlns:usi="http://www.ni.com/Schemas/USI/1_0"/>')
     with pytest.raises(ReadError, match="unknown encoding"):
-        channels_in_tdm(path)
+        stored_channels(path)

@@ -13,8 +13,8 @@ from colonnade.errors import ReadError
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import formats, read
 
-OWN = ("bhrc", "catman", "cosmos", "diadem", "famos", "lvm", "mts", "peer", "uff")
-BY_PACKAGES = ("mdf", "waveform")
+OWN = ("catman", "cosmos", "diadem", "famos", "lvm", "mts", "peer", "uff")
+BY_PACKAGES = ("waveform",)
 KINDS = ("flips", "truncation", "deletion", "repetition", "zeros", "noise behind the head")
 TIMES = 40 * np.arange(40) / 200
 
@@ -29,7 +29,7 @@ def test_what_was_written_is_recognised_and_read_back(written: Callable[..., Pat
     np.testing.assert_allclose(last.values, expected, atol=6e-6)
     assert last.time is not None
     np.testing.assert_allclose(last.time, TIMES / 40, atol=1e-8)
-    if name not in ("bhrc", "cosmos", "peer"):  # these hold accelerations only
+    if name not in ("cosmos", "peer"):  # these hold accelerations only
         top = recording.channels[-2]
         np.testing.assert_allclose(top.values, 10 * np.sin(TIMES), atol=6e-6)
         assert top.unit == (None if name == "waveform" else "mm")
@@ -84,14 +84,14 @@ def test_a_damaged_file_is_read_or_refused_by_its_format(written: Callable[..., 
         for channel in outcome.channels:
             assert not np.isinf(channel.values).any()
             assert channel.values.size < 100_000
-    assert recordings > 0 or kind == "noise behind the head"
+    assert recordings > 0 or kind == "noise behind the head" or name == "diadem"  # XML is whole or none
 
 
 @pytest.mark.parametrize("name", OWN)
 @pytest.mark.parametrize("share", [0.6, 0.9])
 def test_a_file_that_was_cut_off_says_so(written: Callable[..., Path], name: str, share: float) -> None:
     path = written(name)
-    cut = path.with_suffix(".R32") if name == "diadem" else path
+    cut = path.with_suffix(".tdx") if name == "diadem" else path
     cut.write_bytes(cut.read_bytes()[: int(share * cut.stat().st_size)])
     try:
         told = " ".join(read(path).warnings)

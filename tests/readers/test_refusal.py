@@ -11,7 +11,7 @@ import pytest
 from colonnade.errors import ReadError
 from colonnade.readers.refusal import in_one_line, refusing, unreachable
 
-PATH = Path("raw/free-01.mf4")
+PATH = Path("raw/free-01.tdms")
 
 
 @pytest.mark.parametrize(
@@ -30,9 +30,9 @@ PATH = Path("raw/free-01.mf4")
     ids=["a message", "none", "of the parser", "a place before the start", "of the machine", "missing"],
 )
 def test_what_a_parser_raises_becomes_a_message_of_what_to_do(error: Exception, told: str) -> None:
-    with pytest.raises(ReadError) as refused, refusing(PATH, '"mdf"'):
+    with pytest.raises(ReadError) as refused, refusing(PATH, '"tdms"'):
         raise error
-    assert str(refused.value).startswith("free-01.mf4: ")
+    assert str(refused.value).startswith("free-01.tdms: ")
     assert told in str(refused.value)
     of_the_machine = isinstance(error, OSError) and error.errno not in (None, errno.EINVAL)
     assert isinstance(refused.value.__cause__, OSError) == of_the_machine  # such a file is tried again

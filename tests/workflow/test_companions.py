@@ -16,13 +16,21 @@ CHANNELS = (("time", "s"), ("top", "mm"), ("table", "m/s^2"))
 def as_diadem(raw: Path) -> Path:
     """Write a raw file of text anew as a DIAdem header with its values beside it; these are returned."""
     rows = np.loadtxt(raw, delimiter=",", skiprows=1)
-    values = raw.with_suffix(".R32")
-    lines = ["DIAEXTENDED  {@:ENGLISH", "#BEGINGLOBALHEADER", "112,High -> Low", "#ENDGLOBALHEADER"]
+    values = raw.with_suffix(".tdx")
+    blocks, data = "", ""
     for number, (name, unit) in enumerate(CHANNELS):
-        lines += ["#BEGINCHANNELHEADER", f"200,{name}", f"202,{unit}", "210,EXPLICIT", f"211,{values.name}"]
-        lines += ["213,CHANNEL", "214,REAL32", f"220,{len(rows)}", f"221,{1 + number * len(rows)}"]
-        lines += ["240,0", "241,1", "252,No", "#ENDCHANNELHEADER"]
-    raw.write_text("\n".join([*lines, ""]), encoding="utf-8")
+        blocks += f'<block byteOffset="{4 * number * len(rows)}" id="i{number}" length="{len(rows)}" '
+        blocks += 'valueType="eFloat32Usi"/>'
+        data += f'<tdm_channel id="c{number}"><name>{name}</name><unit_string>{unit}</unit_string>'
+        data += f'<local_columns>id("l{number}")</local_columns></tdm_channel>'
+        data += f'<localcolumn id="l{number}"><values>id("s{number}")</values></localcolumn>'
+        data += f'<float_sequence id="s{number}"><values external="i{number}"/></float_sequence>'
+    raw.write_text(
+        '<?xml version="1.0"?><usi:tdm xmlns:usi="x"><usi:include>'
+        f'<file byteOrder="littleEndian" url="{values.name}">{blocks}</file></usi:include>'
+        f"<usi:data>{data}</usi:data></usi:tdm>",
+        encoding="utf-8",
+    )
     values.write_bytes(rows.T.astype("<f4").tobytes())
     return values
 
@@ -36,7 +44,7 @@ def in_two_parts(untouched):
 
 
 def values_of(campaign) -> Path:
-    return campaign.raw("pulse-01").with_suffix(".R32")
+    return campaign.raw("pulse-01").with_suffix(".tdx")
 
 
 def alter(path: Path, *, keep_time: bool = False) -> None:
@@ -50,7 +58,7 @@ def alter(path: Path, *, keep_time: bool = False) -> None:
 
 def test_both_parts_are_in_the_provenance(in_two_parts):
     attributes = files.read_attributes(in_two_parts.layout.stage("pulse-01", "ingest"))
-    assert list(attributes["raw_files"]) == ["raw/pulse-01.csv", "raw/pulse-01.R32"]
+    assert list(attributes["raw_files"]) == ["raw/pulse-01.csv", "raw/pulse-01.tdx"]
     assert all(len(digest) == 64 for digest in attributes["raw_sha256"])
 
 
@@ -81,14 +89,14 @@ def test_values_that_change_or_go_while_they_are_read_are_told(in_two_parts, mon
 
             still.setattr(steps, "_ingest", still_copying)
             result = in_two_parts.run(only="pulse-01", until="ingest", start_from="ingest")
-        assert "raw/pulse-01.R32: this file changed while it was being read" in result.stages[0].reason
+        assert "raw/pulse-01.tdx: this file changed while it was being read" in result.stages[0].reason
 
 
 def test_missing_values_are_named_and_taken_up_once_they_are_there(in_two_parts):
     values = values_of(in_two_parts)
     away = values.rename(values.with_name("away"))
     (failed,) = in_two_parts.run(only="pulse-01", until="ingest").stages
-    assert 'its values are in the file "pulse-01.R32", which is not in its folder' in failed.reason
+    assert 'its values are in the file "pulse-01.tdx", which is not in its folder' in failed.reason
     away.rename(values)
     assert not in_two_parts.run(only="pulse-01", until="ingest").failed
 
@@ -98,7 +106,7 @@ def test_values_that_are_a_link_out_of_the_campaign_are_refused_and_not_hashed(i
     outside = values.rename(tmp_path / "outside")
     values.symlink_to(outside)
     (failed,) = in_two_parts.run(only="pulse-01", until="ingest").stages
-    assert "its values are in pulse-01.R32, which is a link to" in failed.reason
+    assert "its values are in pulse-01.tdx, which is a link to" in failed.reason
     attributes = files.read_attributes(in_two_parts.layout.stage("pulse-01", "ingest"))
     assert not attributes["raw_sha256"][1]
     values.unlink()

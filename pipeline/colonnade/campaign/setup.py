@@ -53,6 +53,7 @@ class Align(BaseModel):
 
 
 def _file_options(value: object) -> FileOptions:
+    from colonnade.readers.refused import retired
     from colonnade.readers.registry import MOST_GENERAL, formats
 
     if not isinstance(value, Mapping):
@@ -63,7 +64,8 @@ def _file_options(value: object) -> FileOptions:
     name = value.get("format")
     known = formats()
     if name is not None and (not isinstance(name, str) or name not in known):
-        raise refuse("file", [problem(f"Unknown format {shown(name)}.{nearest(str(name), known)}", "format")])
+        hint = retired(name) or nearest(str(name), known)
+        raise refuse("file", [problem(f"Unknown format {shown(name)}.{hint}", "format")])
     chosen = known[name or MOST_GENERAL]
     try:
         chosen.options.model_validate(options)

@@ -21,10 +21,11 @@ from colonnade.readers.format import Format, Recognition
 from colonnade.readers.irregular import irregular
 from colonnade.readers.recording import Recording, Window
 from colonnade.readers.refusal import in_one_line, refusing, unreachable
+from colonnade.readers.refused import retired
 
 OWN = (
-    *("strong_motion.bhrc", "binary.catman", "strong_motion.cosmos", "text.delimited", "diadem.file", "excel.workbook"),
-    *("binary.famos", "text.lvm", "matlab.file", "binary.mdf", "text.mts", "hdf5.netcdf", "strong_motion.peer"),
+    *("binary.catman", "strong_motion.cosmos", "text.delimited", "binary.diadem", "excel.workbook"),
+    *("binary.famos", "text.lvm", "matlab.file", "text.mts", "hdf5.netcdf", "strong_motion.peer"),
     *("tdms.file", "binary.uff", "waveform.file"),
 )
 """Modules of this folder with a format, as their `FORMAT`."""
@@ -186,7 +187,7 @@ def _guarded(format: Format, path: Path, options: BaseModel, window: Window | No
 
 def _named(name: str) -> Format:
     if name not in formats():
-        raise ReadError(f'Unknown format "{name}".{nearest(name, formats())}')
+        raise ReadError(f'Unknown format "{name}".{retired(name) or nearest(name, formats())}')
     return formats()[name]
 
 

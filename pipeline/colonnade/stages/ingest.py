@@ -210,13 +210,10 @@ def _of_clocks(tracks: list[_Track], timed: Mapping[str, list[quality.Verdict]])
                 continue
             finding = replace(verdict.finding, text=f"{whose}: {verdict.reason}.")
             telling = [track for track in timed_so if track.channel.on == "specimen"] or timed_so
-            if verdict.flag == quality.Flag.FAIL and any(
-                timing.loses_motion(track.values, verdict.where) for track in telling
-            ):
-                text = (
-                    f"{finding} They are left out, and the largest readings may be among them: repair the time column."
-                )
-                finding = replace(finding, text=text, severity=Severity.SERIOUS)
+            is_lost = any(timing.loses_motion(track.values, verdict.where) for track in telling)
+            if verdict.flag == quality.Flag.FAIL and is_lost:
+                why = "They are left out, and the largest readings may be among them: repair the time column."
+                finding = replace(finding, text=f"{finding} {why}", severity=Severity.SERIOUS)
             found.append(finding)
     return found
 

@@ -10,16 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from hostile.documents import open_document_entity, pickle_as_text, text_formulas, workbook_entity, workbook_of_97
-from hostile.measurement import (
-    diadem_elsewhere,
-    diadem_entity,
-    mdf_3_program,
-    mdf_attached,
-    mdf_endless,
-    mdf_program,
-    mdf_swelling,
-    tdms_index,
-)
+from hostile.measurement import diadem_elsewhere, diadem_entity, tdms_index
 from hostile.place import SECRET, Hostile, Place, secrets
 from hostile.scientific import (
     hdf5_swelling,
@@ -29,16 +20,15 @@ from hostile.scientific import (
     netcdf_elsewhere,
     numpy_object,
 )
-from hostile.seismic import css_above, gse, mini_seed, nnsa_above, seismic_pickle
+from hostile.seismic import gse, mini_seed, seismic_pickle
 
 __all__ = ["FILES", "SECRET", "Hostile", "Place", "secrets"]
 
 FILES: dict[str, Callable[[Place], Hostile]] = {
     writer.__name__: writer
     for writer in (
-        *(mdf_program, mdf_3_program, mdf_endless, mdf_attached, mdf_swelling, css_above, nnsa_above, seismic_pickle),
-        *(pickle_as_text, numpy_object, mini_seed, gse, tdms_index, netcdf_elsewhere, matlab_elsewhere, hdf5_swelling),
-        *(matlab_swelling, netcdf_classic, workbook_entity, open_document_entity, workbook_of_97, diadem_entity),
-        *(diadem_elsewhere, text_formulas),
+        *(seismic_pickle, pickle_as_text, numpy_object, mini_seed, gse, tdms_index, netcdf_elsewhere),
+        *(matlab_elsewhere, hdf5_swelling, matlab_swelling, netcdf_classic, workbook_entity, open_document_entity),
+        *(workbook_of_97, diadem_entity, diadem_elsewhere, text_formulas),
     )
 }

@@ -1,77 +1,8 @@
-"""Hostile files of measurement systems: MDF, TDMS, DIAdem."""
+"""Hostile files of measurement systems: TDMS, DIAdem."""
 
 from __future__ import annotations
 
-import struct
-import zlib
-from pathlib import Path
-
-import numpy as np
-
-from hostile.place import COUNTS, SECRET, SWOLLEN, TIME, Hostile, Place, formula
-
-
-def _mdf(path: Path, version: str, text: str) -> Path:
-    import asammdf
-    from asammdf.blocks import v2_v3_blocks, v4_blocks
-
-    blocks, kind = (v4_blocks, 3) if version >= "4" else (v2_v3_blocks, 10)
-    conversion = blocks.ChannelConversion(conversion_type=kind, formula=text)
-    with asammdf.MDF(version=version) as file:
-        file.append(
-            [
-                asammdf.Signal(COUNTS, TIME, name="a", conversion=conversion),
-                asammdf.Signal(COUNTS, TIME, name="plain"),
-            ]
-        )
-        written = Path(file.save(path.with_suffix(".mf4" if version >= "4" else ".mdf"), overwrite=True))
-    return written.rename(path)
-
-
-def mdf_program(place: Place) -> Hostile:
-    """asammdf, version 4: runs a program."""
-    return Hostile(_mdf(place.folder / "free-01.csv", "4.10", formula(place.victim)))
-
-
-def mdf_3_program(place: Place) -> Hostile:
-    """asammdf, version 3: runs a program."""
-    return Hostile(_mdf(place.folder / "free-02.csv", "3.30", formula(place.victim)))
-
-
-def mdf_endless(place: Place) -> Hostile:
-    """asammdf: does not end."""
-    return Hostile(_mdf(place.folder / "free-03.csv", "4.10", "X1+9**9**9**9"))
-
-
-def mdf_attached(place: Place) -> Hostile:
-    """asammdf: has a file elsewhere attached to a channel."""
-    import asammdf
-
-    with asammdf.MDF(version="4.10") as file:
-        file.append([asammdf.Signal(COUNTS, TIME, name="a")])
-        number = file.attach((place.secrets / "secret").read_bytes(), file_name="secret", embedded=False)
-        file.groups[0].channels[1].attachment = number
-        file.attachments[number].file_name = str(place.secrets / "secret")
-        written = Path(file.save(place.folder / "attached.mf4", overwrite=True))
-    return Hostile(written)
-
-
-def mdf_swelling(place: Place) -> Hostile:
-    """asammdf: a quarter of a megabyte that unpacks to a quarter of a gigabyte."""
-    import asammdf
-
-    with asammdf.MDF(version="4.10") as file:
-        file.append([asammdf.Signal(np.zeros(1000), np.arange(1000.0), name="a")])
-        path = Path(file.save(place.folder / "swelling.mf4", overwrite=True, compression=1))
-    content = bytearray(path.read_bytes())
-    start = content.find(b"##DZ")
-    packed = zlib.compress(bytes(SWOLLEN), 9)
-    head = content[start : start + 24]
-    struct.pack_into("<Q", head, 8, 48 + len(packed))
-    sizes = struct.pack("<2sBBIQQ", b"DT", 0, 0, 0, SWOLLEN, len(packed))
-    moved = bytes(content).replace(struct.pack("<Q", start), struct.pack("<Q", len(content)))
-    path.write_bytes(moved + bytes(head) + sizes + packed)
-    return Hostile(path)
+from hostile.place import COUNTS, SECRET, Hostile, Place
 
 
 def tdms_index(place: Place) -> Hostile:
@@ -103,10 +34,17 @@ def diadem_entity(place: Place) -> Hostile:
 
 def diadem_elsewhere(place: Place) -> Hostile:
     """Own parser of DIAdem: values in a file elsewhere."""
-    path = place.folder / "r.dat"
-    lines = ["DIAEXTENDED  {@:ENGLISH", "#BEGINGLOBALHEADER", "112,High -> Low", "#ENDGLOBALHEADER"]
+    path = place.folder / "elsewhere.TDM"
+    files, channels = "", ""
     for number, file in enumerate((str(place.secrets / "secret"), "../secrets/secret")):
-        lines += ["#BEGINCHANNELHEADER", f"200,c{number}", "202,mm", "210,EXPLICIT", f"211,{file}", "213,CHANNEL"]
-        lines += ["214,INT32", "220,100", "221,1", "240,0", "241,1", "252,No", "#ENDCHANNELHEADER"]
-    path.write_text("\n".join([*lines, ""]), encoding="utf-8")
+        files += f'<file byteOrder="littleEndian" url="{file}"><block byteOffset="0" id="i{number}" length="100" '
+        files += 'valueType="eInt32Usi"/></file>'
+        channels += f'<tdm_channel id="c{number}"><local_columns>id("l{number}")</local_columns></tdm_channel>'
+        channels += f'<localcolumn id="l{number}"><values>id("s{number}")</values></localcolumn>'
+        channels += f'<long_sequence id="s{number}"><values external="i{number}"/></long_sequence>'
+    path.write_text(
+        f'<?xml version="1.0"?><usi:tdm xmlns:usi="x"><usi:include>{files}</usi:include>'
+        f"<usi:data>{channels}</usi:data></usi:tdm>",
+        encoding="utf-8",
+    )
     return Hostile(path)

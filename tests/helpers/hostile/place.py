@@ -51,10 +51,3 @@ def secrets(folder: Path) -> None:
     (folder / "secret.txt").write_text("\n".join(map(str, SECRET)), encoding="ascii")
     with h5py.File(folder / "secret.h5", "w") as file:
         file["x"] = SECRET
-
-
-def formula(victim: Path) -> str:
-    """A formula that runs a program: between single quotes numexpr does not look for what it forbids."""
-    classes = "().__class__.__base__.__subclasses__()"
-    system = f'[c for c in {classes} if c.__name__ == "_wrap_close"][0].__init__.__globals__["system"]'
-    return f"""("'" and {system}("touch {victim}") + 1 and "'" and X1)"""

@@ -12,10 +12,10 @@ from colonnade.identification.plausibility.factors import as_expected, cause
 from colonnade.identification.plausibility.table_motion import (
     TableChannel,
     by_rocking,
-    dead,
     disagreement,
     guilty,
     humming,
+    unlike,
     with_displacement,
 )
 
@@ -52,7 +52,7 @@ def test_the_ratio_of_acceleration_and_displacement_is_found_with_its_error(fact
     assert found.factor_error < 0.01 * abs(factor)
     assert not found.is_misplaced
     assert found.differs == (factor != 1.0)
-    assert dead(INTERVAL, *_pair(acceleration=factor)) is None
+    assert unlike(INTERVAL, *_pair(acceleration=factor)) is None
 
 
 def test_the_error_of_the_ratio_is_its_scatter():
@@ -188,7 +188,7 @@ def test_a_hum_is_told_by_its_share_of_the_peak():
 def test_a_dead_channel_is_told_from_a_table_that_stands(changed, said):
     pair = _pair(**changed)
     assert with_displacement(INTERVAL, *pair) is None
-    found = dead(INTERVAL, *pair)
+    found = unlike(INTERVAL, *pair)
     assert ("" if found is None else found.text).startswith(said)
     assert (found is not None) == bool(said)
 
@@ -196,7 +196,7 @@ def test_a_dead_channel_is_told_from_a_table_that_stands(changed, said):
 def test_two_motions_are_not_one():
     acceleration, _ = _pair()
     other = TableChannel("ACT", 0.01 * np.sin(4 * np.pi * TIME), 2e-5)
-    message = str(dead(INTERVAL, acceleration, other))
+    message = str(unlike(INTERVAL, acceleration, other))
     assert "not like one table" in message
     assert "did not start with the other (`clock`)" in message
 

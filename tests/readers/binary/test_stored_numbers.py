@@ -31,12 +31,6 @@ def test_numbers_that_are_not_there_are_told(change: dict[str, int], there: int)
     assert warnings == [f'"top": the file ends after {there} of its {change.get("count", 4)} values']
 
 
-def test_a_missing_value_is_known_at_the_precision_of_the_file() -> None:
-    content = np.frombuffer(np.array([1.0, 9.9e34], dtype="<f4").tobytes(), dtype=np.uint8)
-    stored = StoredNumbers("top", "", "", "<f4", 0, 2, 4, missing=9.9e34)
-    np.testing.assert_array_equal(values_at(content, stored)[0], [1.0, np.nan])
-
-
 def test_a_channel_that_is_not_stored_rises_evenly(tmp_path: Path) -> None:
     even = StoredNumbers("x", "", "", "<f8", 0, 10, 8, offset=1.0, factor=2.0)
     assert read_stored(tmp_path / "header", even, longest=3)[0].tolist() == [1, 3, 5]

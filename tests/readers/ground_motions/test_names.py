@@ -38,8 +38,6 @@ def test_files(name, record, direction):
         ("HNZ", "z"),
         ("Acceleration", ""),
         ("U-D", "z"),
-        ("T3", "y"),
-        ("V2", "z"),
         ("exx", ""),
     ],
 )

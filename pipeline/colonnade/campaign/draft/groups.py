@@ -12,7 +12,7 @@ MOST_SETUPS = 5
 KEPT = ("column", "recorder", "id", "kind", "frequency", "motion", "span", "specimen", "setup", "file")
 """Keys of a group that can stay before it is known whether it is needed."""
 
-PUBLISHED = ("bhrc", "cosmos", "peer")
+PUBLISHED = ("cosmos", "peer")
 """Formats in which networks publish base motions."""
 
 

@@ -8,6 +8,7 @@ from math import log
 import numpy as np
 
 from colonnade.arrays import Array, Mask
+from colonnade.identification.plausibility.scale import SURE, least_squares
 from colonnade.signals.clocks.alignment import RIVAL_EVIDENCE, find_offset
 from colonnade.signals.filters import lowpass
 
@@ -16,9 +17,6 @@ SLOWEST = 0.5
 
 CALIBRATED = 0.05
 """Relative departure of their ratio from one that calibrations leave."""
-
-SURE = 4.0
-"""Standard errors beyond which a departure is one."""
 
 BETTER = 2.0
 """Times less that has to be left unexplained with a delay, or with what a high-pass took off."""
@@ -86,20 +84,17 @@ def compare(interval: float, acceleration: Array, reference: Array, bandwidth: f
     Errors are from what is left, in as many independent samples as the bandwidth allows.
     """
     recorded = lowpass(acceleration, interval, bandwidth)
-    integral = _integral(recorded, interval)
+    once = integrated(recorded, interval)
     offset = find_offset(
         np.where(where, reference, 0.0), recorded, interval, longest=LONGEST_DELAY, bandwidth_hz=bandwidth
     )
     time = interval * np.arange(recorded.size)
     shifted = np.interp(time + offset.seconds, time, recorded)
-    independent = max(2 * bandwidth * interval * where.sum(), 3.0)
+    independent = 2 * bandwidth * interval * float(where.sum())
 
     def fit(*columns: Array) -> tuple[Array, Array, float]:
-        matrix, due = np.column_stack(columns)[where], reference[where]
-        inverse = np.linalg.pinv(matrix.T @ matrix)
-        found = inverse @ matrix.T @ due
-        left = float(np.sum((due - matrix @ found) ** 2))
-        return found, np.sqrt(np.diag(inverse) * left / independent), left / max(float(due @ due), 1e-300)
+        found, errors, left = least_squares(reference, columns, where, independent)
+        return found, errors, left**2 / max(float(np.mean(reference[where] ** 2)), 1e-300)
 
     def better(left: float) -> bool:
         ratio = max(plain, 1e-12) / max(left, 1e-12)
@@ -107,10 +102,10 @@ def compare(interval: float, acceleration: Array, reference: Array, bandwidth: f
 
     (share,), (error,), plain = fit(recorded)
     (late,), (late_error,), by_delay = fit(shifted)
-    (kept, lost, _), (kept_error, lost_error, _), by_corner = fit(recorded, integral, _integral(integral, interval))
+    (kept, lost, _), (kept_error, lost_error, _), by_corner = fit(recorded, once, integrated(once, interval))
     is_late = late > 0 and better(by_delay) and abs(offset.seconds) > max(LEAST_DELAY, SURE * offset.standard_error)
     is_cut = kept > 0 and lost > SURE * lost_error and better(by_corner)
-    is_cut = is_cut and lost * integral[where].std() > LEAST_LOST * reference[where].std()
+    is_cut = is_cut and lost * once[where].std() > LEAST_LOST * reference[where].std()
     if is_cut and not (is_late and by_delay < by_corner):
         corner, corner_error = (each / kept / (2 * np.pi) for each in (lost, lost_error))
         return Comparison(1 / kept, kept_error / kept**2, _left(by_corner), corner=corner, corner_error=corner_error)
@@ -120,7 +115,7 @@ def compare(interval: float, acceleration: Array, reference: Array, bandwidth: f
     return Comparison(1 / share, error / share**2, _left(plain))
 
 
-def _integral(values: Array, interval: float) -> Array:
+def integrated(values: Array, interval: float) -> Array:
     """Integral above `SLOWEST`."""
     summed = np.cumsum(values - values.mean()) * interval
     return summed - lowpass(summed, interval, SLOWEST)

@@ -4,11 +4,22 @@ from __future__ import annotations
 
 from math import isfinite, log
 
+from colonnade.findings import Finding, serious
+
 LOOSE = 1.5
 """A scale within this factor of one is as expected: dimensions, friction and noise are in it."""
 
 CLOSE = 1.12
 """A scale within this factor of a known one is a sign of it."""
+
+STANDING = 8.0
+"""Times its noise below which a channel does not move."""
+
+DEAD = 0.1
+"""Share of what others give below which a channel is dead."""
+
+MISLEADING = 0.1
+"""Relative departure of a scale from which on results are wrong."""
 
 UNKNOWN = "look at its gain and unit"
 """Cause of a scale that is a sign of nothing."""
@@ -44,3 +55,12 @@ def cause(scale: float, quantity: str) -> str:
         if abs(abs(log(abs(scale))) - log(factor)) < log(CLOSE):
             return words
     return UNKNOWN
+
+
+def dead(still: str, shown: float, due: float, unit: str, by: str) -> Finding:
+    """Say that a channel stands still (RMS in a unit) although others, `by`, give more."""
+    return serious(
+        "dead channel",
+        f"channel {still} hardly moves ({shown:.2g} {unit} RMS), although {by} would give {due:.2g} {unit}: it is "
+        "dead, or its gain is far too small. Check cable and sensor",
+    )

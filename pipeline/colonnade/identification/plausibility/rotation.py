@@ -135,6 +135,6 @@ class Rotation:
             angle = angle + levers @ misfit / float(levers @ levers)
         return np.asarray(misfit)
 
-    def residual(self, used: Sequence[int]) -> float:
-        """RMS of the misfit of some of them alone."""
-        return float(np.sqrt(np.nanmean(self.only(used).misfit() ** 2)))
+    def residual(self) -> float:
+        """RMS of the misfit."""
+        return float(np.sqrt(np.nanmean(self.misfit() ** 2)))

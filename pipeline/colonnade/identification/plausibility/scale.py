@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,6 +10,7 @@ import scipy
 
 from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
+from colonnade.identification.plausibility.factors import STANDING
 from colonnade.signals.stretches import filled_in
 
 WINDOW = 0.4
@@ -28,9 +30,6 @@ SURE = 4.0
 
 CERTAIN = 0.15
 """Largest standard error of a scale, relative to it, with which it is used."""
-
-STANDING = 8.0
-"""Times the noise below which a transducer does not move."""
 
 MOVES = 0.03
 """Of the largest angle, above which the specimen is taken to rock."""
@@ -141,14 +140,14 @@ def scale_of(
         if within.sum() * interval < FEWEST_SECONDS / block.p:
             return UNKNOWN_SCALE
         turning, *columns = (_averaged(each, weight) for each in bending(filled / value, acceleration, block))
-        found, errors = _least_squares(bend / value - turning, columns, within, interval * block.p)
+        independent = 3 * within.sum() * interval * block.p / WINDOW  # three in a window
+        found, errors, _ = least_squares(bend / value - turning, columns, within, independent)
         step = float(np.clip(1 + found[0], 1 / LARGEST_STEP, LARGEST_STEP))
         value *= step
         if abs(step - 1) < 0.1 * errors[0]:
             break
-    freed, freed_errors = _least_squares(bend / value, [turning, *columns], within, interval * block.p)
-    bent, explained = bend[within] / value, np.column_stack([turning, *columns])[within] @ freed
-    if float(np.std(bent - explained)) > UNEXPLAINED * float(np.std(bent)):
+    freed, freed_errors, left = least_squares(bend / value, [turning, *columns], within, independent)
+    if left > UNEXPLAINED * float(np.std(bend[within])) / value:
         return UNKNOWN_SCALE
     squared, is_shaken = max(float(freed[0]), 1e-9), acceleration is not None
     return Scale(
@@ -170,14 +169,16 @@ def bending(angle: Array, acceleration: Array | None, block: Block) -> list[Arra
     return terms if acceleration is None else [*terms, pull * filled_in(acceleration) / block.gravity]
 
 
-def _least_squares(values: Array, columns: list[Array], chosen: Mask, step: float) -> tuple[Array, Array]:
-    """Coefficients and their standard errors; a window has three of its own (`step` is p times the interval)."""
+def least_squares(
+    values: Array, columns: Sequence[Array], chosen: Mask, independent: float
+) -> tuple[Array, Array, float]:
+    """Coefficients, their standard errors with so many independent samples, and the RMS of what is left."""
     matrix = np.column_stack(columns)[chosen]
     inverse = np.linalg.pinv(matrix.T @ matrix)
     found = inverse @ (matrix.T @ values[chosen])
-    residual = values[chosen] - matrix @ found
-    independent = max(3 * chosen.sum() * step / WINDOW - found.size, 1.0)
-    return found, np.sqrt(np.diag(inverse) * float(residual @ residual) / independent)
+    left = float(np.mean((values[chosen] - matrix @ found) ** 2))
+    errors = np.sqrt(np.diag(inverse) * left * chosen.sum() / max(independent - found.size, 1.0))
+    return found, errors, left**0.5
 
 
 def _weight(interval: float, p: float) -> Array:
@@ -191,6 +192,12 @@ def _averaged(values: Array, weight: Array) -> Array:
     return np.asarray(scipy.signal.oaconvolve(values, weight, mode="same"))
 
 
+def deviation(values: Array, window: int) -> Array:
+    """Standard deviation in the window about each sample."""
+    mean = scipy.ndimage.uniform_filter1d(values, window)
+    return np.asarray(np.sqrt(np.maximum(scipy.ndimage.uniform_filter1d(values**2, window) - mean**2, 0.0)))
+
+
 def _between_impacts(interval: float, angle: Array, noise: float, p: float, around: int) -> Mask:
     """Samples about which so many have no impact, of a movement that is neither noise nor held far from rest."""
     magnitude = np.abs(angle)
@@ -198,12 +205,7 @@ def _between_impacts(interval: float, angle: Array, noise: float, p: float, arou
     window = max(int(1.6 / p / interval), 3)
     moves = scipy.ndimage.maximum_filter1d(magnitude, window) > max(STANDING * noise, MOVES * largest)
     lowest, highest = (each(angle, around) for each in (scipy.ndimage.minimum_filter1d, scipy.ndimage.maximum_filter1d))
-    deviation = np.sqrt(
-        np.maximum(
-            scipy.ndimage.uniform_filter1d(angle**2, window) - scipy.ndimage.uniform_filter1d(angle, window) ** 2, 0.0
-        )
-    )
-    held = (deviation < HELD * largest) & (magnitude > max(STANDING * noise, 0.3 * MOVES * largest))
+    held = (deviation(angle, window) < HELD * largest) & (magnitude > max(STANDING * noise, 0.3 * MOVES * largest))
     inside = np.zeros(angle.size, dtype=bool)
     inside[around:-around] = True
     return np.asarray(

@@ -10,8 +10,9 @@ import scipy
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.findings import Finding, serious
+from colonnade.identification.plausibility.factors import STANDING
 from colonnade.identification.plausibility.rotation import Rotation
-from colonnade.identification.plausibility.scale import BEYOND, STANDING, WINDOW, Scale, bending
+from colonnade.identification.plausibility.scale import BEYOND, WINDOW, Scale, bending, deviation
 from colonnade.identification.restitution.arcs.arcs import find_impacts
 from colonnade.signals.stretches import filled_in, stretches
 
@@ -75,7 +76,7 @@ def _flat(interval: float, angle: Array, noise: float, acceleration: Array | Non
     for factor in (1, 2) if impacts.size else ():
         window = max(round(factor * WINDOW / block.p / interval), 3)
         due = np.abs(scipy.ndimage.uniform_filter1d(bend, window)) * (window * interval) ** 2 / np.sqrt(720)
-        shown = _deviation(angle, window)
+        shown = deviation(angle, window)
         bent = (shown < FLAT * due) & (due > LEAST_CURVED * noise)
         quiet = leaning & (bent | (shown < LEAST_CURVED * noise))
         places = (slice(start, stop) for start, stop in zip(*stretches(quiet), strict=True) if stop - start < longest)
@@ -127,11 +128,6 @@ def _jumps(interval: float, rotation: Rotation, index: int, sample: int, size: f
         f"{interval * sample:.4g} s after the start, faster than the specimen can turn, and stands still from then on: "
         "its cable tore, or its core came off. The peak is a lower bound, and the specimen may have overturned",
     )
-
-
-def _deviation(values: Array, window: int) -> Array:
-    mean = scipy.ndimage.uniform_filter1d(values, window)
-    return np.asarray(np.sqrt(np.maximum(scipy.ndimage.uniform_filter1d(values**2, window) - mean**2, 0.0)))
 
 
 def _reading(rotation: Rotation, index: int, value: float) -> str:

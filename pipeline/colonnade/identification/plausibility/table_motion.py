@@ -11,9 +11,9 @@ import scipy
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.findings import Finding, Severity, serious
-from colonnade.identification.plausibility.comparison import SLOWEST, Comparison, compare
-from colonnade.identification.plausibility.factors import UNKNOWN, as_expected, cause
+from colonnade.findings import Finding, serious, warning
+from colonnade.identification.plausibility.comparison import Comparison, compare, integrated
+from colonnade.identification.plausibility.factors import DEAD, MISLEADING, STANDING, UNKNOWN, as_expected, cause, dead
 from colonnade.signals.filters import lowpass, second_derivative
 from colonnade.signals.hum import find_hum
 from colonnade.units import format_percent, format_uncertain
@@ -27,14 +27,8 @@ SAME_MOTION = 0.9
 OTHER_MOTION = 0.5
 """Correlation below which they are not."""
 
-STANDING = 8.0
-"""Times its noise below which a channel does not move."""
-
-DEAD = 0.1
-"""Share of what the other gives below which a channel is dead."""
-
-MISLEADING, WRONG_DELAY = 0.1, 0.03
-"""Relative departure of a scale, and delay in s, from which on predictions are wrong."""
+WRONG_DELAY = 0.03
+"""s, from which on predictions are wrong."""
 
 LEAST_HUM = 0.05
 """Of an accelerometer's peak, from which on a hum is told."""
@@ -134,12 +128,13 @@ def guilty(found: float, by_specimen: float | None) -> Literal["acceleration", "
     """
     if by_specimen is None or (found > 0 and abs(log(found)) < SEEN):
         return "either"
-    if by_specimen > 0 and as_expected(by_specimen) and (found < 0 or 2 * abs(log(by_specimen)) < abs(log(found))):
+
+    def is_right(scale: float) -> bool:
+        return scale > 0 and as_expected(scale) and (found < 0 or 2 * abs(log(scale)) < abs(log(found)))
+
+    if is_right(by_specimen):
         return "displacement"
-    ratio = by_specimen / found
-    if ratio > 0 and as_expected(ratio) and (found < 0 or 2 * abs(log(ratio)) < abs(log(found))):
-        return "acceleration"
-    return "either"
+    return "acceleration" if is_right(by_specimen / found) else "either"
 
 
 def disagreement(acceleration: TableChannel, displacement: TableChannel, found: Comparison, wrong: str) -> Finding:
@@ -155,11 +150,10 @@ def disagreement(acceleration: TableChannel, displacement: TableChannel, found: 
     """
     if found.is_misplaced:
         return misplaced(acceleration.name, found, f"{displacement.name} shows")
-    which = {
-        "acceleration": f"the specimen's rocking shows that {acceleration.name} is wrong",
-        "displacement": f"the specimen's rocking shows that {displacement.name} is wrong",
-        "either": f"one of the two is wrong, {acceleration.name} or {displacement.name}",
-    }[wrong]
+    guilty_one = displacement.name if wrong == "displacement" else acceleration.name
+    which = f"the specimen's rocking shows that {guilty_one} is wrong"
+    if wrong == "either":
+        which = f"one of the two is wrong, {acceleration.name} or {displacement.name}"
     if found.factor < 0:
         return serious(
             "sign",
@@ -177,12 +171,11 @@ def disagreement(acceleration: TableChannel, displacement: TableChannel, found: 
     elif wrong == "either":
         why += f". If it is {acceleration.name}, the peak acceleration is {ratio:.3g} times what is given"
         why += f"; if it is the sampling rate of both, that is {ratio**-0.5:.3g} times what is given"
-    severity = Severity.SERIOUS if abs(found.factor - 1) > MISLEADING else Severity.WARNING
-    return Finding(
+    build = serious if abs(found.factor - 1) > MISLEADING else warning
+    return build(
+        "gain",
         f"channel {acceleration.name} is {_written(found.factor, found.factor_error)} times the second derivative "
         f"of {displacement.name}: {which}; {why}",
-        "gain",
-        severity,
     )
 
 
@@ -197,13 +190,12 @@ def misplaced(name: str, found: Comparison, shows: str) -> Finding:
             "it. Predictions lack that motion: record it with DC coupling and without a high-pass",
         )
     how = "late" if found.delay > 0 else "early"
-    severity = Severity.SERIOUS if abs(found.delay) > WRONG_DELAY else Severity.WARNING
-    return Finding(
+    build = serious if abs(found.delay) > WRONG_DELAY else warning
+    return build(
+        "late recorder",
         f"channel {name} is {_written(1e3 * abs(found.delay), 1e3 * found.delay_error)} ms {how} against what {shows}; "
         f"{agree}: its recorder started at another time (align it by its `clock`), or its amplifier or a filter delays "
         "it (`delay` of the channel)",
-        "late recorder",
-        severity,
         follows=("clock",),
     )
 
@@ -219,61 +211,37 @@ def humming(interval: float, channel: TableChannel) -> Finding | None:
     if hum is None or hum[1] < LEAST_HUM * peak:
         return None
     frequency, amplitude = hum
-    severity = Severity.SERIOUS if amplitude > MISLEADING * peak else Severity.WARNING
-    return Finding(
+    build = serious if amplitude > MISLEADING * peak else warning
+    return build(
+        "hum",
         f"channel {channel.name} hums at {frequency:g} Hz with ±{amplitude:.2g} m/s², at rest too: that is "
         f"{format_percent(amplitude / peak)} of its peak of {peak:.3g} m/s², which is larger for it. Mains get into "
         "its cable or amplifier (ground and shield them), or a pump shakes the table. "
         f'`base_lowpass` = "{HUMLESS * frequency:g} Hz" under [processing] takes it off, and all faster motion',
-        "hum",
-        severity,
     )
 
 
-def dead(interval: float, acceleration: TableChannel, displacement: TableChannel) -> Finding | None:
+def unlike(interval: float, acceleration: TableChannel, displacement: TableChannel) -> Finding | None:
     """Say which of the two stands still, or that they are not of one motion; None if there is no problem."""
     recorded = lowpass(acceleration.values, interval, min(BANDWIDTH, 0.2 / interval))
     due = derived(interval, displacement)
-    if abs(_correlation(recorded, due)) > OTHER_MOTION:
+    alike = float(np.corrcoef(recorded, due)[0, 1]) if recorded.std() > 0 and due.std() > 0 else 0.0
+    if abs(alike) > OTHER_MOTION:
         return None
-    expected, shown = _integrated(recorded, interval), _integrated(due, interval)
+    expected, shown = (integrated(integrated(each, interval), interval) for each in (recorded, due))
     # Noise in a second derivative is separated from motion where the displacement itself is.
     moves = shown.std() > STANDING * displacement.noise
     shakes = recorded.std() > STANDING * acceleration.noise
     if shakes and expected.std() > STANDING * displacement.noise and shown.std() < DEAD * expected.std():
-        return _standing(displacement.name, acceleration.name, 1e3 * shown.std(), 1e3 * expected.std(), "mm")
+        return dead(displacement.name, 1e3 * shown.std(), 1e3 * expected.std(), "mm", acceleration.name)
     if moves and due.std() > STANDING * acceleration.noise and recorded.std() < DEAD * due.std():
-        return _standing(acceleration.name, displacement.name, recorded.std(), due.std(), "m/s²")
+        return dead(acceleration.name, recorded.std(), due.std(), "m/s²", displacement.name)
     if moves and shakes:
         return serious(
             "table motion",
             f"channels {acceleration.name} and {displacement.name} both move, but not like one table (correlation "
-            f"{_correlation(recorded, due):.2f}): one of them was read from another column or another test's file, "
+            f"{alike:.2f}): one of them was read from another column or another test's file, "
             "measures another component of the motion, or is on a recorder that did not start with the other (`clock`)",
             follows=("late recorder",),
         )
     return None
-
-
-def _standing(still: str, other: str, shown: float, due: float, unit: str) -> Finding:
-    return serious(
-        "dead channel",
-        f"channel {still} hardly moves ({shown:.2g} {unit} RMS), although {other} gives {due:.2g} {unit}: it is dead, "
-        "or its gain is far too small. Check cable and sensor",
-    )
-
-
-def _correlation(first: Array, second: Array) -> float:
-    if not (first.std() > 0 and second.std() > 0):
-        return 0.0
-    return float(np.corrcoef(first, second)[0, 1])
-
-
-def _integrated(acceleration: Array, interval: float) -> Array:
-    """Displacement of an acceleration above `SLOWEST`, m."""
-    spectrum = np.fft.rfft(acceleration)
-    frequency = np.fft.rfftfreq(acceleration.size, interval)
-    kept = frequency >= SLOWEST
-    spectrum[kept] /= -((2 * np.pi * frequency[kept]) ** 2)
-    spectrum[~kept] = 0.0
-    return np.asarray(np.fft.irfft(spectrum, acceleration.size))

@@ -9,25 +9,16 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
-from colonnade.findings import Finding, Severity, serious
-from colonnade.identification.plausibility.factors import UNKNOWN, as_expected, cause
+from colonnade.findings import Finding, serious, warning
+from colonnade.identification.plausibility.factors import DEAD, MISLEADING, STANDING, UNKNOWN, as_expected, cause, dead
 from colonnade.identification.plausibility.rotation import Rotation
 from colonnade.identification.plausibility.scale import SURE, Scale
 from colonnade.identification.plausibility.stuck import stuck
 from colonnade.identification.plausibility.undone import undone
 from colonnade.signals.stretches import filled_in
 
-STANDING = 8.0
-"""Times the noise below which a transducer does not move."""
-
-DEAD = 0.1
-"""Share of what the others give below which a transducer is dead."""
-
 ALIKE = 0.05
 """Relative difference up to which scales are one."""
-
-MISLEADING = 0.1
-"""Relative departure of a scale from which on the results are wrong."""
 
 FAR = 2.3
 """Factor from which on a scale is not that of a size or a calibration."""
@@ -66,11 +57,8 @@ def suspicions(interval: float, rotation: Rotation, acceleration: Array | None, 
     """
     scales = rotation.scales(interval, acceleration, block)
     known = [index for index, scale in enumerate(scales) if scale.is_known]
-    mistake = undone(interval, rotation, acceleration, block)
-    if mistake:
-        return [mistake]
-    if standing := stuck(interval, rotation, scales, acceleration, block):
-        return standing
+    if mistakes := _mistakes(interval, rotation, scales, acceleration, block):
+        return mistakes
     if not known:
         return []
     right = [index for index in known if not scales[index].differs]
@@ -93,13 +81,18 @@ def base_scale(interval: float, rotation: Rotation, acceleration: Array, block: 
         for scale in scales
         if scale.is_known and scale.base_is_known and as_expected(scale.value)
     ]
-    mistaken = found and (
-        undone(interval, rotation, acceleration, block) or stuck(interval, rotation, scales, acceleration, block)
-    )
-    if not found or mistaken:
+    if not found or _mistakes(interval, rotation, scales, acceleration, block):
         return None
     # Transducers that turn against each other do not show the sign; see `suspicions`.
     return float(np.median(np.abs(found))) * (-1.0 if max(found) < 0 else 1.0)
+
+
+def _mistakes(
+    interval: float, rotation: Rotation, scales: Sequence[Scale], acceleration: Array | None, block: Block
+) -> list[Finding]:
+    """What has to be mended before a scale means anything."""
+    mistake = undone(interval, rotation, acceleration, block)
+    return [mistake] if mistake else stuck(interval, rotation, scales, acceleration, block)
 
 
 def _gains(rotation: Rotation, scales: Sequence[Scale], known: list[int], block: Block) -> list[Finding]:
@@ -131,8 +124,8 @@ def _is_near(scale: Scale, value: float) -> bool:
 
 
 def _weighted(kind: str, scale: Scale, text: str, *, follows: tuple[str, ...]) -> Finding:
-    gross = abs(log(abs(scale.value))) > log(1 + MISLEADING)
-    return Finding(text, kind, Severity.SERIOUS if gross else Severity.WARNING, follows)
+    build = serious if abs(log(abs(scale.value))) > log(1 + MISLEADING) else warning
+    return build(kind, text, follows=follows)
 
 
 def _of_all(rotation: Rotation, wrong: list[int], scale: Scale, block: Block) -> Finding:
@@ -199,19 +192,10 @@ def _dead(rotation: Rotation, scales: Sequence[Scale], right: list[int]) -> list
     for index, name in enumerate(rotation.names):
         expected = float(np.std(levers[index] * angle))
         shown = float(np.nanstd(rotation.readings[index]))
-        if (
-            not scales[index].is_known
-            and expected > STANDING * max(rotation.noise[index], 1e-12)
-            and shown < 0.1 * expected
-        ):
-            found.append(
-                serious(
-                    "dead channel",
-                    f"channel {name} hardly moves ({1e3 * shown:.2g} mm RMS), although the rotation measured by "
-                    f"{others} would give {1e3 * expected:.2g} mm: it is dead, or its gain is far too small. Check "
-                    "cable and sensor",
-                )
-            )
+        moves = expected > STANDING * max(rotation.noise[index], 1e-12)
+        if not scales[index].is_known and moves and shown < DEAD * expected:
+            by = f"the rotation measured by {others}"
+            found.append(dead(name, 1e3 * shown, 1e3 * expected, "mm", by))
     return found
 
 

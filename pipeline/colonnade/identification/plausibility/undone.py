@@ -24,11 +24,10 @@ LEAST = 0.01
 
 def undone(interval: float, rotation: Rotation, acceleration: Array | None, block: Block) -> Finding | None:
     """Name the one mistake without which transducers agree on one rotation, and far better; see `suspicions`."""
-    everything = range(len(rotation.names))
-    before, moved = rotation.residual(everything), float(np.nanstd(rotation.readings, axis=1).min())
+    before, moved = rotation.residual(), float(np.nanstd(rotation.readings, axis=1).min())
     found: dict[float, Finding] = {}
     for named, changed in (*_exchanged(rotation), *_refixed(rotation), *_coupled(interval, rotation)):
-        after = changed.residual(everything)
+        after = changed.residual()
         if before < LEAST * moved or not before > BETTER * after:
             continue
         scales = changed.scales(interval, acceleration, block)

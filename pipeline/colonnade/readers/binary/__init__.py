@@ -1,1 +1,1 @@
-"""Binary files of recorders: catman, FAMOS, MDF, UFF."""
+"""Binary files of recorders: catman, DIAdem, FAMOS, UFF."""

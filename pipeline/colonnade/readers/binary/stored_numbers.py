@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path, PureWindowsPath
@@ -44,8 +43,6 @@ class StoredNumbers:
         Time step, s; 0 where the channel has none of its own.
     begin : float
         Time of the first value, s, if there is a step.
-    missing : float or None
-        What stands for a missing value.
     end : int or None
         Byte behind the last one that may be the channel's; that of the file otherwise.
     """
@@ -61,12 +58,7 @@ class StoredNumbers:
     factor: float = 1.0
     step: float = 0.0
     begin: float = 0.0
-    missing: float | None = None
     end: int | None = None
-
-
-DescribedChannel = tuple[str, Callable[[], StoredNumbers]]
-"""Name of a channel, and what finds its numbers: ValueError, KeyError or OverflowError if the header is of no use."""
 
 
 def read_stored(header: Path, stored: StoredNumbers, *, longest: int) -> tuple[Array, list[str]]:
@@ -123,8 +115,6 @@ def values_at(content: Bytes, stored: StoredNumbers, file: str = "the file") -> 
     raw = np.ndarray(there, form, content, offset=stored.first, strides=(stored.stride,))
     with np.errstate(invalid="ignore", over="ignore"):
         values = raw.astype(np.float64) * stored.factor + stored.offset
-        if stored.missing is not None and form.kind == "f":
-            values[raw == form.type(stored.missing)] = np.nan  # as rounded to the file's precision
     values[~np.isfinite(values)] = np.nan
     return values, warnings
 

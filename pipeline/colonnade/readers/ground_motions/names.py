@@ -32,8 +32,6 @@ _SEPARATED = re.compile(rf"(?P<record>.*[^A-Za-z])(?P<direction>{_WORDS})|(?P<al
 """`lefkada_x`, `I-ELC-UP`, `station 3 NS`."""
 _CHANNEL = re.compile(r"(?P<record>(?:.*[-_. ])?[BCEHLMS][HLGNP])(?P<direction>[ENZ])(?P<rest>[-_. ].*|)")
 """Codes of seismic channels, `KRP.HNE`."""
-_NUMBERED = re.compile(r"(?P<direction>[LTV])\d")
-"""BHRC's `L1`, `V2` and `T3`."""
 _AZIMUTH = re.compile(r"(?P<record>.*[^0-9])(?P<direction>\d{3})")
 """PEER's `RSN6_IMPVALL.I_I-ELC180`."""
 _SUFFIX = re.compile(r"(?P<record>.+)\.(?P<direction>EW|NS|UD)(?P<rest>[12]?)", re.IGNORECASE)
@@ -69,8 +67,6 @@ def direction_of(text: str) -> tuple[str, str]:
     if found := _SEPARATED.fullmatch(bare):
         word = found["direction"] or found["alone"]
         return _DIRECTIONS[word.casefold()], (found["record"] or "").rstrip("-_. ")
-    if found := _NUMBERED.fullmatch(bare):
-        return _DIRECTIONS[found["direction"].casefold()], ""
     if found := _CHANNEL.fullmatch(bare):
         direction = {"E": "x", "N": "y", "Z": "z"}[found["direction"]]
         return direction, found["record"] + found["rest"]

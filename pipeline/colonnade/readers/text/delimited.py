@@ -12,7 +12,7 @@ from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import TIME_UNITS, Recording, Window
-from colonnade.readers.strong_motion.refused import foreign_format
+from colonnade.readers.refused import foreign_format
 from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
 from colonnade.readers.text.lines.cells import WHITESPACE
 from colonnade.readers.text.lines.damage import mend
@@ -26,7 +26,7 @@ from colonnade.readers.text.table import Table, layout_of
 
 
 def recognise(path: Path) -> Recognition:
-    """Say whether a file is text with rows of numbers, and not a strong-motion record in a network's own format."""
+    """Say whether a file is text with rows of numbers, and not in a known format that is not read here."""
     if reason := foreign_format(path):
         return Recognition(False, reason, is_known=True)
     try:

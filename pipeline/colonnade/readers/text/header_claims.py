@@ -11,7 +11,7 @@ from colonnade.readers.clock import even_times
 _NUMBER = r"(\d*\.\d+|\d+\.?)"
 _STEPS = r"(?:spacing|interval|steps?|increments?)"
 STEP = re.compile(
-    rf"(?:\bdt\b|\bdelta\s*t\b|\b(?:time|sampl\w*)[\W_]+{_STEPS})[^\d.\n]{{0,20}}{_NUMBER}\s*(?:s\b|sec|,|$)"
+    rf"(?:\bdt\b|\bdelta\s*t\b|\b(?:time|sampl[a-z]*)[\W_]+{_STEPS})[^\d.\n]{{0,20}}{_NUMBER}\s*(?:s\b|sec|,|$)"
     rf"|{_STEPS}[^\d.\n]{{0,20}}{_NUMBER}\s*s(?:\b|ec)"  # a load step has a number, too, but no unit
     rf"|{_NUMBER}\s*s(?:ec(?:onds?)?)?\s*{_STEPS}",
     re.IGNORECASE | re.MULTILINE,

@@ -17,7 +17,6 @@ from colonnade.readers.clock import even_times
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.refusal import refusing
-from colonnade.readers.waveform.companions import companions_of
 from colonnade.readers.waveform.kinds import kind_of_waveform
 
 UNITS = {"KNET": "m/s^2", "KINEMETRICS_EVT": "m/s^2"}
@@ -32,7 +31,7 @@ class WaveformOptions(Options):
     """What can be said about a seismic file."""
 
     kind: str | None = Field(
-        default=None, description='Its name in ObsPy, such as "SEGY" or "CSS", if the first bytes do not show it.'
+        default=None, description='Its name in ObsPy, such as "SEGY" or "AH", if the first bytes do not show it.'
     )
 
 
@@ -57,7 +56,6 @@ def read(path: Path, options: WaveformOptions) -> Recording:
     """
     path.stat()  # ObsPy has no message of its own for a file that is not there
     kind = _kind(path, options)
-    companions_of(path, kind)
     stream, told = _stream(path, kind)
     grouped: dict[str, list[Any]] = {}
     for trace in stream:
@@ -85,19 +83,19 @@ def read(path: Path, options: WaveformOptions) -> Recording:
     return Recording(path, "waveform", tuple(channels), start, tuple(dict.fromkeys(notes)), tuple(told))
 
 
-def companions(path: Path, options: WaveformOptions) -> tuple[str, ...]:
-    """Names of the files with the samples, where the kind has them in files of their own."""
-    return companions_of(path, _kind(path, options))
-
-
 def _kind(path: Path, options: WaveformOptions) -> str:
-    from colonnade.readers.waveform.plugins import KINDS
+    from colonnade.readers.waveform.plugins import IN_OTHER_FILES, KINDS
 
     kind = (options.kind or kind_of_waveform(path) or "").upper()
     if not kind:
         raise ReadError(
             f'{path.name}: its first bytes do not show its format. Give it, for example kind = "SEGY". '
             f"ObsPy knows {', '.join(KINDS)}."
+        )
+    if kind in IN_OTHER_FILES:
+        raise ReadError(
+            f"{path.name}: {kind} has its samples in other files and is not read here. Convert it to miniSEED, for "
+            f'example with ObsPy: obspy.read("{path.name}", format="{kind}").write("{path.stem}.mseed").'
         )
     if kind not in KINDS:
         raise ReadError(f'{path.name}: ObsPy has no format "{kind}" that is safe to read.{nearest(kind, KINDS)}')
@@ -176,6 +174,5 @@ FORMAT = Format(
     options=WaveformOptions,
     recognise=recognise,
     read=read,
-    companions=companions,
     modules=("colonnade.readers.waveform.plugins", "numpy.ma"),
 )

@@ -12,7 +12,9 @@ from colonnade.readers.waveform.kinds import RECOGNISED
 
 UNSAFE = frozenset({"PICKLE"})
 """Kinds that can run code as they are read."""
-KINDS = tuple(kind for kind in ENTRY_POINTS["waveform"] if kind not in UNSAFE)
+IN_OTHER_FILES = frozenset({"CSS", "NNSA_KB_CORE", "Q"})
+"""Kinds whose header names the files with the samples."""
+KINDS = tuple(kind for kind in ENTRY_POINTS["waveform"] if kind not in UNSAFE | IN_OTHER_FILES)
 """All that may be read, as ObsPy calls them."""
 
 _INSTALLED = entry_points()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -261,14 +260,14 @@ def cut_short(
         found.append(
             serious(
                 "cut record",
-                f"recorder {shortest} {words} {edge:.4g} s, in the motion of {', '.join(moving)}; recorder "
+                f"Recorder {shortest} {words} {edge:.4g} s, in the motion of {', '.join(moving)}; recorder "
                 f"{channels[longest].recorder} has {beyond[longest]:.3g} s more, which are not used. The peak and the "
                 f"end may be missing: {shortest}'s file was cut, or it was stopped too early. Find the whole file, or "
-                "repeat the test",
+                "repeat the test.",
                 follows=("table motion",),
             )
         )
-    return [replace(each, text=f"{each.text[0].upper()}{each.text[1:]}.") for each in found]
+    return found
 
 
 def _moves(time: Array, values: Array, noise: float, start: float, stop: float) -> bool:

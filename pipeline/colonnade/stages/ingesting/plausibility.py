@@ -230,7 +230,7 @@ def _table(
     for one, other in product(accelerations, displacements):
         compared = table_motion.with_displacement(interval, one, other)
         if compared is None:
-            said = table_motion.dead(interval, one, other)
+            said = table_motion.unlike(interval, one, other)
             found += [said] if said else []
         elif compared.differs and (compared.is_misplaced or (one.is_good and other.is_good)):
             wrong = table_motion.guilty(compared.factor, seen)

@@ -1,4 +1,4 @@
-"""Strong-motion records in networks' own formats are refused by their format's name, never taken for tables."""
+"""Files in known formats that are not read are refused by their format's name, never taken for tables."""
 
 from __future__ import annotations
 
@@ -38,6 +38,11 @@ USC = [f"Line {number} of the title" for number in range(1, 13)]
 ESM = {"EVENT_NAME": "", "EVENT_ID": "XX-2013-0001", "STATION_CODE": "TAB", "SAMPLING_INTERVAL_S": "0.005000"}
 ESM |= {"NDATA": "800", "UNITS": "cm/s^2", "HEADER_FORMAT": "DYNA 1.2"} | {f"USER{number}": "" for number in range(57)}
 HEADS = {
+    "BHRC": (
+        ["* VOL1DS FILE:  0001/01", "Inst Type = SSA-2", *[""] * 4, "COMP L1", "UNITS ARE SECONDS AND G/10"],
+        (10, "%13.6E"),
+        "BHRC",
+    ),
     "CSMIP/DMG, volume 1": (
         ["Uncorrected Accelerogram Data      Processed: 04/26/13, XYZ  tab1", *["a line of text"] * 12, *WHOLE, *REAL],
         (8, "%10.6f"),
@@ -101,6 +106,29 @@ def test_it_is_refused_by_its_formats_name(tmp_path: Path, name: str) -> None:
             ReadError, match=f"record.txt: this is a strong-motion .* in the format of {HEADS[name][2]}"
         ):
             reading(path)
+
+
+@pytest.mark.parametrize(
+    ("start", "told"),
+    [
+        (b"MDF     4.10    ", "an ASAM MDF file, which is not read here. Export it as CSV or MATLAB"),
+        (b"UnFinMF 4.10    ", "an ASAM MDF file, which is not read here. Export it as CSV or MATLAB"),
+        ("DIAEXTENDED  {@:ENGLISH\r\n".encode("utf-16"), "a DIAdem .DAT header, which is .* Save .* as .TDM or .TDMS"),
+        (b"DIAEXTENDED  {@:ENGLISH\r\n", "a DIAdem .DAT header, which is not read here. Save .* as .TDM or .TDMS"),
+    ],
+    ids=["MDF", "MDF that was not closed", "DIAdem in UTF-16", "DIAdem in ASCII"],
+)
+def test_a_recorders_file_is_refused_with_the_export_to_make(tmp_path: Path, start: bytes, told: str) -> None:
+    path = tmp_path / "record.csv"
+    path.write_bytes(start + bytes(200))
+    for format in (None, "delimited"):
+        with pytest.raises(ReadError, match=f"record.csv: this is {told}"):
+            read(path, format)
+
+
+def test_a_format_that_was_read_once_is_refused_with_the_export_to_make(tmp_path: Path) -> None:
+    with pytest.raises(ReadError, match=r'Unknown format "mdf"\. This is an ASAM MDF file, .* Export it as CSV'):
+        read(tmp_path / "record.mf4", "mdf")
 
 
 @pytest.mark.parametrize("name", HEADS)

@@ -1,16 +1,21 @@
-"""Headers of DIAdem data sets in XML (.TDM), packed or plain: objects that refer to one another by their ids."""
+"""NI DIAdem data sets: a .TDM header, XML packed or plain, with a file of values next to it."""
 
 from __future__ import annotations
 
 import re
 import zipfile
 import zlib
-from functools import partial
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
 from colonnade.errors import ReadError
-from colonnade.readers.binary.stored_numbers import DescribedChannel, StoredNumbers
+from colonnade.readers.binary.magic import ZIP
+from colonnade.readers.binary.stored_numbers import StoredNumbers, beside, name_beside, read_stored
+from colonnade.readers.clock import even_times, find_clocks
+from colonnade.readers.format import Format, Options, Recognition
+from colonnade.readers.recording import RecordedChannel, Recording
+from colonnade.readers.refused import foreign_format
 
 FORMS = {
     **{"eFloat64Usi": "f8", "eFloat32Usi": "f4", "eInt64Usi": "i8", "eInt32Usi": "i4", "eInt16Usi": "i2"},
@@ -25,15 +30,68 @@ REFERENCE = re.compile(r'id\("([^"]+)"\)')
 Objects = dict[str, ElementTree.Element]
 
 
-def channels_in_tdm(path: Path) -> tuple[list[DescribedChannel], list[str]]:
+def recognise(path: Path) -> Recognition:
+    """Say whether a file is the header of a DIAdem data set."""
+    with path.open("rb") as stream:
+        head = stream.read(4096)
+    if head.startswith(ZIP) and b"header.xml" in head[:200]:
+        return Recognition(True, "an archive with the header.xml of a .TDM")
+    if head.lstrip(b"\xef\xbb\xbf").startswith(b"<?xml") and b"<usi:tdm" in head:
+        return Recognition(True, "XML of a .TDM")
+    if path.suffix.casefold() == ".tdx":
+        headers = [entry.name for entry in path.parent.glob(f"{path.stem}.*") if entry.suffix.casefold() == ".tdm"]
+        return Recognition(False, f"the values of {(headers or ['a .TDM'])[0]}: read that file instead")
+    return Recognition(False, "not the header of a .TDM")
+
+
+def read(path: Path, options: Options) -> Recording:
     """
-    Find what a .TDM header describes; there is nothing to warn of.
+    Read a DIAdem data set by its header.
+
+    Raises
+    ------
+    ReadError
+        If the header is damaged, or a file with the values is not in its folder.
+    """
+    described, warnings = stored_channels(path)
+    if not described and not warnings:
+        raise ReadError(f"{path.name}: the header describes no channel: it was cut off, or nothing was recorded.")
+    channels = []
+    longest = _longest(path, described)
+    for stored in described:
+        values, told = read_stored(path, stored, longest=longest)
+        warnings += told
+        time = even_times(values.size, stored.step, stored.begin) if stored.step else None
+        channels.append(RecordedChannel(stored.name, stored.unit or None, values, time))
+    notes = ["header .TDM"]
+    if is_clocked := any(channel.time is not None for channel in channels):
+        notes.append("clock: each channel's own increment")
+    recording = Recording(path, "diadem", tuple(channels), notes=tuple(notes), warnings=tuple(warnings))
+    if is_clocked or not channels:
+        return recording
+    clocks = find_clocks(recording.channels, ("number",) * len(channels))
+    each = zip(clocks.times, channels, strict=True)
+    times = tuple(time if time is None or time.size == channel.values.size else None for time, channel in each)
+    return replace(clocks, times=times).applied(recording)
+
+
+def companions(path: Path, options: Options) -> tuple[str, ...]:
+    """Names of the files with the values, all next to the header."""
+    described, _ = stored_channels(path)
+    return tuple(dict.fromkeys(name_beside(path, stored.file) for stored in described if stored.file))
+
+
+def stored_channels(path: Path) -> tuple[list[StoredNumbers], list[str]]:
+    """
+    Find where the header says that its channels' numbers are, with a warning for each entry that cannot be used.
 
     Raises
     ------
     ReadError
         If it is not whole XML, or too large.
     """
+    if reason := foreign_format(path):
+        raise ReadError(f"{path.name}: {reason}")
     try:
         root = ElementTree.fromstring(_content(path))
     except (ElementTree.ParseError, ValueError, LookupError) as error:  # the last of an encoding that there is not
@@ -42,12 +100,21 @@ def channels_in_tdm(path: Path) -> tuple[list[DescribedChannel], list[str]]:
         ) from error
     objects = {name: element for element in root.iter() if (name := element.get("id")) is not None}
     blocks = _blocks(root)
-    described: list[DescribedChannel] = []
+    stored, warnings = [], []
     channels = (element for element in root.iter() if element.tag.endswith("tdm_channel"))
     for number, channel in enumerate(channels, 1):
         name = (channel.findtext("name") or "").strip() or f"channel {number}"
-        described.append((name, partial(_stored, name, channel, objects, blocks)))
-    return described, []
+        try:
+            stored.append(_stored(name, channel, objects, blocks))
+        except (ValueError, KeyError, OverflowError) as error:
+            warnings.append(f'"{name}" is left out: its entry in the header cannot be used ({error})')
+    return stored, warnings
+
+
+def _longest(path: Path, described: list[StoredNumbers]) -> int:
+    """Count the values of the longest channel whose bytes are there."""
+    stored = [each for each in described if each.file]
+    return max((min(each.count, beside(path, each.file).stat().st_size // each.stride) for each in stored), default=0)
 
 
 def _content(path: Path) -> bytes:
@@ -150,3 +217,13 @@ def _attribute(channel: ElementTree.Element, name: str) -> float:
         if attribute.get("name") == name:
             return float((attribute.text or "").strip() or 0)
     return 0.0
+
+
+FORMAT = Format(
+    name="diadem",
+    summary="NI DIAdem data sets: .TDM header with its file of values (.tdx) next to it.",
+    suffixes=(".tdm",),
+    recognise=recognise,
+    read=read,
+    companions=companions,
+)

@@ -1,4 +1,4 @@
-"""Strong-motion formats that are not read here: recognised by their headers, so that they are not read as tables."""
+"""Formats that are not read here: recognised by how they start, and refused by name with what to do instead."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
+from colonnade.readers.binary.magic import head
 from colonnade.readers.text.header_claims import header_claims
 from colonnade.readers.text.lines.numbered import first_lines
 
@@ -15,12 +16,23 @@ HEADER_LINES = 64
 LINE_NUMBER = slice(72, 74)
 """Columns in which USC numbers the lines of its header."""
 
+MDF = (
+    "this is an ASAM MDF file, which is not read here. Export it as CSV or MATLAB (.mat), with names and units, from "
+    "the recorder's program or with asammdf."
+)
+DAT = (
+    "this is a DIAdem .DAT header, which is not read here. Save the data set from DIAdem as .TDM or .TDMS, or export "
+    "it as CSV."
+)
+MARKS = {b"MDF     ": MDF, b"UnFinMF ": MDF, b"DIAEXTENDED": DAT, "\ufeffDIAEXTENDED".encode("utf-16-le"): DAT}
+"""Sentences on the recorders' formats, by the bytes that their files start with."""
+
 SPECTRA = re.compile(r"response (?:and|spectr)", re.IGNORECASE)
 
 
 def foreign_format(path: Path) -> str:
     """
-    Say which strong-motion format a file has that is not read here, and what to do; empty if it has none.
+    Say which known format a file has that is not read here, and what to do; empty if it has none.
 
     Parameters
     ----------
@@ -29,8 +41,11 @@ def foreign_format(path: Path) -> str:
     Returns
     -------
     reason : str
-        With what the header says of interval and unit, which an export has to keep.
+        Of a strong-motion record with what the header says of interval and unit, which an export has to keep.
     """
+    start = head(path)
+    if reason := next((reason for mark, reason in MARKS.items() if start.startswith(mark)), ""):
+        return reason
     lines = first_lines(path, HEADER_LINES)
     if len(lines) < 2:
         return ""
@@ -46,12 +61,21 @@ def foreign_format(path: Path) -> str:
     says = [f"an interval of {claims.step:g} s"] if claims.step else []
     says += [f"accelerations in {claims.unit}"] if claims.unit else []
     kept = f" Its header gives {' and '.join(says)}: keep these." if says else ""
+    return _record(network) + kept
+
+
+def _record(network: str) -> str:
     return (
         f"this is a strong-motion record in the format of {network}, which is not read here. Download the record "
         "as COSMOS V1 or V2, miniSEED or SAC if the network offers it; or convert it (gmprocess of the USGS reads this "
         "format), or export it as text with a column of times and one of accelerations, with names and units above."
-        + kept
     )
+
+
+def retired(name: object) -> str:
+    """What to export instead of a format that was read once, after a blank; empty for any other name."""
+    reason = {"mdf": MDF, "bhrc": _record("BHRC (Iran)")}.get(str(name), "")
+    return f" {reason[0].upper()}{reason[1:]}" if reason else ""
 
 
 def _starts(pattern: str) -> Callable[[list[str]], bool]:
@@ -94,6 +118,7 @@ def _is_esm(lines: list[str]) -> bool:
 
 
 NETWORKS: dict[str, Callable[[list[str]], bool]] = {
+    "BHRC (Iran)": _starts(r"\* VOL\w*\s+FILE:"),
     "SMC (United States Geological Survey)": _is_smc,
     "USC (University of Southern California)": _is_usc,
     "GeoNet (New Zealand)": _starts(r".*corrected accelerogram.*(?:GNS|Geological (?:&|and) Nuclear)\b"),

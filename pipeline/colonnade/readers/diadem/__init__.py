@@ -1,1 +1,0 @@
-"""NI DIAdem data sets."""
