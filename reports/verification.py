@@ -190,11 +190,11 @@ def _demo(found: Found) -> list[Row]:
 
 
 STUDIES = (
-    Study("Restitution", "restitution-study", "restitution-study", "make restitution-study", _restitution),
-    Study("Verdict on a prediction", "verdict-study", "verdict-study", "make verdict-study", _verdict),
-    Study("Forecasts", "forecast-study", "forecast-study", "make forecast-study", _forecasts),
-    Study("Fragility", "fragility-study", "fragility-study", "make fragility-study", _fragilities),
-    Study("Contact model", "contact-study", "contact-study", "make contact-study", _contact),
+    Study("Restitution", "restitution-study", "restitution-study", "make study NAME=restitution", _restitution),
+    Study("Verdict on a prediction", "verdict-study", "verdict-study", "make study NAME=verdict", _verdict),
+    Study("Forecasts", "forecast-study", "forecast-study", "make study NAME=forecast", _forecasts),
+    Study("Fragility", "fragility-study", "fragility-study", "make study NAME=fragility", _fragilities),
+    Study("Contact model", "contact-study", "contact-study", "make study NAME=contact", _contact),
     Study("The paper's schemes", "convergence", "convergence", "python reports/convergence.py", _convergence),
     Study("The whole programme", "demo", "demo", "python reports/rebuild.py", _demo),
 )
@@ -213,7 +213,7 @@ def measured(folder: Path = HERE) -> str:
     parts += [
         "### Planted faults",
         f"{len(FAULTS)} faults, one a campaign, each found and named; {len(UNSEEN) - 1} that nothing finds. "
-        "[The atlas](../faults/index.md), made by `python reports/fault_atlas.py`; `make test` plants each again.",
+        "[The atlas](../faults/index.md), made by `python reports/fault_atlas.py`; `make test-all` plants each again.",
     ]
     return "\n\n".join(parts)
 

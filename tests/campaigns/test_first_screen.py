@@ -18,6 +18,8 @@ from colonnade.laboratory.programme import write
 from colonnade.laboratory.table import recorded
 from colonnade.signals.filters import lowpass
 
+pytestmark = pytest.mark.whole
+
 SCREEN = 24
 """Lines."""
 
@@ -152,7 +154,7 @@ MISTAKES = {
 }
 
 SOUND = {"wrapped rows", "copied folder"}
-"""Their free vibration is sound, so that its e takes its time and adds nothing: whole only in `make study`."""
+"""Their free vibration is sound, so that its e takes its time and adds nothing: whole only in `make slow`."""
 
 
 @pytest.mark.parametrize(
