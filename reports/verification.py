@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import json
-import re
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,8 +13,8 @@ from colonnade.units.writing import with_minus
 from faults.registry import FAULTS
 from faults.unseen import UNSEEN
 from monte_carlo.page import FACTORS
+from study import HERE, renewed, table
 
-HERE = Path(__file__).resolve().parent
 DOCUMENT = HERE.parent / "docs" / "explanation" / "verification.md"
 MARKS = "<!-- measured: begin -->", "<!-- measured: end -->"
 
@@ -208,7 +207,7 @@ def measured(folder: Path = HERE) -> str:
         parts += [
             f"### {study.title}",
             f"[The study](../../reports/{study.page}.md), made by `{study.command}`.",
-            _table(study.rows(found)),
+            table(("check", "figure", "what it does not show"), study.rows(found)),
         ]
     parts += [
         "### Planted faults",
@@ -222,18 +221,6 @@ def _power(value: float) -> str:
     return with_minus(f"{value:.1e}")
 
 
-def _table(rows: Iterable[Row]) -> str:
-    return "\n".join(
-        ["| check | figure | what it does not show |", "|---|---|---|", *(f"| {' | '.join(row)} |" for row in rows)]
-    )
-
-
-def renewed(document: str, tables: str) -> str:
-    """Put the tables between the marks of a document."""
-    begin, end = MARKS
-    return re.sub(f"{begin}.*{end}", lambda _: f"{begin}\n\n{tables}\n\n{end}", document, flags=re.DOTALL)
-
-
 if __name__ == "__main__":
     place = Path(sys.argv[1]) if len(sys.argv) > 1 else DOCUMENT
-    place.write_text(renewed(place.read_text(encoding="utf-8"), measured()), encoding="utf-8")
+    place.write_text(renewed(place.read_text(encoding="utf-8"), MARKS, measured()), encoding="utf-8")
