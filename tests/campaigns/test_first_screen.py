@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from colonnade.cli import invoke
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import COMMAS
@@ -17,13 +16,13 @@ from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.programme import write
 from colonnade.laboratory.table import recorded
 from colonnade.signals.filters import lowpass
+from prism import PRISM
 
 pytestmark = pytest.mark.whole
 
 SCREEN = 24
 """Lines."""
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 SHAPE = {"shape": "prism", "width": "86 mm", "depth": "86 mm", "height": "456 mm", "mass": "26.10 kg"}
 
 
