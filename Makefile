@@ -1,18 +1,13 @@
 # make demo     writes the virtual campaign into demo/ and runs it: open demo/report/index.html
-# make demo-full  the same, and whether the real columns of its specimens stand, on synthetic ground motions
-# make test     style, types, import rules, tests, and the built wheel in a fresh environment
-# make docs    builds the documentation: open docs/build/html/index.html
-# make docs-test  follows the slow pages of the documentation and looks at the built site in a browser
-# make study    the slow tests: seeds 0-19 of the virtual campaign, MuJoCo, benchmarks, other laboratories' files
+# make test     style, types, import rules and tests: what a change is checked with
+# make test-all that, and the wheel, README typed in order, Dask, kills, planted faults, browser and documentation
+# make slow     the slow tests: seeds 0-19 of the virtual campaign, MuJoCo, benchmarks, other laboratories' files
 # make drill    500 kills, full and read-only disks (as root), two runs at once, 2000 damaged files: two hours
-# make format   rewrites the sources in the project's style
+# make docs     builds the documentation: open docs/build/html/index.html
+# make study NAME=restitution  repeats one study with known truth, into reports/restitution-study.md; see STUDIES
 # make reports  rebuilds the reference reports in reports/ and the pictures of README and tutorial
-# make restitution-study  5000 records with known truth: reports/restitution-study.md, ten minutes and more
-# make verdict-study  1000 tests with known truth judged by their spread: reports/verdict-study.md, a quarter of an hour
-# make forecast-study  480 tests with known truth, forecast and scored: reports/forecast-study.md, five minutes and more
-# make fragility-study  3000 sets of virtual records with known truth: reports/fragility-study.md, ten minutes and more
 # make reproduce  repeats the paper on the virtual shake table, statement by statement: reports/manos, half an hour
-# make contact-study  measures the contact model again: reports/contact-study.md, half an hour
+# make format   rewrites the sources in the project's style
 # make release VERSION=1.2.3  checks and builds a release, commits and tags it here; uploads nothing
 # make clean    removes what the other targets made
 #
@@ -23,41 +18,51 @@ FITS := import sys, venv, ensurepip; sys.exit(not (3, 11) <= sys.version_info[:2
 BIN := .venv/bin
 DEMO_INSTALLED := .venv/installed-demo
 INSTALLED := .venv/installed
-STUDY_INSTALLED := .venv/installed-study
+SLOW_INSTALLED := .venv/installed-slow
 DOCS_INSTALLED := .venv/installed-docs
 RELEASE_INSTALLED := .venv/installed-release
 # Files of tests are shared out over the cores, each file to one of them, where it computes in one thread.
-SHARED := --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope-reorder
+TESTED := OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest --numprocesses logical --maxprocesses 4 --dist loadfile \
+  --no-loadscope-reorder --durations=10
+# 5000 records (ten minutes and more); 1000 tests judged by their spread (a quarter of an hour); 480 tests forecast and
+# scored (five minutes); 3000 sets of records (ten minutes); the contact model (half an hour); Span 2.5 (half an hour).
+STUDIES := restitution verdict forecast fragility contact span
 
 # Each command and worker starts several seconds sooner if Python keeps the bytecode of what it has imported.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo demo-full test docs docs-test study drill format reports restitution-study verdict-study forecast-study fragility-study contact-study reproduce release clean
+.PHONY: demo test test-all slow drill docs study reports reproduce format release clean
 
 demo: $(DEMO_INSTALLED)
 	@$(BIN)/colonnade demo demo
 
-demo-full: $(DEMO_INSTALLED)
-	@$(BIN)/colonnade demo demo --full
+define CHECKED
+$(BIN)/ruff check
+$(BIN)/ruff format --check
+$(BIN)/mypy
+$(BIN)/lint-imports
+endef
 
 test: $(INSTALLED)
-	$(BIN)/ruff check
-	$(BIN)/ruff format --check
-	$(BIN)/mypy
-	$(BIN)/lint-imports
-	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest $(SHARED) --durations=10 -m "not slow and not drill and not docs"
+	$(CHECKED)
+	$(TESTED)
 
-docs: $(DOCS_INSTALLED)
-	$(BIN)/python -m sphinx -c docs -b html -W --keep-going -j 2 -q . docs/build/html
+test-all: docs
+	$(CHECKED)
+	$(TESTED) -m "not slow and not drill"
 
-docs-test: docs
-	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest $(SHARED) -m docs
-
-study: $(STUDY_INSTALLED)
+slow: $(SLOW_INSTALLED)
 	$(BIN)/python -m pytest -m slow
 
 drill: $(INSTALLED)
 	$(BIN)/python -m pytest tests/drill -m drill
+
+docs: $(DOCS_INSTALLED)
+	$(BIN)/python -m sphinx -c docs -b html -W --keep-going -j 2 -q . docs/build/html
+
+study: $(INSTALLED)
+	@$(if $(filter $(NAME),$(STUDIES)),,echo "Choose one of: $(STUDIES:%=make study NAME=%;)"; exit 2)
+	$(BIN)/python reports/$(NAME)_study.py
 
 format: $(INSTALLED)
 	$(BIN)/ruff check --fix
@@ -73,21 +78,6 @@ reports: $(INSTALLED)
 	$(BIN)/python reports/tutorial_pictures.py
 	$(BIN)/python reports/explanation_figures.py
 
-restitution-study: $(INSTALLED)
-	$(BIN)/python reports/restitution_study.py
-
-verdict-study: $(INSTALLED)
-	$(BIN)/python reports/verdict_study.py
-
-forecast-study: $(INSTALLED)
-	$(BIN)/python reports/forecast_study.py
-
-fragility-study: $(INSTALLED)
-	$(BIN)/python reports/fragility_study.py
-
-contact-study: $(INSTALLED)
-	$(BIN)/python reports/contact_study.py
-
 reproduce: $(INSTALLED)
 	$(BIN)/python reports/reproduce.py
 	$(BIN)/python reports/span_study.py
@@ -101,14 +91,14 @@ clean:
 
 # An interpreter counts if it runs, is 3.11 to 3.14 and can make an environment; being on the PATH is not enough
 # (version managers leave stubs there). Installed again only when pyproject.toml is newer. The demo installs only what
-# it needs; the tests add linters and the packages they compare with, the study also heyoka and MuJoCo. Packages are
+# it needs; the tests add linters and the packages they compare with, the slow ones also heyoka and MuJoCo. Packages are
 # compiled when they are first imported: most modules never are.
 $(DEMO_INSTALLED): EXTRAS := demo
 $(INSTALLED): EXTRAS := demo,test
-$(STUDY_INSTALLED): EXTRAS := demo,test,bench
+$(SLOW_INSTALLED): EXTRAS := demo,test,bench
 $(DOCS_INSTALLED): EXTRAS := demo,test,docs
 $(RELEASE_INSTALLED): EXTRAS := demo,test,release
-$(DEMO_INSTALLED) $(INSTALLED) $(STUDY_INSTALLED) $(DOCS_INSTALLED) $(RELEASE_INSTALLED): pyproject.toml
+$(DEMO_INSTALLED) $(INSTALLED) $(SLOW_INSTALLED) $(DOCS_INSTALLED) $(RELEASE_INSTALLED): pyproject.toml
 	@if ! $(BIN)/python -c "$(FITS)" >/dev/null 2>&1; then \
 	  chosen=; \
 	  for python in $(PYTHONS); do \

@@ -21,6 +21,7 @@ extensions = [
     "myst_parser",
     "numpydoc",
     "sphinx.ext.autodoc",
+    "sphinx_click",
     "sphinx_gallery.gen_gallery",
     "mathml",
     "front_page",

@@ -13,20 +13,19 @@ from typing import Any
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
-import numpy as np
-
-from colonnade import figures
 from colonnade.dynamics.contact.law import ContactLaw
 from contact_model import convergence, damping, disturbed, drawings, space, speed
 from contact_model.free import PRISM
 from contact_model.observed import measure_observed
 from contact_model.page import page
 from contact_model.summary import summary
+from study import HERE, renewed, rounded, write_figure, write_numbers
 
-HERE = Path(__file__).resolve().parent
 DOCUMENT = HERE.parent / "docs" / "explanation" / "contact.md"
-BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
+MARKS = "<!-- measured: begin -->", "<!-- measured: end -->"
 NAME = "contact-study"
+DIGITS = 7
+"""Of each number that is kept."""
 
 FIGURES: dict[str, tuple[Callable[[dict[str, Any]], Any], str, str]] = {
     "convergence": (
@@ -81,30 +80,12 @@ def measure(only: list[str], kept: dict[str, Any], workers: int) -> dict[str, An
 
 def write(found: dict[str, Any], folder: Path) -> None:
     """Write page, numbers and figures into a folder."""
-    (folder / f"{NAME}.json").write_text(json.dumps(rounded(found), indent=1) + "\n", encoding="utf-8")
+    write_numbers(folder / f"{NAME}.json", rounded(found, DIGITS))
     drawn = {}
     for part, (draw, title, described) in FIGURES.items():
         drawn[part] = f"contact-{part}.svg"
-        text = figures.to_svg(draw(found), identity=f"contact-{part}", title=title, description=described)
-        (folder / drawn[part]).write_text(text, encoding="utf-8")
+        write_figure(folder / drawn[part], draw(found), title, described)
     (folder / f"{NAME}.md").write_text(page(found, drawn), encoding="utf-8")
-
-
-def renewed(document: str, found: dict[str, Any]) -> str:
-    """Put what was measured between the marks of a document."""
-    head, rest = document.split(BEGIN)
-    return f"{head}{BEGIN}\n\n{summary(found)}\n\n{END}{rest.split(END)[1]}"
-
-
-def rounded(value: Any) -> Any:
-    """Numbers with seven digits, and None for those that are none."""
-    if isinstance(value, dict):
-        return {name: rounded(each) for name, each in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [rounded(each) for each in value]
-    if isinstance(value, float):
-        return float(f"{value:.7g}") if np.isfinite(value) else None
-    return value
 
 
 def main() -> None:
@@ -116,10 +97,10 @@ def main() -> None:
     told = parser.parse_args()
     numbers = told.folder / f"{NAME}.json"
     kept = json.loads(numbers.read_text(encoding="utf-8")) if len(told.only) < len(PARTS) and numbers.exists() else {}
-    found = rounded(measure(told.only, kept, told.workers))
+    found = rounded(measure(told.only, kept, told.workers), DIGITS)
     write(found, told.folder)
     if told.folder == HERE:
-        DOCUMENT.write_text(renewed(DOCUMENT.read_text(encoding="utf-8"), found), encoding="utf-8")
+        DOCUMENT.write_text(renewed(DOCUMENT.read_text(encoding="utf-8"), MARKS, summary(found)), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,15 +10,14 @@ from typing import Any
 import numpy as np
 from matplotlib.ticker import NullFormatter
 
-from colonnade import figures
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import History
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.figures.style import blank_figure, styled
 from paper_schemes import PAPERS_REFINEMENT, Scheme, rock_by_steps
+from study import HERE, write_figure, write_numbers
 
-HERE = Path(__file__).resolve().parent
 FIGURE = "convergence.svg"
 
 PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
@@ -183,11 +181,10 @@ def rebuild(folder: Path) -> None:
     numbers = [
         {**vars(series), "order": None if np.isnan(series.order) else round(series.order, 3)} for series in found
     ]
-    (folder / "convergence.json").write_text(json.dumps(numbers, indent=1) + "\n", encoding="utf-8")
+    write_numbers(folder / "convergence.json", numbers)
     title = "Error of the paper's two schemes over their step"
     described = "Without contacts both fall with the fourth power of the step or faster, with contacts with the first."
-    text = figures.to_svg(draw(found), identity="convergence", title=title, description=described)
-    (folder / FIGURE).write_text(text, encoding="utf-8")
+    write_figure(folder / FIGURE, draw(found), title, described)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 import tempfile
 from dataclasses import dataclass
@@ -15,7 +14,6 @@ from colonnade.arrays import Array
 from colonnade.campaign import Campaign, load
 from colonnade.campaign import Test as OneTest
 from colonnade.dynamics.block import Block
-from colonnade.figures.files.output import to_svg
 from colonnade.figures.style import blank_figure, styled
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.instruments import Imperfections, Transducer
@@ -23,6 +21,7 @@ from colonnade.laboratory.programme import write
 from colonnade.readers.registry import read
 from colonnade.signals.filters import default_lowpass
 from colonnade.stages import condition, ingest, restitution, rocking
+from study import renewed, table, write_figure
 
 DOCUMENT = Path(__file__).resolve().parents[1] / "docs" / "explanation" / "filter.md"
 FIGURE = "filter-bias.svg"
@@ -125,20 +124,17 @@ def true_peaks(time: Array, angle: Array) -> tuple[Array, Array]:
     return np.array(instants), np.array(heights)
 
 
-def table(biases: list[Bias]) -> str:
+def biases_table(biases: list[Bias]) -> str:
     """Write the biases as a table of text."""
-    bands = " | ".join(f"peaks {low:g}–{high:g} α" for low, high in BANDS)
-    lines = [
-        f"| sampling, Hz | e | cut-off, Hz | {bands} | e |",
-        "|---|---|---|" + "---|" * (len(BANDS) + 1),
-    ]
+    rows = []
     for each in biases:
         default = abs(each.cutoff - default_lowpass(PRISM.p, each.rate)) < 1e-9
         cutoff = f"**{each.cutoff:.1f}** (default)" if default else f"{each.cutoff:g}"
-        peaks = " | ".join("–" if np.isnan(value) else f"{100 * value:+.3f} %" for value in each.peaks)
+        peaks = ("–" if np.isnan(value) else f"{100 * value:+.3f} %" for value in each.peaks)
         e = "refused" if np.isnan(each.restitution) else f"{each.restitution:+.5f}"
-        lines.append(f"| {each.rate:g} | {each.true_restitution:g} | {cutoff} | {peaks} | {e} |")
-    return "\n".join(lines)
+        rows.append((f"{each.rate:g}", f"{each.true_restitution:g}", cutoff, *peaks, e))
+    heads = ("sampling, Hz", "e", "cut-off, Hz", *(f"peaks {low:g}–{high:g} α" for low, high in BANDS), "e")
+    return table(heads, rows)
 
 
 @styled()
@@ -171,14 +167,11 @@ def draw(biases: list[Bias]) -> Figure:
 def rebuild(document: Path) -> None:
     """Put table and figure into the document."""
     biases = measure(RATES, RESTITUTIONS, CUTOFFS)
-    text = document.read_text(encoding="utf-8")
-    begin, end = MARKS
-    measured = f"{begin}\n\n{table(biases)}\n\n![Bias of peaks and of e over the cut-off]({FIGURE})\n\n{end}"
-    document.write_text(re.sub(f"{begin}.*{end}", lambda _: measured, text, flags=re.DOTALL), encoding="utf-8")
+    inside = f"{biases_table(biases)}\n\n![Bias of peaks and of e over the cut-off]({FIGURE})"
+    document.write_text(renewed(document.read_text(encoding="utf-8"), MARKS, inside), encoding="utf-8")
     title = "Bias of peaks and of e over the cut-off of the low-pass"
     described = "From 10 Hz on, small peaks have errors of at most 0.1 % of α and e of 1e-5; at 5 Hz peaks miss 1 %."
-    text = to_svg(draw(biases), identity="filter-bias", title=title, description=described)
-    document.with_name(FIGURE).write_text(text, encoding="utf-8")
+    write_figure(document.with_name(FIGURE), draw(biases), title, described)
 
 
 if __name__ == "__main__":

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import argparse
-import json
 from pathlib import Path
 from typing import Any
 
 from joblib import Parallel, delayed
 
-from colonnade import figures
 from forecasts.campaign import PILOTS, Campaign, run_campaign
 from forecasts.judging import judge
 from forecasts.page import draw, page
+from study import options, write_figure, write_numbers
 
-HERE = Path(__file__).resolve().parent
 NAME = "forecast-study"
 CAMPAIGNS, TESTS, MEMBERS, SEED, WORKERS = 48, 10, 50, 40, 2
 
@@ -39,22 +36,16 @@ def study(campaigns: int, seed: int, workers: int, *, tests: int = TESTS, member
 
 def write(found: dict[str, Any], folder: Path) -> None:
     """Write page, numbers and figure into a folder."""
-    (folder / f"{NAME}.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    write_numbers(folder / f"{NAME}.json", found)
     (folder / f"{NAME}.md").write_text(page(found, f"{NAME}.svg"), encoding="utf-8")
     title = "Reliability of forecasts of overturning, and PIT of their amplitudes"
     described = "Frequency of overturning over its forecast probability, and the share of tests up to each PIT value."
-    text = figures.to_svg(draw(found), identity=NAME, title=title, description=described)
-    (folder / f"{NAME}.svg").write_text(text, encoding="utf-8")
+    write_figure(folder / f"{NAME}.svg", draw(found), title, described)
 
 
 def main() -> None:
     """Run the study and write page, numbers and figure."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--campaigns", type=int, default=CAMPAIGNS)
-    parser.add_argument("--seed", type=int, default=SEED)
-    parser.add_argument("--workers", type=int, default=WORKERS)
-    parser.add_argument("--folder", type=Path, default=HERE, help="where the results go")
-    told = parser.parse_args()
+    told = options(__doc__, campaigns=CAMPAIGNS, seed=SEED, workers=WORKERS)
     write(study(told.campaigns, told.seed, told.workers), told.folder)
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
-import json
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -14,8 +12,8 @@ from joblib import Parallel, delayed
 from fragilities.page import page
 from fragilities.population import Population
 from fragilities.trial import run
+from study import options, write_numbers
 
-HERE = Path(__file__).resolve().parent
 NAME = "fragility-study"
 REPETITIONS, SEED, WORKERS = 500, 2015, 2
 
@@ -53,18 +51,13 @@ def share_of(held: list[bool | None]) -> float | None:
 
 def write(found: dict[str, Any], folder: Path) -> None:
     """Write page and numbers into a folder."""
-    (folder / f"{NAME}.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    write_numbers(folder / f"{NAME}.json", found)
     (folder / f"{NAME}.md").write_text(page(found), encoding="utf-8")
 
 
 def main() -> None:
     """Run the study and write page and numbers."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--repetitions", type=int, default=REPETITIONS)
-    parser.add_argument("--seed", type=int, default=SEED)
-    parser.add_argument("--workers", type=int, default=WORKERS)
-    parser.add_argument("--folder", type=Path, default=HERE, help="where the results go")
-    given = parser.parse_args()
+    given = options(__doc__, repetitions=REPETITIONS, seed=SEED, workers=WORKERS)
     write(study(given.repetitions, given.seed, given.workers), given.folder)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,12 +10,12 @@ from typing import Any
 import numpy as np
 
 import colonnade
-from colonnade import figures
 from colonnade.dynamics.block import Block
 from colonnade.figures.style import blank_figure, styled
 from monte_carlo.integration import integrated_angle
 from monte_carlo.naive import naive_restitution
 from monte_carlo.truth import FreeRocking
+from study import renewed, table, write_figure
 
 DOCUMENT = Path(__file__).resolve().parents[1] / "docs" / "explanation" / "restitution.md"
 FIGURE = "linear-bias.svg"
@@ -79,7 +78,7 @@ def _biases(restitution: float, slenderness: float, release: float) -> dict[str,
     return {name: float(np.mean(values)) if values else float("nan") for name, values in off.items()}
 
 
-def table(biases: list[Bias]) -> str:
+def tables(biases: list[Bias]) -> str:
     """Write the linear history's bias over slenderness and release, and the largest of every estimator."""
     lines = []
     for restitution in dict.fromkeys(bias.restitution for bias in biases):
@@ -92,21 +91,26 @@ def table(biases: list[Bias]) -> str:
             lines += [
                 f"Bias of {title}, e = {restitution:g}:",
                 "",
-                "| height / width | " + " | ".join(f"release {release:g} α" for release in releases) + " |",
-                "|---|" + "---|" * len(releases),
+                table(
+                    ("height / width", *(f"release {release:g} α" for release in releases)),
+                    (
+                        (
+                            f"{slenderness:g}",
+                            *(_written(bias.by_estimator[name]) for bias in own if bias.slenderness == slenderness),
+                        )
+                        for slenderness in dict.fromkeys(bias.slenderness for bias in own)
+                    ),
+                ),
+                "",
             ]
-            for slenderness in dict.fromkeys(bias.slenderness for bias in own):
-                row = [bias.by_estimator[name] for bias in own if bias.slenderness == slenderness]
-                lines.append(f"| {slenderness:g} | " + " | ".join(_written(value) for value in row) + " |")
-            lines.append("")
     lines += ["Largest bias of each estimator over all of these blocks and releases:", ""]
-    lines += ["| estimator | largest | of |", "|---|---|---|"]
+    rows = []
     for name in ESTIMATORS:
         known = [bias for bias in biases if np.isfinite(bias.by_estimator[name])]
         largest = max(known, key=lambda bias: abs(bias.by_estimator[name]))
         where = f"e = {largest.restitution:g}, height / width {largest.slenderness:g}, release {largest.release:g} α"
-        lines.append(f"| {name} | {_written(largest.by_estimator[name])} | {where} |")
-    return "\n".join(lines)
+        rows.append((name, _written(largest.by_estimator[name]), where))
+    return "\n".join([*lines, table(("estimator", "largest", "of"), rows)])
 
 
 def _written(value: float) -> str:
@@ -143,16 +147,11 @@ def draw(biases: list[Bias]) -> Any:
 
 def rebuild(document: Path, biases: list[Bias]) -> None:
     """Write table and figure into a document, between its marks, and beside it."""
-    text = document.read_text(encoding="utf-8")
-    begin, end = MARKS
-    inside = f"{begin}\n\n{table(biases)}\n\n![Bias of the linear model]({FIGURE})\n\n{end}"
-    text = re.sub(f"{re.escape(begin)}.*{re.escape(end)}", lambda _: inside, text, flags=re.DOTALL)
-    document.write_text(text, encoding="utf-8")
+    inside = f"{tables(biases)}\n\n![Bias of the linear model]({FIGURE})"
+    document.write_text(renewed(document.read_text(encoding="utf-8"), MARKS, inside), encoding="utf-8")
     title = "Bias of e from the linear model on nonlinear rocking"
     described = "Over the release angle, a line a slenderness: largest for stocky blocks that are released high."
-    (document.parent / FIGURE).write_text(
-        figures.to_svg(draw(biases), identity="linear-bias", title=title, description=described), encoding="utf-8"
-    )
+    write_figure(document.with_name(FIGURE), draw(biases), title, described)
 
 
 if __name__ == "__main__":

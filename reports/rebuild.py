@@ -21,8 +21,8 @@ from colonnade.report.overview_page.agreement import agreement
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_test
 from colonnade.store.records.summary import map_points
+from study import HERE, table, write_numbers
 
-HERE = Path(__file__).resolve().parent
 PICTURE = HERE.parent / "docs" / "demo.gif"
 MOVING, COARSE = "span-3.0", 80
 """The test that the picture of the README shows; its dots an inch."""
@@ -52,7 +52,7 @@ def tell(path: Path, folder: Path, name: str, picture: Path | None = None) -> No
     summary = json.loads(layout.summary_json.read_text(encoding="utf-8"))
     truth = json.loads((campaign.folder / "truth" / "truth.json").read_text(encoding="utf-8"))
     numbers = demo_numbers(truth, summary)
-    (folder / f"{name}.json").write_text(json.dumps(numbers, indent=1) + "\n", encoding="utf-8")
+    write_numbers(folder / f"{name}.json", numbers)
     drawn = draw(campaign, summary, folder, name, picture)
     (folder / f"{name}.md").write_text(demo_table(numbers, TITLES[name], drawn), encoding="utf-8")
 
@@ -92,12 +92,13 @@ def demo_table(numbers: dict[str, Any], title: str, drawn: Mapping[str, str]) ->
         "",
         f"Seed {numbers['seed']}; written by `make reports`.",
         "",
-        "| specimen | true e | identified e | 95 % interval |",
-        "|---|---|---|---|",
-    ]
-    for specimen, e in numbers["restitution"].items():
-        lines.append(f"| {specimen} | {e['true']} | {e['value']} | {e['low']} to {e['high']} |")
-    lines += [
+        table(
+            ("specimen", "true e", "identified e", "95 % interval"),
+            (
+                (specimen, e["true"], e["value"], f"{e['low']} to {e['high']}")
+                for specimen, e in numbers["restitution"].items()
+            ),
+        ),
         "",
         "Outcome and largest |θ|/α: true (nonlinear model, adaptive integration), measured by virtual instruments, and",
         "predicted on the recorded base motion; nrmse of predicted against measured. A free vibration is predicted,",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import os
 from pathlib import Path
 
@@ -15,8 +14,8 @@ from reproduction.drawings import drawn
 from reproduction.pages import pages
 from reproduction.results import Found, Numbers, gather, read
 from reproduction.statements import answers
+from study import HERE, write_numbers
 
-HERE = Path(__file__).resolve().parent
 FOLDER = HERE / "manos"
 CAMPAIGN = HERE.parent / "build" / "reproduce"
 
@@ -25,8 +24,7 @@ def write(numbers: Numbers, folder: Path) -> None:
     """Write numbers, with the answers that follow from them, and pages."""
     folder.mkdir(parents=True, exist_ok=True)
     answered = {name: {"verdict": each.verdict, "ours": each.ours} for name, each in answers(numbers).items()}
-    text = json.dumps(numbers | {"answers": answered}, indent=1, ensure_ascii=False)
-    write_text(folder / "results.json", text + "\n")
+    write_numbers(folder / "results.json", numbers | {"answers": answered})
     for name, page in pages(numbers).items():
         write_text(folder / name, page)
 

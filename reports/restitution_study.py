@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
-import json
 from collections import Counter
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -12,13 +10,12 @@ from typing import Any
 import numpy as np
 from joblib import Parallel, delayed
 
-from colonnade import figures
 from monte_carlo.design import BEYOND, SPREAD, Draw, draw
 from monte_carlo.levels import judge, judge_bounds, judge_estimators, judge_kinds, judge_levels
 from monte_carlo.page import draw_levels, page
 from monte_carlo.trial import Trial, run, tried
+from study import options, rounded, write_figure, write_numbers
 
-HERE = Path(__file__).resolve().parent
 NAME = "restitution-study"
 RECORDS, SEED, WORKERS = 5000, 2013, 2
 
@@ -79,33 +76,16 @@ def numbers(trials: dict[str, list[Trial]], seed: int) -> dict[str, Any]:
 
 def write(found: dict[str, Any], folder: Path) -> None:
     """Write page, numbers and figure into a folder."""
-    (folder / f"{NAME}.json").write_text(json.dumps(_rounded(found), indent=1) + "\n", encoding="utf-8")
+    write_numbers(folder / f"{NAME}.json", rounded(found, 4))
     (folder / f"{NAME}.md").write_text(page(found, f"{NAME}.svg"), encoding="utf-8")
     title = "Bias, coverage and error of the identified restitution, level by level"
     described = "Levels of e, shape, size, release, recorder, noise, offset, length and filter; beside the naive way."
-    text = figures.to_svg(draw_levels(found), identity=NAME, title=title, description=described)
-    (folder / f"{NAME}.svg").write_text(text, encoding="utf-8")
-
-
-def _rounded(value: Any) -> Any:
-    """Numbers with four digits, and None for those that are none."""
-    if isinstance(value, dict):
-        return {name: _rounded(each) for name, each in value.items()}
-    if isinstance(value, list):
-        return [_rounded(each) for each in value]
-    if isinstance(value, float):
-        return float(f"{value:.4g}") if np.isfinite(value) else None
-    return value
+    write_figure(folder / f"{NAME}.svg", draw_levels(found), title, described)
 
 
 def main() -> None:
     """Run the study and write page, numbers and figure."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--records", type=int, default=RECORDS)
-    parser.add_argument("--seed", type=int, default=SEED)
-    parser.add_argument("--workers", type=int, default=WORKERS)
-    parser.add_argument("--folder", type=Path, default=HERE, help="where the results go")
-    told = parser.parse_args()
+    told = options(__doc__, records=RECORDS, seed=SEED, workers=WORKERS)
     found = numbers(run_trials(told.records, told.seed, told.workers), told.seed)
     write(found, told.folder)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -32,8 +31,8 @@ from span_two_and_a_half.members import FORWARD, Judged
 from span_two_and_a_half.running import Runner, run_cells
 from span_two_and_a_half.space import run_in_space
 from span_two_and_a_half.trial import SIGNED, draw
+from study import HERE, write_numbers
 
-HERE = Path(__file__).resolve().parent
 NAME = "span-2.5"
 KEPT = HERE.parent / "build" / "reproduce" / "span-2.5"
 WORKERS = 2
@@ -203,7 +202,7 @@ def write(found: dict[str, Any], folder: Path) -> None:
     from span_two_and_a_half.page import page
 
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / f"{NAME}.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    write_numbers(folder / f"{NAME}.json", found)
     (folder / f"{NAME}.md").write_text(page(found), encoding="utf-8")
     (folder / f"{NAME}-design.md").write_text(fixed_text(), encoding="utf-8")
     for name, text in draw_all(found).items():

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import argparse
-import json
 from pathlib import Path
 from typing import Any
 
 from joblib import Parallel, delayed
 
-from colonnade import figures
 from colonnade.campaign.settings import EnsembleSettings
 from spread_verdicts.judging import judge
 from spread_verdicts.page import draw_ranks, page
 from spread_verdicts.trial import Trial, run
+from study import options, write_figure, write_numbers
 
-HERE = Path(__file__).resolve().parent
 NAME = "verdict-study"
 TESTS, SEED, WORKERS = 1000, 22, 2
 WRONG = 0.01
@@ -71,22 +68,16 @@ _NAMES = {"true": 0.0, "wrong": WRONG}
 
 def write(found: dict[str, Any], folder: Path) -> None:
     """Write page, numbers and figure into a folder."""
-    (folder / f"{NAME}.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    write_numbers(folder / f"{NAME}.json", found)
     (folder / f"{NAME}.md").write_text(page(found, f"{NAME}.svg"), encoding="utf-8")
     title = "Ranks of measured histories among the runs of a model"
     described = "Share of the tests up to each rank: under a true model, and with an e that is wrong."
-    text = figures.to_svg(draw_ranks(found), identity=NAME, title=title, description=described)
-    (folder / f"{NAME}.svg").write_text(text, encoding="utf-8")
+    write_figure(folder / f"{NAME}.svg", draw_ranks(found), title, described)
 
 
 def main() -> None:
     """Run the study and write page, numbers and figure."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--tests", type=int, default=TESTS)
-    parser.add_argument("--seed", type=int, default=SEED)
-    parser.add_argument("--workers", type=int, default=WORKERS)
-    parser.add_argument("--folder", type=Path, default=HERE, help="where the results go")
-    told = parser.parse_args()
+    told = options(__doc__, tests=TESTS, seed=SEED, workers=WORKERS)
     write(study(told.tests, told.seed, told.workers), told.folder)
 
 

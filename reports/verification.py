@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import json
-import re
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,8 +13,8 @@ from colonnade.units.writing import with_minus
 from faults.registry import FAULTS
 from faults.unseen import UNSEEN
 from monte_carlo.page import FACTORS
+from study import HERE, renewed, table
 
-HERE = Path(__file__).resolve().parent
 DOCUMENT = HERE.parent / "docs" / "explanation" / "verification.md"
 MARKS = "<!-- measured: begin -->", "<!-- measured: end -->"
 
@@ -190,11 +189,11 @@ def _demo(found: Found) -> list[Row]:
 
 
 STUDIES = (
-    Study("Restitution", "restitution-study", "restitution-study", "make restitution-study", _restitution),
-    Study("Verdict on a prediction", "verdict-study", "verdict-study", "make verdict-study", _verdict),
-    Study("Forecasts", "forecast-study", "forecast-study", "make forecast-study", _forecasts),
-    Study("Fragility", "fragility-study", "fragility-study", "make fragility-study", _fragilities),
-    Study("Contact model", "contact-study", "contact-study", "make contact-study", _contact),
+    Study("Restitution", "restitution-study", "restitution-study", "make study NAME=restitution", _restitution),
+    Study("Verdict on a prediction", "verdict-study", "verdict-study", "make study NAME=verdict", _verdict),
+    Study("Forecasts", "forecast-study", "forecast-study", "make study NAME=forecast", _forecasts),
+    Study("Fragility", "fragility-study", "fragility-study", "make study NAME=fragility", _fragilities),
+    Study("Contact model", "contact-study", "contact-study", "make study NAME=contact", _contact),
     Study("The paper's schemes", "convergence", "convergence", "python reports/convergence.py", _convergence),
     Study("The whole programme", "demo", "demo", "python reports/rebuild.py", _demo),
 )
@@ -208,12 +207,12 @@ def measured(folder: Path = HERE) -> str:
         parts += [
             f"### {study.title}",
             f"[The study](../../reports/{study.page}.md), made by `{study.command}`.",
-            _table(study.rows(found)),
+            table(("check", "figure", "what it does not show"), study.rows(found)),
         ]
     parts += [
         "### Planted faults",
         f"{len(FAULTS)} faults, one a campaign, each found and named; {len(UNSEEN) - 1} that nothing finds. "
-        "[The atlas](../faults/index.md), made by `python reports/fault_atlas.py`; `make test` plants each again.",
+        "[The atlas](../faults/index.md), made by `python reports/fault_atlas.py`; `make test-all` plants each again.",
     ]
     return "\n\n".join(parts)
 
@@ -222,18 +221,6 @@ def _power(value: float) -> str:
     return with_minus(f"{value:.1e}")
 
 
-def _table(rows: Iterable[Row]) -> str:
-    return "\n".join(
-        ["| check | figure | what it does not show |", "|---|---|---|", *(f"| {' | '.join(row)} |" for row in rows)]
-    )
-
-
-def renewed(document: str, tables: str) -> str:
-    """Put the tables between the marks of a document."""
-    begin, end = MARKS
-    return re.sub(f"{begin}.*{end}", lambda _: f"{begin}\n\n{tables}\n\n{end}", document, flags=re.DOTALL)
-
-
 if __name__ == "__main__":
     place = Path(sys.argv[1]) if len(sys.argv) > 1 else DOCUMENT
-    place.write_text(renewed(place.read_text(encoding="utf-8"), measured()), encoding="utf-8")
+    place.write_text(renewed(place.read_text(encoding="utf-8"), MARKS, measured()), encoding="utf-8")

@@ -15,6 +15,7 @@ from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.programme import write
 from colonnade.laboratory.table import TableMotion, ramped_sine, recorded, still
 from colonnade.workflow import run
+from prism import PRISM
 
 SCRIPT = "<script>alert('title')</script>"
 MARKUP = '<img src=x onerror="alert(1)"> & 5 < 6'
@@ -22,7 +23,6 @@ STRONG = "sine-3hz-too-strong-for-the-block-1"
 LATER = "later"
 RATE = 250.0
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 STATUE = Block.measured(mass=80.0, pole_distance=0.61, critical_angle=(0.21, 0.23), inertia=41.2)
 SPECIMENS = {
     "prism": Specimen(

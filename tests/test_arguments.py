@@ -13,16 +13,16 @@ import pytest
 
 import colonnade
 from colonnade.dynamics.contact.law import ContactLaw
+from prism import PRISM
 
-BLOCK = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 TIME = np.arange(0.0, 4.0, 0.01)
 MOTION = colonnade.Motion(3.0 * np.sin(10.0 * TIME), 0.01)
-HISTORY = colonnade.rock(BLOCK, MOTION)
-FREE = colonnade.rock(BLOCK, theta0=0.5 * BLOCK.critical_angle, duration=4.0, restitution=0.9)
+HISTORY = colonnade.rock(PRISM, MOTION)
+FREE = colonnade.rock(PRISM, theta0=0.5 * PRISM.critical_angle, duration=4.0, restitution=0.9)
 LAW = colonnade.RestitutionLaw.table([0.0, 1.0], [1.0, 0.9])
 SURE = colonnade.Uncertainty()
-ENSEMBLE = colonnade.ensemble(BLOCK, MOTION, uncertainty=SURE, count=2)
-ASKED = {"block": BLOCK, "motions": [MOTION, MOTION], "measure": "pga", "levels": [1.0, 4.0, 9.0], "draws": 1} | {
+ENSEMBLE = colonnade.ensemble(PRISM, MOTION, uncertainty=SURE, count=2)
+ASKED = {"block": PRISM, "motions": [MOTION, MOTION], "measure": "pga", "levels": [1.0, 4.0, 9.0], "draws": 1} | {
     "resamples": 20,
     "measures": ["pga"],
 }
@@ -112,7 +112,7 @@ BASE = {"model": "name", "theta0": "number", "rest_angle": "fine"}
 CALLS = {
     "Block": Call(
         colonnade.Block,
-        {"mass": 1.0, "gravity": 9.81, "negative": BLOCK.negative, "positive": BLOCK.positive},
+        {"mass": 1.0, "gravity": 9.81, "negative": PRISM.negative, "positive": PRISM.positive},
         SOLID | {"negative": "object", "positive": "object", "solid": "object or none"},
     ),
     "Block.prism": Call(
@@ -133,11 +133,11 @@ CALLS = {
         {"mass": 20.0, "pole_distance": 0.5, "critical_angle": 0.2, "inertia": 7.0},
         SOLID | SIDES,
     ),
-    "Block.override": Call(BLOCK.override, {}, SIDES),
-    "Block.critical_angle_at": Call(BLOCK.critical_angle_at, {"angle": [-0.1, 0.1]}, {"angle": "ranked"}),
-    "Block.pole_distance_at": Call(BLOCK.pole_distance_at, {"angle": [-0.1, 0.1]}, {"angle": "ranked"}),
-    "Block.p_at": Call(BLOCK.p_at, {"angle": [-0.1, 0.1]}, {"angle": "ranked"}),
-    "Block.side_p": Call(BLOCK.side_p, {"side": BLOCK.negative}, {"side": "object"}),
+    "Block.override": Call(PRISM.override, {}, SIDES),
+    "Block.critical_angle_at": Call(PRISM.critical_angle_at, {"angle": [-0.1, 0.1]}, {"angle": "ranked"}),
+    "Block.pole_distance_at": Call(PRISM.pole_distance_at, {"angle": [-0.1, 0.1]}, {"angle": "ranked"}),
+    "Block.p_at": Call(PRISM.p_at, {"angle": [-0.1, 0.1]}, {"angle": "ranked"}),
+    "Block.side_p": Call(PRISM.side_p, {"side": PRISM.negative}, {"side": "object"}),
     "Motion": Call(
         colonnade.Motion,
         {"acceleration": [0.0, 1.0, 2.0, 0.0], "dt": 0.01},
@@ -168,7 +168,7 @@ CALLS = {
     ),
     "ensemble": Call(
         colonnade.ensemble,
-        {"block": BLOCK, "motion": MOTION, "uncertainty": SURE, "count": 1},
+        {"block": PRISM, "motion": MOTION, "uncertainty": SURE, "count": 1},
         BASE
         | {"block": "object", "motion": "object", "uncertainty": "object"}
         | {"restitution": "e", "count": "whole", "seed": "seed"},
@@ -179,7 +179,7 @@ CALLS = {
     "Ensemble.correlations": Call(ENSEMBLE.correlations, {"values": [0.1, 0.2]}, {"values": "ranked"}),
     "identify_restitution": Call(
         colonnade.identify_restitution,
-        {"time": TIME[:4], "angle": np.zeros(4), "block": BLOCK},
+        {"time": TIME[:4], "angle": np.zeros(4), "block": PRISM},
         dict.fromkeys(("angle", "out_of_plane", "slide", "uplift", "base_acceleration"), "ranked")
         | {
             "time": "array",
@@ -199,7 +199,7 @@ CALLS = {
     ),
     "overturning_spectrum": Call(
         colonnade.overturning_spectrum,
-        {"block": BLOCK, "pulse": "sine", "frequency_ratio": [2.0, 3.0], "largest": 2.0},
+        {"block": PRISM, "pulse": "sine", "frequency_ratio": [2.0, 3.0], "largest": 2.0},
         {"block": "object", "pulse": "name", "frequency_ratio": "array", "restitution": "e", "model": "name"}
         | {"cycles": "cycles", "phase": "number", "largest": "positive", "width": "fine", "edge": "fine"}
         | {"threads": "whole"},
@@ -231,14 +231,14 @@ CALLS = {
     ),
     "rock": Call(
         colonnade.rock,
-        {"block": BLOCK, "duration": 0.1},
+        {"block": PRISM, "duration": 0.1},
         BASE
         | {"block": "object", "motion": "object or none", "restitution": "e", "omega0": "number"}
         | {"duration": "duration", "contact": "object or none", "out_of_plane": "number"},
     ),
     "rocking_angle": Call(
         colonnade.rocking_angle,
-        {"displacements": [0.0, 0.001], "at": [0.04, 0.0, 0.4], "direction": [1.0, 0.0, 0.0], "block": BLOCK},
+        {"displacements": [0.0, 0.001], "at": [0.04, 0.0, 0.4], "direction": [1.0, 0.0, 0.0], "block": PRISM},
         {"displacements": "array", "at": "array", "direction": "array", "block": "object"},
     ),
     "run": Call(
@@ -249,7 +249,7 @@ CALLS = {
     ),
     "stability_map": Call(
         colonnade.stability_map,
-        {"block": BLOCK, "frequency_ratio": [2.0, 3.0, 4.0, 5.0], "amplitude_ratio": [0.5, 0.6, 0.7, 0.8]},
+        {"block": PRISM, "frequency_ratio": [2.0, 3.0, 4.0, 5.0], "amplitude_ratio": [0.5, 0.6, 0.7, 0.8]},
         {"block": "object", "frequency_ratio": "array", "amplitude_ratio": "array", "restitution": "e"}
         | {"cycles": "cycles", "ramp": "cycles", "phase": "number", "ramp_shape": "name", "model": "name"}
         | {"width": "fine", "edge": "fine", "motion": "object or none", "threads": "whole"}
@@ -355,12 +355,12 @@ def test_times_are_no_accelerations():
 @pytest.mark.parametrize("at", [[0.04, 0.0], np.zeros((2, 2))], ids=["two components", "a table of two columns"])
 def test_points_have_three_components(at):
     with pytest.raises(ValueError, match="at has shape"):
-        colonnade.rocking_angle([0.0, 0.001], at, [1.0, 0.0, 0.0], BLOCK)
+        colonnade.rocking_angle([0.0, 0.001], at, [1.0, 0.0, 0.0], PRISM)
 
 
 def test_directions_are_unit_vectors():
     with pytest.raises(ValueError, match="direction has a vector of length 2"):
-        colonnade.rocking_angle([0.0, 0.001], [0.04, 0.0, 0.4], [2.0, 0.0, 0.0], BLOCK)
+        colonnade.rocking_angle([0.0, 0.001], [0.04, 0.0, 0.4], [2.0, 0.0, 0.0], PRISM)
 
 
 @pytest.mark.parametrize(
@@ -382,19 +382,19 @@ def test_a_map_that_would_not_end_is_refused(arguments, named):
 def test_a_run_of_the_contact_model_that_would_not_end_is_refused():
     slow = colonnade.Motion([0.0, 1.0, 0.0], 1e9)
     with pytest.raises(ValueError, match="dt"):
-        colonnade.rock(BLOCK, slow, model="contact")
+        colonnade.rock(PRISM, slow, model="contact")
     with pytest.raises(ValueError, match="stiffness is"):
         ContactLaw(np.inf)
 
 
 def test_a_low_pass_that_remembers_for_ever_is_refused():
     with pytest.raises(ValueError, match="cutoff is 1e-12 Hz"):
-        colonnade.ensemble(BLOCK, MOTION, uncertainty=colonnade.Uncertainty(cutoff=1e-12, filter=0.1), count=1)
+        colonnade.ensemble(PRISM, MOTION, uncertainty=colonnade.Uncertainty(cutoff=1e-12, filter=0.1), count=1)
 
 
 def test_a_duration_beside_a_motion_is_refused():
     with pytest.raises(ValueError, match="duration"):
-        colonnade.rock(BLOCK, MOTION, duration=1.0)
+        colonnade.rock(PRISM, MOTION, duration=1.0)
 
 
 def test_a_masked_array_without_a_gap_is_plain():

@@ -1,8 +1,9 @@
-"""Which interpreter `make` takes, held by stand-ins on a PATH that has nothing else."""
+"""Its targets are those that texts name; which interpreter `make` takes, by stand-ins on a PATH with nothing else."""
 
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -10,6 +11,13 @@ from pathlib import Path
 import pytest
 
 PROJECT = Path(__file__).parents[1]
+MAKEFILE = (PROJECT / "Makefile").read_text(encoding="utf-8")
+TARGETS = re.search(r"^\.PHONY: (.*)$", MAKEFILE, re.MULTILINE)[1].split()
+TEXTS = [
+    *PROJECT.glob("*.md"),
+    *(path for room in ("docs", "reports", "tests", "tools") for path in (PROJECT / room).rglob("*.[mp][dy]")),
+    *(PROJECT / name for name in ("pyproject.toml", ".ci/run")),
+]
 
 pytestmark = pytest.mark.skipif(shutil.which("make") is None, reason="there is no make here")
 
@@ -23,6 +31,29 @@ case "$1" in
       if [ "$2" = venv ]; then mkdir -p .venv/bin; cp "$0" .venv/bin/python; fi ;;
 esac
 """
+
+
+def test_there_are_few_targets_and_each_is_described():
+    assert len(TARGETS) <= 12
+    assert re.findall(r"^# make ([\w-]+)", MAKEFILE, re.MULTILINE) == TARGETS
+
+
+def test_every_target_that_a_text_names_is_there():
+    named = {
+        (word, str(path.relative_to(PROJECT)))
+        for path in TEXTS
+        if "build" not in path.parts
+        for word in re.findall(r"`make ([a-z][\w-]*)", path.read_text(encoding="utf-8"))
+    }
+    assert {word for word, _ in named} >= {"demo", "test", "test-all", "slow", "study", "reports"}
+    assert sorted(each for each in named if each[0] not in TARGETS) == []
+
+
+def test_every_study_can_be_named():
+    there = {path.name.removesuffix("_study.py") for path in (PROJECT / "reports").glob("*_study.py")}
+    assert set(re.search(r"^STUDIES := (.*)$", MAKEFILE, re.MULTILINE)[1].split()) == there
+    named = {name for path in TEXTS for name in re.findall(r"make study NAME=(\w+)", path.read_text(encoding="utf-8"))}
+    assert named <= there
 
 
 @pytest.fixture
@@ -44,9 +75,9 @@ def add_interpreter(clone: Path, name: str, script: str) -> None:
     path.chmod(0o755)
 
 
-def make(clone: Path, target: str) -> subprocess.CompletedProcess[str]:
+def make(clone: Path, *targets: str) -> subprocess.CompletedProcess[str]:
     environment = {"PATH": str(clone.parent / "tools"), "HOME": str(clone)}
-    return subprocess.run(["make", target], cwd=clone, env=environment, capture_output=True, text=True)
+    return subprocess.run(["make", *targets], cwd=clone, env=environment, capture_output=True, text=True)
 
 
 def test_an_interpreter_that_does_not_run_is_passed_over(clone):
@@ -104,3 +135,25 @@ def test_python_keeps_its_bytecode_whatever_the_environment_says(clone):
     environment = {"PATH": str(clone.parent / "tools"), "HOME": str(clone), "PYTHONDONTWRITEBYTECODE": "1"}
     subprocess.run(["make", ".venv/installed"], cwd=clone, env=environment, capture_output=True, check=True)
     assert set((clone / "seen").read_text().split()) == {"[]"}
+
+
+def test_all_tests_are_those_of_every_day_and_the_whole_ones(clone):
+    add_interpreter(clone, "python3.12", FITTING)
+    [daily], [whole] = (
+        [line for line in make(clone, "-n", target).stdout.splitlines() if "-m pytest" in line]
+        for target in ("test", "test-all")
+    )
+    assert whole == f'{daily} -m "not slow and not drill"'
+    for target in ("test", "test-all"):
+        assert {".venv/bin/ruff check", ".venv/bin/mypy", ".venv/bin/lint-imports"} <= set(
+            make(clone, "-n", target).stdout.splitlines()
+        )
+
+
+def test_a_study_without_its_name_is_asked_for(clone):
+    add_interpreter(clone, "python3.12", FITTING)
+    told = make(clone, "study")
+    assert told.returncode != 0
+    assert "Choose one of: make study NAME=restitution;" in told.stdout
+    made = make(clone, "-n", "study", "NAME=verdict").stdout.splitlines()
+    assert made[-1] == ".venv/bin/python reports/verdict_study.py"

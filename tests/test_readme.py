@@ -74,6 +74,7 @@ def called(arguments: list[str], folder: Path) -> str:
     return out.getvalue()
 
 
+@pytest.mark.whole
 def test_every_command_runs_and_the_demo_is_near_its_truth(outputs):
     assert {"colonnade demo demo --short", "colonnade check first", "colonnade run first"} <= outputs.keys()
     assert "inside the interval" in outputs["colonnade demo demo --short"]
@@ -83,22 +84,16 @@ def test_every_command_runs_and_the_demo_is_near_its_truth(outputs):
     assert KEPT_AWAY in outputs["colonnade demo demo --short"]
 
 
+@pytest.mark.whole
 def test_its_demo_has_the_numbers_of_the_reference_report(outputs, folder, tmp_path, as_reported):
     rebuild.tell(folder / "demo" / "campaign.toml", tmp_path, "short")
     as_reported(tmp_path, "short")
 
 
+@pytest.mark.whole
 def test_the_first_campaign_gives_its_column_a_restitution(outputs):
     shown = outputs["colonnade show specimens first"]
     assert re.search(r"column +prism .* 0\.97\d* ± (< )?0\.00\d+ +identified", shown)
-
-
-def test_make_has_every_target_that_is_named():
-    typed = [*blocks("sh"), *(words for page in PAGES.values() for words in re.findall(r"`([^`\n]+)`", page))]
-    targets = set(re.findall(r"^make ([\w-]+)$", "\n".join(typed), re.MULTILINE))
-    makefile = (PROJECT / "Makefile").read_text(encoding="utf-8")
-    assert targets >= {"demo", "test", "study", "reports"}
-    assert targets <= set(re.search(r"^\.PHONY: (.*)$", makefile, re.MULTILINE)[1].split())
 
 
 def test_the_python_runs_and_finds_the_restitution_it_computed_with():

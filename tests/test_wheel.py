@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from packaging.requirements import Requirement
 
-pytestmark = pytest.mark.wheel
+pytestmark = pytest.mark.whole
 
 PROJECT = Path(__file__).parents[1]
 EXAMPLE = PROJECT / "raw_schema" / "examples" / "delimited"

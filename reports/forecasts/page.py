@@ -13,7 +13,7 @@ from forecasts.judging import BASE_RATE, MAIN
 
 TEXT = """# Study of forecasts whose truth is known
 
-Made by `make forecast-study` (`python reports/forecast_study.py --campaigns {campaigns} --seed {seed}`).
+Made by `make study NAME=forecast` (`python reports/forecast_study.py --campaigns {campaigns} --seed {seed}`).
 
 {campaigns} virtual campaigns with {each} tests each: prisms of {heights} m with a true e of {lowest} to {highest}.
 In each test e differs from it by {scatter} (standard deviation). Each campaign identifies e from three free vibrations

@@ -12,7 +12,7 @@ from fragilities.trial import PROBABILITIES, RESAMPLES, SIGNIFICANT
 
 TEXT = """# Study of fragility curves whose truth is known
 
-Made by `make fragility-study` (`python reports/fragility_study.py --repetitions {repetitions} --seed {seed}`).
+Made by `make study NAME=fragility` (`python reports/fragility_study.py --repetitions {repetitions} --seed {seed}`).
 
 Each repetition draws records from a population with known capacities and runs each at all levels, under draws of its
 own. ln capacity = ln({median:g} m/s) + record + draw. All intervals are 95 % intervals by {resamples} resamples of

@@ -7,13 +7,14 @@ from typing import NamedTuple
 
 from reproduction import table_page
 from reproduction.drawings import FIGURES
-from reproduction.markdown import figure, fixed, table
+from reproduction.markdown import figure, fixed
 from reproduction.printed import FREQUENCIES, LAST_DIGIT, SHOWN, SPANS
 from reproduction.slips import SLIPS
 from reproduction.statement import Numbers
 from reproduction.statement_table import of_figure, statement_table
 from reproduction.statements import answers
 from reproduction.statements.sines import shown as test_shown
+from study import table
 
 
 class Page(NamedTuple):

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from colonnade.report.references import REFERENCES
 from reproduction.contents import PAGES
-from reproduction.markdown import VIRTUAL, table
+from reproduction.markdown import VIRTUAL
 from reproduction.statement import HISTORIES, WORDS, Numbers
 from reproduction.statement_table import figure_of, statement_table
 from reproduction.statements import STATEMENTS, answers
+from study import table
 
 
 def pages(numbers: Numbers) -> dict[str, str]:

@@ -6,9 +6,9 @@ import re
 from collections.abc import Sequence
 
 from reproduction.drawings import FIGURES
-from reproduction.markdown import table
 from reproduction.statement import WORDS, Numbers, Statement, Verdict
 from reproduction.statements import STATEMENTS, answers
+from study import table
 
 HEADS = ("where", "the paper says", "examined", "we find", "")
 

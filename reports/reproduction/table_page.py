@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from reproduction.markdown import fixed, shown, table
+from reproduction.markdown import fixed, shown
 from reproduction.printed import TABLE_1
 from reproduction.statement import Numbers
 from reproduction.statements.specimens import UNITS, WORDS, percent_off
 from reproduction.tables import modulus_for
+from study import table
 
 
 def lines(numbers: Numbers) -> list[str]:

@@ -13,7 +13,7 @@ from spread_verdicts.design import DURATION, HEIGHTS, RATE, RESTITUTION_ERROR
 
 TEXT = """# Study of the verdict "within its own spread"
 
-Made by `make verdict-study` (`python reports/verdict_study.py --tests {tests} --seed {seed}`).
+Made by `make study NAME=verdict` (`python reports/verdict_study.py --tests {tests} --seed {seed}`).
 
 The verdict asks whether the measured rocking angle could be one more run of the model. Each run of the ensemble
 gets measurement errors of its own: noise, zero, calibration and low-pass of the measured angle. Each of the {members}

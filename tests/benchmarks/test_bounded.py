@@ -1,4 +1,4 @@
-"""What the bounded process costs for each small file after the first (`make study` prints the figures)."""
+"""What the bounded process costs for each small file after the first (`make slow` prints the figures)."""
 
 from __future__ import annotations
 

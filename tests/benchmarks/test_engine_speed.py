@@ -13,14 +13,13 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import paper_schemes as schemes
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.plane.harmonic.march import Watch, run
 from colonnade.dynamics.plane.harmonic.nonlinear import empty_series
 from colonnade.dynamics.plane.nonlinear import by_series
 from colonnade.dynamics.plane.sampled_march import propagate
 from colonnade.dynamics.plane.sides import sides_of
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
 RESTITUTION, REST = 0.976, 1e-6
 SIDES = sides_of(PRISM, (RESTITUTION, RESTITUTION), REST)

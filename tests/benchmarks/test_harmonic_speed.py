@@ -20,10 +20,9 @@ from functools import partial
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.plane.harmonic.motion import Harmonic, harmonic_outcomes, harmonic_run
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
 CYCLES, RESTITUTION = 30, 0.976
 FREQUENCIES = np.linspace(4.5, 7.8, 6)

@@ -1,4 +1,4 @@
-"""The ingest of long files beside a bare read of the same file in the same run (`make study` prints the figures)."""
+"""The ingest of long files beside a bare read of the same file in the same run (`make slow` prints the figures)."""
 
 from __future__ import annotations
 

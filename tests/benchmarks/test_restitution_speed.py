@@ -15,11 +15,10 @@ import pytest
 from scipy.integrate import solve_ivp
 from threadpoolctl import threadpool_limits
 
-from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.laboratory.truth import simulate
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
 RATE, DURATION = 1000.0, 20.0
 RECORDS = 1000

@@ -10,7 +10,6 @@ import pytest
 import scipy
 
 from colonnade.cli import invoke
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import COMMAS
@@ -18,11 +17,13 @@ from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.programme import write
 from colonnade.laboratory.table import recorded
 from colonnade.signals.filters import lowpass
+from prism import PRISM
+
+pytestmark = pytest.mark.whole
 
 SCREEN = 24
 """Lines."""
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 SHAPE = {"shape": "prism", "width": "86 mm", "depth": "86 mm", "height": "456 mm", "mass": "26.10 kg"}
 
 
@@ -242,7 +243,7 @@ TABLE = {
 """Mistakes of the table's accelerometer: three sizes, how each is planted, the finding."""
 
 SOUND = {"saturated under noise", "another block", "wrapped rows", "copied folder", "one file twice"}
-"""Their free vibration is sound, so that its e takes its time and adds nothing: whole only in `make study`."""
+"""Their free vibration is sound, so that its e takes its time and adds nothing: whole only in `make slow`."""
 
 
 @pytest.mark.parametrize(

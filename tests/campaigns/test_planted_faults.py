@@ -18,6 +18,8 @@ from faults.sound import RESTITUTION, write_sound
 from faults.told import findings, keep_only
 from faults.unseen import UNSEEN, effect
 
+pytestmark = pytest.mark.whole
+
 SLOW = {"table-that-moves-in-a-free-vibration"}
 """Mended, e is found on a table that moves: 50 s of processor time."""
 

@@ -11,10 +11,10 @@ import pytest
 
 import colonnade
 
-pytest.importorskip("numpydoc", reason="of the extra `docs`; `make docs-test` installs it")
+pytest.importorskip("numpydoc", reason="of the extra `docs`; `make test-all` installs it")
 from numpydoc.docscrape import ClassDoc, FunctionDoc
 
-pytestmark = pytest.mark.docs
+pytestmark = pytest.mark.whole
 
 PUBLIC = sorted(set(colonnade.__all__) - {"__version__"})
 CLASSES = [name for name in PUBLIC if inspect.isclass(getattr(colonnade, name))]

@@ -10,7 +10,7 @@ import pytest
 from page_blocks import PROJECT
 
 pytest.importorskip("latex2mathml", reason="the extra `docs` is not installed")
-pytestmark = pytest.mark.docs
+pytestmark = pytest.mark.whole
 SPACE = "{http://www.w3.org/1998/Math/MathML}"
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from page_blocks import PROJECT, Block, Reader, assert_shown, assert_valid, blocks_of, is_slow
+from page_blocks import PROJECT, Block, Reader, assert_shown, assert_valid, blocks_of
 
 SECTIONS = ("tutorial", "how-to", "explanation", "faults")
 PAGES = sorted(page for section in SECTIONS for page in (PROJECT / "docs" / section).rglob("*.md"))
@@ -41,13 +41,8 @@ def instead(made_once):
     return copied
 
 
-@pytest.mark.parametrize(
-    "page",
-    [
-        pytest.param(page, id=str(page.relative_to(PROJECT / "docs")), marks=[pytest.mark.docs] * is_slow(page))
-        for page in PAGES
-    ],
-)
+@pytest.mark.whole
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(PROJECT / "docs")))
 def test_what_a_page_tells_readers_to_type_runs(page, instead, tmp_path):
     Reader(tmp_path, instead).follow(page)
 

@@ -12,9 +12,10 @@ from colonnade.campaign import test
 from colonnade.campaign.review import ReviewFile
 from colonnade.campaign.settings import NextSettings, Processing, settings
 from colonnade.campaign.specimen import Measured, Prism
-from colonnade.cli.app import COMMANDS
+from colonnade.cli.app import app
 from colonnade.store.results import STAGES
-from reference import commands, files, keys, library, messages, schemas, sources
+from page_blocks import PROJECT
+from reference import files, keys, library, schemas
 from reference.markdown import table
 
 
@@ -79,44 +80,40 @@ def test_a_schema_is_put_into_words(node, form, bounds):
     assert schemas.bounds(node) == bounds
 
 
-def test_every_command_has_its_page_with_an_example(pages):
-    for command in COMMANDS:
-        page = pages[f"commands/colonnade-{command.name}.md"]
-        assert "## Options" in page
-        assert "130" in page
-        assert f"```sh\ncolonnade {command.name}" in page or command.name == "show"
-
-
-def test_a_default_is_written_and_its_absence_is_not():
-    text = commands.pages()["commands/colonnade-figure.md"]
-    assert "| `--width` | `single` `double` | `double` |" in text
-    assert "| `--list` | flag |  |" in text
-
-
 def test_every_stage_has_its_file(pages):
     assert [name for name in STAGES if f"(file-{name})=" not in pages["files.md"]] == []
     assert "| `rocking_angle` | `rad` |" in files.pages()["files.md"]
 
 
-def test_every_kind_of_finding_has_advice(monkeypatch):
-    monkeypatch.setitem(messages.ACTIONS[messages.NOTHING], "a kind that nothing makes", "Nothing.")
-    with pytest.raises(ValueError, match="a kind that nothing makes"):
-        messages.pages()
+def test_every_kind_of_finding_has_advice():
+    page = (PROJECT / "docs" / "reference" / "findings.md").read_text(encoding="utf-8").partition("## Errors")[0]
+    advised = re.findall(r"^\| ((?!finding)[a-z -]*[a-z]) \| ", page, re.MULTILINE)
+    assert len(advised) == len(set(advised)) > 50
+    paths = [path for path in (PROJECT / "pipeline").rglob("*.py") if path.name != "findings.py"]
+    sources = "\n".join(path.read_text(encoding="utf-8") for path in paths)
+    made = set(re.findall(r'\b(?:serious|warning|note)\(\s*"([a-z -]+)",', sources))
+    assert sorted(made - set(advised)) == []
+    assert [kind for kind in advised if f'"{kind}"' not in sources] == []
+
+
+def test_every_option_of_every_command_says_what_it_does():
+    commands = dict(walk(app, "colonnade"))
+    assert len(commands) > 15
+    options = [(name, each) for name, command in commands.items() for each in command.params if "--" in each.opts[0]]
+    assert [(name, each.opts) for name, each in options if not each.help] == []
+
+
+def walk(command, name):
+    """Give each command with the words that call it."""
+    yield name, command
+    for word, below in getattr(command, "commands", {}).items():
+        yield from walk(below, f"{name} {word}")
 
 
 def test_every_public_name_has_its_group(monkeypatch):
     monkeypatch.setitem(library.GROUPS, "Pictures", ("plot",))
     with pytest.raises(ValueError, match="animate"):
         library.pages()
-
-
-def test_messages_are_read_from_the_sources(pages):
-    gain = [each for each in sources.findings() if each.kind == "gain"]
-    assert {each.severity for each in gain} == {"serious", "warning"}
-    assert any(each.text.startswith("channel … is … times") for each in gain)
-    assert "Unknown shape" not in pages["messages.md"]
-    assert "not one uniform" not in pages["errors/StageError.md"]
-    assert "A free vibration without a measured angle" in pages["errors/StageError.md"]
 
 
 def test_a_docstrings_bars_are_escaped_outside_of_examples():

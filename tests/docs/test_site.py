@@ -10,7 +10,7 @@ import pytest
 
 from browsing import TELEPHONE, own_chromium, violations, visiting
 
-pytestmark = pytest.mark.docs
+pytestmark = pytest.mark.whole
 
 SITE = Path(__file__).resolve().parents[2] / "docs" / "build" / "html"
 PRINTED = ("docs/index.html", "docs/explanation/restitution.html", "docs/reference/generated/library/rock.html")

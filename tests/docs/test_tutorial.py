@@ -30,7 +30,7 @@ SHEET = {
 """Answers, by the end of the question's key."""
 
 
-@pytest.mark.docs
+@pytest.mark.whole
 def test_the_draft_with_its_answers_is_the_campaign_of_the_page(tmp_path):
     blocks = blocks_of(TUTORIAL / "morning.md")
     reader = Reader(tmp_path)

@@ -12,12 +12,11 @@ import pytest
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.plane.nonlinear import by_series
 from colonnade.dynamics.plane.sampled_march import propagate
 from colonnade.dynamics.plane.sides import sides_of
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P, GRAVITY = PRISM.critical_angle, PRISM.p, PRISM.gravity
 REST = 1e-6
 INTERVAL = 0.02

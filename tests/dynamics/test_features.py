@@ -13,8 +13,8 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import rock
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 LOPSIDED = Block.measured(mass=80.0, pole_distance=(0.61, 0.60), critical_angle=(0.21, 0.15), inertia=(41.2, 40.0))
 REST = 1e-6
 INTERVAL = 0.02

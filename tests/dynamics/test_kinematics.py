@@ -3,10 +3,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
-
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+from prism import PRISM
 
 
 def test_the_active_pole_stays_and_the_other_edge_lifts():

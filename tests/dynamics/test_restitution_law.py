@@ -5,11 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import rock
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 RELEASED = {"theta0": 0.5 * PRISM.critical_angle, "duration": 3.0}
 
 

@@ -13,8 +13,8 @@ from scipy.optimize import brentq
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P, GRAVITY = PRISM.critical_angle, PRISM.p, PRISM.gravity
 
 QUARTER_PERIODS = [  # Housner 1963: p T/4 = acosh(1 / (1 − θ₀/α))

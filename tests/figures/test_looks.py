@@ -9,7 +9,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.figures.bands import bands_over_time
 from colonnade.figures.base_motion import BaseSpectra, base_motion
 from colonnade.figures.channels import Channel, Scale, Spike, channels_as_recorded
@@ -23,8 +22,8 @@ from colonnade.figures.stored.closer import separatrix
 from colonnade.figures.style import STYLE_FILE
 from colonnade.identification.restitution.arcs.energy import angle_of_energy
 from colonnade.signals.spectra import Density
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 TIME = np.arange(0, 8, 0.01)
 SWING = Curve(TIME, 0.6 * np.exp(-TIME / 4) * np.sin(2 * np.pi * TIME))
 MODEL = Curve(TIME, 0.6 * np.exp(-TIME / 4) * np.sin(2.02 * np.pi * TIME))
@@ -96,7 +95,7 @@ def test_closer_look():
     return closer_look(
         Phase(0.41 * np.sin(turn), 0.5 * np.cos(turn)),
         {"nonlinear": Phase(0.44 * np.sin(turn), 0.52 * np.cos(turn))},
-        separatrix(BLOCK),
+        separatrix(PRISM),
         Enlarged("phase of the base (periods)", cycles, {"nonlinear": cycles[:1]}, "last 2 periods of the steady part"),
     )
 
@@ -116,9 +115,9 @@ def test_impacts():
 @looks
 def test_peaks():
     number = np.arange(1, 31)
-    angle = np.asarray(angle_of_energy(0.8 * 0.95 ** (2 * number), BLOCK.critical_angle))
+    angle = np.asarray(angle_of_energy(0.8 * 0.95 ** (2 * number), PRISM.critical_angle))
     used = number < 25
     band = np.where(used, 0.03, np.nan)
     return peak_decay(
-        [PeakSeries("free-01", angle, np.full(30, 3e-4), np.where(used, angle, np.nan), used, band)], BLOCK
+        [PeakSeries("free-01", angle, np.full(30, 3e-4), np.where(used, angle, np.nan), used, band)], PRISM
     )

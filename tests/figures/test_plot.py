@@ -9,24 +9,23 @@ from matplotlib.axes import Axes
 
 import colonnade
 from colonnade.figures.files.table import table_of
-
-BLOCK = colonnade.Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+from prism import PRISM
 
 
 @pytest.fixture(scope="module")
 def history():
-    return colonnade.rock(BLOCK, theta0=0.5 * BLOCK.critical_angle, restitution=0.93, duration=6.0)
+    return colonnade.rock(PRISM, theta0=0.5 * PRISM.critical_angle, restitution=0.93, duration=6.0)
 
 
 @pytest.fixture(scope="module")
 def restitution(history):
-    return colonnade.identify_restitution(history.time, history.angle, BLOCK)
+    return colonnade.identify_restitution(history.time, history.angle, PRISM)
 
 
 @pytest.fixture(scope="module")
 def chart():
     return colonnade.stability_map(
-        BLOCK, frequency_ratio=[2.0, 4.0], amplitude_ratio=np.linspace(0.8, 4.0, 5), restitution=0.93, cycles=3
+        PRISM, frequency_ratio=[2.0, 4.0], amplitude_ratio=np.linspace(0.8, 4.0, 5), restitution=0.93, cycles=3
     )
 
 
@@ -34,12 +33,12 @@ def chart():
 def spread():
     pulse = np.sin(2 * np.pi * np.arange(200) / 200)
     motion = colonnade.Motion(np.concatenate([2.5 * pulse, np.zeros(400)]), 0.01)
-    return colonnade.ensemble(BLOCK, motion, uncertainty=colonnade.Uncertainty(), restitution=0.93, count=8)
+    return colonnade.ensemble(PRISM, motion, uncertainty=colonnade.Uncertainty(), restitution=0.93, count=8)
 
 
 @pytest.fixture(scope="module")
 def limits():
-    return colonnade.overturning_spectrum(BLOCK, "sine", frequency_ratio=[2.0, 4.0], restitution=0.93)
+    return colonnade.overturning_spectrum(PRISM, "sine", frequency_ratio=[2.0, 4.0], restitution=0.93)
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +51,7 @@ def spectrum():
 def fragility():
     pulse = np.sin(2 * np.pi * np.arange(100) / 100)
     motions = [colonnade.Motion(np.append(pulse, 0.0), step) for step in (0.006, 0.008, 0.01, 0.012, 0.014)]
-    return colonnade.fragility(BLOCK, motions, levels=np.geomspace(0.1, 3.0, 8), draws=1, resamples=100)
+    return colonnade.fragility(PRISM, motions, levels=np.geomspace(0.1, 3.0, 8), draws=1, resamples=100)
 
 
 @pytest.fixture(params=["history", "restitution", "chart", "spread", "limits", "spectrum", "fragility"])
@@ -80,17 +79,17 @@ def test_without_axes_a_figure_is_made(result):
 def test_what_is_drawn_is_the_history(history):
     table = table_of(colonnade.plot(history).figure)
     np.testing.assert_array_equal(table["time (s)"], history.time)
-    np.testing.assert_allclose(table["θ / α, linear model"], history.angle / BLOCK.critical_angle)
+    np.testing.assert_allclose(table["θ / α, linear model"], history.angle / PRISM.critical_angle)
 
 
 def test_two_histories_share_axes_that_hold_both(history):
-    higher = colonnade.rock(BLOCK, theta0=0.9 * BLOCK.critical_angle, restitution=0.93, duration=6.0, model="nonlinear")
+    higher = colonnade.rock(PRISM, theta0=0.9 * PRISM.critical_angle, restitution=0.93, duration=6.0, model="nonlinear")
     axes = colonnade.plot(history, colonnade.plot(higher))
     assert axes.get_ylim()[1] > 0.9
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["nonlinear model", "linear model"]
 
 
-@pytest.mark.parametrize("wrong", [None, 3.0, "history", BLOCK])
+@pytest.mark.parametrize("wrong", [None, 3.0, "history", PRISM])
 def test_what_is_no_result_is_refused(wrong):
     with pytest.raises(
         ValueError,

@@ -13,8 +13,6 @@ A remark above a block, invisible to the reader, says more:
 - `<!-- with: FILE -->`: the reader has saved this file, which is next to the page, into the folder.
 - `<!-- exit code: 1 -->`: that of the last command of the block, if it is not 0.
 - `<!-- output -->`: the lines of the block are in the output of the block that ran last, in order; `…` is anything.
-
-`<!-- slow -->` anywhere in a page leaves it to `make docs-test`.
 """
 
 from __future__ import annotations
@@ -72,11 +70,6 @@ def blocks_of(page: Path) -> list[Block]:
             raise ValueError(f"{place}: say why it is not run: <!-- not run: REASON -->")
         found.append(Block(place, match["language"], match["text"], remark, value, page.parent))
     return found
-
-
-def is_slow(page: Path) -> bool:
-    """Whether a page is left to `make docs-test`."""
-    return "<!-- slow -->" in page.read_text(encoding="utf-8")
 
 
 @dataclass

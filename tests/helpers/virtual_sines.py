@@ -14,8 +14,8 @@ from colonnade.dynamics.maps.chart import stability_map
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.dynamics.side import Side
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 RESTITUTION = 0.976
 """The paper's prism, as the predicting model knows it."""
 

@@ -8,12 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.signal import butter, chirp, sosfiltfilt
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.rock import rock
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.laboratory.truth import simulate
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
 RATE, DURATION = 500.0, 14.0
 TIME = np.arange(0.0, DURATION, 1 / RATE)

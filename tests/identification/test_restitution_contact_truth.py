@@ -9,13 +9,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.identification.restitution.pooling import pool
+from prism import PRISM
 
 mujoco = pytest.importorskip("mujoco", reason="the contact simulation comes with the extra `bench`")
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
 STEP = 1e-4
 RATE = 1000.0

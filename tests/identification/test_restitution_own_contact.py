@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
@@ -16,8 +15,7 @@ from colonnade.identification.restitution.choice import MISFIT
 from colonnade.identification.restitution.estimators.history import UNLIKELY
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.identification.restitution.pooling import pool
-
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+from prism import PRISM
 
 
 def free_rocking(body, *, damping_fraction, released, duration):

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial, raw_path
 from colonnade.laboratory.files import Flavour, Tdms
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-SPECIMEN = Specimen({"shape": "prism"}, BLOCK, 0.93)
+SPECIMEN = Specimen({"shape": "prism"}, PRISM, 0.93)
 
 
 def plan(*specimens):

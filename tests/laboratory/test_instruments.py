@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.laboratory.instruments import STEP, Imperfections, Transducer, measure
 from colonnade.laboratory.table import ramped_sine, still
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 LVDT = Transducer("top", "LVDT 1", "displacement", "specimen", 0.150, "mm", at=(0.043, 0.0, 0.440))
 PERFECT = Imperfections(noise=0.0, drift=0.0, zero=0.0)
 

@@ -10,8 +10,8 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.laboratory.integration import REST_ANGLE, Integration
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
 UNEVEN = Block.measured(mass=10.0, pole_distance=(0.3, 0.32), critical_angle=(0.15, 0.2), inertia=(1.2, 1.4))
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.laboratory.experiment import MAIN
 from colonnade.laboratory.files import COMMAS, GERMAN, TABS
 from colonnade.laboratory.rig import (
@@ -21,8 +20,7 @@ from colonnade.laboratory.rig import (
     table_displacement,
 )
 from colonnade.laboratory.table import still
-
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+from prism import PRISM
 
 
 def test_a_frame_has_its_transducers_at_both_heights_of_the_specimens_side() -> None:

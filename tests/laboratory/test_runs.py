@@ -10,15 +10,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import FileFormat, Sheet
 from colonnade.laboratory.instruments import Imperfections, Transducer
 from colonnade.laboratory.runs import START_SCATTER, run_test, run_tests, write_truth
 from colonnade.laboratory.table import ramped_sine
 from colonnade.laboratory.truth import simulate
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 TOP = Transducer("top", "Top", "displacement", "specimen", 0.15, "mm", at=(0.043, 0.0, 0.44))
 TABLE = Transducer("table", "Table", "acceleration", "table", 20.0, "m/s^2")
 LATE = 0.3

@@ -13,8 +13,8 @@ from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.integration import REST_ANGLE, Integration
 from colonnade.laboratory.table import Piece, TableMotion, ramped_sine, recorded
 from colonnade.laboratory.truth import simulate
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 SLENDER = Block.measured(mass=1.0, pole_distance=1.0, critical_angle=1e-4, inertia=1.3)
 
 

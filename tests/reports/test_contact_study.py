@@ -30,7 +30,7 @@ def test_page_and_figures_are_those_of_the_numbers(kept, tmp_path):
 
 def test_the_document_tells_the_numbers_of_the_study(kept):
     document = contact_study.DOCUMENT.read_text(encoding="utf-8")
-    assert contact_study.renewed(document, kept) == document
+    assert contact_study.renewed(document, contact_study.MARKS, contact_study.summary(kept)) == document
 
 
 @pytest.mark.parametrize("body", ["2 × 2", "5 × 5", "coarse"])

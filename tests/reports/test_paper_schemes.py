@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from paper_schemes import rock_by_steps
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA = PRISM.critical_angle
 SCHEMES = ("runge-kutta", "hamming")
 RELEASED = {"restitution": 0.976, "theta0": 0.5 * ALPHA}

@@ -3,7 +3,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.rock import rock
 from colonnade.signals.quality import (
     BLOCK,
@@ -16,9 +15,9 @@ from colonnade.signals.quality import (
     check_spikes,
     combine,
 )
+from prism import PRISM
 
 TIME = np.arange(0, 8, 0.002)
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 
 
 def _digitised(values, full_scale, seed=0, noise=5e-4):

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from colonnade import campaign as campaigns
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.readers.recording import RecordedChannel, Recording
+from prism import PRISM
 
 TEXT = """
 schema = 1
@@ -70,7 +70,6 @@ observed_outcome = "not-overturned"
 """
 
 RATE = 500.0
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 POINTS = [[0.043, 0.0, 0.400], [0.043, 0.0, 0.020]]
 
 

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from colonnade.dynamics.block import Block
 from colonnade.findings import MEASUREMENT, Severity
 from colonnade.stages.compare import CompareInputs, compare
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-ALPHA = BLOCK.critical_angle
+ALPHA = PRISM.critical_angle
 TIME = 2.0 + 0.01 * np.arange(200)
 SWING = 0.4 * np.sin(2 * np.pi * 3.0 * TIME)
 """|θ|/α of a block that rocks."""
@@ -39,7 +38,7 @@ def unmeasured():
 
 
 def inputs(**changes):
-    return CompareInputs(block=BLOCK, **{"observed_outcome": None, **changes})
+    return CompareInputs(block=PRISM, **{"observed_outcome": None, **changes})
 
 
 def against(measured, predicted, **changes):
@@ -174,7 +173,7 @@ def test_the_transducers_and_the_log_agree_or_it_is_serious(measured, observed, 
 
 def test_a_sine_without_a_record_of_the_table_keeps_the_frequency_that_was_given():
     found = against(history(SWING), history(SWING), observed_outcome="overturned", is_sine=True, frequency=3.0)
-    assert float(found["frequency_ratio"]) == pytest.approx(2 * np.pi * 3.0 / BLOCK.p)
+    assert float(found["frequency_ratio"]) == pytest.approx(2 * np.pi * 3.0 / PRISM.p)
     assert found.attrs["response_order"] == ""
     assert [each.kind for each in found.attrs["warnings"]] == ["outcome", "no steady sine"]
 

@@ -5,15 +5,14 @@ import pytest
 import xarray as xr
 
 from colonnade.campaign.settings import ContactSettings
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.calibration import TOLERANCE, VELOCITY_RATIO, free_restitution
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.stages import contact as calibrating
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 STEP = 3e-5
 
 

@@ -7,7 +7,6 @@ from functools import partial
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.ensembles.uncertainty import INPUTS
 from colonnade.identification.response.rank import FEWEST, is_within, rank
 from colonnade.stages import compare as comparing
@@ -18,9 +17,9 @@ from colonnade.stages import predict as predicting
 from colonnade.stages import restitution as identifying
 from colonnade.stages import rocking as rocking_stage
 from colonnade.stages import specimen as pooling
+from prism import PRISM
 
 MEMBERS = 60
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 
 
 @pytest.fixture

@@ -3,15 +3,14 @@ import pytest
 import xarray as xr
 
 from colonnade.campaign.forms.forecast import ForecastFile
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.stages.forecast import ForecastScoreInputs, score_forecast
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 TIME = np.arange(800) / 200
 MOTION = Motion(3.0 * np.sin(25 * TIME) * (TIME < 2.0), 1 / 200)
-SIDE = {name: getattr(BLOCK, name) for name in ("critical_angle", "pole_distance", "inertia")}
+SIDE = {name: getattr(PRISM, name) for name in ("critical_angle", "pole_distance", "inertia")}
 EXACT = dict.fromkeys(("restitution", "critical_angle", "p", "gain", "clock"), 0.0)
 
 
@@ -27,7 +26,7 @@ def forecast(peaks=(0.2, 0.4, None), rigid=(0.1, 0.1, 0.1)):
         **{"peak_ratio": peaks, "rigid_body_peak_ratio": rigid},
     }
     e = {"value": (0.9, 0.9), "low": None, "high": None, "level": 0.95, "source": "given", "rigid_body": (0.8, 0.8)}
-    block = {"mass": BLOCK.mass, "gravity": BLOCK.gravity, "negative": SIDE, "positive": SIDE}
+    block = {"mass": PRISM.mass, "gravity": PRISM.gravity, "negative": SIDE, "positive": SIDE}
     return ForecastFile.model_validate(
         {
             **{"made": "2026-01-02T03:04:05Z", "colonnade": "0", "code": "a" * 64, "test": "t", "specimen": "prism"},
@@ -45,7 +44,7 @@ def forecast(peaks=(0.2, 0.4, None), rigid=(0.1, 0.1, 0.1)):
 
 
 def rocking(**changes):
-    history = rock(BLOCK, MOTION, restitution=0.9, model="nonlinear")
+    history = rock(PRISM, MOTION, restitution=0.9, model="nonlinear")
     assert history.outcome == "rocking"
     values = {
         "rocking_angle": ("elapsed", history.angle),

@@ -6,15 +6,14 @@ import numpy as np
 import pytest
 
 from colonnade import campaign as campaigns
-from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.stages import condition as conditioning
 from colonnade.stages import ingest as ingesting
 from colonnade.stages import rocking as rocking_stage
 from colonnade.store.description import describe
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 HALF_WIDTH = 0.043
 RATE = 500.0
 

@@ -13,8 +13,8 @@ from colonnade.campaign.settings import PlaneEnsembleSettings
 from colonnade.dynamics.block import Block
 from colonnade.findings import Severity
 from colonnade.stages.specimen import SpecimenInputs, restitution_spread, specimen, taken
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 OTHER = Block.prism(width=0.086, depth=0.086, height=0.500, mass=26.10)
 
 
@@ -29,7 +29,7 @@ def refused(reason):
     return xr.Dataset({"restitution": np.nan, "restitution_standard_error": np.nan}, attrs={"reason": reason})
 
 
-def inputs(given=None, level=0.95, block=BLOCK):
+def inputs(given=None, level=0.95, block=PRISM):
     return SpecimenInputs(block=block, given=given, level=level)
 
 
@@ -131,7 +131,7 @@ def test_a_given_e_comes_first_and_what_was_identified_is_kept(given_e, sides):
 )
 def test_else_the_rigid_body_gives_the_e_and_that_is_said(tests, severity, why, reason):
     found = specimen(tests, inputs())
-    rigid = 1 - 1.5 * np.sin(BLOCK.critical_angle) ** 2  # a rectangle: 2 m R b sin α / I₀ = 3/2 sin² α
+    rigid = 1 - 1.5 * np.sin(PRISM.critical_angle) ** 2  # a rectangle: 2 m R b sin α / I₀ = 3/2 sin² α
     assert float(found["restitution"]) == pytest.approx(rigid)
     assert found.attrs["restitution_source"] == "rigid-body"
     assert found.attrs["reason"] == reason
@@ -171,7 +171,7 @@ def test_without_a_stored_result_of_this_block_the_rigid_body_gives_the_e(stored
     found = taken(stored, inputs())
     assert found.attrs["restitution_source"] == "rigid-body"
     assert found.attrs["reason"] == "the free vibrations have not been identified"
-    assert float(found["restitution"]) == pytest.approx(BLOCK.restitution)
+    assert float(found["restitution"]) == pytest.approx(PRISM.restitution)
     assert found.sizes["test"] == 0
 
 
@@ -184,5 +184,5 @@ def test_the_properties_are_those_of_the_block():
 
 def test_the_inputs_are_those_of_the_specimen(small_campaign):
     read = SpecimenInputs.of(small_campaign, "prism")
-    assert read.block.critical_angle == pytest.approx(BLOCK.critical_angle)
+    assert read.block.critical_angle == pytest.approx(PRISM.critical_angle)
     assert (read.given, read.level) == (None, 0.95)

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.workflow import RunResult, run
+from prism import PRISM
 
 CAMPAIGN = """\
 schema = 1
@@ -34,7 +34,6 @@ table = {column = "table", quantity = "acceleration", unit = "m/s^2", on = "tabl
 
 """
 TESTS = {"free-01": "free-vibration", "free-02": "free-vibration", "pulse-01": "pulse", "pulse-02": "pulse"}
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 RATE = 200.0
 
 
@@ -55,10 +54,10 @@ def _write_raw(path: Path, kind: str, number: int) -> None:
     time = np.arange(0.0, 8.0, 1 / RATE)
     base = np.zeros_like(time)
     if kind == "free-vibration":
-        angle = rock(BLOCK, Motion(base, 1 / RATE), restitution=0.93, theta0=0.5 * BLOCK.critical_angle).angle
+        angle = rock(PRISM, Motion(base, 1 / RATE), restitution=0.93, theta0=0.5 * PRISM.critical_angle).angle
     else:
         base = np.where((time > 1.0) & (time < 1.3), (2.4 + 0.2 * number) * np.sin((time - 1.0) * 2 * np.pi / 0.3), 0.0)
-        angle = rock(BLOCK, Motion(base, 1 / RATE), restitution=0.93).angle
+        angle = rock(PRISM, Motion(base, 1 / RATE), restitution=0.93).angle
     top = 440 * np.sin(angle) + 0.01 * noise.standard_normal(time.size)
     table = base + 0.002 * noise.standard_normal(time.size)
     rows = np.column_stack((time, top, table))

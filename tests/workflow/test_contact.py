@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.motion import Motion
@@ -16,8 +15,7 @@ from colonnade.store import files
 from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.maps.plans import Wanted
 from colonnade.workflow.maps.stability import make_maps
-
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+from prism import PRISM
 
 
 def test_a_campaign_is_predicted_by_the_contact_model_beside_the_others(in_space):
@@ -31,7 +29,7 @@ def test_a_campaign_is_predicted_by_the_contact_model_beside_the_others(in_space
     rocking = files.read(in_space.layout.stage("pulse-01", "rocking"))
     time = rocking["elapsed"].to_numpy()
     motion = Motion(rocking["base_acceleration"].to_numpy(), float(time[1] - time[0]))
-    history = simulate(rigid_body(BLOCK), motion, law=law_of(law), gravity=BLOCK.gravity, step=3e-5)
+    history = simulate(rigid_body(PRISM), motion, law=law_of(law), gravity=PRISM.gravity, step=3e-5)
     np.testing.assert_array_equal(predicted["rocking_angle"].to_numpy(), history.angle)
     np.testing.assert_array_equal(predicted["uplift"].to_numpy(), history.uplift)
     assert predicted.attrs["outcome"] == history.outcome
@@ -47,11 +45,11 @@ def test_every_result_of_the_contact_model_tells_its_law_and_its_nodes(in_space)
     in_space.run()
     law = files.read(in_space.layout.stage("prism", "contact"))
     predicted = files.read(in_space.layout.stage("pulse-01", "predict", "contact"))
-    body = rigid_body(BLOCK)
+    body = rigid_body(PRISM)
     for told in (law, predicted):
         np.testing.assert_allclose(told["node_mass"], body.node_mass)
         assert not told["ring_radius"].any()
-        assert float(told["node_weight"].sum()) == pytest.approx(BLOCK.mass * BLOCK.gravity, rel=1e-12)
+        assert float(told["node_weight"].sum()) == pytest.approx(PRISM.mass * PRISM.gravity, rel=1e-12)
         assert float(told["effective_damping"]) == law_of(law).effective_damping(body)
     assert 0.0 <= float(predicted["energy_residual"]) < 0.01
 

@@ -11,6 +11,10 @@ import sys
 import time
 from pathlib import Path
 
+import pytest
+
+pytestmark = pytest.mark.whole
+
 # A copy is ingested first, so that modules are loaded and workers are there: kills fall on the ingest itself.
 INGEST = """
 import sys

@@ -6,9 +6,9 @@ Each module has `pages()`: text of MyST or reStructuredText by file name in docs
 
 from pathlib import Path
 
-from reference import commands, files, keys, library, messages, records
+from reference import files, keys, library, records
 
-MAKERS = (library, commands, keys, files, records, messages)
+MAKERS = (library, keys, files, records)
 
 
 def setup(app):

@@ -15,10 +15,9 @@ from colonnade.assessment.intensity.ground import Ground
 from colonnade.assessment.intensity.measured import intensity_measures
 from colonnade.assessment.intensity.quantities import QUANTITIES
 from colonnade.assessment.intensity.registry import MEASURES, measure_of
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 PEAK, FREQUENCY, CYCLES, STEP = 3.0, 2.0, 10, 5e-5
 OMEGA = 2 * math.pi * FREQUENCY
 TIME = np.arange(round(CYCLES / FREQUENCY / STEP) + 1) * STEP
@@ -43,14 +42,14 @@ EXACT = {
     "arias": math.pi / (2 * 9.81) * PEAK**2 * CYCLES / FREQUENCY / 2,
     "cav": 2 / math.pi * PEAK * CYCLES / FREQUENCY,
     "d5_95": energy_time(0.95) - energy_time(0.05),
-    "pga_ratio": PEAK / BLOCK.uplift_acceleration,
-    "pgv_ratio": 2 * PEAK / OMEGA * BLOCK.p / BLOCK.uplift_acceleration,
+    "pga_ratio": PEAK / PRISM.uplift_acceleration,
+    "pgv_ratio": 2 * PEAK / OMEGA * PRISM.p / PRISM.uplift_acceleration,
 }
 
 
 @pytest.mark.parametrize("name", EXACT)
 def test_a_sine_has_its_closed_forms(name):
-    assert intensity_measures(SINE, BLOCK, measures=[name]).values[name] == pytest.approx(EXACT[name], rel=1e-7)
+    assert intensity_measures(SINE, PRISM, measures=[name]).values[name] == pytest.approx(EXACT[name], rel=1e-7)
 
 
 def test_a_constant_acceleration_takes_nine_tenths_of_its_time():
@@ -103,7 +102,7 @@ def test_measures_agree_with_eqsig():
 def test_a_stronger_motion_has_a_measure_by_its_power(factor, name):
     values = noise()[:401]
     one, other = (
-        intensity_measures(Motion(scale * values, 0.01), BLOCK, measures=[name], drift=10.0).values[name]
+        intensity_measures(Motion(scale * values, 0.01), PRISM, measures=[name], drift=10.0).values[name]
         for scale in (1.0, factor)
     )
     assert other == pytest.approx(one * factor ** measure_of(name).power, rel=1e-6)
@@ -111,7 +110,7 @@ def test_a_stronger_motion_has_a_measure_by_its_power(factor, name):
 
 def test_a_record_that_drifts_has_no_velocity_and_says_why():
     drifting = Motion(0.3 + np.sin(np.linspace(0, 20 * math.pi, 2001)), 0.01)
-    measured = intensity_measures(drifting, BLOCK)
+    measured = intensity_measures(drifting, PRISM)
     assert measured.drift == pytest.approx(0.3 * 20 / (0.3 * 20 + 1 / math.pi), abs=0.02)
     # The sine adds at most 2/ω = 1/π to the 6 m/s that the offset makes.
     integrated = {name for name, each in MEASURES.items() if each.is_integrated}
@@ -127,7 +126,7 @@ def test_what_needs_a_block_is_given_only_with_one():
 
 
 def test_a_motion_at_rest_has_reasons_and_no_error():
-    measured = intensity_measures(Motion(np.zeros(500), 0.01), BLOCK)
+    measured = intensity_measures(Motion(np.zeros(500), 0.01), PRISM)
     assert measured.values["pga"] == 0.0
     assert measured.reasons["d5_95"] == measured.reasons["pulse_period"]
     assert "the motion is at rest" in measured.reasons["d5_95"]
@@ -135,7 +134,7 @@ def test_a_motion_at_rest_has_reasons_and_no_error():
 
 @pytest.mark.parametrize("values", [[1.0], [1.0, -1.0], np.full(500, 1e200)], ids=["one sample", "two", "huge"])
 def test_a_motion_of_no_use_has_reasons_and_no_error(values):
-    measured = intensity_measures(Motion(values, 0.01), BLOCK, drift=2.0)
+    measured = intensity_measures(Motion(values, 0.01), PRISM, drift=2.0)
     assert all(math.isfinite(value) != (name in measured.reasons) for name, value in measured.values.items())
     assert {"d5_95", "pulse_indicator"} & measured.reasons.keys()
 

@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.calibration import TOLERANCE, calibrate, free_restitution
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 BODY = rigid_body(PRISM)
 LAW = ContactLaw.stiff(BODY, PRISM.gravity, penetration=1e-6)
 STEP = 3e-5

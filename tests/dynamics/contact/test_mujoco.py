@@ -19,10 +19,10 @@ from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.readers.motion import read_motion
+from prism import PRISM
 
 mujoco = pytest.importorskip("mujoco")
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA = PRISM.critical_angle
 CYLINDER = Block.cylinder(diameter=0.097, height=0.455, mass=26.30, gravity=9.81)
 STEP = 5e-5

@@ -13,9 +13,9 @@ from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
+from prism import PRISM
 
 GRAVITY = 9.81
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 SLENDER = Block.prism(width=0.1, depth=0.1, height=1.0, mass=20.0)
 ALPHA = PRISM.critical_angle
 REST = Motion(np.zeros(3), 0.01)

@@ -5,14 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact import simulate as simulation
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.stability import highest_frequency, longest_step
 from colonnade.dynamics.motion import Motion
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 BODY = rigid_body(PRISM)
 
 

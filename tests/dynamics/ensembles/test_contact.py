@@ -5,23 +5,22 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.ensembles.contact import INPUTS, ContactPlan, gather, run_member
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-BODY = rigid_body(BLOCK, grid=(3, 3))
-LAW = ContactLaw.stiff(BODY, BLOCK.gravity, penetration=1e-5)
+BODY = rigid_body(PRISM, grid=(3, 3))
+LAW = ContactLaw.stiff(BODY, PRISM.gravity, penetration=1e-5)
 PLAN = ContactPlan(
     BODY,
     LAW,
     friction=(0.3, 0.9),
     damping_fraction=(0.1, 1.0),
-    out_of_plane=(0.0, 0.01 * BLOCK.critical_angle),
+    out_of_plane=(0.0, 0.01 * PRISM.critical_angle),
     duration=0.5,
-    theta0=0.4 * BLOCK.critical_angle,
+    theta0=0.4 * PRISM.critical_angle,
     step=5e-5,
     count=12,
     seed=5,
@@ -63,11 +62,11 @@ def test_bands_lie_in_their_order_about_the_run_with_nothing_varied(ensemble):
     np.testing.assert_array_equal(ensemble.time, plain.time)
     assert np.all(np.diff(ensemble.bands, axis=0) >= 0.0)
     np.testing.assert_allclose(ensemble.bands[:, 0], PLAN.theta0, atol=1e-6)
-    assert np.ptp(ensemble.bands[:, -1]) > 1e-3 * BLOCK.critical_angle
+    assert np.ptp(ensemble.bands[:, -1]) > 1e-3 * PRISM.critical_angle
 
 
 def test_a_block_released_past_its_critical_angle_overturns_in_every_member():
-    plan = replace(PLAN, theta0=1.05 * BLOCK.critical_angle, duration=2.0, count=2)
+    plan = replace(PLAN, theta0=1.05 * PRISM.critical_angle, duration=2.0, count=2)
     ensemble = gather(plan, [run_member(plan, member) for member in range(2)])
     assert ensemble.overturning_probability == 1.0
     assert np.all((ensemble.overturning_time >= 0.0) & (ensemble.overturning_time < 2.0))

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import colonnade
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.chart import assemble, stability_map
 from colonnade.dynamics.maps.column import map_column
 from colonnade.dynamics.maps.plan import plan_map
@@ -20,8 +19,8 @@ from colonnade.dynamics.models.model import Model
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic.motion import Harmonic, harmonic_outcomes
 from colonnade.dynamics.restitution_law import RestitutionLaw
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
 MODELS = ("linear", "nonlinear")
 OMEGAS = np.array([1.1, 2.0, 4.5, 6.0, 7.8])

@@ -7,12 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.chart import assemble
 from colonnade.dynamics.maps.column import _fraction, map_column
 from colonnade.dynamics.maps.plan import plan_map
-
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+from prism import PRISM
 
 
 def overturns(*intervals):

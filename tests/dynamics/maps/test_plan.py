@@ -11,8 +11,8 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.plan import LEAST_EDGE, MOST_STEPS, STEPS_A_WIDTH, plan_map
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.restitution_law import RestitutionLaw
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 LOPSIDED = Block.measured(mass=80.0, pole_distance=0.61, critical_angle=(0.21, 0.15), inertia=41.2)
 
 

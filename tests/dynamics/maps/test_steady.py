@@ -10,8 +10,8 @@ import pytest
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.steady import steady_response
 from colonnade.dynamics.plane.harmonic.motion import Harmonic, harmonic_run
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 P = PRISM.p
 
 

@@ -7,13 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.models.contact import CONTACT
 from colonnade.dynamics.models.model import Case
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 CASE = Case(PRISM, None, None, 0.5 * PRISM.critical_angle, 0.0, 0.02, 1e-6, None, 0.0)
 
 

@@ -8,12 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.models import registry
 from colonnade.dynamics.models.registry import MODELS, PLANE_MODELS, model_of, plane_model_of
 from colonnade.dynamics.rock import rock
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 FOLDER = Path(registry.__file__).parent
 
 
@@ -30,7 +29,7 @@ def test_models_look_different():
 
 @pytest.mark.parametrize("name", MODELS)
 def test_every_model_runs(name):
-    history = rock(BLOCK, theta0=0.3 * BLOCK.critical_angle, duration=0.05, model=name)
+    history = rock(PRISM, theta0=0.3 * PRISM.critical_angle, duration=0.05, model=name)
     assert history.model == name
     assert history.outcome == "rocking"
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.plane.impact import (
     comes_to_rest,
     holding_moment,
@@ -15,8 +14,7 @@ from colonnade.dynamics.plane.impact import (
 )
 from colonnade.dynamics.plane.sides import Sides, sides_of
 from colonnade.dynamics.rock import rock
-
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+from prism import PRISM
 
 
 @pytest.mark.parametrize(("velocity", "here", "e"), [(0.5, 0, 0.9), (-1.5, 0, 0.85), (9.0, 0, 0.8), (-1.0, 1, 0.7)])

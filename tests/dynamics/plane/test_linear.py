@@ -9,12 +9,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.plane import linear
 from colonnade.dynamics.plane.step import Interval
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-ALPHA, P = BLOCK.critical_angle, BLOCK.p
+ALPHA, P = PRISM.critical_angle, PRISM.p
 LEFT, RIGHT = -1.0, 1.0
 
 

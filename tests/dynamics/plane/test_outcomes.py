@@ -7,13 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic.motion import OUTCOMES
 from colonnade.dynamics.plane.outcomes import ends_of, prepared
 from colonnade.dynamics.rock import rock
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 LEANING = replace(PRISM, positive=replace(PRISM.positive, critical_angle=1.3 * PRISM.critical_angle))
 TIME = np.arange(0.0, 4.0, 0.005)
 SHAKEN = np.sin(2 * np.pi * 2.0 * TIME) * np.sin(np.pi * TIME / 4.0) * PRISM.gravity

@@ -7,14 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.models.linear import LINEAR
 from colonnade.dynamics.models.model import Case
 from colonnade.dynamics.models.nonlinear import NONLINEAR
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.run import LARGEST_ACCELERATION, LONGEST_SAMPLE, run
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
 CASE = Case(PRISM, None, 0.9, 0.5 * ALPHA, 0.0, 2.0, 1e-6, None, 0.0)
 

@@ -7,15 +7,14 @@ from math import acosh, sqrt
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.plane import impact, linear, nonlinear, sampled_march, uplift
 from colonnade.dynamics.plane.nonlinear import by_series
 from colonnade.dynamics.plane.sides import sides_of
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-ALPHA, P = BLOCK.critical_angle, BLOCK.p
+ALPHA, P = PRISM.critical_angle, PRISM.p
 E = 0.9
-SIDES = sides_of(BLOCK, (E, E), 1e-6)
+SIDES = sides_of(PRISM, (E, E), 1e-6)
 DT = 0.2 / P
 
 
@@ -90,7 +89,7 @@ def test_left_to_itself_after_the_record_it_may_still_overturn():
 
 
 def test_more_impacts_than_there_is_room_for_are_kept():
-    elastic = sides_of(BLOCK, (1.0, 1.0), 1e-12)
+    elastic = sides_of(PRISM, (1.0, 1.0), 1e-12)
     _, _, times, velocities, _ = sampled_march.propagate(np.zeros(300), DT, elastic, 0.05 * ALPHA, 0.0, None)
     assert times.size > 64
     np.testing.assert_allclose(np.abs(velocities), abs(velocities[0]), rtol=1e-9)

@@ -14,8 +14,8 @@ from colonnade.dynamics.rock import rock
 from colonnade.dynamics.spectra.overturning import overturning_spectrum
 from colonnade.dynamics.spectra.pulses import PULSES, RICKER_REACH, mavroeidis_papageorgiou, ricker
 from independent_rocking import overturns
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA = PRISM.critical_angle
 
 

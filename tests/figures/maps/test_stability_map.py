@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.chart import stability_map as computed
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.figures.maps.stability_map import stability_map
 from colonnade.identification.response.boundaries import MapPoint
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 OPTIONS = {"frequency_ratio": [2.0, 4.0, 6.0], "amplitude_ratio": np.linspace(0.5, 6.0, 12), "restitution": 0.9}
 OPTIONS |= {"width": 0.1, "edge": 0.01, "cycles": 4}
 POINTS = [MapPoint("a", 3.35, 0.9, "no-rocking"), MapPoint("b", 3.35, 1.5, "overturned")]

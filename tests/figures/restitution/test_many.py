@@ -7,15 +7,14 @@ import time
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.figures.restitution.estimators import EstimateGroup, EstimateRow
 from colonnade.figures.restitution.impacts import ImpactSeries, Level
 from colonnade.figures.restitution.many import LINES, impacts_of_many, middle_of, peaks_of_many
 from colonnade.figures.restitution.peaks import PeakSeries
 from colonnade.figures.stored import restitution as pictures
 from colonnade.identification.restitution.arcs.energy import angle_of_energy
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 LEVEL = Level(0.95, 0.949, 0.951, "e pooled")
 
 
@@ -25,7 +24,7 @@ def many(count):
     for index in range(count):
         number = np.arange(1, 31)
         energy = 0.8 * (0.95 + 0.002 * random.standard_normal()) ** (2 * number)
-        angle = np.asarray(angle_of_energy(energy, BLOCK.critical_angle))
+        angle = np.asarray(angle_of_energy(energy, PRISM.critical_angle))
         used = number < 25
         title = f"free-{index}"
         peaks.append(PeakSeries(title, angle, np.full(30, 1e-4), np.where(used, angle, np.nan), used))
@@ -40,15 +39,15 @@ def test_three_hundred_records_give_figures_of_one_panel_that_do_not_grow():
     for count in (60, 300):
         peaks, impacts = many(count)
         drawn = (
-            pictures.peaks("peaks", peaks, BLOCK),
-            pictures.impacts("impacts", impacts, LEVEL, BLOCK.restitution),
+            pictures.peaks("peaks", peaks, PRISM),
+            pictures.impacts("impacts", impacts, LEVEL, PRISM.restitution),
             pictures.estimators(
                 "estimators",
                 [
                     EstimateGroup(f"{k}", [EstimateRow("a", 0.9, 0.8, 1.0), EstimateRow("b", 0.91, 0.9, 1.0, True)])
                     for k in range(count)
                 ],
-                BLOCK.restitution,
+                PRISM.restitution,
             ),
         )
         assert [len(picture.figure.axes) for picture in drawn] == [1, 1, 1]
@@ -60,7 +59,7 @@ def test_three_hundred_records_give_figures_of_one_panel_that_do_not_grow():
 
 def test_a_line_for_some_records_and_the_median_of_all():
     peaks, _ = many(300)
-    axes = peaks_of_many(peaks, BLOCK).axes[0]
+    axes = peaks_of_many(peaks, PRISM).axes[0]
     assert len(axes.collections[0].get_paths()) == LINES
     median = axes.lines[0].get_ydata()
     assert np.exp(np.diff(np.log(median)).mean() / 2) == pytest.approx(0.95, abs=2e-3)
@@ -98,7 +97,7 @@ def test_estimates_of_many_records_are_a_row_an_estimator():
 
 
 @pytest.mark.parametrize(
-    "draw", [lambda: peaks_of_many([], BLOCK), lambda: impacts_of_many([], level=None, rigid=None)]
+    "draw", [lambda: peaks_of_many([], PRISM), lambda: impacts_of_many([], level=None, rigid=None)]
 )
 def test_nothing_is_refused(draw):
     with pytest.raises(ValueError, match="no free vibration was given"):

@@ -5,14 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.spectra.overturning import overturning_spectrum
 from colonnade.dynamics.spectra.spectrum import rocking_spectrum
 from colonnade.figures.files.table import table_of
 from colonnade.figures.spectra import overturning, rocking
-
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+from prism import PRISM
 
 
 def test_a_rocking_spectrum_shows_peaks_and_which_blocks_overturn():

@@ -8,17 +8,15 @@ import xarray as xr
 
 from colonnade.campaign import Test
 from colonnade.campaign.forms.summary import TestSummary
-from colonnade.dynamics.block import Block
 from colonnade.figures.stored import closer
 from colonnade.store.records.stored import Stored
-
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+from prism import PRISM
 
 
 def test_the_free_motion_on_the_separatrix_arrives_at_the_critical_angle_at_rest():
     """Integrated backwards from just below α with θ'' = −p² sin(α − θ): the same curve (nonlinear model, a = 0)."""
-    found = closer.separatrix(BLOCK)
-    alpha, p, step = BLOCK.critical_angle, BLOCK.p, 1e-5
+    found = closer.separatrix(PRISM)
+    alpha, p, step = PRISM.critical_angle, PRISM.p, 1e-5
     angle, velocity = alpha * (1 - 1e-3), alpha * p * 1e-3
     while angle > 0:
         velocity += step * p**2 * np.sin(alpha - angle)
@@ -28,7 +26,7 @@ def test_the_free_motion_on_the_separatrix_arrives_at_the_critical_angle_at_rest
 
 
 def test_a_small_block_has_nearly_straight_lines_as_the_linear_model():
-    found = closer.separatrix(BLOCK)
+    found = closer.separatrix(PRISM)
     assert found.velocity == pytest.approx(1 - np.abs(found.ratio), abs=2e-3)
 
 
@@ -45,18 +43,18 @@ def test_a_steady_sine_is_drawn_over_the_phase_of_the_base():
         }
     )
     record = TestSummary(status="done", kind="sine", specimen="prism", outcome="rocking", order=2)
-    picture = closer.picture(Test.model_construct(id="sine"), record, stored, BLOCK)
+    picture = closer.picture(Test.model_construct(id="sine"), record, stored, PRISM)
     assert picture.note == "Right: the rocking angle, last 12 periods of the steady part."
     portrait, steady = picture.figure.axes
     phase, ratio = steady.lines[0].get_data()
     assert steady.get_xlabel() == "phase of the base (periods)"
     assert (np.nanmin(phase), np.nanmax(phase)) == pytest.approx((0, 2), abs=0.02)
     known = np.isfinite(phase)
-    due = 0.05 * np.sin(np.pi * phase[known]) / BLOCK.critical_angle
+    due = 0.05 * np.sin(np.pi * phase[known]) / PRISM.critical_angle
     assert np.minimum(np.abs(ratio[known] - due), np.abs(ratio[known] + due)) == pytest.approx(0, abs=1e-3)
     assert portrait.get_ylabel() == "θ′ / (p α)"
     velocity = np.abs(portrait.lines[0].get_ydata()).max()
-    assert velocity == pytest.approx(0.05 * np.pi * 2.0 / (BLOCK.p * BLOCK.critical_angle), rel=1e-2)
+    assert velocity == pytest.approx(0.05 * np.pi * 2.0 / (PRISM.p * PRISM.critical_angle), rel=1e-2)
 
 
 def test_the_base_rises_through_zero_at_phase_zero():
@@ -83,7 +81,7 @@ def test_a_sine_without_a_steady_part_is_not_said_to_have_one():
     record = TestSummary(
         status="done", kind="sine", specimen="prism", outcome="rocking", frequency_ratio=2.2, peak_time=4.0
     )
-    picture = closer.picture(Test.model_construct(id="sine"), record, stored, BLOCK)
+    picture = closer.picture(Test.model_construct(id="sine"), record, stored, PRISM)
     assert picture.note == "Right: the rocking angle, about the largest angle."
 
 

@@ -1,12 +1,11 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Pose
 from colonnade.identification.fusion.accelerometers import angle_from_accelerations
 from colonnade.identification.fusion.inertial import Accelerometer, Gyroscope, angular_velocity, specific_force
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 INTERVAL, NOISE = 0.002, 0.02
 TIME = np.arange(0.0, 12.0, INTERVAL)
 X, Z = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
@@ -42,7 +41,7 @@ def test_accelerometers_alone_give_the_angle_within_its_standard_error(used, swi
     rng = np.random.default_rng(3)
     readings = np.array([_sensed(each, *swinging) + NOISE * rng.standard_normal(TIME.size) for each in used])
     base = np.array([BASE, 0 * BASE, 0 * BASE])
-    found = angle_from_accelerations(used, readings, np.full(len(used), NOISE), base, INTERVAL, BLOCK)
+    found = angle_from_accelerations(used, readings, np.full(len(used), NOISE), base, INTERVAL, PRISM)
     assert found is not None
     angle, error = found
     assert np.mean(np.abs(angle - swinging[0]) < 3 * error) > 0.99
@@ -62,13 +61,13 @@ def test_taking_gravity_for_motion_fails_that_check(swinging):
 def test_accelerometers_that_do_not_separate_rotation_from_translation_give_none(used):
     readings = np.zeros((len(used), TIME.size))
     base = np.zeros((3, TIME.size))
-    assert angle_from_accelerations(used, readings, np.full(len(used), NOISE), base, INTERVAL, BLOCK) is None
+    assert angle_from_accelerations(used, readings, np.full(len(used), NOISE), base, INTERVAL, PRISM) is None
 
 
 def test_the_specific_force_of_a_motion_is_that_of_the_closed_form(swinging):
     angle = swinging[0]
     pose = Pose(angle, *np.zeros((5, TIME.size)))
-    predicted = specific_force([HIGH, LOW, UPWARDS], pose, np.array([BASE, 0 * BASE, 0 * BASE]), INTERVAL, BLOCK)
+    predicted = specific_force([HIGH, LOW, UPWARDS], pose, np.array([BASE, 0 * BASE, 0 * BASE]), INTERVAL, PRISM)
     expected = np.array([_sensed(each, *swinging) for each in (HIGH, LOW, UPWARDS)])
     largest = np.abs(expected).max()
     np.testing.assert_allclose(predicted[:, 1:-1], expected[:, 1:-1], atol=1e-4 * largest)

@@ -6,8 +6,8 @@ from hypothesis import strategies as st
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
 from colonnade.identification.fusion.angle import fit_rocking, rocking_angle
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 TOP, BOTTOM, ALONG_X, UPWARDS = [0.043, 0.0, 0.440], [0.043, 0.0, 0.020], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]
 ANGLES = np.concatenate((np.linspace(-0.6, 0.6, 241), [0.0, 1e-9, -1e-9]))
 

@@ -1,12 +1,11 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.rock import rock
 from colonnade.identification.fusion.gyroscopes import REST_ERROR, angle_from_rate, disagreement, mean_rate, upright
 from colonnade.identification.fusion.inertial import Gyroscope
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 INTERVAL, NOISE, BIAS = 0.002, 3e-3, 4e-4
 TIME = np.arange(0.0, 14.0, INTERVAL)
 
@@ -22,7 +21,7 @@ def swings(request):
 @pytest.fixture
 def released():
     """Held tilted for two seconds, released, at rest in the end: angle and rate."""
-    decay = rock(BLOCK, restitution=0.93, theta0=0.5 * BLOCK.critical_angle, duration=9.0, model="nonlinear")
+    decay = rock(PRISM, restitution=0.93, theta0=0.5 * PRISM.critical_angle, duration=9.0, model="nonlinear")
     angle = np.interp(TIME - 2.0, decay.time, decay.angle)
     return angle, np.gradient(angle, INTERVAL)
 
@@ -34,7 +33,7 @@ def _measured(rate, seed=0):
 def test_a_gyroscope_alone_gives_the_angle_within_its_standard_error_between_the_rests(swings):
     angle, rate = swings
     measured = _measured(rate)
-    known, rests = upright(measured, NOISE, NOISE, INTERVAL, BLOCK, duration=0.5, from_end=False)
+    known, rests = upright(measured, NOISE, NOISE, INTERVAL, PRISM, duration=0.5, from_end=False)
     found, error = angle_from_rate(measured, NOISE, INTERVAL, known, np.full(TIME.size, REST_ERROR))
     assert len(rests) >= 2
     assert np.mean(np.abs(found - angle) < 3 * error) > 0.99
@@ -45,7 +44,7 @@ def test_a_gyroscope_alone_gives_the_angle_within_its_standard_error_between_the
 def test_before_a_release_the_specimen_is_still_and_not_upright(released):
     angle, rate = released
     measured = _measured(rate)
-    known, rests = upright(measured, NOISE, NOISE, INTERVAL, BLOCK, duration=0.5, from_end=True)
+    known, rests = upright(measured, NOISE, NOISE, INTERVAL, PRISM, duration=0.5, from_end=True)
     assert np.isnan(known[TIME < 2]).all()
     assert rests[-1][1] == TIME.size
     found, error = angle_from_rate(measured, NOISE, INTERVAL, known, np.full(TIME.size, REST_ERROR))

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Pose
 from colonnade.identification.fusion.inertial import Accelerometer, Gyroscope, angular_velocity, specific_force
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 G = PRISM.gravity
 EDGE = 0.043
 INTERVAL = 1e-3

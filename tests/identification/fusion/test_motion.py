@@ -5,15 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, point_displacement
 from colonnade.identification.fusion.inertial import Accelerometer, Gyroscope
 from colonnade.identification.fusion.motion import UNSEEN, specimen_motion
 from colonnade.identification.fusion.readings import Circumstances, Readings, TableReadings
 from colonnade.identification.fusion.sensors import Transducer
 from colonnade.identification.fusion.separation import UnseenRotationError
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 OUTLINE = Outline(0.043, 0.043)
 INTERVAL = 2e-3
 TIME = INTERVAL * np.arange(1500)

@@ -1,12 +1,11 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline
 from colonnade.identification.fusion.sensors import Transducer
 from colonnade.identification.fusion.separation import UnseenRotationError, separate
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 OUTLINE = Outline(0.043, 0.043)
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 TOP = Transducer("point", X, (0.043, 0.0, 0.44))
@@ -38,14 +37,14 @@ INCLINOMETER = Transducer("angle", Y)
     ],
 )
 def test_what_a_set_up_separates_is_fitted_and_the_rest_is_said(transducers, unknowns, words):
-    found = separate(transducers, np.full(len(transducers), 1e-5), BLOCK, OUTLINE)
+    found = separate(transducers, np.full(len(transducers), 1e-5), PRISM, OUTLINE)
     assert list(found.unknowns) == unknowns
     assert words in found.text
 
 
 def test_two_heights_that_are_too_close_do_not_separate_slide():
     near = Transducer("point", X, (0.043, 0.0, 0.42))
-    found = separate([TOP, near], np.full(2, 1e-5), BLOCK, OUTLINE)
+    found = separate([TOP, near], np.full(2, 1e-5), PRISM, OUTLINE)
     assert found.unknowns == ("rocking_angle",)
 
 
@@ -61,4 +60,4 @@ def test_two_heights_that_are_too_close_do_not_separate_slide():
 )
 def test_a_set_up_that_does_not_see_the_rotation_is_refused(transducers, words):
     with pytest.raises(UnseenRotationError, match=words):
-        separate(transducers, np.ones(len(transducers)), BLOCK, OUTLINE)
+        separate(transducers, np.ones(len(transducers)), PRISM, OUTLINE)

@@ -13,9 +13,9 @@ from colonnade.dynamics.rock import rock
 from colonnade.identification.plausibility.rotation import Rotation
 from colonnade.identification.plausibility.scale import scale_of
 from colonnade.identification.plausibility.transducers import base_scale, suspicions
+from prism import PRISM
 
 RATE = 500.0
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 STONE = Block.prism(width=0.25, depth=0.30, height=1.10, mass=180.0)
 ANGLES = np.linspace(-0.4, 0.4, 161)
 NOISE = 2e-5

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.identification.response.features import DRIFT_FACTOR, NOISE_FACTOR, angle_features
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA = PRISM.critical_angle
 TIME = np.arange(0, 10, 0.002)
 ROCKING = np.where((TIME > 2) & (TIME < 6), 0.4 * ALPHA * np.sin(2 * np.pi * (TIME - 2)), 0.0)

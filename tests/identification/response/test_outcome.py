@@ -1,12 +1,11 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.response.outcome import judge
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA = PRISM.critical_angle
 TIME = np.arange(0, 6, 0.002)
 CATCH = 0.28

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arguments import check_records, check_settings
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 SETTINGS = {"block": PRISM, "level": 0.95, "lowest_amplitude": 0.02, "noise": None, "lowpass": None, "free": ()}
 TIME = np.arange(5.0)
 

@@ -4,14 +4,13 @@ from dataclasses import replace
 
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.choice import choose
 from colonnade.identification.restitution.estimators.history_scatter import ScatteredFit
 from colonnade.identification.restitution.estimators.peaks import PeakFit
 from colonnade.identification.restitution.fitting.free_decay import Decay
 from colonnade.identification.restitution.result import Estimate
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 DECAY = Decay({}, 1, 10, PRISM, linearised=False)
 PEAKS = Estimate("peaks", 0.951, 0.949, 0.953, 0.001, 0.95, "")
 WHOLE = Estimate("history-scatter", 0.95, 0.9498, 0.9502, 1e-4, 0.95, "")

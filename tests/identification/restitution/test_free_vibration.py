@@ -5,15 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.estimators.estimator import Estimator, Fit
 from colonnade.identification.restitution.fitting.driven_decay import BaseMotion
 from colonnade.identification.restitution.fitting.samples import AngleSamples
 from colonnade.identification.restitution.free_vibration import MOVING_TABLE, FreeVibration
 from colonnade.identification.restitution.result import Estimate
 from colonnade.laboratory.truth import simulate
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA = PRISM.critical_angle
 NOISE = 1e-4
 

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.rock import rock
 from colonnade.identification.restitution.arcs.energy import angle_of_energy, released_energy
 from colonnade.identification.restitution.identify import identify_restitution
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
 
 

@@ -7,11 +7,10 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.plans.trials import QUIET, RELEASES, SPANS, Placed, earthquakes, free_vibrations, sine
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 PLACED = Placed("prism", PRISM, "bench", "table", "p-")
 RECORD = Motion(np.sin(np.arange(400) * 0.1) * np.hanning(400), 0.02)
 

@@ -8,6 +8,8 @@ import pytest
 
 from browsing import TELEPHONE, violations
 
+pytestmark = pytest.mark.whole
+
 OUTSIDE = """() => [...document.querySelectorAll('body *')].filter(element =>
   !element.closest('.scroll') && element.getBoundingClientRect().right > document.documentElement.clientWidth + 1
 ).map(element => element.outerHTML.slice(0, 200))"""
@@ -55,6 +57,7 @@ def dead_links(page, folder: Path) -> list[str]:
     return dead
 
 
+@pytest.mark.smoke
 def test_only_boxes_that_scroll_are_wider_than_a_telephone(report_folder, visit):
     page = visit("index.html", screen=TELEPHONE)
     for address in KINDS:
@@ -66,6 +69,7 @@ def test_every_link_leads_to_a_page_and_a_place_in_it(report_folder, visit):
     assert dead_links(visit("index.html", scripts=False), report_folder) == []
 
 
+@pytest.mark.smoke
 def test_nobody_is_left_out(report_folder, visit):
     page = visit("index.html")
     for address in KINDS[2:7]:

@@ -13,6 +13,8 @@ from browsing import TELEPHONE
 from colonnade.store import files
 from colonnade.store.results import ResultId
 
+pytestmark = pytest.mark.whole
+
 TEST = "span-2.5"
 READY = "document.documentElement.classList.contains('scripted')"
 VIEW = "[colonnade.page.view.from, colonnade.page.view.to]"
@@ -123,6 +125,7 @@ def test_drag_moves_and_drag_with_shift_zooms_into_the_stretch(page):
     assert view(page) == pytest.approx([from_, to], abs=0.02)
 
 
+@pytest.mark.smoke
 def test_the_cursor_gives_the_stored_values_with_their_units(page, filled_campaign):
     _, layout = filled_campaign
     rocking = files.read(layout.path(ResultId(TEST, "rocking")))

@@ -9,6 +9,8 @@ import pytest
 
 from browsing import TELEPHONE
 
+pytestmark = pytest.mark.whole
+
 SHOWN = (
     "() => [...document.querySelectorAll('#tests-table tbody tr:not([hidden]) th')].map(th => th.textContent.trim())"
 )
@@ -31,6 +33,7 @@ def test_without_scripts_the_whole_table_stands(visit):
     assert page.locator("#missed-linear-rocking-overturned a").first.inner_text() == "span-3.0"
 
 
+@pytest.mark.smoke
 def test_it_is_filtered_by_each_choice_and_by_words(overview):
     choose(overview, "kind", "earthquake")
     assert overview.evaluate(SHOWN) == ["span-2.0", "span-2.5", "span-3.0", "watched"]

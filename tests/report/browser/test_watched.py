@@ -17,6 +17,8 @@ import pytest
 from colonnade.report.interactive.state import state_script
 from colonnade.workflow import run
 
+pytestmark = pytest.mark.whole
+
 READY = "typeof colonnade !== 'undefined' && colonnade.is_ready"
 CHANGED = "document.getElementById('changed')"
 CHOSEN = """() => ({
@@ -68,6 +70,7 @@ def says(page, text: str) -> None:
     page.wait_for_function("text => document.querySelector('.watched').textContent.includes(text)", arg=text)
 
 
+@pytest.mark.smoke
 def test_an_open_page_follows_the_report_and_stays_as_it_was(visit, folder, tell):
     tell(line="free-01: rocking, peak 0.52 α")
     page, overview = visit(TEST, folder=folder), visit("index.html", folder=folder)

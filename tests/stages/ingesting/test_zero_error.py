@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from colonnade.dynamics.block import Block
 from colonnade.signals.rest import RestWindow
 from colonnade.stages.ingesting.zero_error import find_zero_error, on_angle, on_base
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 CLOCK = np.arange(0.0, 10.0, 0.01)
 WINDOW = RestWindow(0.0, 1.0, quiet=False)
 LEVER = 0.4
@@ -17,7 +16,7 @@ LEVER = 0.4
 def _found(drift, *, free_vibration=False):
     """A displacement that drifts by `drift` (m) in the first second and is still afterwards."""
     values = {"top": np.minimum(CLOCK, 1.0) * drift}
-    return find_zero_error(CLOCK, values, {"top": on_angle(LEVER, BLOCK)}, WINDOW, free_vibration=free_vibration)
+    return find_zero_error(CLOCK, values, {"top": on_angle(LEVER, PRISM)}, WINDOW, free_vibration=free_vibration)
 
 
 def test_a_small_drift_is_not_reported():
@@ -41,5 +40,5 @@ def test_a_free_vibration_is_not_advised_a_stretch_in_which_it_is_held_tilted():
 
 
 def test_an_accelerometer_across_the_shaking_weighs_more():
-    assert on_base(0.5, BLOCK).factor == 2.0
-    assert on_base(1.0, BLOCK).scale == BLOCK.uplift_acceleration
+    assert on_base(0.5, PRISM).factor == 2.0
+    assert on_base(1.0, PRISM).scale == PRISM.uplift_acceleration

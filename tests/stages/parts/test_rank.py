@@ -7,7 +7,6 @@ import pytest
 import xarray as xr
 
 from colonnade.campaign.settings import MeasurementSettings
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.ensembles.outcome import LEVELS, Ensemble
 from colonnade.dynamics.ensembles.uncertainty import INPUTS
 from colonnade.dynamics.motion import Motion
@@ -20,9 +19,9 @@ from colonnade.stages.parts.rank import (
     measurement_errors,
     rank_measured,
 )
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-ALPHA = BLOCK.critical_angle
+ALPHA = PRISM.critical_angle
 STEP = 0.01
 TIME = 3.0 + STEP * np.arange(300)
 FIRST = 50
@@ -33,7 +32,7 @@ SWING = 0.3 * ALPHA * np.sin(2 * np.pi * 2 * (TIME - TIME[0]))
 def inputs(**changes):
     settings = MeasurementSettings(angle_gain=0.005, angle_zero=5e-4, horizon=0.2)
     return MeasurementInputs(
-        **{"block": BLOCK, "settings": settings, "filter_order": 4, "channels": ("top", "bottom"), **changes}
+        **{"block": PRISM, "settings": settings, "filter_order": 4, "channels": ("top", "bottom"), **changes}
     )
 
 
@@ -260,7 +259,7 @@ def stored(*, peaks=PEAKS, overturned=(), start=0, distance=None):
 
 
 def row(measured, found):
-    compared = horizons_and_ranks(measured, {"linear": found}, ["linear"], BLOCK)
+    compared = horizons_and_ranks(measured, {"linear": found}, ["linear"], PRISM)
     assert {dimension for dimension, _ in compared.values()} == {"model"}
     return {name: float(values[0]) for name, (_, values) in compared.items()}
 
@@ -311,7 +310,7 @@ def test_the_share_of_closer_runs_is_given_where_distances_are(distance, share):
 
 
 def test_a_model_without_an_ensemble_keeps_its_place():
-    compared = horizons_and_ranks(peaked(0.25), {"linear": stored()}, ["contact", "linear"], BLOCK)
+    compared = horizons_and_ranks(peaked(0.25), {"linear": stored()}, ["contact", "linear"], PRISM)
     for name, (_, values) in compared.items():
         assert np.isnan(values[0]), name
     assert compared["peak_rank"][1][1] == 0.5

@@ -29,6 +29,7 @@ from colonnade.workflow.steps import Graph
 from colonnade.workflow.walk import Walk
 
 distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
+pytestmark = pytest.mark.whole
 
 
 def free_port() -> int:

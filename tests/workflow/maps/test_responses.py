@@ -7,14 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.steady import steady_response
 from colonnade.store import files
 from colonnade.workflow.maps.plans import Wanted
 from colonnade.workflow.maps.responses import SETTLING, as_response
 from colonnade.workflow.maps.stability import make_maps
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 FEW = Wanted(
     ("linear",), frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(6, 10), cycles=5.0, responses=True
 )
@@ -29,7 +28,7 @@ def test_they_are_those_of_the_library_and_made_once(small):
     result = made(small)
     stored = as_response(files.read(result.responses))
     e = tuple(float(value) for value in files.read(small.layout.stage("prism", "specimen"))["side_restitution"])
-    expected = steady_response(BLOCK, restitution=e, frequency_ratio=np.linspace(2.0, 5.0, 6),
+    expected = steady_response(PRISM, restitution=e, frequency_ratio=np.linspace(2.0, 5.0, 6),
                                amplitude_ratio=np.linspace(0.8, 2.0, 10))  # fmt: skip
     assert set(np.unique(expected.order)) >= {-2, 0, 1}
     for name in ("order", "period", "amplitude"):

@@ -15,9 +15,9 @@ from colonnade.dynamics.motion import Motion
 from colonnade.store import files
 from colonnade.store.results import ResultId
 from colonnade.workflow.maps.results import bring_up_to_date, given
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-PLAN = plan_map(BLOCK, frequency_ratio=[2.0, 3.0], amplitude_ratio=[1.0, 2.0])
+PLAN = plan_map(PRISM, frequency_ratio=[2.0, 3.0], amplitude_ratio=[1.0, 2.0])
 RESULT = ResultId("prism", "map", "linear")
 
 

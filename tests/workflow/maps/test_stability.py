@@ -11,7 +11,6 @@ import sys
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.chart import stability_map
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError, StoreError
@@ -21,8 +20,8 @@ from colonnade.store.results import ResultId
 from colonnade.workflow import run
 from colonnade.workflow.maps.plans import Wanted, measured_points
 from colonnade.workflow.maps.stability import as_map, make_maps
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 FEW = Wanted(("linear",), frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(6, 10), cycles=5.0)
 
 
@@ -81,7 +80,7 @@ def test_a_map_takes_the_identified_restitution_and_is_that_of_the_library(small
     pooled = files.read(small.layout.stage("prism", "specimen"))
     e = tuple(float(value) for value in pooled["side_restitution"])
     expected = stability_map(
-        BLOCK,
+        PRISM,
         restitution=e,
         frequency_ratio=np.linspace(2.0, 5.0, 6),
         amplitude_ratio=np.linspace(0.8, 2.0, 10),
@@ -126,11 +125,11 @@ def test_the_table_motion_of_a_sine_test_is_stretched_over_a_map(sine_test):
     axes = {"frequency_ratio": np.linspace(2.0, 6.0, 5), "amplitude_ratio": np.linspace(0.8, 2.0, 13)}
     motion = Motion(base["base_acceleration"].to_numpy(), 0.005)
     expected = stability_map(
-        BLOCK, restitution=0.93, motion=motion, motion_frequency=stored.options["motion_frequency"], **axes
+        PRISM, restitution=0.93, motion=motion, motion_frequency=stored.options["motion_frequency"], **axes
     )
     np.testing.assert_array_equal(stored.outcome, expected.outcome)
     # What the table did is nearly the sine of twelve cycles that it was told to do.
-    plain = stability_map(BLOCK, restitution=0.93, cycles=12, **axes)
+    plain = stability_map(PRISM, restitution=0.93, cycles=12, **axes)
     assert np.mean(stored.outcome == plain.outcome) > 0.8
     assert set(np.unique(stored.outcome)) == {0, 1, 2}
     assert "recorded table motion" in result.figure.read_text(encoding="utf-8")

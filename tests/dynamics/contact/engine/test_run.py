@@ -11,11 +11,11 @@ from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.start import Start, rotation_matrices, standing
 from colonnade.dynamics.motion import Motion
+from prism import PRISM
 
 GRAVITY = 9.81
 RADIUS, HEIGHT = 0.0485, 0.1
 CYLINDER = Block.cylinder(diameter=2 * RADIUS, height=HEIGHT, mass=1.0)
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 SQUAT = Block.prism(width=0.5, depth=0.3, height=0.1, mass=10.0)
 LEVEL = np.zeros(3)
 

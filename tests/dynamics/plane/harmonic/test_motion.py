@@ -20,8 +20,8 @@ from colonnade.dynamics.plane.harmonic.motion import (
 )
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import rock
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
 LOPSIDED = Block.measured(mass=5.0, pole_distance=(0.24, 0.25), critical_angle=(0.17, 0.22), inertia=(0.39, 0.42))
 MODELS = ("linear", "nonlinear")

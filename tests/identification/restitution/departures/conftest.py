@@ -7,11 +7,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs.rocking_arc import half_duration_of
 from colonnade.identification.restitution.arcs.series import arc_series
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ERROR = 1e-6
 
 

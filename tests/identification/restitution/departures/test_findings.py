@@ -12,9 +12,9 @@ from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import rock
 from colonnade.identification.restitution.departures.findings import find_departures
 from colonnade.identification.restitution.identify import identify_restitution
+from prism import PRISM
 
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
-ALPHA = BLOCK.critical_angle
+ALPHA = PRISM.critical_angle
 NOISE = 2e-4
 STEP = 0.002
 
@@ -22,7 +22,7 @@ STEP = 0.002
 class Record:
     """Free rocking by the model, with what an evaluation sees of it: noisy samples, times of impacts and peaks."""
 
-    def __init__(self, *, restitution=0.95, block=BLOCK, release=0.7, seed=0, offset=0.0, arcs=24, noise=NOISE):
+    def __init__(self, *, restitution=0.95, block=PRISM, release=0.7, seed=0, offset=0.0, arcs=24, noise=NOISE):
         random = np.random.default_rng(seed)
         history = rock(
             block,
@@ -108,11 +108,11 @@ def test_unequal_restitution_is_named_with_its_size(pair):
 def test_a_tilted_table_is_named_with_its_angle(tilt):
     sides = (ALPHA * (1 - tilt), ALPHA * (1 + tilt))
     tilted = Block.measured(
-        mass=BLOCK.mass, pole_distance=BLOCK.pole_distance, critical_angle=sides, inertia=BLOCK.inertia
+        mass=PRISM.mass, pole_distance=PRISM.pole_distance, critical_angle=sides, inertia=PRISM.inertia
     )
     errors = []
     for seed in range(8):
-        found = Record(block=tilted, seed=seed).departures(BLOCK)
+        found = Record(block=tilted, seed=seed).departures(PRISM)
         assert list(found) == ["unequal sides"]
         errors.append(beyond(found["unequal sides"], tilt * ALPHA))
     assert max(errors) < 4
@@ -127,7 +127,7 @@ def stepping(first, later, speed):
 
 @pytest.mark.parametrize("count", [3, 5])
 def test_first_cycles_that_lose_more_are_three_dimensional(count):
-    speeds = np.abs(rock(BLOCK, restitution=0.93, theta0=0.8 * ALPHA, duration=8, model="nonlinear").impact_velocities)
+    speeds = np.abs(rock(PRISM, restitution=0.93, theta0=0.8 * ALPHA, duration=8, model="nonlinear").impact_velocities)
     law = stepping(0.93, 0.96, (speeds[count] + speeds[count + 1]) / 2)
     for seed in range(6):
         departure = Record(restitution=law, release=0.8, seed=seed).departures()["three-dimensional rocking"]
@@ -211,23 +211,23 @@ def identified(block, seed, *, offset=0.0, cutoff=None, **given):
     angle = history.angle + offset + NOISE * random.normal(size=history.time.size)
     if cutoff is not None:
         angle = sosfiltfilt(butter(4, cutoff, fs=1 / STEP, output="sos"), angle)
-    return {each.name: each for each in identify_restitution(history.time, angle, BLOCK).departures}
+    return {each.name: each for each in identify_restitution(history.time, angle, PRISM).departures}
 
 
 @pytest.mark.parametrize("cutoff", [None, 35.0], ids=["as recorded", "low-passed"])
 @pytest.mark.parametrize("offset", [0.0, 0.002], ids=["zero right", "zero off"])
 def test_from_the_samples_alone_a_sound_record_departs_in_nothing(cutoff, offset):
     for seed in range(4):
-        assert identified(BLOCK, seed, restitution=0.9 + 0.02 * seed, offset=offset, cutoff=cutoff) == {}
+        assert identified(PRISM, seed, restitution=0.9 + 0.02 * seed, offset=offset, cutoff=cutoff) == {}
 
 
 @pytest.mark.parametrize("offset", [0.0, 0.002], ids=["zero right", "zero off"])
 def test_from_the_samples_alone_sides_that_differ_are_named_with_their_size(offset):
     tilt = 0.05 * ALPHA
-    tilted = BLOCK.override(critical_angle=(ALPHA - tilt, ALPHA + tilt))
+    tilted = PRISM.override(critical_angle=(ALPHA - tilt, ALPHA + tilt))
     found = identified(tilted, 1, restitution=0.95, offset=offset)
     assert found["unequal sides"].size == pytest.approx(tilt, rel=0.15)
-    found = identified(BLOCK, 1, restitution=(0.94, 0.96), offset=offset)
+    found = identified(PRISM, 1, restitution=(0.94, 0.96), offset=offset)
     assert list(found) == ["unequal restitution"]
     assert found["unequal restitution"].size == pytest.approx(0.02, rel=0.15)
 

@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.rock import rock
 from colonnade.identification.restitution.arcs.arcs import find_arcs
 from colonnade.identification.restitution.departures.free_rocking import objection
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA = PRISM.critical_angle
 TIME = np.arange(0.0, 10.0, 0.002)
 

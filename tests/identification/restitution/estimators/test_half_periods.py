@@ -5,11 +5,10 @@ import re
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.rock import rock
 from colonnade.identification.restitution.estimators.half_periods import HalfPeriods
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ERROR = 1e-4
 
 

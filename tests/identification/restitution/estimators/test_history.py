@@ -10,14 +10,13 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.signal import lfilter
 
-from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.estimators.history import LinearHistory, NonlinearHistory, fitted_history
 from colonnade.identification.restitution.fitting.noise import fit_noise
 from colonnade.identification.restitution.fitting.samples import thinned
 from colonnade.identification.restitution.free_vibration import FreeVibration
 from colonnade.signals.filters import lowpass
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA, P = PRISM.critical_angle, PRISM.p
 RATE = 500.0
 NOISE = 1e-3 * ALPHA

@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs.arcs import Arcs
 from colonnade.identification.restitution.arcs.rocking_arc import free_arcs
 from colonnade.identification.restitution.estimators.impact_by_impact import ImpactByImpact
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA = PRISM.critical_angle
 ERROR = 2e-4 * ALPHA
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.arcs.arcs import Arcs
 from colonnade.identification.restitution.estimators.peaks import FEWEST_PEAKS, PeakDecay
 from colonnade.identification.restitution.fitting.samples import AngleSamples
 from colonnade.identification.restitution.free_vibration import FreeVibration
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA = PRISM.critical_angle
 ERROR = 1e-5
 

@@ -5,14 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.rock import rock
 from colonnade.identification.restitution.estimators.registry import CANDIDATES, ESTIMATORS
 from colonnade.identification.restitution.fitting.driven_decay import BaseMotion
 from colonnade.identification.restitution.fitting.samples import thinned
 from colonnade.identification.restitution.free_vibration import FreeVibration
-
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+from prism import PRISM
 
 
 @pytest.fixture(scope="module")

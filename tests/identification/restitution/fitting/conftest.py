@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 
 from colonnade.arrays import Array
-from colonnade.dynamics.block import Block
 from colonnade.identification.restitution.fitting.free_decay import Decay
 from colonnade.identification.restitution.fitting.samples import AngleSamples
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 E = 0.92
 VALUES = {"restitution": np.log(E), "peak": 0.5, "time": 0.3, "zero_offset": 0.0, "critical_angle": 0.0, "p": 0.0}
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.dynamics.block import Block
 from colonnade.identification.response.base_motion import table_moves
 from colonnade.identification.restitution.fitting.driven_decay import BaseMotion, DrivenDecay
 from colonnade.identification.restitution.fitting.free_decay import ALWAYS, Decay
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.laboratory.integration import Integration
+from prism import PRISM
 
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 ALPHA = PRISM.critical_angle
 STEP = 0.002
 TIME = np.arange(0.0, 7.0, STEP)

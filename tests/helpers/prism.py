@@ -1,0 +1,9 @@
+"""The paper's limestone prism, as most tests use it."""
+
+from __future__ import annotations
+
+from colonnade.dynamics.block import Block
+
+PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+SPECIMEN = 'prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}'
+"""Its line in a campaign file, below `[specimens]`."""

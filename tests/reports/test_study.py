@@ -1,0 +1,45 @@
+"""What the programs of reports share: numbers as they were, a record a line; parts of pages in their places."""
+
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import study
+
+KEPT = sorted(path for path in study.HERE.rglob("*.json"))
+PLAIN = st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(max_size=50)
+
+
+@pytest.mark.parametrize("path", KEPT, ids=lambda path: path.name)
+def test_the_numbers_of_a_study_are_kept_a_record_a_line(path, tmp_path):
+    study.write_numbers(tmp_path / path.name, json.loads(path.read_text(encoding="utf-8")))
+    assert (tmp_path / path.name).read_text(encoding="utf-8") == path.read_text(encoding="utf-8")
+
+
+@given(st.recursive(PLAIN, lambda inner: st.lists(inner, max_size=9) | st.dictionaries(st.text(), inner, max_size=9)))
+def test_numbers_are_read_as_they_were_written(tmp_path_factory, numbers):
+    path = tmp_path_factory.getbasetemp() / "numbers.json"
+    study.write_numbers(path, numbers)
+    assert json.loads(path.read_text(encoding="utf-8")) == numbers
+
+
+def test_a_record_is_a_line_and_what_holds_records_is_not(tmp_path):
+    records = [{"test": f"free-{number}", "peaks": [0.1] * 20} for number in range(10)]
+    study.write_numbers(tmp_path / "numbers.json", {"seed": 1, "tests": records})
+    lines = (tmp_path / "numbers.json").read_text(encoding="utf-8").splitlines()
+    assert lines[:3] == ["{", ' "seed": 1,', ' "tests": [']
+    assert [json.loads(line.strip().removesuffix(",")) for line in lines[3:-2]] == records
+    assert lines[-2:] == [" ]", "}"]
+
+
+def test_a_part_of_a_page_is_replaced_between_its_marks():
+    marks = "<!-- (begin) -->", "<!-- (end) -->"
+    page = study.renewed("Before <!-- (begin) -->\nold\n<!-- (end) --> after", marks, r"new \1")
+    assert page == "Before <!-- (begin) -->\n\nnew \\1\n\n<!-- (end) --> after"
+    assert study.renewed(page, marks, r"new \1") == page
+
+
+def test_a_bar_in_a_cell_does_not_end_it():
+    assert study.table(("a", "b"), [("|θ|", 1)]) == "| a | b |\n|---|---|\n| \\|θ\\| | 1 |"
