@@ -3,6 +3,7 @@ import pytest
 
 from colonnade.identification.plausibility.factors import as_expected, cause
 from colonnade.identification.plausibility.table_motion import TableChannel, dead, disagreement, guilty, ratio
+from every import every
 
 INTERVAL = 1 / 500
 TIME = np.arange(0, 12, INTERVAL)
@@ -26,7 +27,7 @@ def test_the_ratio_of_acceleration_and_displacement_is_found(factor):
     assert dead(INTERVAL, *_pair(acceleration=factor)) is None
 
 
-@pytest.mark.parametrize(
+@every(
     ("found", "by_specimen", "wrong"),
     [
         (1.1, None, ""),
