@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import os
 import shutil
@@ -114,8 +113,9 @@ def filled_campaign(made_once: Callable[[str, Callable[[Path], object]], Path]) 
     """A small virtual campaign and its layout after one real run; look only."""
     from colonnade.campaign import load
     from colonnade.store.layout import Layout
+    from small_campaign import run_small_campaign
 
-    folder = made_once("small-campaign", lambda folder: _small_campaign().run_small_campaign(folder))
+    folder = made_once("small-campaign", run_small_campaign)
     return load(folder), Layout(folder)
 
 
@@ -124,9 +124,10 @@ def empty_campaign(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, Any]:
     """The same campaign before anything was run."""
     from colonnade.campaign import load
     from colonnade.store.layout import Layout
+    from small_campaign import write_small_campaign
 
     folder = tmp_path_factory.mktemp("empty") / "campaign"
-    _small_campaign().write_small_campaign(folder)
+    write_small_campaign(folder)
     return load(folder), Layout(folder)
 
 
@@ -159,13 +160,3 @@ def assessed(made_once: Callable[[str, Callable[[Path], object]], Path]) -> Path
 def assessed_copy(assessed: Path, tmp_path: Path) -> Path:
     """The same, to change."""
     return Path(shutil.copytree(assessed, tmp_path / "assessed"))
-
-
-def _small_campaign() -> Any:
-    """Import `small_campaign.py`, which is next to this file and in no package."""
-    spec = importlib.util.spec_from_file_location("small_campaign", Path(__file__).with_name("small_campaign.py"))
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module

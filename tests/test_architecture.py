@@ -6,7 +6,7 @@ import re
 import tomllib
 from pathlib import Path
 
-import pytest
+from every import every
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "pipeline" / "colonnade"
@@ -34,7 +34,7 @@ def test_every_folder_is_named():
     assert all((PACKAGE / name).is_dir() or (PACKAGE / f"{name}.py").is_file() for name in named)
 
 
-@pytest.mark.parametrize(("fact", "places"), table("The one place of each fact"))
+@every(("fact", "places"), table("The one place of each fact"))
 def test_every_place_is_there(fact, places):
     assert [place for place in places if place.endswith(".py") and not (PACKAGE / place).is_file()] == []
 

@@ -18,6 +18,7 @@ from colonnade.findings import (
     to_text,
     warning,
 )
+from every import every
 
 GAIN = serious("gain", "The gain of top is ten times off.")
 NO_ARC = warning("no restitution", "No arc was found.", follows=MEASUREMENT)
@@ -32,7 +33,7 @@ def test_text_that_nobody_weighed_is_a_warning_and_never_less():
     assert from_text('[{"text": "x", "severity": "unheard of"}]')[0].severity is Severity.WARNING
 
 
-@pytest.mark.parametrize("order", list(itertools.permutations([GAIN, NO_ARC, SPIKES, LOST])))
+@every("order", list(itertools.permutations([GAIN, NO_ARC, SPIKES, LOST])))
 def test_causes_come_first_and_what_follows_from_them_last(order):
     assert in_order(order) == [(GAIN, False), (LOST, False), (SPIKES, False), (NO_ARC, True)]
 

@@ -15,6 +15,7 @@ import pytest
 from matplotlib import pyplot
 
 import colonnade
+from every import every
 
 FOLDER = Path(__file__).parents[1] / "examples"
 EXAMPLES = {path.stem.removeprefix("plot_"): path for path in sorted(FOLDER.glob("*.py"))}
@@ -224,7 +225,7 @@ def test_every_example_is_tested_and_says_one_idea():
         assert 15 <= len(path.read_text(encoding="utf-8").splitlines()) <= 100
 
 
-@pytest.mark.parametrize("name", sorted(set(colonnade.__all__) - {"__version__"}))
+@every("name", sorted(set(colonnade.__all__) - {"__version__"}))
 def test_every_public_name_is_in_an_example(name):
     results = {
         "Ensemble": "ensemble", "Fragility": "fragility", "History": "rock", "IntensityMeasures": "intensity_measures",

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import colonnade
+from every import every
 
 PROJECT = Path(__file__).parents[1]
 HEAVY = ("numba", "matplotlib", "pint", "xarray", "pandas", "scipy", "netCDF4", "joblib")
@@ -50,7 +51,7 @@ def test_a_name_loads_what_it_needs_when_it_is_used():
     )
 
 
-@pytest.mark.parametrize("name", colonnade.__all__)
+@every("name", colonnade.__all__)
 def test_every_name_that_is_offered_is_there(name):
     assert getattr(colonnade, name) is not None
     assert name in dir(colonnade)

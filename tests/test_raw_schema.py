@@ -21,6 +21,7 @@ from colonnade.errors import ReadError
 from colonnade.readers.registry import formats, read
 from colonnade.stages import condition, ingest, restitution, rocking
 from colonnade.store.layout import Layout
+from every import every
 
 ROOT = Path(__file__).resolve().parents[1]
 RAW_SCHEMA = ROOT / "raw_schema"
@@ -61,7 +62,7 @@ def examples_of(record):
     return sorted({path.parents[1].name for path in (RAW_SCHEMA / "examples").glob(f"*/raw/{record}.*")})
 
 
-@pytest.mark.parametrize("name", examples_of("free-01"))
+@every("name", examples_of("free-01"))
 def test_the_free_vibration_is_the_same_in_every_format(name):
     recorded, reference = example(name), example("delimited")
     assert recorded.sizes["elapsed"] == 801

@@ -6,6 +6,7 @@ import pytest
 from pydantic import ValidationError
 
 from colonnade.campaign import Channel
+from every import every
 
 DISPLACEMENT = {"column": "LVDT", "quantity": "displacement", "on": "table", "direction": [1, 0, 0]}
 
@@ -33,7 +34,7 @@ def test_physical_value_is_recorded_times_factor_plus_offset(keys, factor, offse
     assert found.si_unit == "m"
 
 
-@pytest.mark.parametrize(
+@every(
     ("keys", "recorded", "full_scale"),
     [
         ({"unit": "V", "gain": "10 mm/V"}, None, None),
@@ -73,7 +74,7 @@ def problems(**keys: object) -> dict[str, str]:
     return {str(each["loc"][0]): each["msg"] for each in caught.value.errors()}
 
 
-@pytest.mark.parametrize(
+@every(
     ("keys", "key", "words"),
     [
         ({}, "unit", "It is missing"),

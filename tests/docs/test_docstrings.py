@@ -14,6 +14,8 @@ import colonnade
 pytest.importorskip("numpydoc", reason="of the extra `docs`; `make test-all` installs it")
 from numpydoc.docscrape import ClassDoc, FunctionDoc
 
+from every import every
+
 pytestmark = pytest.mark.whole
 
 PUBLIC = sorted(set(colonnade.__all__) - {"__version__"})
@@ -60,14 +62,14 @@ def method_of(member):
     return member.__func__ if isinstance(member, (classmethod, staticmethod)) else member
 
 
-@pytest.mark.parametrize("name", PUBLIC)
+@every("name", PUBLIC)
 def test_it_has_a_summary_and_an_example(name):
     found = sections(name)
     assert found["Summary"]
     assert any(line.strip().startswith(">>>") for line in found["Examples"])
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
+@every("name", FUNCTIONS)
 def test_a_function_says_what_it_takes_gives_and_refuses(name):
     found = sections(name)
     assert set(inspect.signature(getattr(colonnade, name)).parameters) == names_of(found["Parameters"])
@@ -76,7 +78,7 @@ def test_a_function_says_what_it_takes_gives_and_refuses(name):
     assert without_unit(found["Parameters"]) == []
 
 
-@pytest.mark.parametrize("name", CLASSES)
+@every("name", CLASSES)
 def test_a_class_says_what_it_holds(name):
     found, given = getattr(colonnade, name), sections(name)
     documented = names_of(given["Attributes"]) | names_of(given["Parameters"])
@@ -86,7 +88,7 @@ def test_a_class_says_what_it_holds(name):
     assert without_unit(given["Parameters"]) == []
 
 
-@pytest.mark.parametrize("name", CLASSES)
+@every("name", CLASSES)
 def test_every_method_and_property_is_described_and_shown(name):
     shown = inspect.getdoc(getattr(colonnade, name))
     for member, found in members_of(name).items():

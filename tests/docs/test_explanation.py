@@ -8,6 +8,7 @@ import pytest
 
 import colonnade
 import verification
+from every import every
 from explanation_figures import STRENGTH
 from faults.sound import PRISM, earthquake
 from page_blocks import PROJECT
@@ -16,7 +17,7 @@ PAGES = sorted((PROJECT / "docs" / "explanation").glob("*.md"))
 PLACES = (PROJECT, PROJECT / "pipeline" / "colonnade")
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@every("page", PAGES, ids=lambda page: page.stem)
 def test_the_files_that_a_page_names_exist(page):
     named = re.findall(r"`((?:\w+/)+[\w.-]*)`", page.read_text(encoding="utf-8"))
     assert [name for name in named if not any((place / name).exists() for place in PLACES)] == []

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import importlib.util
 import os
 import shutil
 import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
 
 from colonnade.cli import invoke
+from short_campaign import Small, write_campaign
 
 collect_ignore = [
     "damage.py",
@@ -34,25 +32,12 @@ SIZE = "20m"
 
 
 @pytest.fixture(scope="session")
-def small_campaigns() -> ModuleType:
-    """What the workflow's own tests write their campaigns with."""
-    path = HERE.parent / "workflow" / "conftest.py"
-    spec = importlib.util.spec_from_file_location("small_campaigns", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-@pytest.fixture(scope="session")
-def undisturbed(small_campaigns: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Any:
+def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Any:
     """A campaign of three tests as one run in one process leaves it; it is only looked at."""
-    folder = small_campaigns.write_campaign(tmp_path_factory.mktemp("undisturbed") / "small", TESTS)
+    folder = write_campaign(tmp_path_factory.mktemp("undisturbed") / "small", TESTS)
     with (folder / "campaign.toml").open("a", encoding="utf-8") as stream:
         stream.write(ONE_MODEL)
-    small = small_campaigns.Small(folder)
+    small = Small(folder)
     assert not small.run(until="report").failed
     return small
 
@@ -61,12 +46,12 @@ Copy = Callable[..., Any]
 
 
 @pytest.fixture
-def copied(undisturbed: Any, small_campaigns: ModuleType) -> Copy:
+def copied(undisturbed: Any) -> Copy:
     """Copy it to a folder, with its results or without."""
 
     def copy(folder: Path, *, with_results: bool = False) -> Any:
         ignored = None if with_results else shutil.ignore_patterns("processed", "report")
-        return small_campaigns.Small(Path(shutil.copytree(undisturbed.folder, folder, ignore=ignored)))
+        return Small(Path(shutil.copytree(undisturbed.folder, folder, ignore=ignored)))
 
     return copy
 

@@ -12,28 +12,15 @@ import numpy as np
 import scipy.io
 from nptdms import ChannelObject, TdmsWriter
 
-from colonnade.dynamics.block import Block
+import short_campaign
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
+from prism import PRISM
 
-CAMPAIGN = """\
-schema = 1
-campaign = "watched"
-title = "A watched campaign"
-
-[specimens]
-prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}
-
-[setups.frame.channels]
-top = {column = "top", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
-direction = [1, 0, 0], relative_to = "table"}
-table = {column = "table", quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]}
-
-[watch]
-words = {free = "free-vibration"}
-pattern = ["{kind}-{number}.csv", "{kind}-{number}.txt", "{kind}-{number}.mat", "{kind}-{number}.tdms"]
+CAMPAIGN = f"""{short_campaign.CAMPAIGN}[watch]
+words = {{free = "free-vibration"}}
+pattern = ["{{kind}}-{{number}}.csv", "{{kind}}-{{number}}.txt", "{{kind}}-{{number}}.mat", "{{kind}}-{{number}}.tdms"]
 """
-BLOCK = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 SUFFIXES = ("csv", "txt", "mat", "tdms")
 
 Columns = dict[str, np.ndarray]
@@ -45,11 +32,11 @@ def record(kind: str, number: int, rate: float, duration: float) -> Columns:
     noise, moment = np.random.default_rng(number), np.arange(0.0, duration, 1 / rate)
     base, theta0 = np.zeros_like(moment), 0.0
     if kind == "free":
-        theta0 = (0.3 + 0.05 * number) * BLOCK.critical_angle
+        theta0 = (0.3 + 0.05 * number) * PRISM.critical_angle
     else:
         shaken = (moment > 1.0) & (moment < 1.3)
         base = np.where(shaken, (2.2 + 0.15 * number) * np.sin((moment - 1.0) * 2 * np.pi / 0.3), 0.0)
-    angle = rock(BLOCK, Motion(base, 1 / rate), restitution=0.93, theta0=theta0).angle
+    angle = rock(PRISM, Motion(base, 1 / rate), restitution=0.93, theta0=theta0).angle
     return {
         "time": moment,
         "top": 440 * np.sin(angle) + 0.01 * noise.standard_normal(moment.size),

@@ -13,6 +13,7 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import rock
+from every import every
 from prism import PRISM
 
 LOPSIDED = Block.measured(mass=80.0, pole_distance=(0.61, 0.60), critical_angle=(0.21, 0.15), inertia=(41.2, 40.0))
@@ -130,8 +131,8 @@ FEATURES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("model", ["linear", "nonlinear"])
-@pytest.mark.parametrize("name", FEATURES)
+@every("model", ["linear", "nonlinear"])
+@every("name", FEATURES)
 def test_an_integration_of_the_same_equation_agrees_with(name, model):
     feature = FEATURES[name]
     block = feature.get("block", PRISM)

@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
+from every import every
 from prism import PRISM
 
 ALPHA, P, GRAVITY = PRISM.critical_angle, PRISM.p, PRISM.gravity
@@ -23,7 +24,7 @@ QUARTER_PERIODS = [  # Housner 1963: p T/4 = acosh(1 / (1 − θ₀/α))
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("released", "quarter_period"), QUARTER_PERIODS)
+@every(("released", "quarter_period"), QUARTER_PERIODS)
 def test_free_rocking_has_housners_quarter_period(released, quarter_period):
     history = rock(PRISM, restitution=0.9, theta0=released * ALPHA, duration=8 / P)
     assert P * history.impact_times[0] == pytest.approx(math.acosh(1 / (1 - released)), rel=1e-9)

@@ -4,6 +4,7 @@ import pytest
 from colonnade.figures.agreement import PeakPoint, predicted_over_measured
 from colonnade.figures.files.output import to_svg
 from colonnade.figures.style import journal
+from every import every
 
 MODELS = ("linear", "nonlinear", "contact")
 
@@ -63,8 +64,8 @@ def test_nothing_to_draw_is_refused():
         predicted_over_measured({"linear": []})
 
 
-@pytest.mark.parametrize("column", ["", "single", "double"])
-@pytest.mark.parametrize("models", [MODELS[:1], MODELS[:2], MODELS], ids=len)
+@every("column", ["", "single", "double"])
+@every("models", [MODELS[:1], MODELS[:2], MODELS], ids=len)
 def test_titles_and_labels_are_inside_the_figure(models, column):
     with journal(column):
         figure = predicted_over_measured({model: [point(0.4, 0.5)] for model in models})

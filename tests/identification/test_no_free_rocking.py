@@ -11,6 +11,7 @@ from scipy.signal import butter, chirp, sosfiltfilt
 from colonnade.dynamics.rock import rock
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.laboratory.truth import simulate
+from every import every
 from prism import PRISM
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
@@ -136,9 +137,9 @@ def test_a_viscously_damped_linear_oscillation_however_damped_and_near_p(damping
     refused(angle + white(8, deviation=noise * NOISE))
 
 
-@pytest.mark.parametrize("noise", [0.0, 0.1 * NOISE, NOISE])
-@pytest.mark.parametrize("damping", [0.002, 0.005, 0.01, 0.02, 0.05])
-@pytest.mark.parametrize("matched", [0.1, 0.2, 0.3, 0.4])
+@every("noise", [0.0, 0.1 * NOISE, NOISE])
+@every("damping", [0.002, 0.005, 0.01, 0.02, 0.05])
+@every("matched", [0.1, 0.2, 0.3, 0.4])
 def test_a_damped_oscillation_with_the_period_that_rocking_has_at_some_amplitude(matched, damping, noise):
     frequency = 2 * np.pi * P / (4 * np.arccosh(1 / (1 - matched)))
     angle = 0.5 * ALPHA * np.exp(-damping * frequency * TIME) * np.cos(frequency * TIME)

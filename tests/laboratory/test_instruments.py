@@ -7,6 +7,7 @@ import pytest
 
 from colonnade.laboratory.instruments import STEP, Imperfections, Transducer, measure
 from colonnade.laboratory.table import ramped_sine, still
+from every import every
 from prism import PRISM
 
 LVDT = Transducer("top", "LVDT 1", "displacement", "specimen", 0.150, "mm", at=(0.043, 0.0, 0.440))
@@ -18,10 +19,8 @@ def rotated(point: complex, pole: complex, angle: float) -> complex:
     return pole + (point - pole) * np.exp(-1j * angle)
 
 
-@pytest.mark.parametrize("angle", [-0.28, -1e-3, 1e-3, 0.1, 0.28])
-@pytest.mark.parametrize(
-    ("direction", "part"), [((1.0, 0.0, 0.0), "real"), ((0.0, 0.0, 1.0), "imag"), ((-1.0, 0.0, 0.0), "back")]
-)
+@every("angle", [-0.28, -1e-3, 1e-3, 0.1, 0.28])
+@every(("direction", "part"), [((1.0, 0.0, 0.0), "real"), ((0.0, 0.0, 1.0), "imag"), ((-1.0, 0.0, 0.0), "back")])
 def test_a_transducer_reads_the_exact_rotation_of_its_point(angle: float, direction: tuple, part: str) -> None:
     transducer = Transducer("c", "C", "displacement", "specimen", 0.2, "mm", at=(0.03, 0.01, 0.4), direction=direction)
     reading = transducer.sense(PRISM, still(), np.zeros(1), np.array([angle]))[0]

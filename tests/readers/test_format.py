@@ -12,6 +12,7 @@ from pydantic import ValidationError
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import formats
+from every import every
 
 NAMES = tuple(formats())
 RANDOM = bytes((37 * k * k + 11 * k) % 251 for k in range(4096))
@@ -61,7 +62,7 @@ def test_an_unrecognised_file_leaves_the_other_formats_their_turn():
     assert not Recognition(False, "no header").is_known
 
 
-@pytest.mark.parametrize("name", NAMES)
+@every("name", NAMES)
 def test_a_format_describes_itself_in_one_line_under_its_own_name(name):
     known = formats()[name]
     assert known.name == name
@@ -70,7 +71,7 @@ def test_a_format_describes_itself_in_one_line_under_its_own_name(name):
     assert all(suffix.startswith(".") and suffix == suffix.lower() for suffix in known.suffixes)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@every("name", NAMES)
 def test_every_option_of_a_format_is_optional_and_no_other_is_known(name):
     options = formats()[name].options
     assert issubclass(options, Options)
@@ -79,7 +80,7 @@ def test_every_option_of_a_format_is_optional_and_no_other_is_known(name):
         options.model_validate({"no_such_option": 1})
 
 
-@pytest.mark.parametrize("name", NAMES)
+@every("name", NAMES)
 def test_the_modules_that_a_format_loads_late_exist(name):
     assert [module for module in formats()[name].modules if find_spec(module) is None] == []
 

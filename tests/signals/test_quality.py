@@ -15,6 +15,7 @@ from colonnade.signals.quality import (
     check_spikes,
     combine,
 )
+from every import every
 from prism import PRISM
 
 TIME = np.arange(0, 8, 0.002)
@@ -43,8 +44,8 @@ def test_a_sound_record_has_no_spike(values):
     assert not check_spikes(TIME, values, threshold=8.0).where.any()
 
 
-@pytest.mark.parametrize("restitution", [0.95, 0.976])
-@pytest.mark.parametrize("rate", [200, 400, 500, 1000])
+@every("restitution", [0.95, 0.976])
+@every("rate", [200, 400, 500, 1000])
 def test_the_cusps_of_a_vertical_transducer_are_no_spikes(rate, restitution):
     history = rock(PRISM, restitution=restitution, theta0=0.05, duration=12.0)
     time = np.arange(0, 8, 1 / rate)

@@ -8,6 +8,7 @@ import xarray as xr
 
 from colonnade.findings import MEASUREMENT, Severity
 from colonnade.stages.compare import CompareInputs, compare
+from every import every
 from prism import PRISM
 
 ALPHA = PRISM.critical_angle
@@ -143,7 +144,7 @@ def test_without_models_the_measured_peak_is_still_given():
     assert float(found["measured_peak_ratio"]) == pytest.approx(float(np.abs(SWING).max()))
 
 
-@pytest.mark.parametrize(
+@every(
     ("measured", "observed", "agree"),
     [
         ("rocking", "rocking", True),

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from colonnade.findings import note, serious, warning
 from colonnade.store.attributes import listed, restored, storable
+from every import every
 
 FINDINGS = [
     serious("unit", "Column a is in mm, the campaign file says cm.", follows=("gain",)),
@@ -26,7 +27,7 @@ def test_a_truth_value_becomes_a_byte_of_the_same_truth(value):
     assert bool(stored) is bool(value)
 
 
-@pytest.mark.parametrize("value", [0, 1, 2.5, "text", "", "µm", [1.0, 2.0], (3,), ["a", 1]])
+@every("value", [0, 1, 2.5, "text", "", "µm", [1.0, 2.0], (3,), ["a", 1]])
 def test_what_netcdf_holds_is_left_as_it_is(value):
     stored = storable({"value": value})["value"]
     assert stored == value
@@ -74,9 +75,7 @@ def test_plain_text_among_findings_becomes_a_warning():
     assert found == [FINDINGS[0], warning("other", "The table moved.")]
 
 
-@pytest.mark.parametrize(
-    "text", ["[1, 2]", '["a", 1]', '[["a"]]', "[not json", "[", '{"a": "b"}', '"a"', " []", "null"]
-)
+@every("text", ["[1, 2]", '["a", 1]', '[["a"]]', "[not json", "[", '{"a": "b"}', '"a"', " []", "null"])
 def test_text_that_is_not_a_list_of_text_passes(text):
     assert listed(text) == text
 

@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 
 from colonnade import units
 from colonnade.errors import UnitError
+from every import every
 
 
-@pytest.mark.parametrize(
+@every(
     ("text", "dimension", "expected"),
     [
         ("86 mm", "length", 0.086),
@@ -40,7 +41,7 @@ def test_quantity_becomes_si(text, dimension, expected):
     assert units.to_si(text, dimension) == pytest.approx(expected, rel=1e-14)
 
 
-@pytest.mark.parametrize(
+@every(
     ("text", "dimension", "words"),
     [
         ("86", "length", ["has no unit", '"86 mm"']),
@@ -63,7 +64,7 @@ def test_what_is_not_such_a_quantity_is_refused_in_words(text, dimension, words)
     assert all(word in str(caught.value) for word in words), str(caught.value)
 
 
-@pytest.mark.parametrize(
+@every(
     ("spelling", "usual"),
     [
         ("g's", "g"),

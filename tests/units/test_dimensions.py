@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import pytest
-
 from colonnade import units
 from colonnade.units.dimensions import DIMENSIONS, QUANTITY_DIMENSIONS, article, expected, words
+from every import every
 
 
-@pytest.mark.parametrize("dimension", DIMENSIONS)
+@every("dimension", DIMENSIONS)
 def test_the_example_of_a_dimension_has_that_dimension(dimension: str) -> None:
     si_unit, example = DIMENSIONS[dimension]
     assert units.factor_to_si(si_unit, dimension) == 1

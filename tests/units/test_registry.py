@@ -8,6 +8,7 @@ from hypothesis import strategies as some
 
 from colonnade.errors import UnitError
 from colonnade.units.registry import COMMON, LARGEST_POWER, LONGEST, collected, resolve
+from every import every
 
 NAMES = some.sampled_from([name for name in COMMON if "/" not in name])
 POWERS = some.integers(-3, 3)
@@ -33,7 +34,7 @@ def test_the_usual_spelling_of_a_unit_is_the_same_unit(parts: list[tuple[str, in
     assert again.factor == pytest.approx(found.factor, rel=1e-12)
 
 
-@pytest.mark.parametrize(
+@every(
     ("one", "other"),
     [
         ("m/s²", "m s^-2"),
@@ -51,7 +52,7 @@ def test_two_spellings_are_one_unit(one: str, other: str) -> None:
     assert (resolve(one).factor, resolve(one).dimension) == (resolve(other).factor, resolve(other).dimension)
 
 
-@pytest.mark.parametrize("text", ["m/", "(m", "m)", "()", "m^10", "m^^2", "mm furlong", "x" * (LONGEST + 1), "2m"])
+@every("text", ["m/", "(m", "m)", "()", "m^10", "m^^2", "mm furlong", "x" * (LONGEST + 1), "2m"])
 def test_a_unit_that_is_none_is_refused(text: str) -> None:
     with pytest.raises(UnitError, match="Unknown unit"):
         resolve(text)

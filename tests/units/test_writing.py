@@ -11,9 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade import units
+from every import every
 
 
-@pytest.mark.parametrize(
+@every(
     ("value", "half_width", "unit", "written"),
     [
         (0.97608, 0.0008, "", "0.9761 ± 0.0008"),

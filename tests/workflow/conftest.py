@@ -2,123 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from collections.abc import Callable
-from hashlib import sha256
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
 
-from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.rock import rock
-from colonnade.store import files
-from colonnade.store.layout import Layout
-from colonnade.workflow import RunResult, run
-from prism import PRISM
-
-CAMPAIGN = """\
-schema = 1
-campaign = "small"
-title = "A small campaign"
-
-[specimens]
-prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}
-
-[setups.frame.channels]
-top = {column = "top", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
-direction = [1, 0, 0], relative_to = "table"}
-table = {column = "table", quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]}
-
-"""
-TESTS = {"free-01": "free-vibration", "free-02": "free-vibration", "pulse-01": "pulse", "pulse-02": "pulse"}
-RATE = 200.0
-
-
-def write_campaign(folder: Path, tests: dict[str, str] = TESTS) -> Path:
-    """Write the campaign and its raw files; the folder is returned."""
-    (folder / "raw").mkdir(parents=True)
-    text = CAMPAIGN
-    for number, (name, kind) in enumerate(tests.items()):
-        text += f'[[tests]]\nid = "{name}"\nkind = "{kind}"\nfile = "raw/{name}.csv"\n'
-        text += 'specimen = "prism"\nsetup = "frame"\n\n'
-        _write_raw(folder / "raw" / f"{name}.csv", kind, number)
-    (folder / "campaign.toml").write_text(text, encoding="utf-8")
-    return folder
-
-
-def _write_raw(path: Path, kind: str, number: int) -> None:
-    noise = np.random.default_rng(number)
-    time = np.arange(0.0, 8.0, 1 / RATE)
-    base = np.zeros_like(time)
-    if kind == "free-vibration":
-        angle = rock(PRISM, Motion(base, 1 / RATE), restitution=0.93, theta0=0.5 * PRISM.critical_angle).angle
-    else:
-        base = np.where((time > 1.0) & (time < 1.3), (2.4 + 0.2 * number) * np.sin((time - 1.0) * 2 * np.pi / 0.3), 0.0)
-        angle = rock(PRISM, Motion(base, 1 / RATE), restitution=0.93).angle
-    top = 440 * np.sin(angle) + 0.01 * noise.standard_normal(time.size)
-    table = base + 0.002 * noise.standard_normal(time.size)
-    rows = np.column_stack((time, top, table))
-    np.savetxt(path, rows, delimiter=",", header="time,top,table", comments="", fmt="%.6f")
-
-
-class Small:
-    """A copy of the small campaign."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.layout = Layout(folder)
-
-    def run(self, **options: Any) -> RunResult:
-        """Run it up to the comparison, in this process."""
-        return run(self.folder, **({"workers": 1, "until": "compare"} | options))
-
-    def complete(self) -> None:
-        """Run all of it, with the report."""
-        assert not self.run(until="report").failed
-
-    def redone(self, **options: Any) -> dict[tuple[str, str], str]:
-        """Run it; return the reason of each stage that was executed."""
-        return {(stage.subject, stage.stage): stage.because for stage in self.run(**options).stages if stage.because}
-
-    def summary(self) -> Any:
-        """Return summary.json."""
-        return json.loads(self.layout.summary_json.read_text(encoding="utf-8"))
-
-    def files(self) -> dict[str, tuple[int, str]]:
-        """Time and hash of every file but the lock, which holds nothing."""
-        return {
-            path.relative_to(self.folder).as_posix(): (path.stat().st_mtime_ns, sha256(path.read_bytes()).hexdigest())
-            for path in sorted(self.folder.rglob("*"))
-            if path.is_file() and path != self.layout.lock
-        }
-
-    def contents(self) -> dict[str, str]:
-        """Hash of the values of every result; each is whole, or this raises."""
-        return {
-            path.relative_to(self.folder).as_posix(): files.read(path).attrs["content"]
-            for path in sorted(self.layout.processed.rglob("*.nc"))
-        }
-
-    def raw(self, test: str) -> Path:
-        """Raw file of a test."""
-        return self.folder / "raw" / f"{test}.csv"
-
-    def change_a_sample(self, test: str, line: int = 300) -> None:
-        """Add 0.1 mm to one sample of the transducer."""
-        lines = self.raw(test).read_text(encoding="utf-8").splitlines()
-        time, top, table = lines[line].split(",")
-        lines[line] = f"{time},{float(top) + 0.1:.6f},{table}"
-        self.raw(test).write_text("\n".join(lines) + "\n", encoding="utf-8")
-
-    def edit(self, before: str, after: str) -> None:
-        """Change campaign.toml."""
-        path = self.folder / "campaign.toml"
-        text = path.read_text(encoding="utf-8")
-        assert before in text
-        path.write_text(text.replace(before, after), encoding="utf-8")
+from short_campaign import Small, write_campaign
 
 
 @pytest.fixture(scope="session")

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from colonnade.workflow.arguments import check_run
+from every import every
 
 SOUND = {
     "campaign": "campaign.toml",
@@ -33,7 +34,7 @@ def test_what_a_run_takes_passes(given):
     check_run(**SOUND | given)
 
 
-@pytest.mark.parametrize(
+@every(
     ("given", "message"),
     [
         ({"campaign": None}, "campaign is None; a path was expected"),

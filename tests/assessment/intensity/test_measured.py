@@ -16,6 +16,7 @@ from colonnade.assessment.intensity.measured import intensity_measures
 from colonnade.assessment.intensity.quantities import QUANTITIES
 from colonnade.assessment.intensity.registry import MEASURES, measure_of
 from colonnade.dynamics.motion import Motion
+from every import every
 from prism import PRISM
 
 PEAK, FREQUENCY, CYCLES, STEP = 3.0, 2.0, 10, 5e-5
@@ -47,7 +48,7 @@ EXACT = {
 }
 
 
-@pytest.mark.parametrize("name", EXACT)
+@every("name", EXACT)
 def test_a_sine_has_its_closed_forms(name):
     assert intensity_measures(SINE, PRISM, measures=[name]).values[name] == pytest.approx(EXACT[name], rel=1e-7)
 
@@ -145,7 +146,7 @@ def test_the_result_is_shown_with_units():
     assert shown.endswith(" m/s²>")
 
 
-@pytest.mark.parametrize(
+@every(
     ("arguments", "message"),
     [
         ({"measures": ["pgx"]}, 'Unknown measure of intensity "pgx". Did you mean "pgv"'),

@@ -6,6 +6,7 @@ import pytest
 from pydantic import ValidationError
 
 from colonnade.campaign.assessing.prototype import Prototype
+from every import every
 
 
 def test_values_and_limits_become_si():
@@ -18,7 +19,7 @@ def test_values_and_limits_become_si():
     assert prototype.friction is None
 
 
-@pytest.mark.parametrize(
+@every(
     ("written", "place", "words"),
     [
         ({}, "restitution", "It is missing."),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from colonnade.campaign.draft.vocabulary import KINDS, PLACES, QUANTITIES, axis, find, words
+from every import every
 
 
 def meaning(name, meanings):
@@ -12,7 +13,7 @@ def meaning(name, meanings):
     return found and found[0]
 
 
-@pytest.mark.parametrize(
+@every(
     ("name", "quantity", "place"),
     [
         ("LVDT 1", "displacement", None),
@@ -38,7 +39,7 @@ def test_a_name_tells_quantity_and_place(name, quantity, place):
     assert (meaning(name, QUANTITIES), meaning(name, PLACES)) == (quantity, place)
 
 
-@pytest.mark.parametrize(
+@every(
     ("name", "kind"),
     [
         ("free-01", "free-vibration"),

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade.campaign.naming.pattern import PARTS, Pattern
+from every import every
 
 NAMES = {
     "specimen": {"cone": "cone", "cone-2": "cone-2", "säule": "Säule"},
@@ -37,7 +38,7 @@ def test_signs_of_the_pattern_are_taken_as_they_are() -> None:
     assert pattern.match("run (aab).7.csv", NAMES) is None
 
 
-@pytest.mark.parametrize(
+@every(
     ("text", "said"),
     [
         ("{specimn}.csv", 'Did you mean "specimen"?'),

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade.campaign.syntax.days import FIRST_YEAR, LAST_YEAR, day
+from every import every
 
 DAYS = st.dates(date(FIRST_YEAR, 1, 1), date(LAST_YEAR, 12, 31))
 TIMES = st.sampled_from(["", "T10:15", " 10:15:00", "T10:15:00.125Z", " 10:15:00+02:00", "T00:00:00"])
@@ -46,7 +47,7 @@ def test_dates_of_toml_and_excel_are_taken_as_they_are(expected, clock, hours):
     assert day(datetime.combine(expected, clock)) == day(datetime.combine(expected, clock, zone)) == expected
 
 
-@pytest.mark.parametrize(
+@every(
     "written",
     [
         *("last week", "", "2013", "2013-04", "2013-13-01", "2013-02-30", "31.04.2013", "26.4.13", "26/04/13"),

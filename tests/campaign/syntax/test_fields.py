@@ -8,13 +8,14 @@ import pytest
 from pydantic import TypeAdapter, ValidationError
 
 from colonnade.campaign.syntax import fields
+from every import every
 
 
 def read(kind: Any, value: object) -> Any:
     return TypeAdapter(kind).validate_python(value)
 
 
-@pytest.mark.parametrize(
+@every(
     ("kind", "value", "found"),
     [
         (fields.Length, "86 mm", 0.086),
@@ -34,7 +35,7 @@ def test_what_is_written_becomes_its_si_value(kind, value, found):
     assert read(kind, value) == found
 
 
-@pytest.mark.parametrize(
+@every(
     ("kind", "value", "told"),
     [
         (fields.Length, 86, "86 has no unit. A quantity in quotes was expected"),

@@ -6,6 +6,7 @@ import pytest
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.nodes import rigid_body
+from every import every
 
 GIVEN = vars(rigid_body(Block.prism(width=0.2, depth=0.3, height=0.9, mass=10.0)))
 
@@ -17,7 +18,7 @@ def test_arrays_are_kept_as_the_engine_takes_them():
     assert body.height == pytest.approx(0.45)
 
 
-@pytest.mark.parametrize(
+@every(
     ("wrong", "message"),
     [
         ({"inertia": np.ones(2)}, r"inertia has shape \(2,\); \(3,\) was expected"),

@@ -11,6 +11,7 @@ from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.start import Start
 from colonnade.dynamics.motion import Motion
+from every import every
 
 SQUARE = Block.prism(width=0.5, depth=0.5, height=1.0, mass=2.0)
 
@@ -20,7 +21,7 @@ REBOUNDS = [  # Kelvin–Voigt contact that cannot pull (Schwager and Pöschel 2
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("fraction", "ratio"), REBOUNDS)
+@every(("fraction", "ratio"), REBOUNDS)
 def test_a_flat_drop_rebounds_as_one_mass_does(fraction, ratio):
     """Four equal nodes, each with a quarter of 2 kg, 5e5 N/m a node, 1 m/s, next to no gravity, 10 µs."""
     body = rigid_body(SQUARE, grid=(2, 2))

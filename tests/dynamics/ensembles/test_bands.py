@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.ensembles.bands import BINS, band, count, empty_counts
+from every import every
 
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 
@@ -40,7 +41,7 @@ def test_parts_add_up_to_the_whole_in_any_order():
     np.testing.assert_array_equal(whole.sum(axis=1), 500)
 
 
-@pytest.mark.parametrize("value", [0.0, 1e-9, -1e-9, 1e-3, -1e-3, 0.7, 60.0, -60.0], ids=str)
+@every("value", [0.0, 1e-9, -1e-9, 1e-3, -1e-3, 0.7, 60.0, -60.0], ids=str)
 def test_one_value_gives_a_band_within_an_eighth_of_it(value):
     found = band(counted(np.full((10, 1), value, dtype=np.float32)), LEVELS)
     assert np.abs(found - value).max() <= abs(value) / 8 + 1e-6

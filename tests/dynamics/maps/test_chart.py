@@ -19,6 +19,7 @@ from colonnade.dynamics.models.model import Model
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic.motion import Harmonic, harmonic_outcomes
 from colonnade.dynamics.restitution_law import RestitutionLaw
+from every import every
 from prism import PRISM
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
@@ -159,7 +160,7 @@ def test_a_model_without_kernels_is_run_under_a_sampled_sine(monkeypatch):
     assert len(np.unique(by_run.outcome)) > 1
 
 
-@pytest.mark.parametrize(
+@every(
     ("arguments", "message"),
     [
         ({"frequency_ratio": []}, "frequency_ratio has shape"),

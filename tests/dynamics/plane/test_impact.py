@@ -14,6 +14,7 @@ from colonnade.dynamics.plane.impact import (
 )
 from colonnade.dynamics.plane.sides import Sides, sides_of
 from colonnade.dynamics.rock import rock
+from every import every
 from prism import PRISM
 
 
@@ -42,8 +43,8 @@ def test_an_impact_leaves_e_times_its_velocity_or_the_block_at_rest():
     assert rebound(-1e-4, 1, 1.0, 0.25, sides, True) == (-0.8e-4, False)  # the base lifts it to θ < 0 at once
 
 
-@pytest.mark.parametrize("model", ["linear", "nonlinear"])
-@pytest.mark.parametrize(("height", "rate"), [(0.9, 0.0), (0.9, 0.3), (1.1, -0.05), (1.1, -1.0), (0.0, 1.5)])
+@every("model", ["linear", "nonlinear"])
+@every(("height", "rate"), [(0.9, 0.0), (0.9, 0.3), (1.1, -0.05), (1.1, -1.0), (0.0, 1.5)])
 def test_what_is_told_of_free_rocking_is_what_a_run_gives(model, height, rate):
     alpha = PRISM.critical_angle
     sides = sides_of(PRISM, (0.9, 0.9), 1e-6)

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from colonnade.dynamics.plane import linear
 from colonnade.dynamics.plane.step import Interval
+from every import every
 from prism import PRISM
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
@@ -35,8 +36,8 @@ def arc(x, angle, velocity, side, base, slope):
     return height, P * (angle * sinh(x) + scaled * cosh(x) - pull * sinh(x) - slope * (cosh(x) - 1))
 
 
-@pytest.mark.parametrize("ratio", [1e-4, 0.2, 0.5, 0.95])
-@pytest.mark.parametrize("side", [LEFT, RIGHT])
+@every("ratio", [1e-4, 0.2, 0.5, 0.95])
+@every("side", [LEFT, RIGHT])
 def test_let_go_it_lands_after_housners_quarter_period(ratio, side):
     step = closed_step(np.zeros(2), 10.0 / P, 0.0, side * ratio * ALPHA, 0.0, side, 0.0)
     assert step.has_landed

@@ -9,13 +9,14 @@ import pytest
 
 from colonnade.dynamics.plane.harmonic.envelope import level_at, piece_between
 from colonnade.dynamics.plane.uplift import harmonic_uplift, level_uplift, sampled_uplift
+from every import every
 
 TIME = np.linspace(0.0, 4.0, 400_001)
 
 
-@pytest.mark.parametrize("smooth", [None, True])
-@pytest.mark.parametrize("levels", [(0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (0.1, 0.25)])
-@pytest.mark.parametrize("phase", [0.0, 2.0, 4.0])
+@every("smooth", [None, True])
+@every("levels", [(0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (0.1, 0.25)])
+@every("phase", [0.0, 2.0, 4.0])
 def test_uplift_is_where_a_scan_first_passes_a_threshold(smooth, levels, phase):
     piece = piece_between(*levels, 4.0, smooth)
     level = np.array([level_at(piece, since)[0] for since in TIME[::100]])

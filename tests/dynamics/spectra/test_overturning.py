@@ -13,6 +13,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.dynamics.spectra.overturning import overturning_spectrum
 from colonnade.dynamics.spectra.pulses import PULSES, RICKER_REACH, mavroeidis_papageorgiou, ricker
+from every import every
 from independent_rocking import overturns
 from prism import PRISM
 
@@ -65,8 +66,8 @@ def test_nonlinear_sine_pulse_has_its_published_level(radius, limit):  # Numeric
     assert spectrum.lower[0] == pytest.approx(limit, abs=5e-6, nan_ok=True)
 
 
-@pytest.mark.parametrize("model", ["linear", "nonlinear"])
-@pytest.mark.parametrize("pulse", PULSES)
+@every("model", ["linear", "nonlinear"])
+@every("pulse", PULSES)
 def test_the_block_stands_just_below_the_spectrum_and_overturns_just_above(pulse, model):
     omega = 2.5 * PRISM.p
     level = overturning_spectrum(PRISM, pulse, frequency_ratio=[2.5], model=model, edge=1e-6).lower[0]

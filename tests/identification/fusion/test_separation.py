@@ -4,6 +4,7 @@ import pytest
 from colonnade.dynamics.kinematics import Outline
 from colonnade.identification.fusion.sensors import Transducer
 from colonnade.identification.fusion.separation import UnseenRotationError, separate
+from every import every
 from prism import PRISM
 
 OUTLINE = Outline(0.043, 0.043)
@@ -17,7 +18,7 @@ BESIDE = Transducer("point", X, (0.043, 0.04, 0.44))
 INCLINOMETER = Transducer("angle", Y)
 
 
-@pytest.mark.parametrize(
+@every(
     ("transducers", "unknowns", "words"),
     [
         ([TOP], ["rocking_angle"], "angle only, from one displacement transducer; slide cannot be separated from it"),

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.identification.plausibility.factors import UNKNOWN, as_expected, cause
+from every import every
 
 
 @pytest.mark.parametrize("scale", [1.0, -1.0, 1.4, 1 / 1.4, -0.7])
@@ -18,7 +19,7 @@ def test_any_other_is_not(scale):
     assert not as_expected(scale)
 
 
-@pytest.mark.parametrize(
+@every(
     ("scale", "quantity", "said"),
     [
         (9.81, "acceleration", "g read as"),

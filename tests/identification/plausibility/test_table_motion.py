@@ -18,6 +18,7 @@ from colonnade.identification.plausibility.table_motion import (
     unlike,
     with_displacement,
 )
+from every import every
 
 INTERVAL = 1 / 500
 TIME = np.arange(0, 12, INTERVAL)
@@ -92,7 +93,7 @@ def test_a_corner_far_below_the_motion_is_none():
     assert not found.differs
 
 
-@pytest.mark.parametrize(
+@every(
     ("found", "by_specimen", "wrong"),
     [
         (1.1, -1.0, "either"),

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from colonnade.identification.restitution.arguments import check_records, check_settings
+from every import every
 from prism import PRISM
 
 SETTINGS = {"block": PRISM, "level": 0.95, "lowest_amplitude": 0.02, "noise": None, "lowpass": None, "free": ()}
@@ -22,7 +23,7 @@ def test_what_is_freed_comes_back_as_a_tuple(free):
     assert settings(free=free) == tuple(free)
 
 
-@pytest.mark.parametrize(
+@every(
     ("changed", "said"),
     [
         ({"block": "prism"}, "block"),

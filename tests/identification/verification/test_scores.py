@@ -18,6 +18,7 @@ from colonnade.identification.verification.scores import (
     ranked_probability_score,
     score,
 )
+from every import every
 
 AMPLITUDES = st.lists(st.floats(0, 1), min_size=2, max_size=12)
 
@@ -72,7 +73,7 @@ def test_crps_refuses_what_is_missing():
         crps([0.1, float("nan")], 0.5)
 
 
-@pytest.mark.parametrize(("members", "probability"), list(product([1, 2, 7], [0.0, 0.2, 1.0])))
+@every(("members", "probability"), list(product([1, 2, 7], [0.0, 0.2, 1.0])))
 def test_brier_score_of_few_members_has_the_mean_of_the_probability_itself(members, probability):
     """Over all counts that the members can give, each with its binomial probability; one member is a plain forecast."""
     chance = [comb(members, k) * probability**k * (1 - probability) ** (members - k) for k in range(members + 1)]

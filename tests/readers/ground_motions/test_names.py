@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import pytest
-
 from colonnade.readers.ground_motions.names import direction_of, named
+from every import every
 
 
-@pytest.mark.parametrize(
+@every(
     ("name", "record", "direction"),
     [
         ("lefkada_x.csv", "lefkada", "x"),
@@ -30,7 +29,7 @@ def test_files(name, record, direction):
     assert named(name) == (record, direction)
 
 
-@pytest.mark.parametrize(
+@every(
     ("head", "direction"),
     [
         ("NS [cm/s^2]", "y"),

@@ -6,6 +6,7 @@ import pytest
 
 from colonnade.readers.text.heading import HeadingLines, describe_columns, looks_like_unit, take_apart
 from colonnade.readers.text.lines.cells import Dialect
+from every import every
 
 
 @pytest.mark.parametrize(
@@ -31,7 +32,7 @@ def test_what_is_no_unit_stays_with_the_name(heading: str) -> None:
     assert take_apart(heading) == (heading, None)
 
 
-@pytest.mark.parametrize(
+@every(
     "text",
     ["mm", "m/s²", "m/s^2", "g's", "Volts", "seconds", "kN", "°", "deg", "%", "mV/V", "[mm]", "N*m", "Hz", "mm."],
 )
@@ -39,7 +40,7 @@ def test_units_are_known_by_their_spelling(text: str) -> None:
     assert looks_like_unit(text)
 
 
-@pytest.mark.parametrize("text", ["", "top", "LVDT 1", "ACC", "Kraft", "12", "Table", "mmm/"])
+@every("text", ["", "top", "LVDT 1", "ACC", "Kraft", "12", "Table", "mmm/"])
 def test_names_are_no_units(text: str) -> None:
     assert not looks_like_unit(text)
 

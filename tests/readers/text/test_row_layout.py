@@ -13,6 +13,7 @@ from colonnade.readers.motion import read_motion
 from colonnade.readers.registry import read
 from colonnade.readers.text.header_claims import HeaderClaims
 from colonnade.readers.text.row_layout import judge
+from every import every
 
 STANDARD_GRAVITY = 9.80665
 
@@ -142,8 +143,8 @@ def test_three_phones_that_feel_the_same_are_three_channels(shared_data: Path) -
     assert len(read(shared_data / "shaketable" / "earthquake-test1.csv").channels) == 3
 
 
-@pytest.mark.parametrize("width", [2, 3, 5, 8, 10])
-@pytest.mark.parametrize("cutoff", [0.02, 0.1, 0.3])
+@every("width", [2, 3, 5, 8, 10])
+@every("cutoff", [0.02, 0.1, 0.3])
 def test_a_series_is_never_taken_for_columns_nor_columns_for_a_series(width: int, cutoff: float) -> None:
     rows = 150
     series = shaking(rows * width, cutoff=cutoff).reshape(rows, width)

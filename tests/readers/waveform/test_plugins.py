@@ -10,9 +10,10 @@ from colonnade.errors import ReadError
 from colonnade.readers.registry import companions, read
 from colonnade.readers.waveform.kinds import RECOGNISED
 from colonnade.readers.waveform.plugins import KINDS, reader_of
+from every import every
 
 
-@pytest.mark.parametrize("kind", sorted(RECOGNISED))
+@every("kind", sorted(RECOGNISED))
 def test_every_kind_that_is_recognised_has_a_reader(kind: str) -> None:
     assert kind in KINDS
     assert callable(reader_of(kind))

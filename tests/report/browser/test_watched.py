@@ -8,7 +8,6 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from time import monotonic, sleep
 
@@ -16,6 +15,7 @@ import pytest
 
 from colonnade.report.interactive.state import state_script
 from colonnade.workflow import run
+from short_campaign import write_campaign
 
 pytestmark = pytest.mark.whole
 
@@ -175,17 +175,9 @@ def watching(folder: Path) -> Iterator[None]:
         process.wait(60)
 
 
-def small_campaign(folder: Path) -> Path:
-    """Write two tests of the small campaign on which runs are tested."""
-    spec = spec_from_file_location("workflow_conftest", Path(__file__).parents[2] / "workflow" / "conftest.py")
-    module = module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module.write_campaign(folder, {"free-01": "free-vibration", "pulse-01": "pulse"})
-
-
 @pytest.mark.slow
 def test_an_open_page_follows_a_real_watch(visit, tmp_path):
-    folder = small_campaign(tmp_path / "small")
+    folder = write_campaign(tmp_path / "small", {"free-01": "free-vibration", "pulse-01": "pulse"})
     run(folder, workers=1)
     with watching(folder):
         page = visit("tests/pulse-01.html", folder=folder / "report")

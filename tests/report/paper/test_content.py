@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from html import escape
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade.report.paper.content import Page
+from every import every
 
 
 def blocks_of(inside: str):
@@ -78,7 +78,7 @@ def test_figures_are_numbered_and_described():
     assert photo["pictures"] == [{"is": "picture", "file": "../photos/a-1.jpg", "alt": "a photo"}]
 
 
-@pytest.mark.parametrize(
+@every(
     "screen",
     [
         *("<script>x</script>", "<style>x</style>", "<nav>x</nav>", "<details><p>x</p></details>"),

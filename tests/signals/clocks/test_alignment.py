@@ -5,6 +5,7 @@ from colonnade.signals.clocks.alignment import find_offset, link
 from colonnade.signals.filters import lowpass, second_derivative
 from colonnade.signals.quality import Flag
 from colonnade.signals.record import even_record
+from every import every
 
 INTERVAL = 0.0025
 TIME = np.arange(0, 10, INTERVAL)
@@ -72,8 +73,8 @@ def _record(time, values):
     return even_record(time, values, np.full(time.size, Flag.GOOD, dtype=np.int8))
 
 
-@pytest.mark.parametrize("delay", [0.02, -0.15, 0.2])
-@pytest.mark.parametrize("frequency", [1.0, 3.0, 7.0])
+@every("delay", [0.02, -0.15, 0.2])
+@every("frequency", [1.0, 3.0, 7.0])
 def test_a_steady_sine_has_a_rival_one_period_off(delay, frequency):
     rng = np.random.default_rng(0)
     first, second = np.arange(0, 12, 1 / 500), np.arange(0, 12, 1 / 400)

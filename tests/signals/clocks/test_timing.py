@@ -4,6 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade.signals.clocks.timing import check_gaps, check_jitter, check_order, read_clock
+from every import every
 
 NUMBERS = np.arange(4000)
 EVEN = NUMBERS / 500
@@ -45,8 +46,8 @@ def test_an_even_clock_is_left_as_it_is():
     assert _reasons(EVEN) == ["", "", ""]
 
 
-@pytest.mark.parametrize("write", [np.round, lambda time, digits: np.floor(time * 10**digits) / 10**digits])
-@pytest.mark.parametrize(("rate", "digits"), [(400, 3), (909, 3), (400, 2), (300, 4)])
+@every("write", [np.round, lambda time, digits: np.floor(time * 10**digits) / 10**digits])
+@every(("rate", "digits"), [(400, 3), (909, 3), (400, 2), (300, 4)])
 def test_the_even_clock_behind_rounded_times_is_found(rate, digits, write):
     stamps = write(NUMBERS / rate, digits)
     clock = read_clock(stamps)

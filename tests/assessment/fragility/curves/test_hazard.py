@@ -9,12 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from colonnade.assessment.fragility.curves.hazard import hazard_curve, isotonic_rate, lognormal_rate
+from every import every
 
 X = np.geomspace(0.01, 10, 30)
 
 
-@pytest.mark.parametrize("k", [0.5, 1.0, 3.0, 8.0, 20.0])
-@pytest.mark.parametrize("beta", [0.1, 0.4, 1.0])
+@every("k", [0.5, 1.0, 3.0, 8.0, 20.0])
+@every("beta", [0.1, 0.4, 1.0])
 def test_a_power_law_gives_its_closed_form(k, beta):
     """k₀ m^−k exp(k² β² / 2), Cornell et al. 2002."""
     found = lognormal_rate(hazard_curve(X, 2e-4 * X**-k), 0.4, beta)

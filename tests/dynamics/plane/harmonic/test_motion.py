@@ -20,6 +20,7 @@ from colonnade.dynamics.plane.harmonic.motion import (
 )
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import rock
+from every import every
 from prism import PRISM
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
@@ -99,8 +100,8 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("model", MODELS)
-@pytest.mark.parametrize(("block", "motion", "amplitude", "restitution"), CASES.values(), ids=CASES)
+@every("model", MODELS)
+@every(("block", "motion", "amplitude", "restitution"), CASES.values(), ids=CASES)
 def test_impacts_agree_with_an_adaptive_integration(block, motion, amplitude, restitution, model):
     expected = integrated(block, motion, amplitude, restitution, model, 8)
     run = harmonic_run(block, motion, amplitude, restitution, model=model)
@@ -110,9 +111,9 @@ def test_impacts_agree_with_an_adaptive_integration(block, motion, amplitude, re
     np.testing.assert_allclose(run.impact_velocities[:count], expected[:, 1], atol=1e-9)
 
 
-@pytest.mark.parametrize("model", MODELS)
-@pytest.mark.parametrize("shape", RAMP_SHAPES)
-@pytest.mark.parametrize("restitution", [0.0, 0.3, 0.7])
+@every("model", MODELS)
+@every("shape", RAMP_SHAPES)
+@every("restitution", [0.0, 0.3, 0.7])
 def test_rest_and_uplift_again_agree_with_the_engine_for_recorded_motions(model, restitution, shape):
     motion = Harmonic.cycles(3.0 * P, 6, ramp=1, ramp_shape=shape)
     count = 80_001

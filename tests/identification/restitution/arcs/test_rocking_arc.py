@@ -13,12 +13,13 @@ from colonnade.identification.restitution.arcs.rocking_arc import (
     peak_of,
     peak_of_duration,
 )
+from every import every
 
 P = 5.6
 
 
-@pytest.mark.parametrize("critical", [0.08, 0.19, 0.32, 1.0], ids=lambda value: f"α = {value:g}")
-@pytest.mark.parametrize("share", [0.03, 0.3, 0.9, 0.999])
+@every("critical", [0.08, 0.19, 0.32, 1.0], ids=lambda value: f"α = {value:g}")
+@every("share", [0.03, 0.3, 0.9, 0.999])
 def test_an_arc_is_that_of_the_full_equation(critical, share):
     peak = share * critical
     landing = lambda t, y: y[0]  # noqa: E731

@@ -9,6 +9,7 @@ from colonnade.identification.restitution.arcs.arcs import Arcs
 from colonnade.identification.restitution.estimators.peaks import FEWEST_PEAKS, PeakDecay
 from colonnade.identification.restitution.fitting.samples import AngleSamples
 from colonnade.identification.restitution.free_vibration import FreeVibration
+from every import every
 from prism import PRISM
 
 ALPHA = PRISM.critical_angle
@@ -32,8 +33,8 @@ def fit(peaks, *, usable=None, error=ERROR, block=PRISM, level=0.95):
     return PeakDecay().fit(FreeVibration(block, samples, arcs, used, 0.0, 1e-6, 0.0, level))
 
 
-@pytest.mark.parametrize("restitution", [0.8, 0.95, 0.99])
-@pytest.mark.parametrize("offset", [0.0, -0.002, 0.002])
+@every("restitution", [0.8, 0.95, 0.99])
+@every("offset", [0.0, -0.002, 0.002])
 def test_exact_peaks_give_e_and_their_common_zero_offset(restitution, offset):
     peaks = peaks_of(restitution, count=8)
     assert np.abs(peaks).min() > abs(offset)  # a larger offset hides on which side the last peaks are

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import pytest
-
 from colonnade.readers.text.lines.cells import Dialect
 from colonnade.readers.text.lines.faults import Row, RowForm, fault_of
+from every import every
 
 FORM = RowForm(Dialect("utf-8", ";", "."), ("number", "number"))
 
@@ -15,7 +14,7 @@ def judged(text: str, form: RowForm = FORM) -> str | None:
     return fault_of(Row(0, 1, text, cells), form, has_number=any(map(form.dialect.is_number, cells)))
 
 
-@pytest.mark.parametrize(
+@every(
     ("text", "fault"),
     [
         ("1;2", None),
