@@ -103,7 +103,7 @@ def _fragilities(found: Found) -> list[Row]:
     shares = [each["shares"] for each in found["designs"].values() if not each["population"]["two_kinds"]]
 
     def span(name: str) -> str:
-        values = [each[name] for each in shares]
+        values = [each[name] for each in shares if each[name] is not None]
         return f"{format_percent(min(values), 1)} to {format_percent(max(values), 1)}"
 
     others = [each["shares"]["misfit"] for each in found["designs"].values() if each["population"]["two_kinds"]]

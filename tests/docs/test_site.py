@@ -112,7 +112,7 @@ def test_a_page_can_be_read_by_everybody(address, visit):
 
 
 @pytest.mark.parametrize(
-    ("words", "found"), [("restitution", "explanation/restitution.html"), ("calibrate", "colonnade-calibrate.html")]
+    ("words", "found"), [("restitution", "explanation/restitution.html"), ("calibrate", "reference/commands.html")]
 )
 def test_search_finds(words, found, visit):
     page = visit("search.html")

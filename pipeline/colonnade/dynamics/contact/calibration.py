@@ -28,8 +28,8 @@ FRACTIONS = (0.0, 0.01, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0)
 """Critical damping fractions that are tried first; e falls along most of them, and rises again where ξ is large. The
 paper's fractions of elastic meshes reach 2.6."""
 
-SOFTER_FIRST = (0.3, 0.1, 3.0, 0.03, 10.0, 0.01)
-HARDER_FIRST = (3.0, 10.0, 0.3, 0.1, 0.03, 0.01)
+SOFTER_FIRST = (0.3, 0.1, 3.0, 0.03, 10.0, 0.01, 0.003, 0.001)
+HARDER_FIRST = (3.0, 10.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001)
 """Multiples of the law's stiffness, tried in this order if the law's own cannot give the restitution. A softer
 contact, into which more nodes sink at a time, takes less at an impact; for a smaller e a harder one comes first."""
 
