@@ -93,7 +93,7 @@ def intensity_measures(
         accelerations at `PERIODS`.
     drift : float, optional
         Largest ratio of the velocity at the end to the largest one, of a record whose velocity and displacement count.
-        Default 0.1; 0.25 with `at_rest`, where it is the ratio of what the line takes off.
+        Default 0.1; 0.25 with `at_rest`, where it is the ratio of what the line subtracts.
     baseline : str, optional
         Name of a correction of the baseline, done before anything is measured: "linear", "quadratic" or
         "highpass(0.1 Hz)". Default: none.

@@ -22,7 +22,7 @@ BETTER = 2.0
 """Times less that has to be left unexplained with a delay, or with what a high-pass took off."""
 
 LONGEST_DELAY, LEAST_DELAY = 1.0, 0.01
-"""s: searched for; of which something is said."""
+"""s: the longest delay searched for; the shortest reported."""
 
 LEAST_LOST = 0.1
 """Share of the motion that a high-pass has to take off."""
@@ -55,7 +55,7 @@ class Comparison:
 
     @property
     def differs(self) -> bool:
-        """Whether it has another scale, sign, clock or high-pass than it is said to have."""
+        """Whether it has another scale, sign, clock or high-pass than declared."""
         return self.is_misplaced or abs(self.factor - 1) > max(CALIBRATED, SURE * self.factor_error)
 
     @property

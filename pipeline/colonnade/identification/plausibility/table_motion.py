@@ -31,7 +31,7 @@ WRONG_DELAY = 0.03
 """s, from which on predictions are wrong."""
 
 LEAST_HUM = 0.05
-"""Of an accelerometer's peak, from which on a hum is told."""
+"""Of an accelerometer's peak, from which on a hum is reported."""
 
 HUMLESS = 0.6
 """Of the frequency of a hum: a cut-off that takes it off."""
