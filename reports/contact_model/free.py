@@ -75,13 +75,13 @@ def prism_body(name: str) -> ContactBody:
     return rigid_body(PRISM, grid=(along, across))
 
 
-def inputs_of(mesh: str, step: float, block: Block = PRISM) -> ContactInputs:
-    """Give what the program calibrates by: "rigid" of any block, or a mesh of the prism, from stiffness 1 on."""
+def inputs_of(mesh: str, step: float, block: Block = PRISM, *, penetration: float = PENETRATION) -> ContactInputs:
+    """Give what the program calibrates by: "rigid" of any block, or a mesh of the prism, from a stiffness on."""
     return ContactInputs(
         block=block,
         shape="prism",
         sizes=tuple(sorted(SIZES.items())),
-        settings=ContactSettings(mesh=mesh, step=f"{step} s", friction=FRICTION, penetration=PENETRATION),
+        settings=ContactSettings(mesh=mesh, step=f"{step} s", friction=FRICTION, penetration=penetration),
         lowest_amplitude=RestitutionSettings().lowest_amplitude,
     )
 

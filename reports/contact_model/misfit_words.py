@@ -94,19 +94,19 @@ def _changes(controls: list[Any]) -> list[str]:
     for run in controls:
         found.setdefault(run["variant"], {})[run["kind"]] = run["misfit"]["nonlinear"]
     first, *others = found
-    hard = "10 times the stiffness"
-    alike = [each for each in others if each != hard and "nodes" not in each]
+    soft = "a tenth of the stiffness"
+    alike = [each for each in others if each != soft and "nodes" not in each]
     largest = max((abs(found[each][kind] - found[first][kind]) for each in alike for kind in found[first]), default=0.0)
     lines = [f"Step, number of circles and friction change these misfits by up to {100 * largest:.1f} % of α."]
-    if hard in found:
-        grown = ", ".join(
-            f"{KINDS[kind][0]} {100 * found[first][kind]:.1f} to {100 * found[hard][kind]:.1f}"
+    if soft in found:
+        shrunk = ", ".join(
+            f"{KINDS[kind][0]} {100 * found[first][kind]:.1f} to {100 * found[soft][kind]:.1f}"
             for kind in found[first]
             if kind in ("push", "spin", "tilt")
         )
         lines += [
-            f"Ten times the stiffness makes them larger: {grown}. A harder contact lands flat for a shorter time, so",
-            "that less is enough for the rim to roll round. The sizes above hold for stiffness 1.",
+            f"A tenth of the stiffness makes them smaller: {shrunk}. A softer contact lands flat for a longer time, so",
+            "that more is needed for the rim to roll round. The sizes above hold for the default stiffness.",
         ]
     return lines
 

@@ -264,7 +264,8 @@ def _amplitude(found: dict[str, Any], figure: str) -> list[str]:
     lines = [
         "## e over amplitude, friction and disturbance",
         "",
-        f"Rigid prism on 5 × 5 nodes, calibrated to e = {TARGET}: ξ = {law['damping_fraction']:.3f}.",
+        f"Rigid prism on 5 × 5 nodes with the default stiffness, calibrated to e = {TARGET}: "
+        f"ξ = {law['damping_fraction']:.3f}.",
         "",
         "| released at, of α | " + " | ".join(f"{release:g}" for release, _ in released) + " |",
         "|---|" + "---|" * len(released),

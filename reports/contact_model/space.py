@@ -11,12 +11,12 @@ from joblib import Parallel, delayed
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.calibration import free_restitution
-from colonnade.dynamics.contact.law import ContactLaw
+from colonnade.dynamics.contact.law import DEFAULT_STEP, STATIC_PENETRATION, ContactLaw
 from colonnade.dynamics.ensembles.contact import ContactPlan, gather, run_member
 from colonnade.stages.contact import calibrate_specimen
 from contact_model.free import GRAVITY, PRISM, TARGET, inputs_of, prism_body, timed, vibrate
 
-STEP = 1e-5
+STEP = DEFAULT_STEP
 RELEASES = (0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9)
 FRICTIONS = (0.2, 0.3, 0.4, 0.6, 0.8, 1.0)
 DISTURBANCES = (0.0, 0.001, 0.0025, 0.005, 0.01, 0.02)
@@ -27,7 +27,7 @@ SEED = 2013
 
 def calibrated(block: Block, step: float = STEP) -> ContactLaw:
     """Calibrate a rigid body to the paper's e of the prism, as the program does."""
-    return calibrate_specimen(inputs_of("rigid", step, block), TARGET).law
+    return calibrate_specimen(inputs_of("rigid", step, block, penetration=STATIC_PENETRATION), TARGET).law
 
 
 def measure_amplitudes(law: ContactLaw, releases: tuple[float, ...] = RELEASES, workers: int = 1) -> list[Any]:
