@@ -15,7 +15,6 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.history import ContactHistory
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.maps.chart import StabilityMap, stability_map
-from colonnade.dynamics.models.registry import model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic.motion import OUTCOMES
 from colonnade.dynamics.rock import rock
@@ -96,19 +95,13 @@ def _at(frequency_ratio: float, omega: Array, limit: Array) -> float:
     return float(np.interp(frequency_ratio, omega, limit))
 
 
-def _first_rocking(chart: StabilityMap) -> Array:
-    """Give A between the last level that does not rock and the first that does, at each Ω."""
-    first = np.argmax(chart.outcome > 0, axis=1)
-    return np.asarray(0.5 * (chart.amplitude_ratio[first] + chart.amplitude_ratio[np.maximum(first - 1, 0)]))
-
-
 def by_level(chart: StabilityMap) -> StabilityMap:
     """
     Give a map the limits that its levels show, as a ladder of tests shows its boundary.
 
     The lower limit is halfway between the first level that overturns and the one before it; the upper one halfway
     between the last level that stands and the next, NaN if the largest level stands. Without a level that overturns
-    both are NaN. In space the onset of rocking has no formula and is read from the levels too.
+    both are NaN.
     """
     levels = chart.amplitude_ratio
     middles = 0.5 * (levels[1:] + levels[:-1])
@@ -118,10 +111,8 @@ def by_level(chart: StabilityMap) -> StabilityMap:
             lower[column] = middles[max(int(np.argmax(outcomes)) - 1, 0)]
             stands = int(np.flatnonzero(~outcomes)[-1])
             upper[column] = middles[stands] if stands < middles.size else np.nan
-    in_space = model_of(str(chart.options["model"])).in_space
     return replace(
         chart,
-        no_rocking=_first_rocking(chart) if in_space else chart.no_rocking,
         lower=lower,
         upper=upper,
         options=chart.options | {"width": float(levels[1] - levels[0])},

@@ -136,7 +136,7 @@ def _flat(numbers: Numbers) -> Answer:
     words = ", ".join(f"{each:.2f}" for each in found)
     return judged(
         all(abs(each - 1) <= ONSET for each in found),
-        f"A between the last level that does not rock and the first that does, at the seven frequencies: {words}",
+        f"A at which it begins to rock, searched between the levels, at the seven frequencies: {words}",
     )
 
 
