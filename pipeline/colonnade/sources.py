@@ -12,7 +12,7 @@ from typing import Any
 PACKAGE = Path(__file__).parent
 """Folder of the package."""
 
-_DATA = (".jinja", ".css", ".js", ".mplstyle", ".typ", ".csv")
+_DATA = (".jinja", ".css", ".js", ".mplstyle", ".typ", ".csv", ".toml")
 """Suffixes of templates, scripts, styles and tables: what they say counts to the byte."""
 
 

@@ -101,19 +101,6 @@ def test_columns_of_which_nothing_is_known_are_asked_about_where_there_are_no_ot
     assert [channel["quantity"] for channel in channels(document).values()] == ["?", "?"]
 
 
-def test_a_laser_and_a_string_pot_are_not_taken_for_points(folder):
-    folder.write("a.csv", {"Laser top [mm]": DECAY, "Seilzug [mm]": DECAY})
-    found = channels(folder.draft()[0])
-    assert (found["laser_top"]["sensing"], found["laser_top"]["normal"]) == ("surface", "?")
-    assert (found["seilzug"]["sensing"], found["seilzug"]["anchor"]) == ("wire", ["? mm", "0 mm", "? mm"])
-
-
-def test_a_unit_and_a_name_that_contradict_each_other_are_told(folder):
-    folder.write("a.csv", {"accel top [mm]": DECAY})
-    _, drafted = folder.draft()
-    assert any("says displacement" in doubt.asked and "acceleration" in doubt.asked for doubt in drafted.doubts)
-
-
 def test_files_of_two_recorders_become_one_test_each_aligned_on_the_table(folder):
     for span in ("span-2.0", "span-10.0"):
         folder.write(f"raw/{span}.csv", {"LVDT 1 [mm]": noise(), "Table disp [mm]": SINE})
@@ -127,32 +114,12 @@ def test_files_of_two_recorders_become_one_test_each_aligned_on_the_table(folder
     ]
 
 
-def test_files_of_two_recorders_in_folders_of_their_own_are_paired_too(folder):
-    folder.write("box1/sine.csv", {"LVDT 1 [mm]": noise()})
-    folder.write("box2/sine.csv", {"ACC [g]": SINE})
-    (test,) = folder.draft()[0]["tests"]
-    assert test["file"] == {"main": "box1/sine.csv", "box2": "box2/sine.csv"}
-
-
-def test_files_that_all_name_their_recorder_are_paired_also_where_columns_are_called_alike(folder):
-    for box in ("box1", "box2"):
-        folder.write(f"sine_{box}.csv", {"Ch 1 [mm]": noise()})
-    (test,) = folder.draft()[0]["tests"]
-    assert (test["id"], test["file"]) == ("sine", {"main": "sine_box1.csv", "box2": "sine_box2.csv"})
-
-
 def test_the_same_recording_in_two_formats_is_taken_once(folder):
     folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
     folder.write("free.txt", {"LVDT 1 [mm]": DECAY}, delimiter="\t")
     document, drafted = folder.draft()
     assert [test["file"] for test in document["tests"]] == ["free.csv"]
     assert "# free.txt: the same columns as free.csv" in drafted.text
-
-
-def test_a_second_visit_of_the_same_day_is_a_test_of_its_own(folder):
-    for day in ("monday", "tuesday"):
-        folder.write(f"{day}/free.csv", {"LVDT 1 [mm]": DECAY})
-    assert [test["id"] for test in folder.draft()[0]["tests"]] == ["monday-free", "tuesday-free"]
 
 
 def test_a_channel_that_an_earlier_setup_has_too_is_asked_about_with_a_hint(folder):
@@ -176,24 +143,6 @@ def test_files_of_other_columns_become_a_setup_of_their_own(folder):
     folder.write("sine-01.csv", {"LVDT 1 [mm]": noise(), "ACC [g]": SINE})
     document, _ = folder.draft()
     assert [test["setup"] for test in document["tests"]] == ["setup-1", "setup-2"]
-
-
-def test_the_signal_tells_the_kind_where_the_name_does_not(folder):
-    folder.write("a.csv", {"LVDT 1 [mm]": noise(), "ACC table [g]": SINE})
-    folder.write("b.csv", {"LVDT 1 [mm]": DECAY, "ACC table [g]": noise()})
-    document, drafted = folder.draft()
-    first, second = document["tests"]
-    assert (first["kind"], first["frequency"], second["kind"]) == ("sine", "3 Hz", "free-vibration")
-    assert sum("guessed from its signal" in doubt.asked for doubt in drafted.doubts) >= 1
-
-
-def test_a_name_that_the_signal_contradicts_is_doubted(folder):
-    folder.write("sine_5Hz.csv", {"ACC table [g]": SINE})
-    folder.write("free.csv", {"ACC table [g]": SINE})
-    _, drafted = folder.draft()
-    told = {doubt.key: doubt.asked for doubt in drafted.doubts}
-    assert told["tests[sine_5Hz].frequency"] == "the table moves at 3 Hz"
-    assert told["tests[free].kind"] == "the table moves as a steady sine of 3 Hz"
 
 
 def test_specimens_are_told_by_the_names_of_files(folder):
@@ -269,3 +218,12 @@ def test_a_file_without_a_date_leaves_the_day_to_people(folder):
     document, drafted = folder.draft()
     assert "date" not in document["tests"][0]
     assert "# date = 2013-04-26" in drafted.text
+
+
+def test_a_question_is_asked_in_full_once_in_a_setup(folder):
+    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY, "LVDT 2 [mm]": DECAY})
+    asked = [line for line in folder.draft()[1].text.splitlines() if line.startswith("relative_to = ")]
+    assert [line.partition("# ")[2] for line in asked] == [
+        '? where it is fixed: "table" if it moves with the table, else "ground"',
+        "? as above",
+    ]

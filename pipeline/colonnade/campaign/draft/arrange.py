@@ -10,24 +10,12 @@ from functools import cached_property
 from pathlib import PurePosixPath
 
 from colonnade.campaign.channel import MAIN
-from colonnade.campaign.draft.channels import DraftChannels, draft_channels
-from colonnade.campaign.draft.naming import as_id, unique
+from colonnade.campaign.draft.guess import DraftChannels, DraftTest, draft_channels
 from colonnade.campaign.draft.survey import Column, RawFile
+from colonnade.campaign.draft.words import as_id, unique
 
-_RECORDER = re.compile(r"(?:daq|das|rec|recorder|logger|box|unit|device|scope|system)[ _-]?[0-9]*", re.IGNORECASE)
+_RECORDER = r"(?:daq|das|rec|recorder|logger|box|unit|device|scope|system)[ _-]?[0-9]*"
 _TAG = re.compile(r"[ _.\-]+([A-Za-z]+[ _\-]?[0-9]*)")
-
-
-@dataclass(frozen=True)
-class DraftTest:
-    """A test: its files by recorder, the main one first."""
-
-    files: dict[str, RawFile]
-
-    @property
-    def main(self) -> RawFile:
-        """File of the main recorder."""
-        return self.files[MAIN]
 
 
 @dataclass
@@ -75,25 +63,21 @@ def arrange(files: Sequence[RawFile]) -> tuple[list[DraftSetup], list[tuple[str,
         Files left out as a second copy of the same recording, with the one that is used.
     """
     copies: list[tuple[str, str]] = []
-    kept: list[RawFile] = []
     known = _Known()
     tests: dict[str, dict[str, RawFile]] = {}
-    second: set[str] = set()
     for file in files:
         twin = next((other for other in known.of_stem[file.stem] if _columns(other) == _columns(file)), None)
         if twin is not None:
             copies.append((file.relative, twin.relative))
         else:
             known.add(file)
-            kept.append(file)
             tests[file.relative] = {MAIN: file}
-    for file in kept:
+    for file in [recorded[MAIN] for recorded in tests.values()]:
         for other, tag in known.mains_of(file):
-            certain = _RECORDER.fullmatch(tag) is not None
-            if other.relative not in second and (certain or not set(_columns(file)) & set(_columns(other))):
+            certain = re.fullmatch(_RECORDER, tag, re.IGNORECASE) is not None
+            if other.relative in tests and (certain or not set(_columns(file)) & set(_columns(other))):
                 recorders = tests[other.relative]
                 recorders[unique([*recorders, as_id(tag, "recorder")], "recorder")[-1]] = file
-                second.add(file.relative)
                 del tests[file.relative]
                 break
     setups: dict[tuple[object, ...], DraftSetup] = {}
@@ -104,16 +88,15 @@ def arrange(files: Sequence[RawFile]) -> tuple[list[DraftSetup], list[tuple[str,
 
 
 class _Known:
-    """Files by the common part of their names, for speed."""
+    """Files by the common part of their names, for speed; earlier files are preferred as main recorders."""
 
     def __init__(self) -> None:
+        self._order: dict[str, int] = {}
         self.of_stem: defaultdict[str, list[RawFile]] = defaultdict(list)
         self._of_base: defaultdict[str, list[RawFile]] = defaultdict(list)
         self._of_name: defaultdict[tuple[str, str], list[RawFile]] = defaultdict(list)
-        self._order: dict[str, int] = {}
 
     def add(self, file: RawFile) -> None:
-        """Add a file; earlier files are preferred as main recorders."""
         path = PurePosixPath(file.stem)
         self._order[file.relative] = len(self._order)
         self.of_stem[file.stem].append(file)
@@ -121,25 +104,22 @@ class _Known:
         self._of_name[str(path.parent.parent), path.name].append(file)
 
     def mains_of(self, file: RawFile) -> Iterator[tuple[RawFile, str]]:
-        """Main files whose tests this file may belong to, each with the name of this file's recorder."""
+        """Give files whose tests this file may belong to, each with the name of this file's recorder."""
         path = PurePosixPath(file.stem)
         for end in range(len(file.stem) - 1, len(file.stem) - len(path.name), -1):
-            tag = _TAG.fullmatch(file.stem[end:])
-            for other in self.of_stem.get(file.stem[:end], []) if tag else []:
-                yield other, tag[1] if tag else ""
+            if tag := _TAG.fullmatch(file.stem[end:]):
+                yield from ((other, tag[1]) for other in self.of_stem.get(file.stem[:end], []))
         base, tag_of_base = _base(file.stem)
-        alike = [(other, tag_of_base) for other in self._of_base[base] if tag_of_base]
+        alike = [(other, tag_of_base) for other in self._of_base[base]]
         alike += [(other, PurePosixPath(file.relative).suffix.lstrip(".")) for other in self.of_stem[file.stem]]
-        if path.parent.name:
-            alike += [(other, path.parent.name) for other in self._of_name[str(path.parent.parent), path.name]]
-        for other, name in alike:
-            if self._order[other.relative] < self._order[file.relative] and name:
-                yield other, name
+        alike += [(other, path.parent.name) for other in self._of_name[str(path.parent.parent), path.name]]
+        place = self._order[file.relative]
+        yield from ((other, name) for other, name in alike if name and self._order[other.relative] < place)
 
 
 def _base(stem: str) -> tuple[str, str]:
     """Stem without the name of a recorder at its end, and that name."""
-    found = re.fullmatch(rf"(.*[^ _.\-/])[ _.\-]+({_RECORDER.pattern})", stem, re.IGNORECASE)
+    found = re.fullmatch(rf"(.*[^ _.\-/])[ _.\-]+({_RECORDER})", stem, re.IGNORECASE)
     return (found[1], found[2]) if found else (stem, "")
 
 

@@ -1,15 +1,21 @@
-"""Names of columns and files in the languages of the laboratories."""
+"""Names of columns and files in the languages of the laboratories, and the ids and lines made of them."""
 
 from __future__ import annotations
 
-import pytest
+import tomllib
 
-from colonnade.campaign.draft.vocabulary import KINDS, PLACES, QUANTITIES, axis, find, words
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from colonnade.campaign.draft.words import Line, axis, comment, find, unique
+from colonnade.campaign.syntax.document import toml_key, toml_value
+from colonnade.campaign.syntax.identifier import clashes, identifier
 from every import every
 
 
-def meaning(name, meanings):
-    found = find(words(name), meanings)
+def meaning(name, about):
+    found = find(name, about)
     return found and found[0]
 
 
@@ -36,7 +42,7 @@ def meaning(name, meanings):
     ],
 )
 def test_a_name_tells_quantity_and_place(name, quantity, place):
-    assert (meaning(name, QUANTITIES), meaning(name, PLACES)) == (quantity, place)
+    assert (meaning(name, "quantities"), meaning(name, "places")) == (quantity, place)
 
 
 @every(
@@ -56,7 +62,7 @@ def test_a_name_tells_quantity_and_place(name, quantity, place):
     ],
 )
 def test_a_files_name_tells_the_kind_of_test(name, kind):
-    assert meaning(name, KINDS) == kind
+    assert meaning(name, "kinds") == kind
 
 
 @pytest.mark.parametrize(
@@ -64,3 +70,19 @@ def test_a_files_name_tells_the_kind_of_test(name, kind):
 )
 def test_a_name_tells_the_axis(name, expected):
     assert axis(name) == expected
+
+
+@given(st.lists(st.text(), max_size=8))
+def test_ids_are_valid_and_differ(names):
+    ids = unique(names, "test", as_variables=True)
+    assert [identifier(each) for each in ids] == ids
+    assert not clashes(ids, as_variables=True)
+
+
+TEXT = st.text(st.characters(exclude_categories=("Cs",)))
+
+
+@given(name=TEXT.filter(bool), content=TEXT, said=TEXT)
+def test_every_line_reads_back(name, content, said):
+    text = f"{comment(said)}\n{Line(toml_key(name), toml_value({name: content}), said, said).text()}\n"
+    assert tomllib.loads(text) == {name: {name: content}}

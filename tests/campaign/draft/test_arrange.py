@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from colonnade.campaign.draft.layout import arrange, names_of
-from colonnade.campaign.draft.signal import Shape
-from colonnade.campaign.draft.survey import Column, RawFile
+from colonnade.campaign.draft.arrange import arrange, names_of
+from colonnade.campaign.draft.survey import Column, RawFile, Shape
 
 
 def raw(relative: str, *names: str, spread: float = 1.0) -> RawFile:
-    shape = Shape(spread, False, None, False)
+    shape = Shape(spread)
     columns = tuple(Column(n, name, name, "mm", False, True, shape) for n, name in enumerate(names, start=1))
     return RawFile(relative, "delimited", columns, 100.0, 10.0, ())
 
