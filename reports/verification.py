@@ -193,7 +193,7 @@ STUDIES = (
     Study("Verdict on a prediction", "verdict-study", "verdict-study", "make study NAME=verdict", _verdict),
     Study("Forecasts", "forecast-study", "forecast-study", "make study NAME=forecast", _forecasts),
     Study("Fragility", "fragility-study", "fragility-study", "make study NAME=fragility", _fragilities),
-    Study("Contact model", "contact-study", "contact-study", "make study NAME=contact", _contact),
+    Study("Contact model", "contact-study", "contact-study", "reports/contact_study.py` of commit `ede3d35", _contact),
     Study("The paper's schemes", "convergence", "convergence", "python reports/convergence.py", _convergence),
     Study("The whole programme", "demo", "demo", "python reports/rebuild.py", _demo),
 )
