@@ -1,8 +1,8 @@
-"""What "misbehaves in that way" means: fixed before any member was run."""
+"""The misfit of the paper at Span 2.5: a computed response that grows large when the measured one has died down."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -11,18 +11,12 @@ from scipy.ndimage import maximum_filter1d
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.history import amplitude, capped
-from colonnade.signals.metrics import nrmse
-
-FACTOR = 2.0
-"""Each number of the criterion is also divided and multiplied by it."""
-
-AS_FIXED = "as fixed"
 
 
 @dataclass(frozen=True)
 class Criterion:
     """
-    Numbers of the criterion.
+    Numbers of the criterion, fixed before anything was computed (`span-2.5-design.md`).
 
     Attributes
     ----------
@@ -34,26 +28,12 @@ class Criterion:
         |θ|/α above which a response is large. The quiet response stays below half of it.
     after : float
         s within which the other one becomes large.
-    nrmse : float
-        Largest RMS of predicted less measured angle over α that is good agreement.
     """
 
     quiet: float = 0.1
     before: float = 1.0
     loud: float = 0.4
     after: float = 2.0
-    nrmse: float = 0.1
-
-
-def variants() -> dict[str, Criterion]:
-    """Give the criterion as fixed, then with each number divided and multiplied by `FACTOR`."""
-    fixed = Criterion()
-    found = {AS_FIXED: fixed}
-    for name in (each.name for each in fields(Criterion)):
-        value = getattr(fixed, name)
-        found[f"{name} / {FACTOR:g}"] = replace(fixed, **{name: value / FACTOR})
-        found[f"{name} × {FACTOR:g}"] = replace(fixed, **{name: value * FACTOR})
-    return found
 
 
 @dataclass(frozen=True)
@@ -119,7 +99,7 @@ def place_of_growth(quiet: Response, growing: Response, criterion: Criterion) ->
     Parameters
     ----------
     quiet, growing : Response
-        Of the same clock. For the paper's pattern the measured and the predicted one; the reverse for the control.
+        Of the same clock. For the paper's pattern the measured and the predicted one.
     criterion : Criterion
 
     Returns
@@ -145,23 +125,3 @@ def place_of_growth(quiet: Response, growing: Response, criterion: Criterion) ->
     first = int(np.argmax(found))
     until = first + round(criterion.after / growing.dt) + 1
     return float((first + np.argmax(growing.ratio[first:until])) * growing.dt)
-
-
-def misfit(measured: Response, predicted: Response) -> float:
-    """Give the RMS of predicted less measured angle over α, until either first passes α; as the stage `compare`."""
-    beyond = np.maximum(measured.ratio, predicted.ratio) >= 1.0
-    until = int(np.argmax(beyond)) if beyond.any() else measured.ratio.size
-    block = measured.block
-    return nrmse(measured.angle[:until], predicted.angle[:until], block.critical_angle)
-
-
-def agrees(measured: Response, predicted: Response, criterion: Criterion, distance: float | None = None) -> bool:
-    """
-    Tell whether measured and predicted agree well.
-
-    The measured one rocks above `criterion.quiet` (that two blocks stand still is no agreement), both overturn or both
-    stand, and their `misfit`, or the `distance` if it is already known, is below `criterion.nrmse`.
-    """
-    if measured.largest_so_far[-1] < criterion.quiet or measured.overturns != predicted.overturns:
-        return False
-    return (misfit(measured, predicted) if distance is None else distance) < criterion.nrmse

@@ -17,7 +17,7 @@ from colonnade.dynamics.contact.modes import keep_modes
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.dynamics.contact.start import Start
 from colonnade.dynamics.motion import Motion
-from contact_model.unreduced import (
+from unreduced import (
     NO_VISCOSITY,
     BulkViscosity,
     ExplicitRun,

@@ -17,7 +17,7 @@ from colonnade.dynamics.contact.elastic.reduction import rigid_on_nodes
 from colonnade.dynamics.contact.elastic.viscosity import LINEAR_VISCOSITY, linear_coefficients, modal_damping
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.start import Start, rotation_matrices
-from contact_model.unreduced_steps import advance
+from unreduced_steps import advance
 
 STEP_MARGIN = 0.5
 """Default step, as a share of the estimated stable one: nearer to 1, contact that comes and goes gains energy."""
