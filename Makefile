@@ -24,9 +24,9 @@ RELEASE_INSTALLED := .venv/installed-release
 # Files of tests are shared out over the cores, each file to one of them, where it computes in one thread.
 TESTED := OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest --numprocesses logical --maxprocesses 4 --dist loadfile \
   --no-loadscope-reorder --durations=10
-# 5000 records (ten minutes and more); 1000 tests judged by their spread (a quarter of an hour); 480 tests forecast and
-# scored (five minutes); 3000 sets of records (ten minutes); the contact model (half an hour); Span 2.5 (half an hour).
-STUDIES := restitution verdict forecast fragility contact span
+# 5000 records (three minutes on two cores); 1000 tests judged by their spread (six); 480 tests forecast and scored
+# (two); 3000 sets of records (a quarter of an hour).
+STUDIES := restitution verdict forecast fragility
 
 # Each command and worker starts several seconds sooner if Python keeps the bytecode of what it has imported.
 unexport PYTHONDONTWRITEBYTECODE
@@ -80,7 +80,6 @@ reports: $(INSTALLED)
 
 reproduce: $(INSTALLED)
 	$(BIN)/python reports/reproduce.py
-	$(BIN)/python reports/span_study.py
 
 release: $(RELEASE_INSTALLED)
 	@$(BIN)/python tools/release.py "$(VERSION)" $(PYTHONS) --fits "$(FITS)"

@@ -31,12 +31,12 @@ class Row(NamedTuple):
 
 
 class Study(NamedTuple):
-    """A study: its title, its JSON file and its page, the command that makes it, and its rows."""
+    """A study: its title, its JSON file and its page, what makes it, and its rows."""
 
     title: str
     numbers: str
     page: str
-    command: str
+    maker: str
     rows: Callable[[Found], list[Row]]
 
 
@@ -189,13 +189,19 @@ def _demo(found: Found) -> list[Row]:
 
 
 STUDIES = (
-    Study("Restitution", "restitution-study", "restitution-study", "make study NAME=restitution", _restitution),
-    Study("Verdict on a prediction", "verdict-study", "verdict-study", "make study NAME=verdict", _verdict),
-    Study("Forecasts", "forecast-study", "forecast-study", "make study NAME=forecast", _forecasts),
-    Study("Fragility", "fragility-study", "fragility-study", "make study NAME=fragility", _fragilities),
-    Study("Contact model", "contact-study", "contact-study", "make study NAME=contact", _contact),
-    Study("The paper's schemes", "convergence", "convergence", "python reports/convergence.py", _convergence),
-    Study("The whole programme", "demo", "demo", "python reports/rebuild.py", _demo),
+    Study("Restitution", "restitution-study", "restitution-study", "`make study NAME=restitution`", _restitution),
+    Study("Verdict on a prediction", "verdict-study", "verdict-study", "`make study NAME=verdict`", _verdict),
+    Study("Forecasts", "forecast-study", "forecast-study", "`make study NAME=forecast`", _forecasts),
+    Study("Fragility", "fragility-study", "fragility-study", "`make study NAME=fragility`", _fragilities),
+    Study(
+        "Contact model",
+        "contact-study",
+        "contact-study",
+        "a program that has left the tree since (commit `ede3d35`)",
+        _contact,
+    ),
+    Study("The paper's schemes", "convergence", "convergence", "`python reports/convergence.py`", _convergence),
+    Study("The whole programme", "demo", "demo", "`python reports/rebuild.py`", _demo),
 )
 
 
@@ -206,7 +212,7 @@ def measured(folder: Path = HERE) -> str:
         found = json.loads((folder / f"{study.numbers}.json").read_text(encoding="utf-8"))
         parts += [
             f"### {study.title}",
-            f"[The study](../../reports/{study.page}.md), made by `{study.command}`.",
+            f"[The study](../../reports/{study.page}.md), made by {study.maker}.",
             table(("check", "figure", "what it does not show"), study.rows(found)),
         ]
     parts += [

@@ -6,97 +6,48 @@ Everything here is loaded when it is first used, so that `import colonnade` and 
 
 from __future__ import annotations
 
+import re
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from colonnade.assessment.fragility.summary import Fragility
-    from colonnade.assessment.intensity.measured import IntensityMeasures, intensity_measures
-    from colonnade.assessment.on_motions import fragility
-    from colonnade.dynamics.block import Block
-    from colonnade.dynamics.ensembles.ensemble import ensemble
-    from colonnade.dynamics.ensembles.outcome import Ensemble
-    from colonnade.dynamics.ensembles.uncertainty import Uncertainty
-    from colonnade.dynamics.history import History
-    from colonnade.dynamics.maps.chart import StabilityMap, stability_map
-    from colonnade.dynamics.motion import Motion
-    from colonnade.dynamics.plane.reactions import Reactions, reactions
-    from colonnade.dynamics.restitution_law import RestitutionLaw
-    from colonnade.dynamics.rock import rock
-    from colonnade.dynamics.spectra.overturning import OverturningSpectrum, overturning_spectrum
-    from colonnade.dynamics.spectra.spectrum import RockingSpectrum, rocking_spectrum
-    from colonnade.errors import ColonnadeError
-    from colonnade.figures.plot import animate, plot
-    from colonnade.identification.fusion.angle import rocking_angle
-    from colonnade.identification.restitution.identify import identify_restitution
-    from colonnade.identification.restitution.result import Restitution
-    from colonnade.readers.motion import read_motion
-    from colonnade.workflow.run import run
+    from colonnade.assessment.fragility.summary import Fragility as Fragility
+    from colonnade.assessment.intensity.measured import IntensityMeasures as IntensityMeasures
+    from colonnade.assessment.intensity.measured import intensity_measures as intensity_measures
+    from colonnade.assessment.on_motions import fragility as fragility
+    from colonnade.dynamics.block import Block as Block
+    from colonnade.dynamics.ensembles.ensemble import ensemble as ensemble
+    from colonnade.dynamics.ensembles.outcome import Ensemble as Ensemble
+    from colonnade.dynamics.ensembles.uncertainty import Uncertainty as Uncertainty
+    from colonnade.dynamics.history import History as History
+    from colonnade.dynamics.maps.chart import StabilityMap as StabilityMap
+    from colonnade.dynamics.maps.chart import stability_map as stability_map
+    from colonnade.dynamics.motion import Motion as Motion
+    from colonnade.dynamics.plane.reactions import Reactions as Reactions
+    from colonnade.dynamics.plane.reactions import reactions as reactions
+    from colonnade.dynamics.restitution_law import RestitutionLaw as RestitutionLaw
+    from colonnade.dynamics.rock import rock as rock
+    from colonnade.dynamics.spectra.overturning import OverturningSpectrum as OverturningSpectrum
+    from colonnade.dynamics.spectra.overturning import overturning_spectrum as overturning_spectrum
+    from colonnade.dynamics.spectra.spectrum import RockingSpectrum as RockingSpectrum
+    from colonnade.dynamics.spectra.spectrum import rocking_spectrum as rocking_spectrum
+    from colonnade.errors import ColonnadeError as ColonnadeError
+    from colonnade.figures.plot import animate as animate
+    from colonnade.figures.plot import plot as plot
+    from colonnade.identification.fusion.angle import rocking_angle as rocking_angle
+    from colonnade.identification.restitution.identify import identify_restitution as identify_restitution
+    from colonnade.identification.restitution.result import Restitution as Restitution
+    from colonnade.readers.motion import read_motion as read_motion
+    from colonnade.workflow.run import run as run
 
 __version__ = "0.1.0"
 
-__all__ = [
-    "Block",
-    "ColonnadeError",
-    "Ensemble",
-    "Fragility",
-    "History",
-    "IntensityMeasures",
-    "Motion",
-    "OverturningSpectrum",
-    "Reactions",
-    "Restitution",
-    "RestitutionLaw",
-    "RockingSpectrum",
-    "StabilityMap",
-    "Uncertainty",
-    "__version__",
-    "animate",
-    "ensemble",
-    "fragility",
-    "identify_restitution",
-    "intensity_measures",
-    "overturning_spectrum",
-    "plot",
-    "reactions",
-    "read_motion",
-    "rock",
-    "rocking_angle",
-    "rocking_spectrum",
-    "run",
-    "stability_map",
-]
+# Editors and mypy read the names above; so does a running program, which loads each with its module when it is used.
+_OFFERED = re.compile(r"^    from (\S+) import (\w+) as", re.MULTILINE)
+_ROOMS = {name: room for room, name in _OFFERED.findall(Path(__file__).read_text(encoding="utf-8"))}
 
-_ROOMS = {
-    "Block": "colonnade.dynamics.block",
-    "ColonnadeError": "colonnade.errors",
-    "Ensemble": "colonnade.dynamics.ensembles.outcome",
-    "Fragility": "colonnade.assessment.fragility.summary",
-    "History": "colonnade.dynamics.history",
-    "IntensityMeasures": "colonnade.assessment.intensity.measured",
-    "Motion": "colonnade.dynamics.motion",
-    "OverturningSpectrum": "colonnade.dynamics.spectra.overturning",
-    "Reactions": "colonnade.dynamics.plane.reactions",
-    "Restitution": "colonnade.identification.restitution.result",
-    "RestitutionLaw": "colonnade.dynamics.restitution_law",
-    "RockingSpectrum": "colonnade.dynamics.spectra.spectrum",
-    "StabilityMap": "colonnade.dynamics.maps.chart",
-    "Uncertainty": "colonnade.dynamics.ensembles.uncertainty",
-    "animate": "colonnade.figures.plot",
-    "ensemble": "colonnade.dynamics.ensembles.ensemble",
-    "fragility": "colonnade.assessment.on_motions",
-    "identify_restitution": "colonnade.identification.restitution.identify",
-    "intensity_measures": "colonnade.assessment.intensity.measured",
-    "overturning_spectrum": "colonnade.dynamics.spectra.overturning",
-    "plot": "colonnade.figures.plot",
-    "reactions": "colonnade.dynamics.plane.reactions",
-    "read_motion": "colonnade.readers.motion",
-    "rock": "colonnade.dynamics.rock",
-    "rocking_angle": "colonnade.identification.fusion.angle",
-    "rocking_spectrum": "colonnade.dynamics.spectra.spectrum",
-    "run": "colonnade.workflow.run",
-    "stability_map": "colonnade.dynamics.maps.chart",
-}
+__all__ = ["__version__", *_ROOMS]
 
 
 def __getattr__(name: str) -> Any:

@@ -4,23 +4,16 @@ from __future__ import annotations
 
 import ast
 import hashlib
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any
 
 PACKAGE = Path(__file__).parent
 """Folder of the package."""
 
-_DATA = (".jinja", ".css", ".js", ".mplstyle", ".typ")
-"""Suffixes of templates, scripts and styles: what they say counts to the byte."""
-
-
-class _Module(NamedTuple):
-    """Hash of what a module does, and the modules of this package that it names."""
-
-    digest: str
-    names: frozenset[str]
+_DATA = (".jinja", ".css", ".js", ".mplstyle", ".typ", ".csv", ".toml")
+"""Suffixes of templates, scripts, styles and tables: what they say counts to the byte."""
 
 
 def package_hash() -> str:
@@ -48,7 +41,7 @@ def code_hash(roots: Collection[str], *, alone: Collection[str] = (), without: C
     -------
     code : str
         SHA-256 of the modules as parsed: a comment, a docstring or a blank line changes nothing. With a room count its
-        templates, scripts and styles.
+        templates, scripts, styles and tables.
     """
     reached: set[str] = set()
     waiting = [name for name in _modules() if _is_in(name, roots)]
@@ -58,11 +51,8 @@ def code_hash(roots: Collection[str], *, alone: Collection[str] = (), without: C
             continue
         reached.add(name)
         if not _is_in(name, alone):
-            waiting += _module(name).names
-    digest = hashlib.sha256()
-    for name in sorted(reached):
-        digest.update(f"{name} {_module(name).digest}\n".encode())
-    return digest.hexdigest()
+            waiting += _module(name)[1]
+    return hashlib.sha256("".join(f"{name} {_module(name)[0]}\n" for name in sorted(reached)).encode()).hexdigest()
 
 
 def _is_in(name: str, folders: Collection[str]) -> bool:
@@ -71,64 +61,44 @@ def _is_in(name: str, folders: Collection[str]) -> bool:
 
 @cache
 def _modules() -> dict[str, Path]:
-    """Files of the package's modules, by name."""
+    """Files of the package's modules, by name; not the package itself, which only lists names."""
     found = {}
     for path in PACKAGE.rglob("*.py"):
         parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
         found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    del found[PACKAGE.name]
     return found
 
 
+class _Effective(ast.NodeTransformer):
+    """Leaves out texts alone, such as docstrings, and what is there only to check types."""
+
+    def visit_Expr(self, node: ast.Expr) -> Any:
+        is_text = isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
+        return None if is_text else node
+
+    def visit_If(self, node: ast.If) -> Any:
+        self.generic_visit(node)
+        return node.orelse if ast.unparse(node.test) == "TYPE_CHECKING" else node
+
+
 @cache
-def _module(name: str) -> _Module:
-    tree = ast.parse(_modules()[name].read_bytes())
-    names = frozenset(known for named in _named(tree) for known in _with_packages(named) if known != name)
-    for node in ast.walk(tree):
-        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)):
-            node.body = [each for each in node.body if not _is_text(each)]
+def _module(name: str) -> tuple[str, frozenset[str]]:
+    """Hash of what a module does, and the modules of this package that it names, with the rooms around them."""
+    path = _modules()[name]
+    tree = _Effective().visit(ast.parse(path.read_bytes()))
     digest = hashlib.sha256(ast.dump(tree).encode())
-    for path in _data(_modules()[name]):
-        digest.update(f"{path.name}\n".encode() + path.read_bytes())
-    return _Module(digest.hexdigest(), names)
+    if path.name == "__init__.py" and path.parent.parent == PACKAGE:
+        for data in sorted(each for each in path.parent.rglob("*") if each.suffix in _DATA):
+            digest.update(f"{data.name}\n".encode() + data.read_bytes())
+    named: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            start = f"{node.module}." if isinstance(node, ast.ImportFrom) else ""
+            named |= {f"{start}{alias.name}" for alias in node.names}
+    around = {each[:end] for each in named for end in (*_dots(each), len(each))}
+    return digest.hexdigest(), frozenset(around & _modules().keys() - {name})
 
 
-def _data(module: Path) -> list[Path]:
-    """Templates, scripts and styles of a room: those in its folder, and in folders below that hold no modules."""
-    if module.name != "__init__.py" or module.parent == PACKAGE:
-        return []
-    return sorted(
-        path
-        for path in module.parent.rglob("*")
-        if path.suffix in _DATA and next(folder for folder in path.parents if _is_room(folder)) == module.parent
-    )
-
-
-def _is_room(folder: Path) -> bool:
-    return (folder / "__init__.py").exists()
-
-
-def _is_text(node: ast.stmt) -> bool:
-    """Whether a statement is a text alone, such as a docstring."""
-    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
-
-
-def _named(node: ast.AST) -> Iterator[str]:
-    """Give each name that is imported, and may be a module's; not what is imported only to check types."""
-    if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
-        children: Iterator[ast.AST] = iter(node.orelse)
-    else:
-        children = ast.iter_child_nodes(node)
-    if isinstance(node, ast.Import):
-        yield from (alias.name for alias in node.names)
-    elif isinstance(node, ast.ImportFrom) and node.module:
-        yield from (f"{node.module}.{alias.name}" for alias in node.names)
-    for child in children:
-        yield from _named(child)
-
-
-def _with_packages(name: str) -> Iterator[str]:
-    """Give the module that a name is, or is of, and the rooms around it; not the package, which only lists names."""
-    parts = name.split(".")
-    if parts[0] == PACKAGE.name:
-        names = (".".join(parts[:count]) for count in range(2, len(parts) + 1))
-        yield from (each for each in names if each in _modules())
+def _dots(name: str) -> list[int]:
+    return [place for place, sign in enumerate(name) if sign == "."]

@@ -21,10 +21,13 @@ def _cone_volume(base: float, top: float, height: float) -> float:
     return pi * height / 12 * (base**2 + base * top + top**2)
 
 
+SIZES = {"width": 0.086, "depth": 0.086, "height": 0.456}
+"""m, of the prism."""
+
 TABLE_1 = {
     "prism": Row(
-        Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10),
-        0.086 * 0.086 * 0.456,
+        Block.prism(**SIZES, mass=26.10),
+        SIZES["width"] * SIZES["depth"] * SIZES["height"],
         {"critical_angle": 0.1886, "pole_distance": 0.232, "inertia": 1.873, "p": 5.631},
     ),
     "cylinder": Row(
@@ -39,6 +42,18 @@ TABLE_1 = {
     ),
 }
 """The specimens from their dimensions, next to what the paper's Table 1 prints."""
+
+TABLE_2 = {
+    ("coarse", 1e-4): (1.70, 25),
+    ("coarse", 1e-5): (0.25, 200),
+    ("coarse", 1e-6): (0.25, 2000),
+    ("medium", 1e-4): (2.20, 70),
+    ("medium", 1e-5): (0.40, 600),
+    ("medium", 1e-6): (0.40, 6000),
+    ("fine", 1e-4): (2.60, 300),
+    ("fine", 1e-5): (0.40, 2700),
+}
+"""Critical damping fraction and seconds of each mesh and step (s)."""
 
 LAST_DIGIT = {"critical_angle": 1e-4, "pole_distance": 1e-3, "inertia": 1e-3, "p": 1e-3}
 """One unit of the last digit that the table prints."""

@@ -17,8 +17,8 @@ from colonnade.identification.response.order import response_order
 from colonnade.signals.metrics import nrmse
 from colonnade.store.records.stored import Stored
 from reproduction.campaign import ANALYTICAL, NUMERICAL
+from reproduction.growth import Criterion, Response, place_of_growth
 from reproduction.printed import SPANS
-from span_two_and_a_half.criterion import Criterion, Response, place_of_growth
 
 Numbers = dict[str, Any]
 

@@ -22,6 +22,7 @@ from colonnade.store.records.stored import Stored, read_test
 from colonnade.store.records.summary import map_points, read_summary
 from reproduction import computed, responses, tables
 from reproduction.campaign import CYCLES, MAP_RAMP, NUMERICAL, SEED, SPECIMEN
+from reproduction.misfit import added, judged
 
 Numbers = dict[str, Any]
 
@@ -163,8 +164,6 @@ def _convergence(reports: Path) -> list[Numbers]:
 
 def _three_dimensional(study: Numbers) -> Numbers:
     """Give what the contact study found of rocking that leaves its plane, at its largest release."""
-    from contact_model.misfit_words import added, judged
-
     runs = study["misfit"]
     release = max(run["release"] for run in runs)
     verdicts = {kind: {"size": size, "prism": prism} for kind, (size, prism) in judged(runs, release).items()}

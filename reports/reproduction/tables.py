@@ -9,9 +9,7 @@ from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.dynamics.contact.elastic.assembly import STEELS_MODULUS, STEELS_POISSON_RATIO
 from colonnade.dynamics.contact.elastic.mesh import PAPERS_DEGREES_OF_FREEDOM
 from colonnade.dynamics.contact.elastic.model import mesh_of
-from contact_model.damping import PAPER
-from contact_model.free import SIZES
-from reproduction.printed import LAST_DIGIT, TABLE_1
+from reproduction.printed import LAST_DIGIT, SIZES, TABLE_1, TABLE_2
 
 Numbers = dict[str, Any]
 
@@ -41,7 +39,7 @@ def table_2(study: Numbers) -> list[Numbers]:
     """Lay each cell of the paper's Table 2 beside the one that the contact study found, which holds the numbers."""
     ours = {(cell["body"], cell["step"]): cell for cell in study["table"]}
     rows = []
-    for ((mesh, step), (fraction, cost)), run in zip(PAPER.items(), study["papers"], strict=True):
+    for ((mesh, step), (fraction, cost)), run in zip(TABLE_2.items(), study["papers"], strict=True):
         cell = ours[mesh, step]
         rows.append(
             {

@@ -17,6 +17,7 @@ from colonnade.laboratory.record import load_record
 from reproduction import campaign, computed, drawings, printed, tables
 from reproduction.contents import PAGES
 from reproduction.markdown import VIRTUAL
+from reproduction.misfit import judged
 from reproduction.pages import pages
 from reproduction.results import STUDY, rounded
 from reproduction.slips import SLIPS
@@ -249,3 +250,20 @@ def test_the_whole_reproduction_gives_its_numbers_again(kept, tmp_path):
         assert test["outcome"] == kept["tests"][name]["outcome"], name
         if test["peak_ratio"] is not None:
             assert test["peak_ratio"] == pytest.approx(kept["tests"][name]["peak_ratio"], abs=1e-3), name
+
+
+def _disturbed(prism, round_ones):
+    """Runs of a release at 0.9 α whose added misfit is proportional to the size of one disturbance."""
+    return [
+        {"specimen": specimen, "kind": kind, "size": size, "release": 0.9, "misfit": {"nonlinear": 0.01 + share * size}}
+        for specimen, share in (("prism", prism), ("cylinder", round_ones), ("cone", 1.25 * round_ones))
+        for kind, size in (("none", 0.0), ("push", 0.001), ("push", 0.01))
+    ]
+
+
+def test_the_verdict_on_rocking_in_space_follows_the_misfits():
+    needed, prism = judged(_disturbed(0.1, 20.0), 0.9)["push"]
+    assert needed == pytest.approx(0.0025)  # what gives the cylinder, the less moved of the two, 5 % of α
+    assert prism == pytest.approx(0.1 * 0.01)
+    assert judged(_disturbed(20.0, 20.0), 0.9)["push"][0] is None  # the prism moves as much
+    assert judged(_disturbed(0.0, 1.0), 0.9)["push"][0] is None  # too little to be seen

@@ -9,7 +9,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from colonnade.campaign.settings import PlaneEnsembleSettings
 from colonnade.dynamics.block import Block
 from colonnade.findings import Severity
 from colonnade.stages.specimen import SpecimenInputs, restitution_spread, specimen, taken
@@ -78,7 +77,7 @@ def test_the_e_lies_among_those_of_the_tests_and_within_its_interval(values, err
     ids=["two tests", "one test", "given", "rigid body"],
 )
 def test_predictions_take_e_of_a_new_test(tests, given_e, spread):
-    found = restitution_spread(specimen(tests, inputs(given_e)), PlaneEnsembleSettings(restitution=0.004))
+    found = restitution_spread(specimen(tests, inputs(given_e)), usual=0.004)
     assert found == (pytest.approx(spread[0], rel=1e-4), spread[1])
 
 

@@ -1,6 +1,5 @@
 """The NetCDF files: the result of each stage with its variables, from the tables that describe them when written."""
 
-from colonnade.store.contents import CONTENTS
 from colonnade.store.description import FLAG_MEANINGS, FLAG_VALUES
 from colonnade.store.results import STAGES
 from colonnade.store.variables import VARIABLES
@@ -28,7 +27,7 @@ def pages():
         path = stage.file.replace("{subject}", "<id>").replace("{model}", "<model>")
         parts.append(target(f"file-{name}") + f"## `processed/{path}.nc`\n\n{stage.summary} *(stage {name})*\n\n")
         parts.append(CHANNELS if name in ("ingest", "condition") else "")
-        rows = [row(each) for each in CONTENTS[name]]
+        rows = [row(each) for each, entry in VARIABLES.items() if name in entry.stages]
         parts.append(table(("variable", "unit", "what it is"), rows))
     flags = zip(FLAG_VALUES, FLAG_MEANINGS.split(), strict=True)
     parts.append(

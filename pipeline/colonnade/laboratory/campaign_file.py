@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import json
-import re
-from collections.abc import Mapping
-from datetime import date
 from pathlib import Path
 
 from colonnade import units
+from colonnade.campaign.syntax.document import toml_key, toml_value
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.errors import CampaignError
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Trial, raw_path
@@ -55,7 +52,7 @@ def campaign_text(plan: Plan) -> str:
     if gravity != STANDARD_GRAVITY:
         lines.append(f'gravity = "{gravity} m/s^2"')
     lines.append(_SPECIMENS + "[specimens]")
-    lines += [f"{toml_key(name)} = {_inline(specimen.shape)}" for name, specimen in plan.specimens.items()]
+    lines += [f"{toml_key(name)} = {toml_value(specimen.shape)}" for name, specimen in plan.specimens.items()]
     for number, (name, setup) in enumerate(plan.setups.items()):
         lines += _setup(name, setup, explained=number == 0)
     lines.append(_TESTS.rstrip())
@@ -92,7 +89,7 @@ def _setup(name: str, setup: Setup, *, explained: bool) -> list[str]:
     lines.append((_CHANNELS if explained else "\n") + f"[setups.{toml_key(name)}.channels]")
     for recorder_name, recorder in setup.recorders.items():
         lines += [
-            f"{toml_key(each.channel)} = {_inline(_channel(each, recorder_name))}" for each in recorder.transducers
+            f"{toml_key(each.channel)} = {toml_value(_channel(each, recorder_name))}" for each in recorder.transducers
         ]
     return lines
 
@@ -101,7 +98,7 @@ def _file(flavour: FileFormat) -> list[str]:
     said = flavour.declaration()
     if not said:
         return ["# Delimiter, decimal sign, names and units are detected from the files."]
-    return [f"file = {_inline(said)}    # every key is optional: what is not given is detected"]
+    return [f"file = {toml_value(said)}    # every key is optional: what is not given is detected"]
 
 
 def _recorder(setup: str, name: str, recorder: Recorder) -> list[str]:
@@ -150,24 +147,3 @@ def _trial(plan: Plan, trial: Trial, position: int) -> list[str]:
     entry["file"] = paths[MAIN] if len(paths) == 1 else paths
     entry |= {"date": begun(position).date(), "operator": OPERATOR}
     return ["", "[[tests]]", *(f"{key} = {toml_value(value)}" for key, value in (entry | dict(trial.entry)).items())]
-
-
-def _inline(table: Mapping[str, object]) -> str:
-    return "{" + ", ".join(f"{toml_key(key)} = {toml_value(value)}" for key, value in table.items()) + "}"
-
-
-def toml_value(value: object) -> str:
-    """Write a value as TOML."""
-    if isinstance(value, Mapping):
-        return _inline(value)
-    if isinstance(value, list):
-        return "[" + ", ".join(toml_value(each) for each in value) + "]"
-    if isinstance(value, date):
-        return value.isoformat()
-    # JSON's strings are TOML's basic strings.
-    return json.dumps(value, ensure_ascii=False)
-
-
-def toml_key(name: str) -> str:
-    """Write a key as TOML."""
-    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else toml_value(name)

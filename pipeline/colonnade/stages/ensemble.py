@@ -124,7 +124,7 @@ def _uncertainty(
     is_driven: bool,
 ) -> Uncertainty:
     noise, cutoff = _base_noise(conditioned, inputs.table) if is_driven else (0.0, None)
-    restitution, freedom = restitution_spread(specimen, inputs.settings)
+    restitution, freedom = restitution_spread(specimen, inputs.settings.restitution)
     return Uncertainty(
         restitution=restitution,
         restitution_freedom=freedom,

@@ -10,7 +10,6 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign
-from colonnade.campaign.settings import PlaneEnsembleSettings
 from colonnade.dynamics.block import Block, Sided, pair
 from colonnade.findings import Finding, note, warning
 from colonnade.identification.restitution.pooling import pool
@@ -104,12 +103,12 @@ def taken(stored: xr.Dataset | None, inputs: SpecimenInputs) -> xr.Dataset:
     return _taken(found, inputs)
 
 
-def restitution_spread(pooled: xr.Dataset, settings: PlaneEnsembleSettings) -> tuple[float, int | None]:
+def restitution_spread(pooled: xr.Dataset, usual: float) -> tuple[float, int | None]:
     """Give the standard deviation of e in a new test and its degrees of freedom, as of `Pooled.of_new_test`."""
     if pooled.attrs["restitution_source"] != "identified":
-        return settings.restitution, None
+        return usual, None
     tests = pool(pooled["test_restitution"].to_numpy(), pooled["test_restitution_standard_error"].to_numpy())
-    return tests.of_new_test(settings.restitution)
+    return tests.of_new_test(usual)
 
 
 def _is_of(stored: xr.Dataset, block: Block) -> bool:

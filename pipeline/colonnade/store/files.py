@@ -2,8 +2,7 @@
 NetCDF and text on disk: whole or not at all.
 
 A file is written in the same folder under a temporary name and renamed in one step, so a kill at any instant leaves the
-old file or the new one. NetCDF is made in memory first, except for long arrays (see `long_arrays`). Reading checks the
-stored hash of the values.
+old file or the new one. Reading checks the stored hash of the values.
 """
 
 from __future__ import annotations
@@ -12,31 +11,23 @@ import errno
 import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, TypeVar
+from typing import IO, TYPE_CHECKING, Any
 
 from colonnade.errors import StoreError
-from colonnade.store.attributes import restored, storable
 from colonnade.store.description import describe
-from colonnade.store.loading import LABEL, loaded
-from colonnade.store.long_arrays import write_file
+from colonnade.store.netcdf import attributes_of, dump, loaded, restored, storable
 from colonnade.store.own_files import own_files
-from colonnade.store.provenance import content_hash, coverage, is_long
+from colonnade.store.provenance import content_hash, coverage
 
 if TYPE_CHECKING:
     import netCDF4
     import xarray as xr
-    from xarray.backends import NetCDF4DataStore
 
 PARTIAL = ".partial"
 """Ending of temporary names, as a killed run leaves them."""
-
-_COMPRESSION = {"zlib": True, "complevel": 4, "shuffle": True}
-
-Result = TypeVar("Result")
 
 _permit: ContextVar[Callable[[], None] | None] = ContextVar("permit", default=None)
 
@@ -91,11 +82,7 @@ def write(dataset: xr.Dataset, path: Path, *, attributes: Mapping[str, Any]) -> 
     described.attrs = storable({"status": "done", "warnings": [], **dataset.attrs, **attributes, **coverage(dataset)})
     for variable in described.variables.values():
         variable.attrs = storable(variable.attrs)
-    if any(map(is_long, described.variables.values())):
-        described.attrs["content"] = _put_long(path, described)
-    else:
-        described.attrs["content"] = content_hash(described)
-        _put(path, _to_bytes(described, path))
+    _put_result(path, described)
     described.attrs = restored(described.attrs)
     return described
 
@@ -105,8 +92,12 @@ def write_failed(path: Path, reason: str, *, attributes: Mapping[str, Any]) -> N
     import xarray as xr
 
     failed = xr.Dataset(attrs=storable({"warnings": [], **attributes, "status": "failed", "reason": reason}))
-    failed.attrs["content"] = content_hash(failed)
-    _put(path, _to_bytes(failed, path))
+    _put_result(path, failed)
+
+
+def _put_result(path: Path, dataset: xr.Dataset) -> None:
+    dataset.attrs["content"] = content_hash(dataset)
+    _in_one_step(path, lambda partial: dump(partial, dataset))
 
 
 def read(path: Path) -> xr.Dataset:
@@ -123,15 +114,8 @@ def read(path: Path) -> xr.Dataset:
     StoreError
         If it is missing, is not a whole NetCDF file, or its values differ from those that were written.
     """
-    import netCDF4
-
-    try:
-        with netCDF4.Dataset(path.name, memory=path.read_bytes()) as opened:
-            dataset = loaded(opened)
-    except FileNotFoundError:
-        raise StoreError(f"{path}: result not found. Run `colonnade run` to make it.") from None
-    except (OSError, RuntimeError, ValueError, KeyError) as error:
-        raise _damaged(path, f"it cannot be read as NetCDF ({error})") from error
+    with _opened(path) as opened:
+        dataset = loaded(opened)
     if dataset.attrs.get("content") != content_hash(dataset):
         raise _damaged(path, "its values differ from those that were written")
     dataset.attrs = restored(dataset.attrs)
@@ -147,14 +131,20 @@ def read_attributes(path: Path) -> dict[str, Any]:
     StoreError
         If the file is missing or is not a NetCDF file.
     """
+    with _opened(path) as opened:
+        return restored(attributes_of(opened))
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[netCDF4.Dataset]:
     import netCDF4
 
     try:
         with netCDF4.Dataset(path) as opened:
-            return restored({name: opened.getncattr(name) for name in opened.ncattrs()})
+            yield opened
     except FileNotFoundError:
         raise StoreError(f"{path}: result not found. Run `colonnade run` to make it.") from None
-    except (OSError, RuntimeError, ValueError) as error:
+    except (OSError, RuntimeError, ValueError, KeyError) as error:
         raise _damaged(path, f"it cannot be read as NetCDF ({error})") from error
 
 
@@ -179,7 +169,7 @@ def write_text(path: Path, text: str) -> bool:
         pass
     except OSError as error:
         raise _unwritable(path, error) from error
-    _put(path, data)
+    write_bytes(path, data)
     return True
 
 
@@ -192,7 +182,7 @@ def write_bytes(path: Path, data: bytes | memoryview) -> None:
     StoreError
         If it cannot be written.
     """
-    _put(path, data)
+    write_stream(path, lambda stream: stream.write(data))
 
 
 def write_stream(path: Path, write_to: Callable[[IO[bytes]], object]) -> None:
@@ -233,74 +223,14 @@ def sweep(folder: Path) -> None:
             remove(path)
 
 
-def _to_bytes(dataset: xr.Dataset, path: Path) -> memoryview:
-    import netCDF4
-
-    opened = netCDF4.Dataset(path.name, "w", memory=1024)
-    _prepared(dataset).dump_to_store(_backend(opened))
-    return _trimmed(memoryview(opened.close()))
-
-
-def _prepared(dataset: xr.Dataset) -> xr.Dataset:
-    """Set how xarray stores each variable."""
-    # Text as text: of an empty array of objects xarray would make numbers.
-    texts = {name: value.astype(str) for name, value in dataset.variables.items() if value.dtype.kind == "O"}
-    prepared = _without_labels(dataset.assign(texts))
-    for variable in prepared.variables.values():
-        if variable.dtype.kind in "fiu":
-            # Missing samples are NaN and flagged; a fill value on a clock would be against CF.
-            how = {"contiguous": True} if is_long(variable) else _COMPRESSION if variable.ndim > 0 else {}
-            variable.encoding = {"_FillValue": None} | how
-    return prepared
-
-
-def _trimmed(image: memoryview) -> memoryview:
-    """Cut what HDF5 reserved beyond the file's end; its superblock (version 2 or 3) says where that is."""
-    end = int.from_bytes(image[28:36], "little")
-    return image[:end] if image[8] in (2, 3) and 0 < end <= len(image) else image
-
-
-def _backend(opened: netCDF4.Dataset) -> NetCDF4DataStore:
-    from xarray.backends import NetCDF4DataStore
-
-    return NetCDF4DataStore(opened)  # type: ignore[no-untyped-call]
-
-
-def _without_labels(dataset: xr.Dataset) -> xr.Dataset:
-    """Store text that names a dimension's positions as `<dimension>_name`: CF coordinate variables are numbers."""
-    names = [str(name) for name in dataset.dims if name in dataset.variables and dataset[name].dtype.kind in "OUT"]
-    prepared = dataset.copy()
-    for name in names:
-        label = dataset[name].variable
-        prepared = prepared.drop_vars(name).assign_coords({f"{name}{LABEL}": (label.dims, label.values, label.attrs)})
-    return prepared
-
-
-def _put_long(path: Path, dataset: xr.Dataset) -> str:
-    """Write a result with long arrays, while its content is hashed; return the hash."""
-    prepared = _prepared(dataset)
-
-    def write_to(partial: Path) -> str:
-        with ThreadPoolExecutor(1) as pool:
-            content = pool.submit(content_hash, dataset)
-            write_file(partial, prepared, content)
-        return content.result()
-
-    return _in_one_step(path, write_to)
-
-
-def _put(path: Path, data: bytes | memoryview) -> None:
-    write_stream(path, lambda stream: stream.write(data))
-
-
-def _in_one_step(path: Path, write_to: Callable[[Path], Result]) -> Result:
+def _in_one_step(path: Path, write_to: Callable[[Path], object]) -> None:
     """Have a file written under a temporary name, then put it in place."""
     partial = path.with_name(f".{path.name}.{os.getpid()}{PARTIAL}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         partial.unlink(missing_ok=True)  # it may be a link
         try:
-            result = write_to(partial)
+            write_to(partial)
             _expect_permit()
             partial.replace(path)
         except BaseException:  # Ctrl-C too: nothing half-written stays
@@ -308,7 +238,6 @@ def _in_one_step(path: Path, write_to: Callable[[Path], Result]) -> Result:
             raise
     except OSError as error:
         raise _unwritable(path, error) from error
-    return result
 
 
 def _unwritable(path: Path, error: OSError) -> StoreError:

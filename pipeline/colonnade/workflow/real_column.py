@@ -130,7 +130,10 @@ def find_column(
     else:
         written = {"restitution": IDENTIFIED}
     inputs = ColumnInputs(
-        block=known.block(campaign.gravity), scale=scale, prototype=_prototype(written, asked.properties)
+        block=known.block(campaign.gravity),
+        scale=scale,
+        prototype=_prototype(written, asked.properties),
+        usual_scatter=campaign.processing.predict.ensemble.restitution,
     )
     return FoundColumn(name, inputs, restitution_taken(campaign, layout, name))
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from contact_model.damping import PAPER
-from reproduction.printed import CHOSEN_FRACTION, DEGREES_OF_FREEDOM_IN_TEXT, RESTITUTION
+from reproduction.printed import CHOSEN_FRACTION, DEGREES_OF_FREEDOM_IN_TEXT, RESTITUTION, TABLE_2
 from reproduction.statement import HISTORIES, Answer, Numbers, Statement, assumed, judged, undecided
 from reproduction.tables import modulus_for
 
@@ -22,7 +21,7 @@ CONVERGED = 0.03
 
 
 def _cdf(mesh: str, step: float) -> Statement:
-    fraction, _ = PAPER[mesh, step]
+    fraction, _ = TABLE_2[mesh, step]
 
     def answer(numbers: Numbers) -> Answer:
         row = _row(numbers, mesh, step)
@@ -163,7 +162,7 @@ def _numerical_to_analytical(numbers: Numbers) -> Answer:
 
 
 def _cells() -> Iterator[Statement]:
-    for mesh, step in PAPER:
+    for mesh, step in TABLE_2:
         yield _cdf(mesh, step)
 
 

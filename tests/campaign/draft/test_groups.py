@@ -9,7 +9,7 @@ import pytest
 
 from colonnade.campaign import load
 from colonnade.campaign.draft import draft
-from colonnade.campaign.draft.groups import MOST_SETUPS
+from colonnade.campaign.draft.write import MOST_SETUPS
 from colonnade.errors import CampaignError
 
 TIME = np.arange(0.0, 1.0, 0.01)
@@ -64,7 +64,7 @@ def test_a_messy_folder_asks_first_which_files_are_recordings(messy, monkeypatch
     assert all(question.asked.startswith("recordings of tests (") for question in groups)
     assert any("tests/free-01.csv" in question.asked for question in groups)
     assert "which are recordings of tests?" in "\n".join(drafted.text.splitlines()[:10])
-    monkeypatch.setattr("colonnade.campaign.draft.writing.MOST_SETUPS", 100)
+    monkeypatch.setattr("colonnade.campaign.draft.write.MOST_SETUPS", 100)
     assert len(draft(messy.path).open) > 100  # what was asked at once before
 
 

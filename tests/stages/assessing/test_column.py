@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy import stats
 
 from colonnade.campaign.assessing.prototype import Prototype
 from colonnade.dynamics.block import Block
@@ -17,14 +18,21 @@ from colonnade.stages.assessing.column import ColumnInputs, real_column
 MODEL = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.1)
 
 
-def pooled(e=(0.976, 0.976), low=0.974, high=0.978, source="identified"):
+def pooled(e=(0.976, 0.976), tests=(0.975, 0.977), source="identified"):
     return xr.Dataset(
-        {"side_restitution": ("side", np.array(e)), "restitution_low": ((), low), "restitution_high": ((), high)},
+        {
+            "side_restitution": ("side", np.array(e)),
+            "level": ((), 0.95),
+            "test_restitution": ("test", np.array(tests)),
+            "test_restitution_standard_error": ("test", np.full(len(tests), 1e-6)),
+        },
         attrs={"restitution_source": source},
     )
 
 
-GIVEN = pooled(low=np.nan, high=np.nan, source="given")
+GIVEN = pooled(tests=(), source="given")
+OF_TWO = stats.t.ppf(0.975, 1) * np.sqrt(1.5) * np.std([0.975, 0.977], ddof=1)
+OF_ONE = stats.norm.ppf(0.975) * 0.005  # the usual scatter between tests
 
 
 def column(scale=20.0, stored=None, **written):
@@ -53,14 +61,9 @@ def test_what_is_given_replaces_what_follows_from_the_model():
 @pytest.mark.parametrize(
     ("written", "stored", "value", "limits", "source"),
     [
-        ({"restitution": "identified"}, pooled(), 0.976, (0.974, 0.978), "identified"),
-        (
-            {"restitution": "identified"},
-            pooled(low=np.nan, high=np.nan, source="given"),
-            0.976,
-            (0.956, 0.996),
-            "given",
-        ),
+        ({"restitution": "identified"}, pooled(), 0.976, (0.976 - OF_TWO, 0.976 + OF_TWO), "identified"),
+        ({"restitution": "identified"}, pooled(tests=[0.976]), 0.976, (0.976 - OF_ONE, 0.976 + OF_ONE), "identified"),
+        ({"restitution": "identified"}, GIVEN, 0.976, (0.956, 0.996), "given"),
         ({"restitution": "identified", "restitution_range": [0.9, 0.99]}, pooled(), 0.976, (0.9, 0.99), "identified"),
         ({"restitution": 0.95}, pooled(), 0.95, (0.93, 0.97), "given"),
         ({"restitution": 0.99}, pooled(), 0.99, (0.97, 1.0), "given"),

@@ -37,7 +37,7 @@ class Prototype(Table):
     ]
     """Its e: a number, "rigid-body", or "identified" to assume that it is the one that predictions of the model use."""
     restitution_range: Annotated[tuple[float, float], *_range(RESTITUTION, "[0.93, 0.97]")] | None = None
-    """Limits of e; without them the interval of the identified e, else 0.02 to either side."""
+    """Limits of e; without them the interval of the identified e in a new test, else 0.02 to either side."""
     critical_angle: Annotated[float, *_ANGLE] | None = Field(default=None, json_schema_extra={"unit": "rad"})
     """Its critical angle, such as "0.18 rad"; that of the specimen if it is not given."""
     critical_angle_range: Annotated[tuple[float, float], *_range(_ANGLE, '["0.17 rad", "0.19 rad"]')] | None = Field(

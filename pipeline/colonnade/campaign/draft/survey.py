@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from colonnade.campaign.draft.lines import value
-from colonnade.campaign.draft.signal import Shape, shape_of
+from colonnade.arrays import Array
+from colonnade.campaign.syntax.document import natural, toml_value
 from colonnade.campaign.syntax.rawpath import inside
 from colonnade.errors import ColonnadeError
 from colonnade.readers.irregular import irregular
@@ -34,23 +34,49 @@ WRITING = ("delimiter ", "decimal sign ", "one column", "numbers run on")
 LOG_HEADS = {"id", "kind", "specimen"}
 """Column heads by which a table is a log of tests."""
 
+LONGEST = 1 << 20
+"""Samples of a signal that are examined; enough to see the shape of any test."""
+
+SINE_SHARE = 0.6
+"""A signal with this share of its power at one frequency is a steady sine."""
+
+FEWEST_CYCLES = 4
+"""Of a sine that is distinguished from a pulse."""
+
+QUIET_END = 0.1
+"""A signal whose last sixth varies by less than this fraction of the first half has died away."""
+
 
 @dataclass(frozen=True)
-class Column:
+class Shape:
     """
-    One column of a raw file.
+    What a signal looks like.
 
     Attributes
     ----------
-    number : int
-        From 1.
-    name, heading : str
-    unit : str or None
-        As written in the file.
-    is_clock, has_clock : bool
-    shape : Shape
-        What its signal looks like.
+    spread : float
+        Standard deviation, in the file's unit; NaN if there is no number.
+    counts : bool
+        Whether it rises by one from sample to sample.
+    sine : float or None
+        Frequency of a steady sine, Hz.
+    dies_away : bool
     """
+
+    spread: float
+    counts: bool = False
+    sine: float | None = None
+    dies_away: bool = False
+
+    @property
+    def is_dead(self) -> bool:
+        """Whether nothing ever changes in it."""
+        return not self.spread > 0.0
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column of a raw file, by its number from 1; its unit is as written in the file."""
 
     number: int
     name: str
@@ -110,24 +136,9 @@ class RawFile:
         return self.relative.removesuffix(Path(self.relative).suffix)
 
 
-@dataclass(frozen=True)
-class Survey:
-    """
-    All that was found in a folder.
-
-    Attributes
-    ----------
-    files : tuple of RawFile
-        In the order of their names, numbers as numbers.
-    refused : tuple of (str, str)
-        Files that are not recordings, with the reason.
-    """
-
-    files: tuple[RawFile, ...]
-    refused: tuple[tuple[str, str], ...]
-
-
-def survey(folder: Path, progress: Callable[[int, int], None] | None = None) -> Survey:
+def survey(
+    folder: Path, progress: Callable[[int, int], None] | None = None
+) -> tuple[list[RawFile], list[tuple[str, str]]]:
     """
     Read every file of a folder, and of the folders in it.
 
@@ -136,6 +147,13 @@ def survey(folder: Path, progress: Callable[[int, int], None] | None = None) -> 
     folder : Path
     progress : callable, optional
         Called with the number of files examined, and their total.
+
+    Returns
+    -------
+    files : list of RawFile
+        In the order of their names, numbers as numbers.
+    refused : list of (str, str)
+        Files that are not recordings, with the reason.
     """
     folder = folder.resolve()
     found, refused = [], []
@@ -148,7 +166,7 @@ def survey(folder: Path, progress: Callable[[int, int], None] | None = None) -> 
             if kind := irregular(path):
                 refused.append((relative, f"it is {kind}, not a file"))
             elif _is_log(path):
-                key = f"tests = {value(relative)} above [specimens]"
+                key = f"tests = {toml_value(relative)} above [specimens]"
                 refused.append((relative, f"it looks like a test log; use it with {key} instead of [[tests]]"))
             else:
                 found.append(_seen(relative, read(path, within=folder)))
@@ -158,20 +176,7 @@ def survey(folder: Path, progress: Callable[[int, int], None] | None = None) -> 
             refused.append((relative, _first_reason(str(error), path.name)))
         if progress is not None:
             progress(number, len(paths))
-    return Survey(tuple(found), tuple(refused))
-
-
-def natural(name: str) -> tuple[tuple[int, str], ...]:
-    """
-    Sort names as people do, `free-2` before `free-10`.
-
-    Examples
-    --------
-    >>> sorted(["free-10", "free-2"], key=natural)
-    ['free-2', 'free-10']
-    """
-    parts = re.split(r"([0-9]+)", name.casefold())
-    return tuple((int(part), "") if part.isdecimal() else (-1, part) for part in parts)
+    return found, refused
 
 
 def _order(relative: Path) -> tuple[object, ...]:
@@ -205,10 +210,10 @@ def _first_reason(refusal: str, name: str) -> str:
 
 
 def _seen(relative: str, recording: Recording) -> RawFile:
-    clocked = next((channel for channel in recording.channels if channel.time is not None), None)
     rate = duration = None
-    if clocked is not None and clocked.time is not None:
-        steps = np.diff(clocked.time[np.isfinite(clocked.time)])
+    clock = next((channel.time for channel in recording.channels if channel.time is not None), None)
+    if clock is not None:
+        steps = np.diff(clock[np.isfinite(clock)])
         if steps.size and (step := float(np.median(steps))) > 0:
             rate, duration = 1 / step, float(np.nansum(steps))
     columns = tuple(_column(number, channel) for number, channel in enumerate(recording.channels, start=1))
@@ -219,12 +224,54 @@ def _seen(relative: str, recording: Recording) -> RawFile:
 
 
 def _column(number: int, channel: RecordedChannel) -> Column:
-    return Column(
-        number,
-        channel.name,
-        channel.heading,
-        channel.unit,
-        channel.is_clock,
-        channel.time is not None,
-        shape_of(channel.values, channel.time),
-    )
+    shape = shape_of(channel.values, channel.time)
+    has_clock = channel.time is not None
+    return Column(number, channel.name, channel.heading, channel.unit, channel.is_clock, has_clock, shape)
+
+
+def shape_of(values: Array, time: Array | None) -> Shape:
+    """Look at a signal; without its times, s, no frequency is found."""
+    known = np.isfinite(values) if time is None else np.isfinite(values) & np.isfinite(time)
+    signal = values[known][:LONGEST]
+    if signal.size < 2 or not np.ptp(signal) > 0:
+        return Shape(0.0 if signal.size else np.nan)
+    counts = bool(np.all(np.diff(signal) == 1.0))
+    interval = 0.0 if time is None else float(np.median(np.diff(time[known][:LONGEST])))
+    half, sixth = signal.size // 2, signal.size // 6
+    with np.errstate(over="ignore"):
+        dies_away = sixth > 8 and float(signal[-sixth:].std()) < QUIET_END * float(signal[:half].std())
+        sine = steady_sine(signal, interval) if interval > 0 and not counts else None
+        return Shape(float(signal.std()), counts, sine, dies_away)
+
+
+def steady_sine(signal: Array, interval: float) -> float | None:
+    """
+    Frequency of a signal that is a steady sine while it moves, Hz; None if it is not.
+
+    Parameters
+    ----------
+    signal : ndarray, shape (n,)
+    interval : float
+        s.
+
+    Examples
+    --------
+    >>> round(steady_sine(np.sin(2 * np.pi * 3.0 * np.arange(0, 10, 0.005)), 0.005), 2)
+    3.0
+    """
+    distance = np.abs(signal - np.median(signal))
+    moving = np.flatnonzero(distance > 0.3 * distance.max())
+    part = signal[moving[0] : moving[-1] + 1]
+    if part.size < 32:
+        return None
+    with np.errstate(over="ignore", invalid="ignore"):
+        power = np.abs(np.fft.rfft((part - part.mean()) * np.hanning(part.size))) ** 2
+    power[0] = 0.0
+    peak, total = int(power.argmax()), float(power.sum())
+    if not np.isfinite(total) or not FEWEST_CYCLES <= peak < power.size - 2:
+        return None
+    if power[peak - 3 : peak + 4].sum() < SINE_SHARE * total:
+        return None
+    left, middle, right = np.log(np.maximum(power[peak - 1 : peak + 2], 1e-300))
+    shift = 0.5 * (left - right) / (left - 2 * middle + right)
+    return float((peak + shift) / (part.size * interval))

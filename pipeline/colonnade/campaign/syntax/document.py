@@ -1,9 +1,12 @@
-"""The TOML files of a campaign as text and as tables, with plain messages if they are neither."""
+"""The TOML files of a campaign, read with plain messages about what is wrong, and values written as TOML."""
 
 from __future__ import annotations
 
+import json
+import re
 import tomllib
 from collections.abc import Iterable, Mapping
+from datetime import date
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -74,3 +77,47 @@ def validated(
 def refusal(paragraphs: Iterable[str]) -> CampaignError:
     """Build the error of a file with several problems, each paragraph once and on one line."""
     return CampaignError("\n".join(dict.fromkeys(map(one_line, paragraphs))))
+
+
+def toml_value(value: object) -> str:
+    """
+    Write a value as TOML.
+
+    Examples
+    --------
+    >>> toml_value("mm"), toml_value([1, 0, 0]), toml_value({"main": "a.csv"})
+    ('"mm"', '[1, 0, 0]', '{main = "a.csv"}')
+    """
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{toml_key(str(key))} = {toml_value(each)}" for key, each in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(toml_value(each) for each in value) + "]"
+    if isinstance(value, date):
+        return value.isoformat()
+    # JSON's strings are TOML's basic strings, but for one sign that TOML wants escaped too.
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def toml_key(name: str) -> str:
+    """
+    Write a key as TOML.
+
+    Examples
+    --------
+    >>> toml_key("daq2"), toml_key("span-2.0")
+    ('daq2', '"span-2.0"')
+    """
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else toml_value(name)
+
+
+def natural(name: str) -> tuple[tuple[int, str], ...]:
+    """
+    Sort names as people do, `free-2` before `free-10`.
+
+    Examples
+    --------
+    >>> sorted(["free-10", "free-2"], key=natural)
+    ['free-2', 'free-10']
+    """
+    parts = re.split(r"([0-9]+)", name.casefold())
+    return tuple((int(part), "") if part.isdecimal() else (-1, part) for part in parts)

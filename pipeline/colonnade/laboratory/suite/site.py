@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from colonnade.laboratory.campaign_file import toml_key, toml_value
+from colonnade.campaign.syntax.document import toml_key, toml_value
 from colonnade.laboratory.experiment import Plan, Specimen
 from colonnade.laboratory.files import put
 from colonnade.laboratory.suite.records import synthetic_records, write_suite

@@ -2,31 +2,37 @@
 
 from __future__ import annotations
 
-from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
+import scipy
 
 from colonnade.assessment.cases.prototype import Prototype
 from colonnade.campaign.assessing import prototype as written
-from colonnade.dynamics.block import Block, Sided, pair
+from colonnade.campaign.settings import PlaneEnsembleSettings
+from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.ensembles.uncertainty import member_block
 from colonnade.dynamics.similitude import at_prototype
 from colonnade.stages.parts.inputs import Inputs
+from colonnade.stages.specimen import restitution_spread
 
 if TYPE_CHECKING:
     import xarray as xr
 
 USUAL_MARGIN = 0.02
-"""To either side of e, if neither limits nor an interval are known."""
+"""To either side of e, if neither limits nor free vibrations are known."""
 
 
 class ColumnInputs(Inputs):
-    """What is read of the campaign about a real column: its model, how many times larger it is, what is assumed."""
+    """What is read of the campaign about a real column: its model, how many times larger it is, what is assumed.
+
+    `usual_scatter` is the standard deviation of e between tests, if a single one does not show it.
+    """
 
     block: Block
     scale: float
     prototype: written.Prototype
+    usual_scatter: float = PlaneEnsembleSettings().restitution
 
 
 def real_column(inputs: ColumnInputs, pooled: xr.Dataset) -> tuple[Prototype, str]:
@@ -53,7 +59,7 @@ def real_column(inputs: ColumnInputs, pooled: xr.Dataset) -> tuple[Prototype, st
     )
     if factors != (1.0, 1.0):
         block = member_block(block, *factors)
-    restitution, limits, source = _restitution(given, block, pooled)
+    restitution, limits, source = _restitution(inputs, block, pooled)
     column = Prototype(
         block,
         restitution,
@@ -81,20 +87,22 @@ def _enlarged(block: Block, scale: float) -> Block:
     )
 
 
-def _restitution(given: written.Prototype, block: Block, pooled: xr.Dataset) -> tuple[Sided, tuple[float, float], str]:
-    """Return e, its limits if none are given, and where it comes from."""
+def _restitution(inputs: ColumnInputs, block: Block, pooled: xr.Dataset) -> tuple[Sided, tuple[float, float], str]:
+    """Return e, its limits if none are given (an identified one is that of a new test), and where it comes from."""
+    given = inputs.prototype
     if given.restitution != "identified":
         rigid = given.restitution == "rigid-body"
         e = max(block.restitution, 0.0) if rigid else float(given.restitution)
         return e, _around(e), "rigid-body" if rigid else "given"
     negative, positive = (float(each) for each in pooled["side_restitution"])
     e = float(np.mean((negative, positive)))
-    low, high = float(pooled["restitution_low"]), float(pooled["restitution_high"])
     source = str(pooled.attrs["restitution_source"])
-    limits = (max(low, 0.0), min(high, 1.0)) if isfinite(low) and isfinite(high) and low < high else _around(e)
-    return (e if negative == positive else (negative, positive)), limits, source
+    margin = USUAL_MARGIN
+    if source == "identified":
+        deviation, freedom = restitution_spread(pooled, inputs.usual_scatter)
+        margin = deviation * float(scipy.stats.t.ppf((1 + float(pooled["level"])) / 2, freedom or np.inf))
+    return (e if negative == positive else (negative, positive)), _around(e, margin), source
 
 
-def _around(restitution: Sided) -> tuple[float, float]:
-    e = float(np.mean(pair(restitution)))
-    return max(e - USUAL_MARGIN, 0.0), min(e + USUAL_MARGIN, 1.0)
+def _around(e: float, margin: float = USUAL_MARGIN) -> tuple[float, float]:
+    return max(e - margin, 0.0), min(e + margin, 1.0)

@@ -115,7 +115,7 @@ def advise_kind(
     if kind == "sine":
         sines = (test for test in campaign.tests.values() if (test.specimen, test.kind) == (specimen, kind))
         tilts = [campaign.setups[test.setup].table_tilt or 0.0 for test in sines]
-        deviation, _ = restitution_spread(pooled, campaign.processing.predict.ensemble)
+        deviation, _ = restitution_spread(pooled, campaign.processing.predict.ensemble.restitution)
         points = tuple(map_points(tests, specimen))
         return advise_sines(campaign, specimen, Known(sides(pooled), deviation, points, max(tilts, key=abs, default=0)))
     return advise_earthquakes(campaign, layout, specimen, tests) if kind == "earthquake" else []

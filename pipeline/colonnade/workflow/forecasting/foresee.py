@@ -201,7 +201,7 @@ def inputs_of(campaign: Campaign, layout: Layout, specimen: str, tilt: float) ->
     pooled, settings = restitution_taken(campaign, layout, specimen), campaign.processing.predict.ensemble
     block = campaign.block(specimen)
     rigid = max(block.restitution, 0.0)
-    deviation, freedom = restitution_spread(pooled, settings)
+    deviation, freedom = restitution_spread(pooled, settings.restitution)
     negative, positive = sides(pooled)
     ends = {name: float(pooled[f"restitution_{name}"]) for name in ("low", "high")}
     return ForecastInputs(

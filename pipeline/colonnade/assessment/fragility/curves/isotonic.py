@@ -76,10 +76,10 @@ def fit_isotonic(
 
     Notes
     -----
-    Barlow et al. (1972). Each interval is Wilson's (1927), with the number of independent histories that gives the
-    bootstrap's variance (Korn and Graubard 1998), and Student's t of the records: near 0 and 1 resamples of few records
-    hardly scatter, and their quantiles are too narrow. That number is at most what the variances of all stripes
-    together give, and at least the number of records. If each record has intensities of its own, a stripe is a bin,
+    Barlow et al. (1972). Each interval is Clopper and Pearson's (1934), with the number of independent histories that
+    gives the bootstrap's variance (Korn and Graubard 1998): near 0 and 1 resamples of few records hardly scatter, and
+    their quantiles are too narrow. That number is at most what the variances of all stripes together give, and at least
+    the number of records. If each record has intensities of its own, a stripe is a bin,
     and the curve is that of its bins.
     """
     stripes = striped(outcomes.cells(event))
@@ -89,7 +89,7 @@ def fit_isotonic(
     weights = record_weights(len(outcomes.records), resamples, seed)
     variance = _pooled(weights @ stripes.events, weights @ stripes.histories).var(axis=0)
     of_records = (stripes.histories > 0).sum(axis=0)
-    low, high = _wilson(value, variance, of_records, checked_level(level))
+    low, high = _limits(value, variance, of_records, checked_level(level))
     # A curve that only rises has limits that only rise.
     band = Band(value, np.maximum.accumulate(low), np.minimum.accumulate(high[::-1])[::-1])
     return IsotonicCurve(np.exp(stripes.log_intensity), band, level)
@@ -105,7 +105,7 @@ def _pooled(events: Array, histories: Array) -> Array:
     return found
 
 
-def _wilson(value: Array, variance: Array, records: Array, level: float) -> tuple[Array, Array]:
+def _limits(value: Array, variance: Array, records: Array, level: float) -> tuple[Array, Array]:
     """Limits of shares whose bootstrap has such a variance, of so many records each."""
     spread = value * (1 - value)
     # Of n records the bootstrap's variance is (n − 1) / n of the unbiased one.
@@ -115,7 +115,7 @@ def _wilson(value: Array, variance: Array, records: Array, level: float) -> tupl
     # Independent histories that a record is worth, from all stripes: one with few events overstates it.
     worth = spread[scatters].sum() / (unbiased * records)[scatters].sum() if scatters.any() else 1.0
     effective = np.maximum(np.minimum(own, worth * records), records)
-    reach = scipy.stats.t.ppf((1 + level) / 2, np.maximum(records - 1, 1)) ** 2 / effective
-    middle = (value + reach / 2) / (1 + reach)
-    half = np.sqrt(reach * spread + reach**2 / 4) / (1 + reach)
-    return middle - half, middle + half
+    events, outside = effective * value, (1 - level) / 2
+    low = np.where(value > 0, scipy.special.betaincinv(events, effective - events + 1, outside), 0.0)
+    high = np.where(value < 1, scipy.special.betaincinv(events + 1, effective - events, 1 - outside), 1.0)
+    return low, high

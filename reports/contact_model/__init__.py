@@ -1,1 +1,0 @@
-"""The study of the contact model, part by part."""

@@ -1,0 +1,189 @@
+"""What a column and a file are taken for: by units, names and signals, with the reason, and what is asked."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from colonnade.campaign.draft.guess import MOST_UNKNOWN, draft_channels, meaning
+from colonnade.campaign.draft.survey import Column, Shape
+from colonnade.campaign.draft.words import Line
+
+MOVING = Shape(1.0)
+TIME = 0.01 * np.arange(2000)
+SINE = np.sin(2 * np.pi * 3.0 * TIME)
+DECAY = np.exp(-TIME) * np.cos(6 * TIME)
+NOISE = np.random.default_rng(1).standard_normal(TIME.size)
+STILL = 1e-3 * NOISE
+
+
+def column(name: str, unit: str | None = None, shape: Shape = MOVING, *, is_clock: bool = False) -> Column:
+    return Column(1, name, f"{name} [{unit}]", unit, is_clock, True, shape)
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "quantity", "because"),
+    [
+        ("LVDT 1", None, "displacement", 'from "lvdt" in its name'),
+        ("Channel 3", "mm", "displacement", 'from its unit "mm"'),
+        ("top", "g", "acceleration", 'from its unit "g"'),
+        ("top", "V", None, ""),
+    ],
+)
+def test_the_quantity_has_its_reason(name, unit, quantity, because):
+    found = meaning(column(name, unit))
+    assert (found.quantity, found.because, found.left_out) == (quantity, because, "")
+
+
+def test_a_unit_and_a_name_that_contradict_each_other_are_both_told():
+    found = meaning(column("LVDT 1", "g"))
+    assert found.quantity == "acceleration"
+    assert found.conflict == 'its unit "g" says acceleration, its name "lvdt" displacement'
+
+
+def test_a_voltage_is_known_but_not_physical():
+    found = meaning(column("LVDT 1", "V"))
+    assert (found.unit_known, found.is_physical) == (True, False)
+    assert not meaning(column("LVDT 1", "furlong")).unit_known
+
+
+@pytest.mark.parametrize(
+    ("each", "reason"),
+    [
+        (column("t", "s", is_clock=True), "the clock"),
+        (column("LVDT 1", "mm", Shape(0.0)), "it never changes in any of these files"),
+        (column("LVDT 1", "mm", Shape(np.nan)), "it holds no number in any of these files"),
+        (column("n", None, Shape(9.0, counts=True)), "a running number: it rises by one from sample to sample"),
+        (column("Trigger"), 'a synchronisation signal, from "trigger" in its name'),
+    ],
+    ids=["clock", "constant", "empty", "counter", "trigger"],
+)
+def test_what_measures_nothing_is_left_out_with_the_reason(each, reason):
+    assert meaning(each).left_out == reason
+
+
+def test_the_place_and_the_axis_are_read_from_the_name():
+    found = meaning(column("Tischweg X", "mm"))
+    assert (found.place, found.place_word, found.axis) == ("table", 'from "tischweg" in its name', "x")
+
+
+def named_column(number: int, name: str, unit: str | None) -> Column:
+    return Column(number, name, name, unit, False, True, MOVING)
+
+
+def lines_of(*named: tuple[str, str | None]) -> list[dict[str, Line]]:
+    drafted = draft_channels({"main": [named_column(n, *each) for n, each in enumerate(named, start=1)]})
+    return [{line.key: line for line in channel.lines if isinstance(line, Line)} for channel in drafted.channels]
+
+
+def test_a_displacement_on_the_specimen_is_asked_for_what_no_file_contains():
+    (lines,) = lines_of(("LVDT 1", "V"))
+    assert [key for key, line in lines.items() if "?" in line.value] == ["gain", "at", "relative_to"]
+    assert lines["gain"].value == '"? mm/V"'
+    assert lines["quantity"].reason == 'from "lvdt" in its name'
+
+
+def test_an_acceleration_is_taken_to_be_the_tables():
+    (lines,) = lines_of(("ACC_Y", "g"))
+    assert (lines["on"].value, lines["on"].question) == ('"table"', 'or "specimen", "ground"')
+    assert (lines["direction"].value, lines["direction"].reason) == ("[0, 1, 0]", 'from "y" in its name')
+    assert lines["direction"].question == "of a positive reading; [0, -1, 0] if it is reversed"
+
+
+@pytest.mark.parametrize(
+    ("unit", "question"),
+    [
+        (None, 'the file gives no unit: write one such as "mm", or "V" with a line gain = "10 mm/V" below it'),
+        ("furlong", 'the file says "furlong", which is not a known unit'),
+    ],
+)
+def test_a_unit_that_is_missing_or_unknown_is_asked_for(unit, question):
+    (lines,) = lines_of(("LVDT 1", unit))
+    assert (lines["unit"].value, lines["unit"].question) == ('"?"', question)
+
+
+@pytest.mark.parametrize(("name", "sensing"), [("Laser top", '"surface"'), ("Seilzug", '"wire"')])
+def test_a_laser_and_a_wire_are_asked_for_what_they_need(name, sensing):
+    (lines,) = lines_of((name, "mm"))
+    assert lines["sensing"].value == sensing
+    assert "?" in (lines["normal"] if sensing == '"surface"' else lines["anchor"]).value
+
+
+def test_columns_called_the_same_are_named_by_their_number():
+    first, second = lines_of(("LVDT", "mm"), ("LVDT", "mm"))
+    assert (first["column"].value, second["column"].value) == ("1", "2")
+
+
+def test_unknown_columns_are_left_out_beside_known_ones():
+    drafted = draft_channels({"main": [named_column(1, "LVDT 1", "mm"), named_column(2, "strange", "V")]})
+    assert [channel.id for channel in drafted.channels] == ["lvdt_1"]
+    assert drafted.left_out == (("main", "strange", 'its unit is "V" and its name does not show what it measures'),)
+
+
+def test_unknown_columns_alone_are_asked_about_up_to_a_number():
+    columns = [named_column(n, f"strange {n}", None) for n in range(1, MOST_UNKNOWN + 3)]
+    drafted = draft_channels({"main": columns})
+    assert len(drafted.channels) == MOST_UNKNOWN
+    assert len(drafted.left_out) == 2
+
+
+def test_a_channel_of_another_recorder_says_so():
+    drafted = draft_channels({"main": [named_column(1, "LVDT 1", "mm")], "daq2": [named_column(1, "ACC", "g")]})
+    assert [line.text() for line in drafted.channels[1].lines if isinstance(line, Line)][1] == 'recorder = "daq2"'
+
+
+@pytest.mark.parametrize("letter", ["V", "A"])
+def test_a_letter_that_may_be_a_label_is_asked_about(letter):
+    (lines,) = lines_of((f"Acc ({letter})", letter))
+    assert lines["unit"].value == '"?"'
+    assert lines["unit"].question.startswith(f'is "({letter})" a label?')
+    assert "gain" not in lines
+
+
+def test_several_columns_in_volts_are_not_asked_about():
+    for lines in lines_of(("LVDT 1 (V)", "V"), ("Acc (V)", "V"), ("LVDT [V]", "V")):
+        assert (lines["unit"].value, lines["unit"].reason) == ('"V"', "as in the file")
+    assert lines_of(("LVDT 1 [V]", "V"))[0]["unit"].value == '"V"'
+
+
+def drafted_tests(folder, files):
+    for name, (specimen, table) in files.items():
+        folder.write(f"{name}.csv", {"LVDT 1 [mm]": specimen, "Table disp [mm]": table})
+    written, drafted = folder.draft()
+    return {test["id"]: test for test in written["tests"]}, drafted
+
+
+def test_a_name_says_the_kind_and_the_numbers_that_belong_to_it(folder):
+    files = {"sine_3Hz": (NOISE, SINE), "El Centro span 2.5": (NOISE, NOISE), "free 1": (DECAY, STILL)}
+    tests, _ = drafted_tests(folder, files)
+    assert (tests["sine_3Hz"]["kind"], tests["sine_3Hz"]["frequency"]) == ("sine", "3 Hz")
+    centro = tests["El-Centro-span-2.5"]
+    assert (centro["kind"], centro["motion"], centro["span"]) == ("earthquake", "El Centro", 2.5)
+    assert tests["free-1"]["kind"] == "free-vibration"
+
+
+def test_without_a_name_the_signals_say_it(folder):
+    tests, drafted = drafted_tests(folder, {"a": (NOISE, SINE), "b": (DECAY, STILL), "c": (NOISE, NOISE)})
+    assert [tests[name]["kind"] for name in "abc"] == ["sine", "free-vibration", "other"]
+    assert tests["a"]["frequency"] == "3 Hz"
+    asked = {(each.key, each.asked) for each in drafted.doubts}
+    assert ("tests[a].kind", "guessed from its signal") in asked
+    assert any(key == "tests[c].kind" and "neither name nor signal shows it" in said for key, said in asked)
+
+
+@pytest.mark.parametrize(
+    ("name", "table", "doubt"),
+    [
+        ("free", SINE, "the table moves as a steady sine of 3 Hz"),
+        ("kobe", SINE, "the table moves as a steady sine of 3 Hz"),
+        ("noise", STILL, "the table hardly moves in this test"),
+    ],
+)
+def test_a_signal_that_contradicts_the_name_is_asked_about(folder, name, table, doubt):
+    _, drafted = drafted_tests(folder, {name: (NOISE, table), "other": (NOISE, NOISE)})
+    assert doubt in [each.asked for each in drafted.doubts if each.key == f"tests[{name}].kind"]
+
+
+def test_a_frequency_in_the_name_is_held_against_the_recorded_one(folder):
+    _, drafted = drafted_tests(folder, {"sine_4Hz": (NOISE, SINE)})
+    assert "the table moves at 3 Hz" in [each.asked for each in drafted.doubts]

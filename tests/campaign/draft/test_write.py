@@ -1,0 +1,229 @@
+"""A folder of raw files becomes a campaign file: what is guessed, what is asked, what is left out."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from colonnade.campaign import load
+from colonnade.campaign.draft import draft
+from colonnade.errors import CampaignError
+
+TIME = np.arange(0.0, 10.0, 0.01)
+SINE = np.sin(2 * np.pi * 3.0 * TIME)
+DECAY = np.where(TIME < 7, np.exp(-TIME) * np.cos(2 * np.pi * TIME), 0.0)
+
+
+def noise(seed=0):
+    return 1e-3 * np.random.default_rng(seed).normal(size=TIME.size)
+
+
+def channels(document, setup="setup"):
+    return document["setups"][setup]["channels"]
+
+
+def open_keys(drafted):
+    return [question.key.rpartition(".")[2] for question in drafted.open]
+
+
+def test_names_and_units_become_channels_and_what_no_file_tells_is_asked(folder):
+    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY, "Tischweg [mm]": noise(), "ACC_Y [g]": noise(1)})
+    document, drafted = folder.draft()
+    assert channels(document) == {
+        "lvdt_1": {
+            "column": "LVDT 1",
+            "quantity": "displacement",
+            "unit": "mm",
+            "on": "specimen",
+            "at": ["? mm", "0 mm", "? mm"],
+            "relative_to": "?",
+            "direction": [1, 0, 0],
+        },
+        "tischweg": {
+            "column": "Tischweg",
+            "quantity": "displacement",
+            "unit": "mm",
+            "on": "table",
+            "direction": [1, 0, 0],
+        },
+        "acc_y": {"column": "ACC_Y", "quantity": "acceleration", "unit": "g", "on": "table", "direction": [0, 1, 0]},
+    }
+    assert open_keys(drafted) == ["width", "depth", "height", "mass", "at", "relative_to"]
+
+
+def test_every_open_question_is_refused_by_its_line(folder):
+    folder.write("free-01.csv", {"LVDT 1 [V]": DECAY, "strange [mm]": noise()}, clock=None)
+    _, drafted = folder.draft()
+    drafted.path.write_text(drafted.text, encoding="utf-8")
+    with pytest.raises(CampaignError) as told:
+        load(drafted.path)
+    for question in drafted.open:
+        assert f"line {question.line}: " in str(told.value), question
+        assert drafted.text.splitlines()[question.line - 1].startswith(f"{question.key.rpartition('.')[2]} = ")
+
+
+def test_a_voltage_asks_for_its_gain_and_a_file_without_clock_for_its_rate(folder):
+    folder.write("free-01.csv", {"LVDT 1 [V]": DECAY, "acc [mV/g]": SINE}, clock=None)
+    document, _ = folder.draft()
+    assert document["setups"]["setup"]["sampling_rate"] == "? Hz"
+    assert channels(document)["lvdt_1"]["gain"] == "? mm/V"
+    assert channels(document)["acc"]["gain"].startswith("? g/")
+
+
+@pytest.mark.parametrize(
+    ("heading", "values", "reason"),
+    [
+        pytest.param("LED Light", SINE, "a synchronisation signal", id="sync"),
+        pytest.param("dead [mm]", np.full(TIME.size, 2.5), "it never changes", id="dead"),
+        pytest.param("Nr", np.arange(1.0, TIME.size + 1), "a running number", id="index"),
+        pytest.param("Output To Table [V]", SINE, "a command to the table", id="command"),
+        pytest.param("Voltage_27 [V]", SINE, "does not show what it measures", id="unknown"),
+    ],
+)
+def test_what_is_no_measurement_is_left_out_with_the_reason(folder, heading, values, reason):
+    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY, heading: values})
+    document, drafted = folder.draft()
+    assert list(channels(document)) == ["lvdt_1"]
+    (told,) = (line for line in drafted.text.splitlines() if f'"{heading}"' in line)
+    assert told.startswith("#")
+    assert reason in told
+
+
+def test_a_channel_that_moves_in_one_file_is_not_dead_in_another(folder):
+    folder.write("a.csv", {"LVDT 1 [mm]": np.zeros(TIME.size)})
+    folder.write("b.csv", {"LVDT 1 [mm]": DECAY})
+    assert list(channels(folder.draft()[0])) == ["lvdt_1"]
+
+
+def test_columns_of_which_nothing_is_known_are_asked_about_where_there_are_no_others(folder):
+    folder.write("a.csv", {"one": SINE, "two": DECAY})
+    document, _ = folder.draft()
+    assert [channel["quantity"] for channel in channels(document).values()] == ["?", "?"]
+
+
+def test_files_of_two_recorders_become_one_test_each_aligned_on_the_table(folder):
+    for span in ("span-2.0", "span-10.0"):
+        folder.write(f"raw/{span}.csv", {"LVDT 1 [mm]": noise(), "Table disp [mm]": SINE})
+        folder.write(f"raw/{span}-daq2.csv", {"Table acc [g]": SINE})
+    document, _ = folder.draft()
+    assert document["setups"]["setup"]["recorders"]["daq2"]["clock"] == {"align": ["table_disp", "table_acc"]}
+    assert channels(document)["table_acc"]["recorder"] == "daq2"
+    assert [(test["id"], test["span"], test["file"]["daq2"]) for test in document["tests"]] == [
+        ("span-2.0", 2.0, "raw/span-2.0-daq2.csv"),
+        ("span-10.0", 10.0, "raw/span-10.0-daq2.csv"),
+    ]
+
+
+def test_the_same_recording_in_two_formats_is_taken_once(folder):
+    folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
+    folder.write("free.txt", {"LVDT 1 [mm]": DECAY}, delimiter="\t")
+    document, drafted = folder.draft()
+    assert [test["file"] for test in document["tests"]] == ["free.csv"]
+    assert "# free.txt: the same columns as free.csv" in drafted.text
+
+
+def test_a_channel_that_an_earlier_setup_has_too_is_asked_about_with_a_hint(folder):
+    folder.write("free-01.csv", {"LVDT 1 [V]": DECAY})
+    folder.write("sine-01.csv", {"LVDT 1 [V]": noise(), "ACC [g]": SINE})
+    _, drafted = folder.draft()
+    asked = {question.key: question.asked for question in drafted.open}
+    assert asked["setups.setup-2.channels.lvdt_1.gain"] == "perhaps as in setup-1"
+
+
+def test_repetitions_are_tests_of_their_own_in_one_setup(folder):
+    for name in ("free.csv", "free-2.csv", "free-repeated.csv"):
+        folder.write(name, {"LVDT 1 [mm]": DECAY})
+    document, drafted = folder.draft()
+    assert [test["id"] for test in document["tests"]] == ["free", "free-2", "free-repeated"]
+    assert drafted.setups == 1
+
+
+def test_files_of_other_columns_become_a_setup_of_their_own(folder):
+    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY})
+    folder.write("sine-01.csv", {"LVDT 1 [mm]": noise(), "ACC [g]": SINE})
+    document, _ = folder.draft()
+    assert [test["setup"] for test in document["tests"]] == ["setup-1", "setup-2"]
+
+
+def test_specimens_are_told_by_the_names_of_files(folder):
+    for name in ("cone-free-1.csv", "free-1.csv", "Zylinder-free-1.csv"):
+        folder.write(name, {"LVDT 1 [mm]": DECAY})
+    document, _ = folder.draft()
+    assert {name: specimen["shape"] for name, specimen in document["specimens"].items()} == {
+        "cone": "cone",
+        "specimen": "prism",
+        "cylinder": "cylinder",
+    }
+    assert [test["specimen"] for test in document["tests"]] == ["cone", "specimen", "cylinder"]
+
+
+def test_what_is_no_recording_is_named_with_the_reason(folder):
+    folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
+    (folder.path / "notes.csv").write_text("nothing but words\n", encoding="utf-8")
+    (folder.path / "tests.csv").write_text("id,kind,specimen,setup,file\nfree,sine,p,s,free.csv\n", encoding="utf-8")
+    (folder.path / "photo.png").write_bytes(b"\x89PNG")
+    _, drafted = folder.draft()
+    assert [name for name, _ in drafted.refused] == ["notes.csv", "tests.csv"]
+    assert 'tests = "tests.csv"' in drafted.text
+
+
+def test_a_link_out_of_the_folder_is_not_followed(folder, tmp_path_factory):
+    outside = tmp_path_factory.mktemp("outside") / "free.csv"
+    folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
+    (folder.path / "free.csv").replace(outside)
+    (folder.path / "free.csv").symlink_to(outside)
+    with pytest.raises(CampaignError, match=r"no readable recording found.*(?s:.*)is outside"):
+        draft(folder.path)
+
+
+def test_results_of_an_earlier_run_are_not_taken_for_recordings(folder):
+    folder.write("raw/free.csv", {"LVDT 1 [mm]": DECAY})
+    folder.write("processed/summary.csv", {"LVDT 1 [mm]": DECAY})
+    document, _ = folder.draft()
+    assert [test["file"] for test in document["tests"]] == ["raw/free.csv"]
+
+
+def test_the_real_shake_table_recordings_of_others(shared_data, tmp_path):
+    import shutil
+    import tomllib
+
+    shutil.copytree(shared_data / "shaketable", tmp_path / "table", copy_function=shutil.copyfile)
+    drafted = draft(tmp_path / "table")
+    document = tomllib.loads(drafted.text)
+    tests = {test["id"]: test for test in document["tests"]}
+    assert tests["earthquake-test1"]["kind"] == "earthquake"
+    assert tests["sinewave-test1"]["kind"] == "sine"
+    assert (tests["thadhaines_01"]["kind"], tests["thadhaines_01"]["frequency"]) == ("sine", "2 Hz")
+    found = channels(document, tests["thadhaines_01"]["setup"])
+    assert {name: (each["quantity"], each["unit"], each["on"]) for name, each in found.items()} == {
+        "table_accel_xxxx": ("acceleration", "g's", "table"),
+        "block_accel_26430": ("acceleration", "g's", "specimen"),
+    }
+    assert document["setups"][tests["sinewave-test1"]["setup"]]["sampling_rate"] == "? Hz"
+
+
+def test_the_day_of_a_file_is_drafted_and_what_no_file_tells_is_shown_once(folder):
+    times = [f"2013-04-26T10:15:{second:06.3f}" for second in np.arange(0.0, 5.0, 0.01)]
+    for name in ("free-01.csv", "free-02.csv"):
+        lines = [f"{time},{value:.6f}" for time, value in zip(times, DECAY, strict=False)]
+        (folder.path / name).write_text("\n".join(["Time,LVDT 1 [mm]", *lines, ""]), encoding="utf-8")
+    document, drafted = folder.draft()
+    assert [test["date"].isoformat() for test in document["tests"]] == ["2013-04-26"] * 2
+    assert drafted.text.count("date = 2013-04-26    # from the file's own time") == 2
+    assert drafted.text.count("# operator = ") == 1
+
+
+def test_a_file_without_a_date_leaves_the_day_to_people(folder):
+    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY})
+    document, drafted = folder.draft()
+    assert "date" not in document["tests"][0]
+    assert "# date = 2013-04-26" in drafted.text
+
+
+def test_a_question_is_asked_in_full_once_in_a_setup(folder):
+    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY, "LVDT 2 [mm]": DECAY})
+    asked = [line for line in folder.draft()[1].text.splitlines() if line.startswith("relative_to = ")]
+    assert [line.partition("# ")[2] for line in asked] == [
+        '? where it is fixed: "table" if it moves with the table, else "ground"',
+        "? as above",
+    ]

@@ -1,0 +1,85 @@
+"""The paper's pattern at Span 2.5, on histories made by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from every import every
+from reproduction.growth import Criterion, Response, place_of_growth
+from reproduction.printed import TABLE_1
+
+DT = 0.01
+TIME = np.arange(1000) * DT
+BLOCK = TABLE_1["prism"].block
+
+
+def response(*bursts, overturning_time=np.nan):
+    """Rock in bursts of (start s, stop s, amplitude in α)."""
+    ratio = np.zeros(TIME.size)
+    for start, stop, size in bursts:
+        inside = (start <= TIME) & (stop > TIME)
+        ratio[inside] = size * np.sin(20.0 * TIME[inside])
+    return Response(ratio * BLOCK.critical_angle, DT, overturning_time, BLOCK)
+
+
+MEASURED = response((1.0, 4.0, 0.3), (4.0, 9.0, 0.05))
+PREDICTED = response((1.0, 4.0, 0.3), (4.0, 5.8, 0.05), (5.8, 6.4, 0.5), (6.4, 9.0, 0.2))
+DECLINE = [(start, start + 0.4, 0.8 - 0.06 * start) for start in np.arange(1.0, 9.0, 0.4)]
+
+
+def test_the_papers_pattern_is_found_with_its_place():
+    place = place_of_growth(MEASURED, PREDICTED, Criterion())
+    assert 5.8 <= place <= 6.4
+    assert np.abs(np.interp(place, TIME, PREDICTED.angle)) == pytest.approx(0.5 * BLOCK.critical_angle, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("measured", "predicted"),
+    [
+        pytest.param(PREDICTED, PREDICTED, id="both grow"),
+        pytest.param(MEASURED, MEASURED, id="neither grows"),
+        pytest.param(PREDICTED, MEASURED, id="the measured one grows"),
+        pytest.param(response((4.0, 9.0, 0.05)), PREDICTED, id="the measured one never rocked"),
+        pytest.param(response((1.0, 5.5, 0.3)), PREDICTED, id="quiet for too short a time"),
+        pytest.param(response((1.0, 4.0, 0.3), (5.5, 9.0, 0.25)), PREDICTED, id="the measured one does not stay small"),
+        pytest.param(MEASURED, response((1.0, 4.0, 0.3), (5.8, 6.4, 0.38)), id="predicted is not large enough"),
+        pytest.param(MEASURED, response(*DECLINE), id="predicted only dies down later"),
+        pytest.param(MEASURED, response((1.0, 4.0, 0.3), (9.0, 9.5, 0.3)), id="too small and too late"),
+        pytest.param(MEASURED, replace(PREDICTED, overturning_time=2.0), id="predicted has overturned before"),
+    ],
+)
+def test_what_is_not_the_papers_pattern(measured, predicted):
+    assert np.isnan(place_of_growth(measured, predicted, Criterion()))
+
+
+def test_a_prediction_that_overturns_late_is_the_pattern():
+    falling = response((1.0, 4.0, 0.3), (5.8, 6.0, 0.9), overturning_time=6.0)
+    assert place_of_growth(MEASURED, falling, Criterion()) == pytest.approx(6.0, abs=2 * DT)
+
+
+@pytest.mark.parametrize("window", [1.0, 1.01])
+def test_windows_look_before_and_after(window):
+    one = response((5.0, 5.0 + DT, 1.0))
+    before, after = one.largest_before(window) > 0, one.largest_after(window) > 0
+    assert (TIME[before].min(), TIME[before].max()) == (pytest.approx(5.0), pytest.approx(5.0 + window))
+    assert (TIME[after].min(), TIME[after].max()) == (pytest.approx(5.0 - window), pytest.approx(5.0))
+
+
+@every(
+    ("changed", "measured", "predicted", "found"),
+    [
+        ({"quiet": 0.05}, response((1.0, 4.0, 0.3), (4.0, 9.0, 0.07)), PREDICTED, False),
+        ({"quiet": 0.2}, response((1.0, 4.0, 0.3), (4.0, 9.0, 0.15)), PREDICTED, True),
+        ({"before": 0.5}, response((1.0, 5.3, 0.3)), PREDICTED, True),
+        ({"before": 2.0}, response((1.0, 4.5, 0.3)), response((1.0, 4.0, 0.3), (6.0, 6.4, 0.5)), False),
+        ({"loud": 0.2}, MEASURED, response((1.0, 4.0, 0.1), (5.8, 6.4, 0.3)), True),
+        ({"loud": 0.8}, MEASURED, PREDICTED, False),
+        ({"after": 4.0}, response((1.0, 4.0, 0.3), (8.5, 9.0, 0.3)), PREDICTED, False),
+    ],
+)
+def test_each_number_of_the_criterion_matters(changed, measured, predicted, found):
+    assert np.isfinite(place_of_growth(measured, predicted, Criterion(**changed))) == found
+    assert np.isfinite(place_of_growth(measured, predicted, Criterion())) != found

@@ -1,0 +1,221 @@
+"""A dataset goes into NetCDF and comes back as it was: attributes, labels, long arrays and short ones."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections import namedtuple
+
+import netCDF4
+import numpy as np
+import pytest
+import xarray as xr
+from hypothesis import given
+from hypothesis import strategies as st
+
+from colonnade.errors import StoreError
+from colonnade.findings import note, serious, warning
+from colonnade.store import files
+from colonnade.store.netcdf import loaded, restored, storable
+from every import every
+
+FINDINGS = [
+    serious("unit", "Column a is in mm, the campaign file says cm.", follows=("gain",)),
+    warning("jitter", "Steps vary by 3 %."),
+    note("rounded times", "Rounded to 1 ms."),
+]
+
+
+@pytest.mark.parametrize("value", [True, False, np.True_, np.False_])
+def test_a_truth_value_becomes_a_byte_of_the_same_truth(value):
+    stored = storable({"seen": value})["seen"]
+    assert isinstance(stored, np.int8)
+    assert bool(stored) is bool(value)
+
+
+@every("value", [0, 1, 2.5, "text", "", "µm", [1.0, 2.0], (3,), ["a", 1]])
+def test_what_netcdf_holds_is_left_as_it_is(value):
+    stored = storable({"value": value})["value"]
+    assert stored == value
+    assert type(stored) is type(value)
+
+
+def test_an_array_is_left_as_it_is():
+    value = np.array([0.9, 0.8])
+    assert storable({"value": value})["value"] is value
+
+
+def test_what_is_not_known_is_left_out_and_nothing_else():
+    assert storable({"a": None, "b": 0, "c": "", "d": []}).keys() == {"b", "c", "d"}
+
+
+def test_a_mapping_is_the_same_text_whatever_its_order():
+    one, other = storable({"settings": {"b": 1, "a": {"x": None}}}), storable({"settings": {"a": {"x": None}, "b": 1}})
+    assert one == other
+    assert json.loads(one["settings"]) == {"a": {"x": None}, "b": 1}
+
+
+def test_letters_beyond_ascii_stay_readable():
+    stored = storable({"settings": {"unit": "µm"}, "notes": ["größer"]})
+    assert "µm" in stored["settings"]
+    assert "größer" in stored["notes"]
+
+
+@given(st.lists(st.text()))
+def test_a_list_of_text_comes_back(lines):
+    stored = storable({"notes": lines, "refused": tuple(lines)})
+    assert all(isinstance(value, str) for value in stored.values())
+    assert restored(stored) == {"notes": lines, "refused": lines}
+
+
+def test_findings_come_back_whole():
+    assert restored(storable({"warnings": FINDINGS})) == {"warnings": FINDINGS}
+
+
+def test_no_findings_come_back_as_none():
+    assert restored(storable({"warnings": []})) == {"warnings": []}
+
+
+def test_plain_text_among_findings_becomes_a_warning():
+    found = restored(storable({"warnings": [FINDINGS[0], "The table moved."]}))["warnings"]
+    assert found == [FINDINGS[0], warning("other", "The table moved.")]
+
+
+@every("text", ["[1, 2]", '["a", 1]', '[["a"]]', "[not json", "[", '{"a": "b"}', '"a"', " []", "null"])
+def test_text_that_is_not_a_list_of_text_passes(text):
+    assert restored({"reason": text}) == {"reason": text}
+
+
+@given(st.text().filter(lambda text: not text.startswith("[")))
+def test_other_text_passes_unread(text):
+    assert restored({"reason": text}) == {"reason": text}
+
+
+@pytest.mark.parametrize("value", [2.5, np.int8(1), None])
+def test_what_is_not_text_passes(value):
+    assert restored({"reason": value})["reason"] is value
+
+
+RESULT = xr.Dataset(
+    {
+        "top": ("elapsed", np.array([0.0, np.nan, 2.0]), {"channel": "top", "quantity": "displacement"}),
+        "top_quality": ("elapsed", np.array([1, 9, 1])),
+        "nrmse": ("model", np.array([0.1, 0.2])),
+        "restitution": ((), 0.97),
+    },
+    coords={
+        "elapsed": np.arange(3) * 0.005,
+        "model": np.array(["linear", "nonlinear"], dtype=object),
+        "test_id": ("test", np.array([], dtype=object)),
+    },
+    attrs={"outcome": "rocking", "notes": ["a", "b"]},
+)
+
+
+@pytest.fixture
+def path(tmp_path):
+    files.write(RESULT, tmp_path / "a.nc", attributes={"stage": "compare"})
+    return tmp_path / "a.nc"
+
+
+def read(path):
+    with netCDF4.Dataset(path) as opened:
+        return loaded(opened)
+
+
+def test_values_attributes_and_coordinates_are_those_that_xarray_finds(path):
+    with xr.open_dataset(path, decode_times=False, mask_and_scale=False) as opened:
+        expected = opened.load()
+    labels = expected["model_name"].variable
+    expected = expected.drop_vars("model_name").assign_coords(model=("model", labels.values, labels.attrs))
+    xr.testing.assert_identical(read(path), expected)
+    assert {name: read(path)[name].dtype.kind for name in expected.variables} == {
+        name: expected[name].dtype.kind for name in expected.variables
+    }
+
+
+def test_the_order_of_the_variables_is_that_of_the_file(path):
+    with netCDF4.Dataset(path) as opened:
+        stored = [name for name in opened.variables if name in RESULT.data_vars]
+    assert [str(name) for name in read(path).data_vars] == stored
+
+
+SIZE = 2000
+
+
+@pytest.fixture
+def long_from_a_thousand_on(monkeypatch):
+    monkeypatch.setattr("colonnade.store.provenance.LONG", 1000)
+
+
+def record(first=0.0):
+    values = np.random.default_rng(3).normal(size=SIZE)
+    values[:2] = first, np.nan
+    flags = np.where(np.isnan(values), 9, 1)
+    return xr.Dataset(
+        {
+            "top": ("elapsed", values, {"channel": "top", "quantity": "displacement", "bridged": True}),
+            "top_recorded": ("elapsed", 1e3 * values),
+            "top_quality": ("elapsed", flags),
+            "near": ("elapsed_near", np.arange(10.0), {"channel": "near", "quantity": "displacement"}),
+        },
+        coords={"elapsed": np.arange(SIZE) * 0.005, "elapsed_near": np.arange(10) * 0.5},
+        attrs={"warnings": [note("missing samples", "top: 1 sample is missing")]},
+    )
+
+
+@pytest.mark.usefixtures("long_from_a_thousand_on")
+def test_a_long_result_comes_back_as_it_went(tmp_path):
+    path = tmp_path / "tests" / "a" / "recorded.nc"
+    content = files.write(record(), path, attributes={"stage": "ingest", "key": "k"}).attrs["content"]
+    stored = files.read(path)
+    assert stored.attrs["content"] == content
+    assert stored.attrs["warnings"] == record().attrs["warnings"]
+    for name, variable in record().variables.items():
+        np.testing.assert_array_equal(stored[name], variable)
+        assert stored[name].dims == variable.dims
+    assert stored["top_quality"].dtype == np.int8
+
+
+@pytest.mark.usefixtures("long_from_a_thousand_on")
+def test_long_and_short_arrays_are_described_alike(tmp_path, monkeypatch):
+    files.write(record(), tmp_path / "long.nc", attributes={"stage": "ingest"})
+    monkeypatch.setattr("colonnade.store.provenance.LONG", 10_000)
+    files.write(record(), tmp_path / "short.nc", attributes={"stage": "ingest"})
+    with netCDF4.Dataset(tmp_path / "long.nc") as long, netCDF4.Dataset(tmp_path / "short.nc") as short:
+        assert set(long.variables) == set(short.variables)
+        assert set(long.ncattrs()) == set(short.ncattrs())
+        for name in short.variables:
+            assert str(long[name].__dict__) == str(short[name].__dict__)
+            assert (long[name].dtype, long[name].dimensions) == (short[name].dtype, short[name].dimensions)
+            is_long = long[name].size > 1000
+            assert (long[name].chunking() == "contiguous", long[name].filters()["zlib"]) == (is_long, not is_long)
+
+
+@pytest.mark.usefixtures("long_from_a_thousand_on")
+@pytest.mark.parametrize("threads", [1, 4])
+def test_the_content_does_not_depend_on_threads(tmp_path, monkeypatch, threads):
+    expected = files.write(record(), tmp_path / "a.nc", attributes={}).attrs["content"]
+    monkeypatch.setattr("colonnade.signals.parallel.threads", lambda: threads)
+    assert files.write(record(), tmp_path / "b.nc", attributes={}).attrs["content"] == expected
+    assert files.write(record(1e-9), tmp_path / "c.nc", attributes={}).attrs["content"] != expected
+
+
+@pytest.mark.usefixtures("long_from_a_thousand_on")
+def test_one_changed_bit_is_told(tmp_path):
+    path = tmp_path / "a.nc"
+    files.write(record(), path, attributes={})
+    content = bytearray(path.read_bytes())
+    place = content.index(record()["top"].to_numpy()[500:510].tobytes())
+    content[place] ^= 1
+    path.write_bytes(content)
+    with pytest.raises(StoreError, match="its values differ from those that were written"):
+        files.read(path)
+
+
+def test_a_disk_without_room_is_told_before_anything_is_written(tmp_path, monkeypatch):
+    usage = namedtuple("usage", "total used free")(10_000_000, 9_990_000, 10_000)
+    monkeypatch.setattr(shutil, "disk_usage", lambda folder: usage)
+    with pytest.raises(StoreError, match=r"the disk is full \(0\.0 MB free\)"):
+        files.write(record(), tmp_path / "a.nc", attributes={})
+    assert list(tmp_path.iterdir()) == []
