@@ -25,7 +25,7 @@ def test_the_head_gives_dialect_names_units_and_claims(tmp_path: Path) -> None:
     dialect = found.form.dialect
     assert (dialect.delimiter, dialect.decimal, dialect.encoding) == (";", ",", "cp1252")
     assert found.heading.units == ("s", "mm", "g")
-    assert (found.heading.first, found.named) == (3, "names")
+    assert (found.heading.first, found.is_named) == (3, True)
     assert found.claims.step == 0.01
 
 
@@ -36,9 +36,9 @@ def test_empty_columns_at_the_end_are_no_columns(tmp_path: Path) -> None:
 
 def test_words_between_single_blanks_may_be_a_sentence(tmp_path: Path) -> None:
     rows = "1.5 2.5 3.5\n" * 20
-    assert header(tmp_path / "a.txt", "three plain words\n" + rows).named == "words"
-    assert header(tmp_path / "a.txt", "three plain words\n" + rows, names_row=1).named == "names"
-    assert header(tmp_path / "a.txt", rows).named == ""
+    assert header(tmp_path / "a.txt", "three plain words\n" + rows).is_named is False
+    assert header(tmp_path / "a.txt", "three plain words\n" + rows, names_row=1).is_named is True
+    assert header(tmp_path / "a.txt", rows).is_named is False
 
 
 @pytest.mark.parametrize(

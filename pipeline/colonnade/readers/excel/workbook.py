@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pydantic import Field
 
+from colonnade.arrays import Array
 from colonnade.errors import ReadError, nearest
 from colonnade.readers.binary.magic import OLE, ZIP, head, look
 from colonnade.readers.excel import guard
@@ -19,13 +20,11 @@ from colonnade.readers.excel.cells import CellColumn, column_kinds, find_block, 
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import Recording
 from colonnade.readers.refusal import in_one_line
-from colonnade.readers.text.header_claims import header_claims
 from colonnade.readers.text.heading import describe_columns, find_heading
+from colonnade.readers.text.layout import declared_layout, header_claims, series_of
 from colonnade.readers.text.lines.cells import Dialect
 from colonnade.readers.text.lines.rows import filled_length
-from colonnade.readers.text.row_layout import Named
-from colonnade.readers.text.running_series import series_of
-from colonnade.readers.text.table import Table, TableOptions, layout_of
+from colonnade.readers.text.table import Table, TableOptions
 
 if TYPE_CHECKING:
     from python_calamine import CalamineSheet
@@ -93,12 +92,17 @@ def read(path: Path, options: ExcelOptions) -> Recording:
     columns = [take_column(block, number, kind) for number, kind in enumerate(kinds)]
     values = [column.values for column in columns]
     claims = header_claims("\n".join(lines))
-    named: Named = "names" if heading.names_most else ""
-    verdict = layout_of(path, kinds, options, claims, lambda: (values, named), is_free=False, is_whole=True)
-    if verdict.layout != "columns":
+
+    def series() -> Array:
         numbers = np.column_stack(values).ravel()
+        return numbers[: filled_length(numbers)]
+
+    layout = options.given_layout(kinds) or declared_layout(
+        path, values, claims, series, is_named=heading.names_most, is_free=False
+    )
+    if layout.kind != "columns":
         recording = Recording(path, "excel", (), notes=tuple(notes))
-        return series_of(recording, numbers[: filled_length(numbers)], len(kinds), claims, verdict)
+        return series_of(recording, series(), len(kinds), claims, layout)
     start = next((column.start for column in columns if column.start), None)
     recording = Table(path, "excel", heading, kinds, values, start).recording(options, claims)
     return replace(

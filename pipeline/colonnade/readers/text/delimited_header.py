@@ -10,12 +10,11 @@ from pydantic import AfterValidator, Field, model_validator
 
 from colonnade.errors import ReadError
 from colonnade.readers.text.first_sample import column_kinds, find_first_sample
-from colonnade.readers.text.header_claims import HeaderClaims, header_claims
 from colonnade.readers.text.heading import Heading, HeadingLines, describe_columns, find_heading, unread_numbers
+from colonnade.readers.text.layout import HeaderClaims, header_claims, touching_fields
 from colonnade.readers.text.lines.cells import COMMENT_SIGNS, MISSING, WHITESPACE, Dialect
 from colonnade.readers.text.lines.encoding import Encoding, TextOptions, detect_encoding, head_lines, looks_binary
 from colonnade.readers.text.lines.faults import RowForm
-from colonnade.readers.text.row_layout import Named
 from colonnade.readers.text.sniffing import sniff
 from colonnade.readers.text.table import TableOptions
 
@@ -66,8 +65,10 @@ class Header:
     form : RowForm
         How its rows are written.
     heading : Heading
-    named : str
-        Whether names or units are above the columns, or words that may be a sentence.
+    is_touching : bool
+        Whether fields of a width that is declared touch, so that blanks do not separate them.
+    is_named : bool
+        Whether names or units are above the columns, and not words that may be a sentence.
     claims : HeaderClaims
         What the lines above the first sample say of the numbers.
     notes, warnings : tuple of str
@@ -76,7 +77,8 @@ class Header:
     path: Path
     form: RowForm
     heading: Heading
-    named: Named
+    is_touching: bool
+    is_named: bool
     claims: HeaderClaims
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
@@ -117,12 +119,14 @@ def read_header(path: Path, options: DelimitedOptions) -> Header:
     texts = ", ".join(f'"{head}"' for head, kind in zip(heading.headings, kinds, strict=False) if kind == "text")
     notes: tuple[str, ...] = (f"encoding {encoding.name} ({encoding.evidence})",) if encoding.evidence else ()
     notes += (f"text, not numbers, in {texts}",) if texts else ()
+    claims = header_claims("\n".join(lines[:first]))
     return Header(
         path,
         RowForm(dialect, tuple(kinds[:width]), len(kinds) - width),
         heading,
-        _named(lines, where, heading, dialect, options),
-        header_claims("\n".join(lines[:first])),
+        touching_fields(lines, first, len(kinds), dialect, claims),
+        _is_named(lines, where, heading, dialect, options),
+        claims,
         notes + sniffed.notes,
         (*sniffed.warnings, *unread_numbers(lines, where, start, first, dialect)),
     )
@@ -142,17 +146,17 @@ def _head(path: Path, options: DelimitedOptions) -> tuple[Encoding, list[str]]:
     return encoding, lines
 
 
-def _named(
+def _is_named(
     lines: list[str], where: HeadingLines, heading: Heading, dialect: Dialect, options: DelimitedOptions
-) -> Named:
+) -> bool:
     """Say whether names are above the columns; between single blanks they may be the words of a sentence."""
     if not heading.names_most:
-        return ""
+        return False
     if where.units is not None or where.names is None or options.names_row is not None:
-        return "names"
+        return True
     words = lines[where.names].split()
     between_blanks = dialect.delimiter == WHITESPACE and lines[where.names].strip() == " ".join(words)
-    return "words" if between_blanks and len(words) > 2 else "names"
+    return not between_blanks or len(words) <= 2
 
 
 def _named_width(lines: list[str], where: HeadingLines, dialect: Dialect, kinds: list[str]) -> int:
