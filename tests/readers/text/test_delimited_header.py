@@ -11,13 +11,15 @@ from pydantic import ValidationError
 
 from colonnade.errors import ReadError
 from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
+from colonnade.readers.text.lines.encoding import text_of
 
 ROWS = "".join(f"{number},0;{number},25;{-number},5\n" for number in range(30))
 
 
 def header(path: Path, text: str, encoding: str = "utf-8", **options: object) -> Header:
     path.write_bytes(text.encode(encoding))
-    return read_header(path, DelimitedOptions.model_validate(options))
+    given = DelimitedOptions.model_validate(options)
+    return read_header(text_of(path, given.encoding), given)
 
 
 def test_the_head_gives_dialect_names_units_and_claims(tmp_path: Path) -> None:
@@ -61,7 +63,7 @@ def test_a_text_without_rows_is_refused_with_the_reason(
 def test_text_in_another_encoding_than_given_is_refused(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(ReadError, match="utf-32"):
-        read_header(tmp_path / "a.csv", DelimitedOptions(encoding="utf-32"))
+        read_header(text_of(tmp_path / "a.csv", "utf-32"), DelimitedOptions(encoding="utf-32"))
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,7 @@ from colonnade.readers.motion import read_motion
 from colonnade.readers.registry import read
 from colonnade.readers.text.layout import header_claims, read_block
 from colonnade.readers.text.lines.cells import WHITESPACE, Dialect
+from colonnade.readers.text.lines.encoding import text_of
 from every import every
 
 STANDARD_GRAVITY = 9.80665
@@ -151,14 +152,14 @@ def block(tmp_path: Path, text: str) -> Path:
 
 def test_a_block_is_one_series_with_rows_of_touching_fields_above_its_first(tmp_path: Path) -> None:
     path = block(tmp_path, "title\n-1.0-2.0-3.0\n 1.0 2.0 3.0\n 4.0 5.0\n")
-    assert read_block(path, BLANKS, 2, 4).tolist() == [-1, -2, -3, 1, 2, 3, 4, 5]
-    assert read_block(path, BLANKS, 2, None).tolist() == [1, 2, 3, 4, 5]
+    assert read_block(text_of(path), BLANKS, 2, 4).tolist() == [-1, -2, -3, 1, 2, 3, 4, 5]
+    assert read_block(text_of(path), BLANKS, 2, None).tolist() == [1, 2, 3, 4, 5]
 
 
 @every("text", ["1 2\n3 x\n5 6\n", "1 2\nend\n5 6\n"])
 def test_a_line_that_does_not_continue_the_block_is_refused(tmp_path: Path, text: str) -> None:
     with pytest.raises(ReadError, match=r"a\.txt: line \d, .* does not continue the numbers above it"):
-        read_block(block(tmp_path, text), BLANKS, 0, None)
+        read_block(text_of(block(tmp_path, text)), BLANKS, 0, None)
 
 
 @every(

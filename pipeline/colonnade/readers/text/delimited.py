@@ -16,8 +16,8 @@ from colonnade.readers.text.delimited_header import DelimitedOptions, Header, re
 from colonnade.readers.text.layout import Layout, declared_layout, read_block, series_of
 from colonnade.readers.text.lines.cells import WHITESPACE
 from colonnade.readers.text.lines.damage import mend
-from colonnade.readers.text.lines.encoding import ends_within_line
-from colonnade.readers.text.lines.pieces import pieces_of_file
+from colonnade.readers.text.lines.encoding import Text, text_of
+from colonnade.readers.text.lines.pieces import pieces_of_text
 from colonnade.readers.text.lines.rows import Rows, Stretch, read_rows
 from colonnade.readers.text.lines.timestamps import past_midnight
 from colonnade.readers.text.table import Table
@@ -28,7 +28,7 @@ def recognise(path: Path) -> Recognition:
     if reason := foreign_format(path):
         return Recognition(False, reason, is_known=True)
     try:
-        header = read_header(path, DelimitedOptions())
+        header = read_header(text_of(path), DelimitedOptions())
     except ReadError as error:
         return Recognition(False, str(error).removeprefix(f"{path.name}: "))
     width, first = len(header.form.kinds), header.heading.first + 1
@@ -55,14 +55,20 @@ def read(path: Path, options: DelimitedOptions, window: Window | None = None) ->
     """
     if not options.skip_rows and (reason := foreign_format(path)):
         raise ReadError(f"{path.name}: {reason}")
-    header = read_header(path, options)
+    return read_text(text_of(path, options.encoding), options, window)
+
+
+def read_text(text: Text, options: DelimitedOptions, window: Window | None = None) -> Recording:
+    """Read delimited text, whatever it was made of; see `read`."""
+    path = text.path
+    header = read_header(text, options)
     stretch = None if window is None else _stretch(header, options, window)
     header, rows = _grouped(header, _rows(header, stretch), stretch, options)
     claims, form = header.claims, header.form
-    is_whole = rows.skipped == 0 and rows.reaches_end and not ends_within_line(path)
+    is_whole = rows.skipped == 0 and rows.reaches_end and not text.ends_within_line
 
     def series() -> Array:
-        return read_block(path, form.dialect, header.heading.first, claims.width)
+        return read_block(text, form.dialect, header.heading.first, claims.width)
 
     layout = options.given_layout(form.kinds)
     if layout is None and header.is_touching:
@@ -82,11 +88,11 @@ def read(path: Path, options: DelimitedOptions, window: Window | None = None) ->
 
 
 def _rows(header: Header, stretch: Stretch | None) -> Rows:
-    pieces = pieces_of_file(header.path, header.form.dialect.encoding, header.heading.first)
-    rows = read_rows(header.path, pieces, header.form, stretch)
+    path, pieces = header.text.path, pieces_of_text(header.text, header.heading.first)
+    rows = read_rows(path, pieces, header.form, stretch)
     if not rows.size:
         raise ReadError(
-            f"{header.path.name}: none of its {rows.skipped} samples is within the test's window. Check the file's "
+            f"{path.name}: none of its {rows.skipped} samples is within the test's window. Check the file's "
             "times and the test's `window`, which counts from the file's own zero."
         )
     return rows
@@ -109,8 +115,8 @@ def _grouped(header: Header, rows: Rows, stretch: Stretch | None, options: Delim
 
 def _recording(header: Header, rows: Rows, options: DelimitedOptions) -> Recording:
     """Say what the rows mean."""
-    path, heading, kinds = header.path, header.heading, header.form.kinds
-    is_cut = rows.reaches_end and ends_within_line(path)
+    path, heading, kinds = header.text.path, header.heading, header.form.kinds
+    is_cut = rows.reaches_end and header.text.ends_within_line
     mended = mend(rows, heading.headings, is_cut=is_cut)
     columns = [
         past_midnight(column) if kind == "time" else column for column, kind in zip(mended.columns, kinds, strict=True)

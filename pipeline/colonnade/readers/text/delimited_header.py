@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
@@ -13,7 +12,7 @@ from colonnade.readers.text.first_sample import column_kinds, find_first_sample
 from colonnade.readers.text.heading import Heading, HeadingLines, describe_columns, find_heading, unread_numbers
 from colonnade.readers.text.layout import HeaderClaims, header_claims, touching_fields
 from colonnade.readers.text.lines.cells import COMMENT_SIGNS, MISSING, WHITESPACE, Dialect
-from colonnade.readers.text.lines.encoding import Encoding, TextOptions, detect_encoding, head_lines, looks_binary
+from colonnade.readers.text.lines.encoding import Text, TextOptions, head_lines, looks_binary
 from colonnade.readers.text.lines.faults import RowForm
 from colonnade.readers.text.sniffing import sniff
 from colonnade.readers.text.table import TableOptions
@@ -61,7 +60,7 @@ class Header:
 
     Attributes
     ----------
-    path : Path
+    text : Text
     form : RowForm
         How its rows are written.
     heading : Heading
@@ -74,7 +73,7 @@ class Header:
     notes, warnings : tuple of str
     """
 
-    path: Path
+    text: Text
     form: RowForm
     heading: Heading
     is_touching: bool
@@ -84,16 +83,17 @@ class Header:
     warnings: tuple[str, ...]
 
 
-def read_header(path: Path, options: DelimitedOptions) -> Header:
+def read_header(text: Text, options: DelimitedOptions) -> Header:
     """
-    Find out how a file is written and what its columns are called, from its head.
+    Find out how a text is written and what its columns are called, from its head.
 
     Raises
     ------
     ReadError
         If it is empty, not text, or has no rows of numbers.
     """
-    encoding, lines = _head(path, options)
+    lines = _head(text, options)
+    encoding = text.encoding
     start = options.lines_to_pass
     given = Dialect(
         encoding.name,
@@ -110,7 +110,7 @@ def read_header(path: Path, options: DelimitedOptions) -> Header:
     first = find_first_sample(lines, start, dialect, kinds) if sniffed.columns else None
     if first is None:
         raise ReadError(
-            f"{path.name}: no rows of numbers were found in the first {len(lines)} lines{_as_given(options)}; the "
+            f"{text.path.name}: no rows of numbers were found in the first {len(lines)} lines{_as_given(options)}; the "
             f"first is {lines[0][:60]!r}."
         )
     where = options.heading_lines(find_heading(lines, options.skip_rows, first, dialect, kinds))
@@ -121,8 +121,8 @@ def read_header(path: Path, options: DelimitedOptions) -> Header:
     notes += (f"text, not numbers, in {texts}",) if texts else ()
     claims = header_claims("\n".join(lines[:first]))
     return Header(
-        path,
-        RowForm(dialect, tuple(kinds[:width]), len(kinds) - width),
+        text,
+        RowForm(dialect, tuple(kinds[:width]), len(kinds) - width, exact=text.made is not None),
         heading,
         touching_fields(lines, first, len(kinds), dialect, claims),
         _is_named(lines, where, heading, dialect, options),
@@ -132,18 +132,18 @@ def read_header(path: Path, options: DelimitedOptions) -> Header:
     )
 
 
-def _head(path: Path, options: DelimitedOptions) -> tuple[Encoding, list[str]]:
+def _head(text: Text, options: DelimitedOptions) -> list[str]:
     """Read the first lines of a text."""
-    encoding = Encoding(options.encoding, "") if options.encoding else detect_encoding(path)
+    path = text.path
     try:
-        lines, _ = head_lines(path, encoding.name, wanted=options.lines_to_pass + 200)
+        lines, _ = head_lines(text, wanted=options.lines_to_pass + 200)
     except UnicodeError as error:
-        raise ReadError(f"{path.name}: it is not {encoding.name} text ({error}).") from error
+        raise ReadError(f"{path.name}: it is not {text.encoding.name} text ({error}).") from error
     if not any(line.strip() for line in lines):
         raise ReadError(f"{path.name}: the file is empty; rows of numbers were expected.")
     if reason := looks_binary(lines):
         raise ReadError(f"{path.name}: {reason}; text with rows of numbers was expected.")
-    return encoding, lines
+    return lines
 
 
 def _is_named(

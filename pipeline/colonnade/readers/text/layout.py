@@ -15,8 +15,8 @@ from colonnade.errors import ReadError
 from colonnade.readers.clock import RISING_SHARE, equal_step, even_times, rising_share
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.lines.cells import Dialect
-from colonnade.readers.text.lines.encoding import head_lines
-from colonnade.readers.text.lines.pieces import pieces_of_file
+from colonnade.readers.text.lines.encoding import Text, head_lines
+from colonnade.readers.text.lines.pieces import pieces_of_text
 from colonnade.readers.text.lines.rows import filled_length
 from colonnade.readers.text.lines.running import split_numbers
 
@@ -216,13 +216,13 @@ def series_of(recording: Recording, values: Array, width: int, claims: HeaderCla
     return replace(recording, channels=channels, notes=notes, hint=hint)
 
 
-def read_block(path: Path, dialect: Dialect, first: int, width: int | None) -> Array:
+def read_block(text: Text, dialect: Dialect, first: int, width: int | None) -> Array:
     """
     Read numbers row by row.
 
     Parameters
     ----------
-    path : Path
+    text : Text
     dialect : Dialect
     first : int
         Index of the line where they begin, from 0.
@@ -238,7 +238,7 @@ def read_block(path: Path, dialect: Dialect, first: int, width: int | None) -> A
     ReadError
         If a line within or below the block holds numbers, but does not continue it.
     """
-    lines, _ = head_lines(path, dialect.encoding, wanted=first + 1)
+    lines, _ = head_lines(text, wanted=first + 1)
     if not _is_row(lines[first], dialect, width):
         width = None
     # Rows whose fields touch do not look like the others: they may be above the first that does.
@@ -246,14 +246,14 @@ def read_block(path: Path, dialect: Dialect, first: int, width: int | None) -> A
         first -= 1
     values: list[float] = []
     has_ended = False
-    for piece in pieces_of_file(path, dialect.encoding, first):
+    for piece in pieces_of_text(text, first):
         for number, line in piece.rows(dialect):
             read = np.isfinite(row := _numbers(line, dialect, width))
             if read.all() and not has_ended:
                 values.extend(row)
             elif read.all() or (not has_ended and read.any()):
                 raise ReadError(
-                    f'{path.name}: line {number}, "{line.strip()[:50]}", does not continue the numbers above it. '
+                    f'{text.path.name}: line {number}, "{line.strip()[:50]}", does not continue the numbers above it. '
                     "One block of numbers was expected; cut the file to it."
                 )
             else:
