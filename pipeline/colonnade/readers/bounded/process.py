@@ -19,6 +19,7 @@ from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.bounded import messages
 from colonnade.readers.bounded.bounds import MEGABYTE, bounds_of
+from colonnade.readers.bounded.enclosure import OUT_OF_MEMORY
 from colonnade.readers.bounded.messages import Answer, BrokenAnswerError, EndedError, Request
 from colonnade.readers.photo import LARGEST_SIDE, Pixels
 from colonnade.readers.recording import Recording
@@ -122,7 +123,7 @@ def _answer(request: Request) -> tuple[Answer, list[Array]]:
     if answer.exit_code is not None:
         raise _failure(request, answer.exit_code, [])
     if answer.out_of_memory:
-        raise _stopped(request, f"took more than {request.bounds.memory // MEGABYTE} MB of memory")
+        raise _swollen(request)
     if answer.refusal:
         raise _refusal(answer.refusal, answer.error_number)
     return answer, arrays
@@ -249,6 +250,8 @@ def _failure(request: Request, code: int, late: list[float]) -> ReadError:
         return _stopped(request, f"took more than {late[0]:.0f} s", errno.ETIMEDOUT)
     if code == OUT_OF_TIME:
         return _stopped(request, f"took more than {request.bounds.processor} s of processor time")
+    if code == OUT_OF_MEMORY:
+        return _swollen(request)
     if code == STOPPED:
         return _refusal(
             f"{Path(request.path).name}: the system stopped the process that read it, most often because memory ran "
@@ -256,6 +259,10 @@ def _failure(request: Request, code: int, late: list[float]) -> ReadError:
             errno.ENOMEM,
         )
     return _crash(request, code)
+
+
+def _swollen(request: Request) -> ReadError:
+    return _stopped(request, f"took more than {request.bounds.memory // MEGABYTE} MB of memory")
 
 
 def _crash(request: Request, code: int) -> ReadError:
