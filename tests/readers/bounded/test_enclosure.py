@@ -103,6 +103,6 @@ def test_where_a_system_has_no_such_limit_a_process_ends_itself_with_a_code_of_i
         '"$0" -c "$1" "$2"; exit $?',
         sys.executable,
         WATCHED,
-    ]  # else it counts pytest's memory, too
+    ]
     codes = [subprocess.run([*by_shell, str(bound)]).returncode for bound in (300_000_000, 50_000_000)]
     assert codes == [0, OUT_OF_MEMORY]
