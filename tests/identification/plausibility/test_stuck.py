@@ -18,10 +18,10 @@ NOISE = 1e-4
 HELD = slice(0, 750)
 
 
-def _stuck(angle):
-    """Of an inclinometer with noise after whatever happened to its signal."""
+def _stuck(angle, flagged=None):
+    """Of an inclinometer with noise after whatever happened to its signal; some of it may be flagged before."""
     noisy = angle + np.random.default_rng(0).normal(0, NOISE, angle.size)
-    rotation = Rotation(("tilt",), noisy[None], ANGLES[None], ANGLES, np.array([NOISE]), np.ones(1), ("angle",))
+    rotation = Rotation(("tilt",), noisy[None], ANGLES[None], ANGLES, np.array([NOISE]), np.ones(1), ("angle",), flagged=flagged)
     return stuck(INTERVAL, rotation, rotation.scales(INTERVAL, None, PRISM), None, PRISM)
 
 
@@ -44,6 +44,7 @@ def test_a_transducer_that_saturates_at_the_peaks_says_that_they_are_lower_bound
     assert "saturates" in found.text
     assert "The peak is a lower bound" in found.text
     assert float(re.search(r"at -?([\d.]+) mrad", found.text)[1]) == pytest.approx(1e3 * limit, rel=0.01)
+    assert _stuck(np.clip(angle, -limit, limit), flagged=(np.abs(angle) > limit)[None]) == []
 
 
 @pytest.mark.parametrize("share", [0.3, 0.6, 0.9])
