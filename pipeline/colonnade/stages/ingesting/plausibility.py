@@ -124,9 +124,9 @@ def doubts(conditioned: xr.Dataset, inputs: PlausibilityInputs) -> list[Finding]
     seen = None
     if rotation is not None and accelerations:
         seen = plausibility.base_scale(interval, rotation, accelerations[0].values, inputs.block)
-    found, acceleration = _table(interval, accelerations, displacements, seen)
+    found, acceleration, agree = _table(interval, accelerations, displacements, seen)
     if rotation is not None and accelerations and not found:
-        found, acceleration = _by_rocking(interval, accelerations, rotation, seen, inputs.block)
+        found, acceleration = _by_rocking(interval, accelerations, rotation, None if agree else seen, inputs.block)
     if rotation is not None and not any(each.kind in table_motion.MISPLACED for each in found):
         found += plausibility.suspicions(interval, rotation, acceleration, inputs.block)
     found += [hums for each in accelerations if (hums := table_motion.humming(interval, each))]
@@ -222,11 +222,12 @@ def _table(
     accelerations: list[table_motion.TableChannel],
     displacements: list[table_motion.TableChannel],
     seen: float | None,
-) -> tuple[list[Finding], Array | None]:
-    """Doubts by the table's channels alone, and its acceleration put right."""
+) -> tuple[list[Finding], Array | None, bool]:
+    """Doubts by the table's channels alone, its acceleration put right, and whether two of them agree."""
     if not accelerations:
-        return [], table_motion.derived(interval, displacements[0]) if displacements else None
+        return [], table_motion.derived(interval, displacements[0]) if displacements else None, False
     found: list[Finding] = []
+    agree = False
     for one, other in product(accelerations, displacements):
         compared = table_motion.with_displacement(interval, one, other)
         if compared is None:
@@ -236,8 +237,10 @@ def _table(
             wrong = table_motion.guilty(compared.factor, seen)
             found.append(table_motion.disagreement(one, other, compared, wrong))
             if wrong == "acceleration":
-                return found, accelerations[0].values / compared.factor
-    return found, accelerations[0].values
+                return found, accelerations[0].values / compared.factor, agree
+        else:
+            agree = True
+    return found, accelerations[0].values, agree
 
 
 def _by_rocking(
