@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from colonnade.assessment.fragility.curves.lognormal import ENOUGH_RECORDS, LEAST_MIXED
 from colonnade.assessment.fragility.resampling import FEWEST_RECORDS, MOST_WITHOUT
 from fragilities.population import APART, MEDIAN, WITHIN, Population
 from fragilities.trial import PROBABILITIES, RESAMPLES, SIGNIFICANT
@@ -21,7 +22,8 @@ records. With {repetitions} repetitions a share of 95 % is uncertain by {error} 
 ## Lognormal populations
 
 Share of the repetitions with an interval, and of these in which each interval holds the truth. There is no interval of
-fewer than {fewest} records, nor if more than {without} of the resamples have no curve. P is judged
+fewer than {fewest} records, nor if more than {without} of the resamples have no curve, nor, below {enough} records, if
+the shares of the rarer outcome at each level add up to less than {mixed:g}, as those of levels β apart do. P is judged
 at the intensities where it is {probabilities}. The rate is that over a power-law hazard (k = 2).
 
 {lognormal}
@@ -71,6 +73,8 @@ def page(found: dict[str, Any]) -> str:
         significant=f"{SIGNIFICANT:g}",
         fewest=FEWEST_RECORDS,
         without=f"{100 * MOST_WITHOUT:g} %",
+        enough=ENOUGH_RECORDS,
+        mixed=LEAST_MIXED,
         apart=APART,
         within=WITHIN,
         lognormal=_table(

@@ -27,7 +27,9 @@ def _doubted(folder, seeds):
 
 
 def test_one_campaign_of_each_rig_is_sound(tmp_path):
-    assert _doubted(tmp_path, range(len(RIGS))) == {}
+    # 60: rocking alone would blame an accelerometer that agrees with the displacement; 9: noise in a displacement.
+    seeds = (60, 1, 2, 3, 9)
+    assert _doubted(tmp_path, seeds) == {}
 
 
 @pytest.mark.slow

@@ -42,6 +42,11 @@ def test_a_saturated_channel_is_told_whatever_its_noise(limit, motion, noise_beh
     assert (np.abs(motion())[verdict.where] > 0.9 * limit).all()
 
 
+def test_a_channel_without_noise_saturates_within_a_step():
+    verdict = check_rails(TIME, np.round(np.clip(_quake(), -6.2, 6.2), 1))
+    assert verdict.where[np.abs(_quake()) > 6.2].mean() > 0.5
+
+
 def test_one_side_may_saturate_alone():
     verdict = check_rails(TIME, _noisy(np.minimum(_shaken(), 7.0)))
     assert (_shaken()[verdict.where] > 6.0).all()
@@ -57,12 +62,25 @@ def test_one_side_may_saturate_alone():
         _shaken(),
         np.round(_shaken(), 1),
         _noisy(np.abs(_shaken())),
+        _noisy(-10.0 * np.sin(2 * np.pi * 5.0 * TIME).clip(0, None)),
         _noisy(np.minimum(TIME, 5.0)),
         _noisy(np.zeros_like(TIME)),
         np.zeros_like(TIME),
         np.full_like(TIME, np.nan),
     ],
-    ids=["sine", "one peak", "flat", "no noise", "coarse", "rest", "a ramp that stays", "noise", "dead", "nothing"],
+    ids=[
+        "sine",
+        "one peak",
+        "flat",
+        "no noise",
+        "coarse",
+        "rest",
+        "between strokes",
+        "a ramp that stays",
+        "noise",
+        "dead",
+        "nothing",
+    ],
 )
 def test_peaks_and_rest_are_no_saturation(values):
     assert check_rails(TIME, values).reason == ""

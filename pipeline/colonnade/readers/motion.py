@@ -16,6 +16,7 @@ from colonnade.readers import registry
 from colonnade.readers.clock import equal_step, rising_share
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.delimited_header import DelimitedOptions, read_header
+from colonnade.readers.text.lines.encoding import text_of
 from colonnade.validation import described, number, text, whole
 
 MOST_COLUMNS = 1_000_000
@@ -128,7 +129,7 @@ def _motions(recording: Recording, columns: list[RecordedChannel], unit: str | N
     """Make motions of columns; what is not given is as the columns or the head of the file say."""
     claims = None
     if recording.format == "delimited":
-        claims = read_header(recording.path, DelimitedOptions()).claims
+        claims = read_header(text_of(recording.path), DelimitedOptions()).claims
     else:
         for told in recording.warnings:
             warnings.warn(f"{recording.path.name}: {told}", stacklevel=3)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from colonnade.readers.binary.magic import head
-from colonnade.readers.text.header_claims import header_claims
+from colonnade.readers.text.layout import header_claims
 from colonnade.readers.text.lines.numbered import first_lines
 
 HEADER_LINES = 64

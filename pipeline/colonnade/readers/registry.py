@@ -25,8 +25,8 @@ from colonnade.readers.refused import retired
 
 OWN = (
     *("binary.catman", "strong_motion.cosmos", "text.delimited", "binary.diadem", "excel.workbook"),
-    *("binary.famos", "text.lvm", "matlab.file", "text.mts", "hdf5.netcdf", "strong_motion.peer"),
-    *("tdms.file", "binary.uff", "waveform.file"),
+    *("binary.famos", "text.lvm", "binary.matlab", "text.mts", "binary.netcdf", "strong_motion.peer"),
+    *("tdms.file", "binary.uff", "binary.waveform"),
 )
 """Modules of this folder with a format, as their `FORMAT`."""
 GROUP = "colonnade.formats"

@@ -11,9 +11,6 @@ from colonnade.signals.stretches import filled_in, stretches
 BAND = 8.0
 """Standard deviations of the noise, below the extreme value, within which samples are at it."""
 
-FLAT = 1.2
-"""The same, by which the means of its thirds differ at most beyond their noise: those of a smooth peak by 2.4."""
-
 STEEP = 6.0
 """Bands by which a flank of half as many samples has to leave it: a parabola leaves it by three."""
 
@@ -38,9 +35,8 @@ def check_rails(time: Array, values: Array) -> Verdict:
 
     Notes
     -----
-    The top of a parabola, or of a flatter peak, fills the band of 8 σ, so that the mean of its middle third is above
-    those of the others by 2.4 σ and more, and it leaves the band slowly. Saturation is flat but for the noise σ, and
-    its flanks are steep.
+    The top of a parabola fills the band of 8 σ and leaves it slowly. Saturation is flat but for the noise σ, and its
+    flanks are steep.
     """
     where = np.zeros(values.size, dtype=bool)
     if np.isfinite(values).sum() < 4 * FIRST:
@@ -60,9 +56,7 @@ def check_rails(time: Array, values: Array) -> Verdict:
             if stop - start < FEWEST or start < half or stop + half > signed.size:
                 continue
             left, right = top - signed[start - half], top - signed[stop + half - 1]
-            thirds = np.array([part.mean() for part in np.array_split(signed[start:stop], 3)])
-            is_flat = np.ptp(thirds) < (FLAT + 1.5 / np.sqrt((stop - start) / 3)) * noise
-            if is_flat and min(left, right) > STEEP * BAND * noise:
+            if min(left, right) > STEEP * BAND * noise:
                 where[start:stop] = True
     if not where.any():
         return Verdict.good(values.size)

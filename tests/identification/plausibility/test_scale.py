@@ -8,6 +8,7 @@ import pytest
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.plausibility.scale import scale_of
+from colonnade.signals.filters import lowpass
 from prism import PRISM
 
 INTERVAL = 1 / 500
@@ -42,7 +43,14 @@ def test_the_tables_acceleration_has_a_scale_of_its_own(shaken, factor, gain):
     assert found.base == pytest.approx(factor / gain, rel=0.1)
 
 
-@pytest.mark.parametrize("angle", [np.zeros(TIME.size), np.full(TIME.size, 0.1)], ids=["standing", "held tilted"])
+RANDOM = lowpass(np.random.default_rng(1).normal(size=TIME.size), INTERVAL, 2.0)
+
+
+@pytest.mark.parametrize(
+    "angle",
+    [np.zeros(TIME.size), np.full(TIME.size, 0.1), 0.05 * RANDOM / np.abs(RANDOM).max()],
+    ids=["standing", "held tilted", "moved by hand"],
+)
 def test_a_specimen_that_does_not_rock_gives_no_scale(angle):
     assert not scale_of(INTERVAL, angle + 1e-9 * np.sin(TIME), 1e-6, None, PRISM).is_known
 

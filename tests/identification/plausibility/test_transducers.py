@@ -154,6 +154,25 @@ def test_rocking_tells_how_wrong_the_tables_acceleration_is(factor, found):
     assert ["opposite to the table's acceleration" in each for each in told] == ([True] if factor < 0 else [])
 
 
+@pytest.mark.parametrize("share", [-0.5, 0.5])
+def test_a_zero_taken_while_the_block_leans_is_no_gain(share):
+    rotation, base = _shaken(PRISM, (0.44, 0.04))
+    leaning = share * PRISM.critical_angle * rotation.levers[:, None]
+    assert suspicions(1 / RATE, replace(rotation, readings=rotation.readings - leaning), base, PRISM) == []
+
+
+def test_a_gain_is_told_of_a_block_that_falls_onto_its_frame_and_of_a_record_that_is_cut_while_it_rocks():
+    time = np.arange(0, 14, 1 / RATE)
+    decay = rock(PRISM, restitution=0.95, theta0=0.6 * PRISM.critical_angle, duration=14, model="nonlinear")
+    fallen = np.where(time < 8, np.interp(time - 1.5, decay.time, decay.angle), 0.0)
+    fallen += np.minimum(1e-3 * np.expm1(PRISM.p * np.clip(time - 8.0, 0, None)), 0.28)
+    rocking, base = _shaken(PRISM, (0.44, 0.04), frequency=4.0, amplitude=2.0)
+    cut = replace(rocking, readings=rocking.readings[:, :1670])
+    for rotation, shaken in ((_rotation(PRISM, fallen, (0.44, 0.04)), None), (cut, base[:1670])):
+        (told,) = _said((_times(rotation, 0, 10.0), shaken, PRISM))
+        assert "a gain wrong by a factor of 10" in told
+
+
 def test_of_a_specimen_that_stands_nothing_is_told():
     angle = np.zeros(5000)
     rotation = _rotation(PRISM, angle, (0.44, 0.04))

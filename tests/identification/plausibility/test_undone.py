@@ -11,6 +11,7 @@ from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.plausibility.rotation import Rotation
+from colonnade.identification.plausibility.transducers import base_scale
 from colonnade.identification.plausibility.undone import undone
 
 INTERVAL = 1 / 500
@@ -54,19 +55,53 @@ def test_sound_transducers_have_nothing_to_undo(shaken):
 )
 def test_transducers_on_the_wall_that_are_declared_to_the_table_are_named(chosen, names, shaken):
     rotation, base, moved = shaken
-    found = undone(INTERVAL, _changed(rotation, chosen, moved), base, PRISM)
-    assert found.text.startswith(f"{names}: `relative_to` is wrong")
+    wrong = _changed(rotation, chosen, moved)
+    assert undone(INTERVAL, wrong, base, PRISM).text.startswith(f"{names}: `relative_to` is wrong")
+    assert base_scale(INTERVAL, wrong, base, PRISM) is None  # what it would say is that of the mistake
 
 
-@pytest.mark.parametrize("corner", [0.3, 0.6, 2.0])
-def test_a_transducer_behind_a_high_pass_is_named_with_its_corner(corner, shaken):
-    rotation, base, _ = shaken
+def _coupled(rotation, corner):
     numerator, denominator = scipy.signal.butter(1, corner, "high", fs=1 / INTERVAL)
     readings = rotation.readings.copy()
     readings[0] = scipy.signal.lfilter(numerator, denominator, readings[0])
-    found = undone(INTERVAL, replace(rotation, readings=readings), base, PRISM)
+    return replace(rotation, readings=readings)
+
+
+@pytest.mark.parametrize(
+    ("corner", "part"),
+    [
+        (0.3, slice(None)),
+        (0.6, slice(None)),
+        (2.0, slice(None)),
+        (0.6, slice(None, 3000)),
+        (0.6, slice(1500, None)),
+    ],
+    ids=["0.3 Hz", "0.6 Hz", "2 Hz", "cut while it rocks", "begun while it rocks"],
+)
+def test_a_transducer_behind_a_high_pass_is_named_with_its_corner(corner, part, shaken):
+    rotation, base, _ = shaken
+    coupled = _coupled(rotation, corner)
+    readings = coupled.readings[:, part] - (coupled.readings[:, -100:].mean(axis=1)[:, None] if part.start else 0)
+    found = undone(INTERVAL, replace(coupled, readings=readings, refixed=None), base[part], PRISM)
     assert found.text.startswith("channel top does not hold a constant value")
     assert f"{corner:.1g}" in found.text
+
+
+def test_what_hardly_shows_is_not_told(shaken):
+    rotation, base, _ = shaken
+    angle = rotation.angle(0)
+    same = replace(rotation, readings=np.array([np.interp(angle, ANGLES, each) for each in rotation.responses]))
+    coupled = _coupled(same, 2e-4)
+    assert coupled.residual() > 4 * same.residual()
+    assert undone(INTERVAL, coupled, base, PRISM) is None
+
+
+@pytest.mark.parametrize(("with_gains", "what"), [(False, "columns"), (True, "places")])
+def test_columns_and_places_that_are_exchanged_are_told_apart(with_gains, what, shaken):
+    rotation, base, _ = shaken
+    swapped = replace(rotation, gains=np.array([5.0, 1.0])).exchanged(0, 1, with_gains=with_gains)
+    found = undone(INTERVAL, swapped, base, PRISM)
+    assert found.text.startswith(f"channels top and bottom look swapped: with their {what} exchanged")
 
 
 @pytest.mark.parametrize("walked", [0.0016, 0.005])

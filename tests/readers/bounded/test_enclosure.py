@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from colonnade.readers.bounded.enclosure import own_folders
+from colonnade.readers.bounded.enclosure import OUT_OF_MEMORY, own_folders
 
 on_linux = pytest.mark.skipif(sys.platform != "linux", reason="only Linux binds a process so far")
 
@@ -83,3 +83,26 @@ def test_memory_is_bounded_beyond_what_the_process_has() -> None:
 def test_a_limit_that_holds_already_is_kept() -> None:
     code = "import resource; resource.setrlimit(resource.RLIMIT_DATA, (90_000_000,) * 2)" + LIMIT
     assert "MemoryError" in came_of(code, 10**12)
+
+
+WATCHED = """
+import sys, time
+from colonnade.readers.bounded.bounds import Bounds
+from colonnade.readers.bounded.enclosure import watched_memory
+with watched_memory(Bounds(int(sys.argv[1]), 60, 60.0)):
+    taken = bytearray(b"1") * 100_000_000
+    time.sleep(0.5)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="without a shell")
+def test_where_a_system_has_no_such_limit_a_process_ends_itself_with_a_code_of_its_own() -> None:
+    by_shell = [
+        "sh",
+        "-c",
+        '"$0" -c "$1" "$2"; exit $?',
+        sys.executable,
+        WATCHED,
+    ]
+    codes = [subprocess.run([*by_shell, str(bound)]).returncode for bound in (300_000_000, 50_000_000)]
+    assert codes == [0, OUT_OF_MEMORY]

@@ -16,6 +16,7 @@ import xlwt
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
+from every import every
 
 HEAD = '<?xml version="1.0" encoding="UTF-8" standalone="yes"?>'
 MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
@@ -181,10 +182,8 @@ def test_cells_that_are_no_numbers_are_told_with_their_rows(tmp_path: Path) -> N
     assert recording.channel("Beschl.").values[6] == 0.5
     assert np.isnan(recording.channel("Weg oben").values[4])
     told = " ".join(recording.warnings)
-    assert 'cells that hold no number: 1, the first is "abc" in row 9' in told
-    assert "numbers that are written as text: 1, the first in row 11" in told
-    assert "rows among the samples without any number, left out: 1, the first is row 14" in told
-    assert "text below the last sample in row 54 is not read" in told
+    assert '"Weg oben": 1 cell holds no number (in row 9: "abc"); missing' in told
+    assert 'rows 14, 55: left out: text without a number ("pause")' in told
 
 
 def test_the_clock_and_the_rows_of_names_can_be_given(tmp_path: Path) -> None:
@@ -202,28 +201,16 @@ def test_heads_that_are_numbers_keep_their_digits(tmp_path: Path) -> None:
     np.testing.assert_array_equal(recording.channel("1234567").values, [row[1] for row in SAMPLES])
 
 
-def test_a_stray_cell_far_outside_is_refused_before_it_fills_the_memory(tmp_path: Path) -> None:
+def test_a_stray_cell_far_outside_is_refused_with_its_cause(tmp_path: Path) -> None:
     far = sheet_xml([["t", "x"], *[row[:2] for row in SAMPLES]]).replace(
         "</sheetData>", '<row r="1048576"><c r="XFD1048576"><v>1</v></c></row></sheetData>'
     )
-    with pytest.raises(ReadError, match=r"filled cells within 17179869184: that is not a table of samples"):
+    with pytest.raises(ReadError, match="a cell far outside its table"):
         read(xlsx(tmp_path / "a.xlsx", A=far))
 
 
-def test_an_archive_that_would_unpack_to_gigabytes_is_not_unpacked(tmp_path: Path) -> None:
-    path = xlsx(tmp_path / "a.xlsx", A=sheet_xml([["t", "x"], *[row[:2] for row in SAMPLES]]))
-    content = bytearray(path.read_bytes())
-    entry = content.rindex(b"PK\x01\x02")  # the last one is the sheet's
-    content[entry + 24 : entry + 28] = (4_000_000_000).to_bytes(4, "little")
-    path.write_bytes(content)
-    with pytest.raises(ReadError, match="more than 100 times as many: it is not unpacked"):
-        read(path)
-
-
-@pytest.mark.parametrize(
-    ("kind", "told"), [("xlsx", "it is incomplete"), ("xls", "cannot be opened as a workbook .* past end of file")]
-)
-def test_a_workbook_that_was_cut_off_is_refused(tmp_path: Path, kind: str, told: str) -> None:
+@every("kind", ["xlsx", "xls"])
+def test_a_workbook_that_was_cut_off_is_refused(tmp_path: Path, kind: str) -> None:
     path = tmp_path / f"a.{kind}"
     if kind == "xls":
         xls(path, [*ROWS, *SAMPLES])
@@ -231,7 +218,7 @@ def test_a_workbook_that_was_cut_off_is_refused(tmp_path: Path, kind: str, told:
         xlsx(path, A=sheet_xml([*ROWS, *SAMPLES]))
     whole = path.read_bytes()
     path.write_bytes(whole[: len(whole) * 2 // 3])
-    with pytest.raises(ReadError, match=told):
+    with pytest.raises(ReadError, match=r"cannot be opened as a workbook .* was cut off"):
         read(path)
 
 

@@ -56,7 +56,8 @@ def test_whole_numbers_beside_a_comma_are_two_columns_with_a_warning(tmp_path: P
 
 
 def test_fortran_exponents_and_the_printed_minus_are_numbers(tmp_path: Path) -> None:
-    assert values(recorded(tmp_path, "1.0D-03 \N{MINUS SIGN}2.5\n2.0D-03 3.5\n4.0D+00 4.5\n"), 1) == [0.001, 0.002, 4.0]
+    blanks = recorded(tmp_path, "a  b\n1.0D-03 \N{MINUS SIGN}2.5\n2.0D-03 3.5\n4.0D+00 4.5\n")
+    assert values(blanks, 1) == [0.001, 0.002, 4.0]
     assert values(recorded(tmp_path, "1.0D-03;\N{MINUS SIGN}2.5\n2.0D-03;3.5\n4.0D+00;4.5\n"), 2) == [-2.5, 3.5, 4.5]
 
 

@@ -11,13 +11,15 @@ from pydantic import ValidationError
 
 from colonnade.errors import ReadError
 from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
+from colonnade.readers.text.lines.encoding import text_of
 
 ROWS = "".join(f"{number},0;{number},25;{-number},5\n" for number in range(30))
 
 
 def header(path: Path, text: str, encoding: str = "utf-8", **options: object) -> Header:
     path.write_bytes(text.encode(encoding))
-    return read_header(path, DelimitedOptions.model_validate(options))
+    given = DelimitedOptions.model_validate(options)
+    return read_header(text_of(path, given.encoding), given)
 
 
 def test_the_head_gives_dialect_names_units_and_claims(tmp_path: Path) -> None:
@@ -25,7 +27,7 @@ def test_the_head_gives_dialect_names_units_and_claims(tmp_path: Path) -> None:
     dialect = found.form.dialect
     assert (dialect.delimiter, dialect.decimal, dialect.encoding) == (";", ",", "cp1252")
     assert found.heading.units == ("s", "mm", "g")
-    assert (found.heading.first, found.named) == (3, "names")
+    assert (found.heading.first, found.is_named) == (3, True)
     assert found.claims.step == 0.01
 
 
@@ -36,9 +38,9 @@ def test_empty_columns_at_the_end_are_no_columns(tmp_path: Path) -> None:
 
 def test_words_between_single_blanks_may_be_a_sentence(tmp_path: Path) -> None:
     rows = "1.5 2.5 3.5\n" * 20
-    assert header(tmp_path / "a.txt", "three plain words\n" + rows).named == "words"
-    assert header(tmp_path / "a.txt", "three plain words\n" + rows, names_row=1).named == "names"
-    assert header(tmp_path / "a.txt", rows).named == ""
+    assert header(tmp_path / "a.txt", "three plain words\n" + rows).is_named is False
+    assert header(tmp_path / "a.txt", "three plain words\n" + rows, names_row=1).is_named is True
+    assert header(tmp_path / "a.txt", rows).is_named is False
 
 
 @pytest.mark.parametrize(
@@ -61,7 +63,7 @@ def test_a_text_without_rows_is_refused_with_the_reason(
 def test_text_in_another_encoding_than_given_is_refused(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(ReadError, match="utf-32"):
-        read_header(tmp_path / "a.csv", DelimitedOptions(encoding="utf-32"))
+        read_header(text_of(tmp_path / "a.csv", "utf-32"), DelimitedOptions(encoding="utf-32"))
 
 
 @pytest.mark.parametrize(

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.text.header_claims import HeaderClaims
 from colonnade.readers.text.heading import Heading, HeadingLines
-from colonnade.readers.text.table import Table, TableOptions, layout_of
+from colonnade.readers.text.layout import HeaderClaims
+from colonnade.readers.text.table import Table, TableOptions
+from every import every
 
 FOUND = HeadingLines(2, 3)
 
@@ -57,17 +58,17 @@ def test_the_column_that_is_given_is_the_clock_of_the_others() -> None:
         table([np.nan], [1.0], kinds=("number", "number")).recording(TableOptions(time=1), HeaderClaims())
 
 
-@pytest.mark.parametrize(
-    ("kinds", "options", "layout"),
+@every(
+    ("kinds", "options", "kind"),
     [
         (("number", "number"), TableOptions(layout="running"), "running"),
         (("time", "number"), TableOptions(), "columns"),
         (("number", "number"), TableOptions(time=1), "columns"),
+        (("number", "number"), TableOptions(), None),
     ],
 )
-def test_the_layout_is_known_before_any_evidence(kinds: tuple[str, ...], options: TableOptions, layout: str) -> None:
-    def columns() -> None:
-        raise AssertionError("the columns were looked at")
-
-    verdict = layout_of(Path("a"), kinds, options, HeaderClaims(), columns, is_free=True, is_whole=True)  # type: ignore[arg-type]
-    assert verdict.layout == layout
+def test_the_layout_is_as_given_or_as_the_columns_kinds_leave_it(
+    kinds: tuple[str, ...], options: TableOptions, kind: str | None
+) -> None:
+    layout = options.given_layout(kinds)
+    assert (None if layout is None else layout.kind) == kind

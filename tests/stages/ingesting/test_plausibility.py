@@ -61,27 +61,46 @@ def test_an_accelerometer_alone_is_held_against_the_rocking(factor, said, small_
     assert re.match(said, told), told
 
 
-def test_transducers_on_the_ground_are_judged_less_the_tables_displacement(small_campaign, shaken):
+TABLE = (
+    "[setups.frame.channels.table_acceleration]",
+    '[setups.frame.channels.table]\ncolumn = "ACT"\nquantity = "displacement"\nunit = "mm"\non = "table"\n'
+    "direction = [1, 0, 0]\n\n[setups.frame.channels.table_acceleration]",
+)
+
+
+def _with_displacement(shaken, on_ground=False):
+    """The recordings with the table's displacement; it moves the specimen's transducers if they are on the ground."""
     recordings, time, _, base = shaken
     interval = time[1] - time[0]
     moved = np.cumsum(np.cumsum(base - base.mean()) * interval) * interval
     moved -= np.polyval(np.polyfit(time, moved, 2), time)
-    main = recordings["main"]
-    channels = [
-        replace(each, values=each.values + {"LVDT 1": 1e3 * moved / 12, "LVDT 2": 1e3 * moved}.get(each.name, 0.0))
-        for each in main.channels
-    ]
+    main, seen = recordings["main"], {"LVDT 1": 1e3 * moved / 12, "LVDT 2": 1e3 * moved} if on_ground else {}
+    channels = [replace(each, values=each.values + seen.get(each.name, 0.0)) for each in main.channels]
     recordings["main"] = replace(main, channels=(*channels, RecordedChannel("ACT", "mm", 1e3 * moved, time)))
-    campaign = _changed(
-        small_campaign,
-        ('relative_to = "table"', 'relative_to = "ground"'),
-        ('relative_to = "table"', 'relative_to = "ground"'),
-        (
-            "[setups.frame.channels.table_acceleration]",
-            '[setups.frame.channels.table]\ncolumn = "ACT"\nquantity = "displacement"\nunit = "mm"\non = "table"\n'
-            "direction = [1, 0, 0]\n\n[setups.frame.channels.table_acceleration]",
-        ),
-    )
+    return recordings
+
+
+@pytest.mark.parametrize("beside", [False, True], ids=["alone", "displacement beside it"])
+def test_an_accelerometer_that_is_known_to_saturate_has_no_wrong_gain(beside, small_campaign, shaken):
+    recordings = _with_displacement(shaken) if beside else shaken[0]
+    values, limit = recordings["main"].channel("ACC").values, 0.1
+    values[:] = np.clip(values, -limit, limit)
+    changes = [('unit = "g"', f'unit = "g"\nrange = "{limit} g"'), *([TABLE] if beside else [])]
+    told = _doubts(_changed(small_campaign, *changes), "shake-01", recordings)
+    assert [each for each in told if "times" in each] == []
+
+
+def test_a_late_accelerometer_is_told_and_no_transducer_judged_by_it(small_campaign, shaken):
+    recordings = _with_displacement(shaken)
+    values = recordings["main"].channel("ACC").values
+    values[:] = np.roll(values, 30)
+    (told,) = _doubts(_changed(small_campaign, TABLE), "shake-01", recordings)
+    assert "ms late against" in told
+
+
+def test_transducers_on_the_ground_are_judged_less_the_tables_displacement(small_campaign, shaken):
+    recordings = _with_displacement(shaken, on_ground=True)
+    campaign = _changed(small_campaign, *[('relative_to = "table"', 'relative_to = "ground"')] * 2, TABLE)
     assert [warning for warning in _doubts(campaign, "shake-01", recordings) if "Zero was" not in warning] == []
     recordings["main"].channel("LVDT 1").values[:] *= 10
     assert any("Channel top shows" in warning for warning in _doubts(campaign, "shake-01", recordings))

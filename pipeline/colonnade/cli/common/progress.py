@@ -1,4 +1,4 @@
-"""Progress on stderr: a bar on a terminal, otherwise a line every ten seconds."""
+"""Progress on stderr: a bar on a terminal, otherwise a line after three seconds and then every ten."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from colonnade.cli.common.console import complain, messages
 if TYPE_CHECKING:
     from colonnade.workflow import StageRun
 
-EVERY = 10.0
-"""Seconds between two lines of progress if the output is not a terminal."""
+FIRST, EVERY = 3.0, 10.0
+"""Seconds to the first line of progress if the output is not a terminal, and between two."""
 
 
 @contextmanager
@@ -49,12 +49,14 @@ def _shown(what: str) -> Iterator[Callable[[str, int, int], None]]:
 
 @contextmanager
 def _lines(what: str) -> Iterator[Callable[[str, int, int], None]]:
-    """Write a line every `EVERY` seconds, also while nothing ends."""
+    """Write a line after `FIRST` seconds and then every `EVERY`, also while nothing ends."""
     began, over, last = time.monotonic(), threading.Event(), [what]
 
     def write() -> None:
-        while not over.wait(min(EVERY, threading.TIMEOUT_MAX)):
+        pause = min(FIRST, EVERY)
+        while not over.wait(min(pause, threading.TIMEOUT_MAX)):
             complain(f"{last[0]}, after {time.monotonic() - began:.0f} s")
+            pause = EVERY
 
     def show(now: str, done: int, total: int) -> None:
         last[0] = f"{now}: {done} of {total}" if done < total else f"{done} of {total} done, finishing"

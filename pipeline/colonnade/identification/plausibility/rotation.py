@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from colonnade.arrays import Array
+from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
 from colonnade.identification.plausibility.scale import UNKNOWN_SCALE, Scale, scale_of
 from colonnade.signals.stretches import filled_in
@@ -49,6 +49,8 @@ class Rotation:
         What each reads more if it is fixed to the ground and said to be on the table, or the reverse; None if unknown.
     blur : float
         What a low-pass rounds on either side of an impact, s.
+    flagged : ndarray of bool, shape (m, n), or None
+        Samples that were found suspect before, as those at the end of a range that is known.
     """
 
     names: tuple[str, ...]
@@ -60,6 +62,7 @@ class Rotation:
     quantities: tuple[Literal["displacement", "angle"], ...] = ()
     refixed: Array | None = None
     blur: float = 0.0
+    flagged: Mask | None = None
 
     @property
     def levers(self) -> Array:
@@ -115,6 +118,7 @@ class Rotation:
             gains=self.gains[picked],
             quantities=tuple(self.quantities[index] for index in picked) if self.quantities else (),
             refixed=None if self.refixed is None else self.refixed[picked],
+            flagged=None if self.flagged is None else self.flagged[picked],
         )
 
     def exchanged(self, first: int, second: int, *, with_gains: bool) -> Rotation:

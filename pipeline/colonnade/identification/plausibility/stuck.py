@@ -52,7 +52,8 @@ def stuck(
         felt = None if acceleration is None else of_table * acceleration
         angle = filled_in(rotation.angle(index, of_angle))
         noise = float(rotation.noise[index] / abs(rotation.levers[index] * of_angle))
-        where = _flat(interval, angle, noise, felt, block)
+        known = np.zeros(angle.size, dtype=bool) if rotation.flagged is None else rotation.flagged[index]
+        where = [place for place in _flat(interval, angle, noise, felt, block) if not known[place].any()]
         if where:
             found.append(_saturated(interval, rotation, index, where))
         elif torn := _torn(interval, angle, noise, block):
@@ -67,23 +68,20 @@ def _flat(interval: float, angle: Array, noise: float, acceleration: Array | Non
     at_rest, _, *moved = bending(angle, acceleration, block)
     bend = np.asarray(sum(moved, start=at_rest))
     leaning = np.abs(angle) > max(LEAST_SHARE * largest, STANDING * noise)
-    leaning &= np.abs(angle) < BEYOND * block.critical_angle
-    if impacts.size:
-        leaning[: int(impacts[0])] = False
+    leaning[: int(impacts[0]) if impacts.size else None] = False
     # One that leans for longer is held, or lies on its frame.
     longest = LONGEST / block.p / interval
     # A short window finds a short stop, a longer one is less disturbed by noise.
-    for factor in (1, 2) if impacts.size else ():
+    for factor in (1, 2):
         window = max(round(factor * WINDOW / block.p / interval), 3)
         due = np.abs(scipy.ndimage.uniform_filter1d(bend, window)) * (window * interval) ** 2 / np.sqrt(720)
         shown = deviation(angle, window)
         bent = (shown < FLAT * due) & (due > LEAST_CURVED * noise)
-        quiet = leaning & (bent | (shown < LEAST_CURVED * noise))
-        places = (slice(start, stop) for start, stop in zip(*stretches(quiet), strict=True) if stop - start < longest)
         if found := [
-            place
-            for place in places
-            if 4 * bent[place].sum() > window and _is_entered(angle, place, window, ENTERED * float(due[place].max()))
+            slice(start, stop)
+            for start, stop in zip(*stretches(leaning & bent), strict=True)
+            if stop - start < longest
+            and _is_entered(angle, slice(start, stop), window, ENTERED * float(due[start:stop].max()))
         ]:
             return found
     return []

@@ -14,6 +14,10 @@ from colonnade.arrays import Array
 from colonnade.readers.recording import RecordedChannel, Recording
 
 
+class UnreadableError(Exception):
+    """A part of a file that is whole, but not read; its text is the reason."""
+
+
 @dataclass(frozen=True)
 class Column:
     """

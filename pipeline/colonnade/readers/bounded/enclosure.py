@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
 import sys
 import sysconfig
-from collections.abc import Iterable
-from contextlib import suppress
+import threading
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -30,6 +32,12 @@ FORBIDDEN = (
 """Audit events of Python, or their beginnings, that reading never needs."""
 
 WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
+
+
+OUT_OF_MEMORY = 77
+"""Exit code of a process that took more memory than it may, where the system has no limit for that."""
+OFTEN = 0.1
+"""Seconds between two looks at the memory."""
 
 
 class ForbiddenError(PermissionError):
@@ -75,6 +83,36 @@ def _data() -> int:
             if line.startswith("VmData:"):
                 return 1024 * int(line.split()[1])
     return 0
+
+
+@contextmanager
+def watched_memory(bounds: Bounds) -> Iterator[None]:
+    """End this process once it has taken too much memory, for systems on which `limit` cannot bound it."""
+    highest, done = _largest() + bounds.memory, threading.Event()
+
+    def look() -> None:
+        while not done.wait(OFTEN):
+            if _largest() > highest:
+                os._exit(OUT_OF_MEMORY)
+
+    threading.Thread(target=look, daemon=True).start()
+    try:
+        yield
+    finally:
+        done.set()
+
+
+def _largest() -> int:
+    """Bytes of memory that this process has had at most."""
+    if sys.platform == "win32":
+        counters = (ctypes.c_size_t * 10)()  # two numbers of four bytes in front, then the largest working set
+        counters[0] = ctypes.sizeof(counters)
+        process = ctypes.c_void_p(ctypes.windll.kernel32.GetCurrentProcess())
+        ctypes.windll.kernel32.K32GetProcessMemoryInfo(process, counters, ctypes.sizeof(counters))
+        return int(counters[1])
+    import resource
+
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
 
 
 def watch(readable: Iterable[Path]) -> None:

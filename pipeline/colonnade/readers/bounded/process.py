@@ -19,6 +19,7 @@ from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.bounded import messages
 from colonnade.readers.bounded.bounds import MEGABYTE, bounds_of
+from colonnade.readers.bounded.enclosure import OUT_OF_MEMORY
 from colonnade.readers.bounded.messages import Answer, BrokenAnswerError, EndedError, Request
 from colonnade.readers.photo import LARGEST_SIDE, Pixels
 from colonnade.readers.recording import Recording
@@ -118,16 +119,11 @@ def decode(path: Path, within: Path) -> Pixels:
 
 def _answer(request: Request) -> tuple[Answer, list[Array]]:
     """Ask; ReadError where the file is refused."""
-    name, bounds = Path(request.path).name, request.bounds
     answer, arrays = _ask(request)
     if answer.exit_code is not None:
         raise _failure(request, answer.exit_code, [])
     if answer.out_of_memory:
-        raise ReadError(
-            f"{name}: reading it takes more than {bounds.memory // MEGABYTE} MB of memory, far more than a file "
-            "of its size explains: it is damaged, or was made to exhaust the memory. Copy it from the recorder again, "
-            "or export it as text."
-        )
+        raise _swollen(request)
     if answer.refusal:
         raise _refusal(answer.refusal, answer.error_number)
     return answer, arrays
@@ -250,29 +246,37 @@ if hasattr(os, "register_at_fork"):
 
 def _failure(request: Request, code: int, late: list[float]) -> ReadError:
     """What to say of a file that had no answer."""
-    name = Path(request.path).name
-    if late or code == OUT_OF_TIME:
-        spent = f"{late[0]:.0f} s" if late else f"{request.bounds.processor} s of processor time"
-        return _refusal(
-            f"{name}: reading it was stopped after {spent}, far more than a file of its size takes: it is damaged, or "
-            "was made to keep the machine busy. Copy it from the recorder again, or export it as text.",
-            errno.ETIMEDOUT if late else None,
-        )
+    if late:
+        return _stopped(request, f"took more than {late[0]:.0f} s", errno.ETIMEDOUT)
+    if code == OUT_OF_TIME:
+        return _stopped(request, f"took more than {request.bounds.processor} s of processor time")
+    if code == OUT_OF_MEMORY:
+        return _swollen(request)
     if code == STOPPED:
         return _refusal(
-            f"{name}: the system stopped the process that read it, most often because memory ran out. Run again with "
-            "less else open, or with fewer workers.",
+            f"{Path(request.path).name}: the system stopped the process that read it, most often because memory ran "
+            "out. Run again with less else open, or with fewer workers.",
             errno.ENOMEM,
         )
     return _crash(request, code)
 
 
+def _swollen(request: Request) -> ReadError:
+    return _stopped(request, f"took more than {request.bounds.memory // MEGABYTE} MB of memory")
+
+
 def _crash(request: Request, code: int) -> ReadError:
-    name, signals = Path(request.path).name, {128 + each: each.name for each in signal.Signals}
-    how = f" ({signals[code]})" if code in signals else ""
-    return ReadError(
-        f'{name}: the reader of "{request.format}" crashed on it{how}. The file is damaged, was cut off, or was made '
-        "to cause this. Nothing else was affected. Copy it from the recorder again, or export it as text."
+    signals = {128 + each: each.name for each in signal.Signals}
+    return _stopped(request, f"crashed the library that does it{f' ({signals[code]})' if code in signals else ''}")
+
+
+def _stopped(request: Request, how: str, number: int | None = None) -> ReadError:
+    """What to say of a file that one of its size and kind does not explain."""
+    stray = "holds a cell far outside its table" if request.format == "excel" else "was made to cause this"
+    return _refusal(
+        f'{Path(request.path).name}: reading it as "{request.format}" {how}. The file is damaged, was cut off, or '
+        f"{stray}. Nothing else was affected. Copy it from the recorder again, or export it as text.",
+        number,
     )
 
 

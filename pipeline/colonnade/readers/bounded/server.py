@@ -16,7 +16,7 @@ from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers import photo
 from colonnade.readers.bounded import messages
-from colonnade.readers.bounded.enclosure import enclose, limit, own_folders, watch
+from colonnade.readers.bounded.enclosure import enclose, limit, own_folders, watch, watched_memory
 from colonnade.readers.bounded.messages import Answer, Request
 
 BACKSTOP = 5.0
@@ -75,7 +75,8 @@ def in_place(request: Request, requests: IO[bytes], answers: IO[bytes]) -> None:
     """Handle a request in this process, where a system has no safe copies of one."""
     limit(request.bounds)
     watch([Path(request.within), *own_folders()])
-    _handle(request, answers, lambda: None)
+    with watched_memory(request.bounds):
+        _handle(request, answers, lambda: None)
 
 
 def _handle(request: Request, answers: IO[bytes], announce: Callable[[], object]) -> None:

@@ -2,38 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections import Counter
+from collections.abc import Iterator
 from dataclasses import replace
-from datetime import date, time
-from itertools import islice
+from datetime import date, datetime, time, timedelta
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from pydantic import Field
 
 from colonnade.errors import ReadError, nearest
 from colonnade.readers.binary.magic import OLE, ZIP, head, look
-from colonnade.readers.excel import guard
-from colonnade.readers.excel.cells import CellColumn, column_kinds, find_block, take_column
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import Recording
 from colonnade.readers.refusal import in_one_line
-from colonnade.readers.text.header_claims import header_claims
-from colonnade.readers.text.heading import describe_columns, find_heading
-from colonnade.readers.text.lines.cells import Dialect
-from colonnade.readers.text.lines.rows import filled_length
-from colonnade.readers.text.row_layout import Named
-from colonnade.readers.text.running_series import series_of
-from colonnade.readers.text.table import Table, TableOptions, layout_of
+from colonnade.readers.text.delimited import read_text
+from colonnade.readers.text.delimited_header import DelimitedOptions
+from colonnade.readers.text.lines.encoding import Encoding, Text
+from colonnade.readers.text.table import TableOptions
 
 if TYPE_CHECKING:
     from python_calamine import CalamineSheet
 
-LARGE, LOOKED_AT = 1_000_000, 1000
-"""Cells of a sheet beyond which its first rows are looked at before the others, and how many rows these are."""
-LINES = Dialect("utf-8", delimiter="\t", decimal=".")
-"""As what the rows above the samples are looked at."""
+NUMBER_AS_TEXT = re.compile(r"\s*[+-]?\d+(?:[.,]\d*)?(?:[eE][+-]?\d+)?\s*")
+"""A cell of text that is a number, with a decimal point or comma."""
 
 
 class ExcelOptions(TableOptions):
@@ -74,51 +67,24 @@ def recognise(path: Path) -> Recognition:
 
 def read(path: Path, options: ExcelOptions) -> Recording:
     """
-    Read a sheet of a workbook.
+    Read a sheet of a workbook, as the text that its rows would be.
 
     Raises
     ------
     ReadError
-        If it is none, is damaged, would exhaust the memory, holds no rows of numbers, or lacks what the options name.
+        If it is none, is damaged, holds no rows of numbers, or lacks what the options name.
     """
-    _expect_sound(path)
-    name, rows, notes = _sheet(path, options.sheet)
-    block = find_block(rows, after=max(options.names_row or 0, options.units_row or 0))
-    if block is None:
-        raise ReadError(f'{path.name}: sheet "{name}" holds no rows of numbers below row {options.names_row or 0}.')
-    kinds = column_kinds(block)
-    lines = ["\t".join(map(_plain, row[: len(kinds)])) for row in rows[: block.first]]
-    where = options.heading_lines(find_heading(lines, 0, block.first, LINES, list(kinds)))
-    heading = describe_columns(lines, where, block.first, LINES, len(kinds))
-    columns = [take_column(block, number, kind) for number, kind in enumerate(kinds)]
-    values = [column.values for column in columns]
-    claims = header_claims("\n".join(lines))
-    named: Named = "names" if heading.names_most else ""
-    verdict = layout_of(path, kinds, options, claims, lambda: (values, named), is_free=False, is_whole=True)
-    if verdict.layout != "columns":
-        numbers = np.column_stack(values).ravel()
-        recording = Recording(path, "excel", (), notes=tuple(notes))
-        return series_of(recording, numbers[: filled_length(numbers)], len(kinds), claims, verdict)
-    start = next((column.start for column in columns if column.start), None)
-    recording = Table(path, "excel", heading, kinds, values, start).recording(options, claims)
+    _expect_workbook(path)
+    rows, note = _sheet(path, options.sheet)
+    text = Text(path, Encoding("utf-8", ""), "".join(f"{line}\n" for line in _lines(rows)))
+    given = options.model_dump(exclude={"sheet"}, exclude_unset=True)
+    recording = read_text(text, DelimitedOptions(delimiter="\t", decimal=".", **given))
     return replace(
         recording,
-        notes=(*notes, *map(_of_rows, heading.notes), *recording.notes),
-        warnings=(
-            *block.warnings,
-            *map(_of_rows, heading.warnings),
-            *_unread(heading.headings, columns),
-            *recording.warnings,
-        ),
+        format="excel",
+        notes=(note, *map(_of_rows, recording.notes)),
+        warnings=tuple(map(_of_rows, recording.warnings)),
     )
-
-
-def _unread(headings: Sequence[str], columns: Sequence[CellColumn]) -> list[str]:
-    return [
-        f'"{heading}": {warning}'
-        for heading, column in zip(headings, columns, strict=True)
-        for warning in column.warnings
-    ]
 
 
 def rows_of_first_sheet(path: Path) -> list[list[str]]:
@@ -128,83 +94,90 @@ def rows_of_first_sheet(path: Path) -> list[list[str]]:
     Raises
     ------
     ReadError
-        If it is not a workbook, is damaged, or would exhaust the memory.
+        If it is not a workbook, or is damaged.
     """
-    _expect_sound(path)
-    return [[_typed(cell) for cell in row] for row in _sheet(path, 1)[1]]
+    _expect_workbook(path)
+    return [[_typed(cell) for cell in row] for row in _sheet(path, 1)[0]]
+
+
+def _lines(rows: list[list[Any]]) -> Iterator[str]:
+    """Rows as lines of cells between tabs; a cell that is farther right than those of all other rows adds no column."""
+    lengths = Counter(map(len, rows))
+    width = max((length for length, count in lengths.items() if count > 1), default=max(lengths))
+    for row in rows:
+        yield "\t".join(map(_plain, row)) + "\t" * (width - len(row) if row else 0)
 
 
 def _typed(cell: object) -> str:
-    """Text of a cell; Excel keeps every number as a float: 1.0 was typed as 1."""
-    if isinstance(cell, float) and cell.is_integer() and abs(cell) < 1e15:
-        return str(int(cell))
-    return cell.isoformat() if isinstance(cell, (date, time)) else str(cell)
+    """Text of a cell as it was typed."""
+    if isinstance(cell, (date, time)):
+        return cell.isoformat()
+    return cell if isinstance(cell, str) else _plain(cell)
 
 
-def _expect_sound(path: Path) -> None:
+def _expect_workbook(path: Path) -> None:
     recognition = recognise(path)
     if not recognition.yes:
         raise ReadError(f"{path.name}: {recognition.reason}.")
-    if head(path).startswith(ZIP):
-        guard.check(path)
 
 
 def _of_rows(text: str) -> str:
-    """Speak of rows where the heading of a text file would speak of lines."""
-    return text.replace("on line ", "in row ").replace("line ", "row ")
+    """Speak of rows where those of a text file are its lines."""
+    return re.sub(r"\bline(s?) (?=\d)", r"row\1 ", re.sub(r"\bon (?=line \d)", "in ", text))
 
 
 def _plain(cell: object) -> str:
-    """Text of a cell on one line; a number with the digits that Excel keeps."""
-    text = f"{cell:.15g}" if isinstance(cell, float) else str(cell)
-    return " ".join(text.split())
+    """Text of a cell on one line, as a text file would have it."""
+    if isinstance(cell, (int, float)):  # True and False, too, are numbers
+        return repr(+cell) if cell % 1 or abs(cell) >= 1e15 else str(int(cell))
+    if isinstance(cell, timedelta):
+        minutes, seconds = divmod(cell.total_seconds(), 60)
+        return f"{minutes // 60:02.0f}:{minutes % 60:02.0f}:{seconds:09.6f}"
+    if isinstance(cell, date) and not isinstance(cell, datetime):
+        return f"{cell.isoformat()}T00:00:00"
+    if isinstance(cell, (datetime, time)):
+        return cell.isoformat()
+    text = " ".join(str(cell).split())
+    return text.replace(",", ".") if NUMBER_AS_TEXT.fullmatch(text) else text
 
 
-def _sheet(path: Path, wanted: str | int | None) -> tuple[str, list[list[Any]], list[str]]:
-    """Give a sheet's name, its rows and a note on which it is."""
+def _sheet(path: Path, wanted: str | int | None) -> tuple[list[list[Any]], str]:
+    """Give a sheet's rows, and a note on which it is."""
     import python_calamine
 
     try:
         book = python_calamine.CalamineWorkbook.from_path(str(path))
         names = list(book.sheet_names)
-        chosen = _chosen(path, names, wanted)
-        sheets = [(name, _rows(path, book.get_sheet_by_name(name))) for name in chosen]
+        sheets = {name: _rows(book.get_sheet_by_name(name)) for name in _chosen(path, names, wanted)}
     except (OSError, ReadError):
         raise
     except BaseException as error:  # a panic within calamine is not an Exception
         if isinstance(error, (KeyboardInterrupt, SystemExit, MemoryError)):
             raise
         raise ReadError(
-            f"{path.name}: it cannot be opened as a workbook ({in_one_line(error)}): it is damaged, "
-            "protected by a password, or another kind of document. Save it again as .xlsx, or as CSV."
+            f"{path.name}: it cannot be opened as a workbook ({in_one_line(error)}): it is damaged, was cut off, is "
+            "protected by a password, or is another kind of document. Copy it again, or save it again as .xlsx or CSV."
         ) from None
-    name, rows = max(sheets, key=lambda sheet: _samples(sheet[1]), default=("", []))
-    if wanted is None and not _samples(rows):
+    samples = {name: sum(any(map(_is_number, row)) for row in rows) for name, rows in sheets.items()}
+    name = max(samples, key=lambda name: samples[name], default="")
+    if wanted is not None:
+        return sheets[name], f'sheet "{name}"'
+    if not samples.get(name):
         listed = ", ".join(f'"{name}"' for name in names)
         raise ReadError(f"{path.name}: no sheet holds rows of numbers ({listed or 'it has no sheet'}).")
-    others = [f'"{other}"' for other in names if other != name]
-    why = (
-        ""
-        if wanted is not None or not others
-        else f", the one with most rows of numbers; not read: {', '.join(others)}"
-    )
-    return name, rows, [f'sheet "{name}"{why}']
+    others = ", ".join(f'"{other}"' for other in names if other != name)
+    why = f", the one with most rows of numbers; not read: {others}" if others else ""
+    return sheets[name], f'sheet "{name}"{why}'
 
 
-def _rows(path: Path, sheet: CalamineSheet) -> list[list[Any]]:
-    """Give all cells of a sheet, unless most of them are empty because of a few far outside."""
-    if sheet.total_height * sheet.total_width > LARGE:
-        first = list(islice(sheet.iter_rows(), LOOKED_AT))
-        filled, cells = sum(cell != "" for row in first for cell in row), sum(map(len, first))
-        if filled < guard.FILLED * cells:
-            raise guard.mostly_empty(path, f'sheet "{sheet.name}"', filled, cells)
-    return sheet.to_python(skip_empty_area=False)
+def _rows(sheet: CalamineSheet) -> list[list[Any]]:
+    """All rows of a sheet, each up to its last cell that is filled."""
+    rows = sheet.to_python(skip_empty_area=False)
+    return [row[: next((end for end in range(len(row), 0, -1) if row[end - 1] != ""), 0)] for row in rows]
 
 
-def _samples(rows: list[list[Any]]) -> int:
-    """Count the rows of numbers of a sheet."""
-    block = find_block(rows)
-    return 0 if block is None else len(block.rows)
+def _is_number(cell: object) -> bool:
+    return isinstance(cell, (int, float)) or (isinstance(cell, str) and NUMBER_AS_TEXT.fullmatch(cell) is not None)
 
 
 def _chosen(path: Path, names: list[str], wanted: str | int | None) -> list[str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,15 +13,14 @@ from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import TIME_UNITS, Recording, Window
 from colonnade.readers.refused import foreign_format
 from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
+from colonnade.readers.text.layout import Layout, declared_layout, read_block, series_of
 from colonnade.readers.text.lines.cells import WHITESPACE
 from colonnade.readers.text.lines.damage import mend
-from colonnade.readers.text.lines.encoding import ends_within_line
-from colonnade.readers.text.lines.pieces import pieces_of_file
+from colonnade.readers.text.lines.encoding import Text, text_of
+from colonnade.readers.text.lines.pieces import pieces_of_text
 from colonnade.readers.text.lines.rows import Rows, Stretch, read_rows
 from colonnade.readers.text.lines.timestamps import past_midnight
-from colonnade.readers.text.row_layout import Named, Verdict
-from colonnade.readers.text.running_series import fixed_fields, read_block, series_of
-from colonnade.readers.text.table import Table, layout_of
+from colonnade.readers.text.table import Table
 
 
 def recognise(path: Path) -> Recognition:
@@ -30,7 +28,7 @@ def recognise(path: Path) -> Recognition:
     if reason := foreign_format(path):
         return Recognition(False, reason, is_known=True)
     try:
-        header = read_header(path, DelimitedOptions())
+        header = read_header(text_of(path), DelimitedOptions())
     except ReadError as error:
         return Recognition(False, str(error).removeprefix(f"{path.name}: "))
     width, first = len(header.form.kinds), header.heading.first + 1
@@ -57,24 +55,44 @@ def read(path: Path, options: DelimitedOptions, window: Window | None = None) ->
     """
     if not options.skip_rows and (reason := foreign_format(path)):
         raise ReadError(f"{path.name}: {reason}")
-    header = read_header(path, options)
+    return read_text(text_of(path, options.encoding), options, window)
+
+
+def read_text(text: Text, options: DelimitedOptions, window: Window | None = None) -> Recording:
+    """Read delimited text, whatever it was made of; see `read`."""
+    path = text.path
+    header = read_header(text, options)
     stretch = None if window is None else _stretch(header, options, window)
     header, rows = _grouped(header, _rows(header, stretch), stretch, options)
-    verdict = _layout(header, rows, options)
-    if verdict.layout == "columns":
-        return _recording(header, rows, options)
     claims, form = header.claims, header.form
-    values = read_block(path, form.dialect, header.heading.first, claims.width)
+    is_whole = rows.skipped == 0 and rows.reaches_end and not text.ends_within_line
+
+    def series() -> Array:
+        return read_block(text, form.dialect, header.heading.first, claims.width)
+
+    layout = options.given_layout(form.kinds)
+    if layout is None and header.is_touching:
+        layout = Layout("running", f"the header declares rows of {claims.fields} fields, and these touch")
+    layout = layout or declared_layout(
+        path,
+        rows.columns,
+        claims,
+        series if is_whole else None,
+        is_named=header.is_named,
+        is_free=form.dialect.delimiter == WHITESPACE,
+    )
+    if layout.kind == "columns":
+        return _recording(header, rows, options)
     recording = Recording(path, "delimited", (), notes=header.notes)
-    return series_of(recording, values, len(form.kinds), claims, verdict)
+    return series_of(recording, series(), len(form.kinds), claims, layout)
 
 
 def _rows(header: Header, stretch: Stretch | None) -> Rows:
-    pieces = pieces_of_file(header.path, header.form.dialect.encoding, header.heading.first)
-    rows = read_rows(header.path, pieces, header.form, stretch)
+    path, pieces = header.text.path, pieces_of_text(header.text, header.heading.first)
+    rows = read_rows(path, pieces, header.form, stretch)
     if not rows.size:
         raise ReadError(
-            f"{header.path.name}: none of its {rows.skipped} samples is within the test's window. Check the file's "
+            f"{path.name}: none of its {rows.skipped} samples is within the test's window. Check the file's "
             "times and the test's `window`, which counts from the file's own zero."
         )
     return rows
@@ -95,32 +113,10 @@ def _grouped(header: Header, rows: Rows, stretch: Stretch | None, options: Delim
     return header, rows
 
 
-def _layout(header: Header, rows: Rows, options: DelimitedOptions) -> Verdict:
-    """Decide whether columns are channels."""
-    dialect, claims = header.form.dialect, header.claims
-
-    def columns() -> tuple[Sequence[Array], Named]:
-        fields = None
-        if claims.fields and claims.width and claims.fields != len(rows.columns):
-            # Fields of fixed width may touch: blanks do not separate them then.
-            fields = fixed_fields(header.path, dialect, header.heading.first, claims)
-        return (rows.columns, header.named) if fields is None else (fields, "")
-
-    return layout_of(
-        header.path,
-        header.form.kinds,
-        options,
-        claims,
-        columns,
-        is_free=dialect.delimiter == WHITESPACE,
-        is_whole=rows.skipped == 0 and rows.reaches_end and not ends_within_line(header.path),
-    )
-
-
 def _recording(header: Header, rows: Rows, options: DelimitedOptions) -> Recording:
     """Say what the rows mean."""
-    path, heading, kinds = header.path, header.heading, header.form.kinds
-    is_cut = rows.reaches_end and ends_within_line(path)
+    path, heading, kinds = header.text.path, header.heading, header.form.kinds
+    is_cut = rows.reaches_end and header.text.ends_within_line
     mended = mend(rows, heading.headings, is_cut=is_cut)
     columns = [
         past_midnight(column) if kind == "time" else column for column, kind in zip(mended.columns, kinds, strict=True)

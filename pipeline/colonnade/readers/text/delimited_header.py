@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
 from colonnade.errors import ReadError
 from colonnade.readers.text.first_sample import column_kinds, find_first_sample
-from colonnade.readers.text.header_claims import HeaderClaims, header_claims
 from colonnade.readers.text.heading import Heading, HeadingLines, describe_columns, find_heading, unread_numbers
+from colonnade.readers.text.layout import HeaderClaims, header_claims, touching_fields
 from colonnade.readers.text.lines.cells import COMMENT_SIGNS, MISSING, WHITESPACE, Dialect
-from colonnade.readers.text.lines.encoding import Encoding, TextOptions, detect_encoding, head_lines, looks_binary
+from colonnade.readers.text.lines.encoding import Text, TextOptions, head_lines, looks_binary
 from colonnade.readers.text.lines.faults import RowForm
-from colonnade.readers.text.row_layout import Named
 from colonnade.readers.text.sniffing import sniff
 from colonnade.readers.text.table import TableOptions
 
@@ -62,36 +60,40 @@ class Header:
 
     Attributes
     ----------
-    path : Path
+    text : Text
     form : RowForm
         How its rows are written.
     heading : Heading
-    named : str
-        Whether names or units are above the columns, or words that may be a sentence.
+    is_touching : bool
+        Whether fields of a width that is declared touch, so that blanks do not separate them.
+    is_named : bool
+        Whether names or units are above the columns, and not words that may be a sentence.
     claims : HeaderClaims
         What the lines above the first sample say of the numbers.
     notes, warnings : tuple of str
     """
 
-    path: Path
+    text: Text
     form: RowForm
     heading: Heading
-    named: Named
+    is_touching: bool
+    is_named: bool
     claims: HeaderClaims
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
 
 
-def read_header(path: Path, options: DelimitedOptions) -> Header:
+def read_header(text: Text, options: DelimitedOptions) -> Header:
     """
-    Find out how a file is written and what its columns are called, from its head.
+    Find out how a text is written and what its columns are called, from its head.
 
     Raises
     ------
     ReadError
         If it is empty, not text, or has no rows of numbers.
     """
-    encoding, lines = _head(path, options)
+    lines = _head(text, options)
+    encoding = text.encoding
     start = options.lines_to_pass
     given = Dialect(
         encoding.name,
@@ -108,7 +110,7 @@ def read_header(path: Path, options: DelimitedOptions) -> Header:
     first = find_first_sample(lines, start, dialect, kinds) if sniffed.columns else None
     if first is None:
         raise ReadError(
-            f"{path.name}: no rows of numbers were found in the first {len(lines)} lines{_as_given(options)}; the "
+            f"{text.path.name}: no rows of numbers were found in the first {len(lines)} lines{_as_given(options)}; the "
             f"first is {lines[0][:60]!r}."
         )
     where = options.heading_lines(find_heading(lines, options.skip_rows, first, dialect, kinds))
@@ -117,42 +119,44 @@ def read_header(path: Path, options: DelimitedOptions) -> Header:
     texts = ", ".join(f'"{head}"' for head, kind in zip(heading.headings, kinds, strict=False) if kind == "text")
     notes: tuple[str, ...] = (f"encoding {encoding.name} ({encoding.evidence})",) if encoding.evidence else ()
     notes += (f"text, not numbers, in {texts}",) if texts else ()
+    claims = header_claims("\n".join(lines[:first]))
     return Header(
-        path,
-        RowForm(dialect, tuple(kinds[:width]), len(kinds) - width),
+        text,
+        RowForm(dialect, tuple(kinds[:width]), len(kinds) - width, exact=text.made is not None),
         heading,
-        _named(lines, where, heading, dialect, options),
-        header_claims("\n".join(lines[:first])),
+        touching_fields(lines, first, len(kinds), dialect, claims),
+        _is_named(lines, where, heading, dialect, options),
+        claims,
         notes + sniffed.notes,
         (*sniffed.warnings, *unread_numbers(lines, where, start, first, dialect)),
     )
 
 
-def _head(path: Path, options: DelimitedOptions) -> tuple[Encoding, list[str]]:
+def _head(text: Text, options: DelimitedOptions) -> list[str]:
     """Read the first lines of a text."""
-    encoding = Encoding(options.encoding, "") if options.encoding else detect_encoding(path)
+    path = text.path
     try:
-        lines, _ = head_lines(path, encoding.name, wanted=options.lines_to_pass + 200)
+        lines, _ = head_lines(text, wanted=options.lines_to_pass + 200)
     except UnicodeError as error:
-        raise ReadError(f"{path.name}: it is not {encoding.name} text ({error}).") from error
+        raise ReadError(f"{path.name}: it is not {text.encoding.name} text ({error}).") from error
     if not any(line.strip() for line in lines):
         raise ReadError(f"{path.name}: the file is empty; rows of numbers were expected.")
     if reason := looks_binary(lines):
         raise ReadError(f"{path.name}: {reason}; text with rows of numbers was expected.")
-    return encoding, lines
+    return lines
 
 
-def _named(
+def _is_named(
     lines: list[str], where: HeadingLines, heading: Heading, dialect: Dialect, options: DelimitedOptions
-) -> Named:
+) -> bool:
     """Say whether names are above the columns; between single blanks they may be the words of a sentence."""
     if not heading.names_most:
-        return ""
+        return False
     if where.units is not None or where.names is None or options.names_row is not None:
-        return "names"
+        return True
     words = lines[where.names].split()
     between_blanks = dialect.delimiter == WHITESPACE and lines[where.names].strip() == " ".join(words)
-    return "words" if between_blanks and len(words) > 2 else "names"
+    return not between_blanks or len(words) <= 2
 
 
 def _named_width(lines: list[str], where: HeadingLines, dialect: Dialect, kinds: list[str]) -> int:

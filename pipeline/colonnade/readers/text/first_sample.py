@@ -25,7 +25,7 @@ def column_kinds(lines: list[str], dialect: Dialect, columns: int) -> list[str]:
         among them.
     """
     counts: list[Counter[str]] = [Counter() for _ in range(columns)]
-    for line in lines[-SAMPLE_LINES:]:
+    for line in [line for line in lines if line.strip()][-SAMPLE_LINES:]:
         cells = dialect.split(line)
         if len(cells) != columns:
             continue

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
@@ -11,13 +11,11 @@ from typing import Literal, Self
 from pydantic import Field, model_validator
 
 from colonnade.arrays import Array
-from colonnade.errors import ReadError
 from colonnade.readers.clock import Clocks, find_clocks, given_clock
 from colonnade.readers.format import Options
 from colonnade.readers.recording import RecordedChannel, Recording, TimeUnit
-from colonnade.readers.text.header_claims import HeaderClaims
 from colonnade.readers.text.heading import Heading, HeadingLines
-from colonnade.readers.text.row_layout import Named, Verdict, judge
+from colonnade.readers.text.layout import HeaderClaims, Layout
 
 
 class TableOptions(Options):
@@ -41,6 +39,12 @@ class TableOptions(Options):
         if self.time_unit is not None and self.time is None:
             raise ValueError("time_unit needs `time`: the column it belongs to")
         return self
+
+    def given_layout(self, kinds: Sequence[str]) -> Layout | None:
+        """What the rows are, as given or as columns that are not all numbers have to be; None if neither says it."""
+        if self.layout is not None:
+            return Layout(self.layout, "as given")
+        return Layout("columns") if self.time is not None or set(kinds) != {"number"} else None
 
     def heading_lines(self, found: HeadingLines) -> HeadingLines:
         """Lines of names and units: as given, else as found; a line that is given as one is not found as the other."""
@@ -111,44 +115,3 @@ class Table:
         others = found.columns - given.columns
         times = tuple((found if number in others else given).times[number] for number in range(len(given.times)))
         return replace(given, columns=found.columns | given.columns, times=times)
-
-
-def layout_of(
-    path: Path,
-    kinds: Sequence[str],
-    options: TableOptions,
-    claims: HeaderClaims,
-    columns: Callable[[], tuple[Sequence[Array], Named]],
-    *,
-    is_free: bool,
-    is_whole: bool,
-) -> Verdict:
-    """
-    Decide whether columns are channels: as given, by what they hold, else by the evidence.
-
-    Parameters
-    ----------
-    path : Path
-    kinds : sequence of str
-        What each column holds.
-    options : TableOptions
-    claims : HeaderClaims
-    columns : callable
-        Gives the columns, and what their names are, as `judge` needs them.
-    is_free, is_whole : bool
-        As for `judge`.
-
-    Raises
-    ------
-    ReadError
-        If the evidence does not decide it.
-    """
-    if options.layout is not None:
-        return Verdict(options.layout, ("as given",))
-    if options.time is not None or any(kind != "number" for kind in kinds):
-        return Verdict("columns")
-    values, named = columns()
-    verdict = judge(values, claims, named=named, is_free=is_free, is_whole=is_whole)
-    if verdict.layout is None:
-        raise ReadError(verdict.undecided(path, len(kinds)))
-    return verdict

@@ -203,6 +203,7 @@ def _rotation(
         tuple("angle" if inputs.positions[name].sensing == "angle" else "displacement" for name in names),
         refixed,
         max(0.5 / float(conditioned[name].attrs.get("cutoff_hz", np.inf)) for name in names),
+        np.array([conditioned[f"{name}_quality"].to_numpy() == Flag.SUSPECT for name in names]),
     )
     useful = _seeing(seen, np.array([quantity == "angle" for quantity in seen.quantities]))
     return seen.only(useful) if useful else None

@@ -21,6 +21,7 @@ from colonnade.stages.parts.base_motion import (
     vertical_acceleration,
     weakened,
 )
+from colonnade.stages.parts.conditioned import DERIVED
 from colonnade.stages.parts.inputs import Inputs
 
 if TYPE_CHECKING:
@@ -124,7 +125,9 @@ def begin(rocking: xr.Dataset, inputs: BeginningInputs, identified: xr.Dataset |
         transverse = transverse_acceleration(rocking) if inputs.is_in_space else None
         if transverse is None:
             warnings += left_out(rocking, base)
-        warnings += weakened(base)
+        # The fastest part of a second derivative is noise.
+        if not any(each.kind == DERIVED for each in rocking.attrs.get("warnings", ())):
+            warnings += weakened(base)
     else:
         base, vertical, transverse, warnings = np.zeros_like(time), None, None, []
     # On a tilted table a part of gravity acts along x, as a base acceleration the other way would.

@@ -27,6 +27,9 @@ AXES = {"": 0, "transverse_": 1, "vertical_": 2}
 LARGEST_DIFFERENCE = 0.1
 """Of the base motion (RMS), by which several table channels may differ from their mean without a warning."""
 
+DERIVED = "derived base motion"
+"""Kind of the finding that the base acceleration is the second derivative of a displacement."""
+
 LEAST_NOISE = 1e-9
 """m, rad, …: smallest noise assumed for a reading, so that it has a finite weight."""
 
@@ -64,7 +67,7 @@ def _derived(conditioned: xr.Dataset, channels: Transducers, displacement: Array
     is_meant = not any(abs(direction[0]) >= ALONG for direction in channels.accelerations.values())
     weight = note if is_meant else warning
     finding = weight(
-        "derived base motion",
+        DERIVED,
         "The base acceleration is the second derivative of the table's displacement, because no table accelerometer "
         f"is usable. It contains nothing above {cutoff:.3g} Hz.",
     )

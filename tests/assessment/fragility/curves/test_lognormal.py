@@ -72,8 +72,9 @@ def test_no_curve_is_given_if_the_outcomes_have_none(peaks, reason, rises):
     [
         (lognormal(5, records=FEWEST_RECORDS - 1), "There are 9 records. A curve has no interval below 10."),
         (lognormal(2, records=12, draws=1, levels=4), "of the resamples of records have no curve"),
+        (Population(20, 1, 6, of_parameters=0.0).sample(np.random.default_rng(1)), "too far apart for 20 records"),
     ],
-    ids=["few records", "few levels between none and all"],
+    ids=["few records", "few levels between none and all", "levels too far apart"],
 )
 def test_a_curve_whose_resamples_do_not_show_the_scatter_has_no_interval_and_says_why(outcomes, why):
     fit = fit_lognormal(outcomes, resamples=200)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from colonnade.readers.text.lines.encoding import detect_encoding, ends_within_line, head_lines, looks_binary
+from colonnade.readers.text.lines.encoding import detect_encoding, ends_within_line, head_lines, looks_binary, text_of
 
 TEXT = "Weg [µm];Kraft\r\n1;2\r\n3;4\r\n"
 
@@ -29,7 +29,7 @@ def test_an_encoding_is_found_from_the_bytes(tmp_path: Path, written_as: str, fo
     path.write_bytes(TEXT.replace("µ" if written_as == "ascii" else "\0", "u").encode(written_as))
     encoding = detect_encoding(path)
     assert encoding.name == found
-    lines, whole = head_lines(path, encoding.name)
+    lines, whole = head_lines(text_of(path))
     assert lines[0].startswith("Weg [")
     assert lines[1:] == ["1;2", "3;4"]
     assert whole
@@ -48,9 +48,9 @@ def test_as_many_lines_are_read_as_are_wanted(tmp_path: Path, monkeypatch: pytes
     monkeypatch.setattr("colonnade.readers.text.lines.encoding.HEAD_BYTES", 100)
     path = tmp_path / "record.txt"
     path.write_text("".join(f"line {number}\n" for number in range(1000)))
-    few, whole = head_lines(path, "utf-8")
+    few, whole = head_lines(text_of(path, "utf-8"))
     assert (few[0], len(few), whole) == ("line 0", 13, False)
-    many, _ = head_lines(path, "utf-8", wanted=300)
+    many, _ = head_lines(text_of(path, "utf-8"), wanted=300)
     assert len(many) >= 300
 
 

@@ -8,7 +8,8 @@ import pytest
 
 from colonnade.readers.text.lines import pieces
 from colonnade.readers.text.lines.cells import Dialect
-from colonnade.readers.text.lines.pieces import pieces_of_file, pieces_of_lines
+from colonnade.readers.text.lines.encoding import text_of
+from colonnade.readers.text.lines.pieces import pieces_of_lines, pieces_of_text
 
 SEMICOLON = Dialect("utf-8", ";", ".")
 
@@ -21,14 +22,14 @@ def test_lines_keep_their_numbers_whatever_the_size_of_the_pieces(
     monkeypatch.setattr(pieces, "PIECE", size)
     path = tmp_path / "a.csv"
     path.write_bytes(end.join(["a;b", "1;2", "", "3;4", "   ", "5;6"]).encode())
-    rows = [row for piece in pieces_of_file(path, "utf-8", 1) for row in piece.rows(SEMICOLON)]
+    rows = [row for piece in pieces_of_text(text_of(path, "utf-8"), 1) for row in piece.rows(SEMICOLON)]
     assert rows == [(2, "1;2"), (4, "3;4"), (6, "5;6")]
 
 
 def test_a_power_failures_zeros_are_unreadable_characters(tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
     path.write_bytes(b"1;2\n\0\0\0")
-    texts = "".join(piece.text for piece in pieces_of_file(path, "utf-8", 0))
+    texts = "".join(piece.text for piece in pieces_of_text(text_of(path, "utf-8"), 0))
     assert texts == "1;2\n\ufffd\ufffd\ufffd"
 
 

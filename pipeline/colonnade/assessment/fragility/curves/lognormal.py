@@ -17,6 +17,7 @@ from colonnade.assessment.fragility.outcomes import Cells, Outcomes
 from colonnade.assessment.fragility.resampling import (
     FEWEST_RECORDS,
     LEVEL,
+    MOST_WITHOUT,
     RESAMPLES,
     Band,
     Interval,
@@ -25,11 +26,15 @@ from colonnade.assessment.fragility.resampling import (
     shows_spread,
     studentised,
 )
+from colonnade.assessment.fragility.stripes import striped
 from colonnade.units import format_percent
 from colonnade.validation import samples
 
 Reason = Literal["", "separated", "falling", "never", "always", "one intensity"]
 """Why there is no curve: no overlap of outcomes, fewer events at higher intensity, no event, only events."""
+
+ENOUGH_RECORDS, LEAST_MIXED = 50, 0.8
+"""Of an interval: of fewer records, shares of the rarer outcome add up to so much, as of levels that are β apart."""
 
 STEP = 1e-5
 """Of numerical derivatives with respect to ln median and ln β."""
@@ -79,9 +84,12 @@ class LognormalFit:
             return ""
         if self.records < FEWEST_RECORDS:
             return f"There are {self.records} records. A curve has no interval below {FEWEST_RECORDS}. Add records."
+        why = f"The levels are too far apart for {self.records} records"
+        if self.degenerate > MOST_WITHOUT:
+            why = f"{format_percent(self.degenerate)} of the resamples of records have no curve"
         return (
-            f"{format_percent(self.degenerate)} of the resamples of records have no curve, so there is no interval: "
-            "at too few levels some records stand and others overturn. Add records, or levels closer together."
+            f"{why}, so there is no interval: at too few levels some records stand and others overturn. "
+            "Add records, or levels closer together."
         )
 
     def probability(self, intensity: ArrayLike) -> Band:
@@ -149,7 +157,11 @@ def fit_lognormal(
     parameters, log_likelihood, status = fit_parameters(cells, weights)
     all_records, resampled = (Parameters(*(each[part] for each in parameters)) for part in (slice(1), slice(1, None)))
     has_curve = status[1:] == probit.FITTED
-    usable = has_curve & shows_spread(has_curve, len(outcomes.records))
+    stripes = striped(cells)
+    shares = stripes.events.sum(axis=0) / stripes.histories.sum(axis=0)
+    mixed = float(np.minimum(shares, 1 - shares).sum())
+    shows = len(outcomes.records) >= ENOUGH_RECORDS or mixed >= LEAST_MIXED
+    usable = has_curve & (shows and shows_spread(has_curve, len(outcomes.records)))
     resampled = Parameters(*(each[usable] for each in resampled))
     median, beta = _intervals(all_records, resampled, checked_level(level), len(outcomes.records))
     return LognormalFit(

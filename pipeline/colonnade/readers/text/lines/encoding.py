@@ -101,14 +101,46 @@ def open_text(path: Path, encoding: str) -> TextIO:
     return path.open(encoding=encoding, errors="replace", newline="")
 
 
-def head_lines(path: Path, encoding: str, wanted: int = 0) -> tuple[list[str], bool]:
+@dataclass(frozen=True)
+class Text:
     """
-    Read the first lines of a file.
+    A text.
+
+    Attributes
+    ----------
+    path : Path
+        The file that it is in.
+    encoding : Encoding
+    made : str or None
+        The text itself where it was made of a file that is none, such as a workbook.
+    """
+
+    path: Path
+    encoding: Encoding
+    made: str | None = None
+
+    def open(self) -> TextIO:
+        """Open it as `open_text`."""
+        return open_text(self.path, self.encoding.name) if self.made is None else StringIO(self.made, newline="")
+
+    @property
+    def ends_within_line(self) -> bool:
+        """Whether its last line has no line end."""
+        return self.made is None and ends_within_line(self.path)
+
+
+def text_of(path: Path, encoding: str | None = None) -> Text:
+    """Give the text of a file, in an encoding that is given or found."""
+    return Text(path, Encoding(encoding, "") if encoding else detect_encoding(path))
+
+
+def head_lines(text: Text, wanted: int = 0) -> tuple[list[str], bool]:
+    """
+    Read the first lines of a text.
 
     Parameters
     ----------
-    path, encoding
-        As for `open_text`.
+    text : Text
     wanted : int
         Number of lines that have to be among them, if the file has so many.
 
@@ -119,14 +151,13 @@ def head_lines(path: Path, encoding: str, wanted: int = 0) -> tuple[list[str], b
     whole : bool
         Whether this is all of the file.
     """
-    with open_text(path, encoding) as stream:
-        text = stream.read(HEAD_BYTES)
-        block = text
-        while len(block) == HEAD_BYTES and text.count("\n") + text.count("\r") < wanted:
+    with text.open() as stream:
+        head = block = stream.read(HEAD_BYTES)
+        while len(block) == HEAD_BYTES and head.count("\n") + head.count("\r") < wanted:
             block = stream.read(HEAD_BYTES)
-            text += block
+            head += block
         whole = not stream.read(1)
-    lines = [line.rstrip("\r\n") for line in StringIO(text.removeprefix("\ufeff"), newline="")]
+    lines = [line.rstrip("\r\n") for line in StringIO(head.removeprefix("\ufeff"), newline="")]
     return (lines if whole or len(lines) == 1 else lines[:-1]), whole
 
 

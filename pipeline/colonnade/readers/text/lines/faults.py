@@ -30,6 +30,8 @@ class RowForm:
         end in empty cells.
     ragged : bool
         Whether columns may end before the last row, as those of channels with fewer samples.
+    exact : bool
+        Whether numbers are read to their last digit, which takes three times as long.
     grouped : dict of int to str
         Columns of whole numbers with a sign between their thousands.
     """
@@ -40,6 +42,7 @@ class RowForm:
     remark: bool = False
     by_instrument: bool = False
     ragged: bool = False
+    exact: bool = False
     grouped: Mapping[int, str] = field(default_factory=dict)
 
     def dialect_of(self, column: int) -> Dialect:

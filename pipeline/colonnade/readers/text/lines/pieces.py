@@ -6,10 +6,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from io import StringIO
 from itertools import islice
-from pathlib import Path
 
 from colonnade.readers.text.lines.cells import Dialect
-from colonnade.readers.text.lines.encoding import open_text
+from colonnade.readers.text.lines.encoding import Text
 
 UNREADABLE = "\ufffd"
 
@@ -41,23 +40,23 @@ class Piece:
                 yield number, line.rstrip("\r\n")
 
 
-def pieces_of_file(path: Path, encoding: str, first: int) -> Iterator[Piece]:
+def pieces_of_text(text: Text, first: int) -> Iterator[Piece]:
     """
-    Cut a file into pieces, none of them blank, from the line with index `first` on.
+    Cut a text into pieces, none of them blank, from the line with index `first` on.
 
     NUL characters, which recorders leave when their power fails and which C takes for the end of a cell, come out as
     U+FFFD, so that the cell is not a number.
     """
-    with open_text(path, encoding) as stream:
+    with text.open() as stream:
         for _ in range(first):
             stream.readline()
         number = first + 1
         rest = stream.read(1).removeprefix("\ufeff").replace("\0", UNREADABLE)
-        while text := stream.read(PIECE):
-            text = rest + text.replace("\0", UNREADABLE)
+        while read := stream.read(PIECE):
+            read = rest + read.replace("\0", UNREADABLE)
             # A line may end in a carriage return alone, but not between that and a line feed.
-            end = text.rfind("\n") + 1 or text.rfind("\r", 0, -1) + 1
-            piece, rest = text[:end], text[end:]
+            end = read.rfind("\n") + 1 or read.rfind("\r", 0, -1) + 1
+            piece, rest = read[:end], read[end:]
             if piece and not piece.isspace():
                 yield Piece(number, piece)
             number += piece.count("\n")

@@ -245,6 +245,7 @@ def _frame(text: str, form: RowForm) -> pd.DataFrame:
         "na_values": list(dialect.own_missing),
         "dtype": dict.fromkeys(form.grouped, str),
         "low_memory": False,
+        "float_precision": "round_trip" if form.exact else None,
     }
     if not dialect.quoted:
         try:

@@ -1,4 +1,4 @@
-"""Rows of numbers are a table of channels or one series that runs on; the file shows which, or a person says it."""
+"""Rows of numbers are a table of channels or one series that runs on; the file declares which, or a person says it."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from scipy.signal import butter, sosfiltfilt
 from colonnade.errors import ReadError
 from colonnade.readers.motion import read_motion
 from colonnade.readers.registry import read
-from colonnade.readers.text.header_claims import HeaderClaims
-from colonnade.readers.text.row_layout import judge
+from colonnade.readers.text.layout import header_claims, read_block
+from colonnade.readers.text.lines.cells import WHITESPACE, Dialect
+from colonnade.readers.text.lines.encoding import text_of
 from every import every
 
 STANDARD_GRAVITY = 9.80665
@@ -61,38 +62,23 @@ def test_a_column_of_numbers_that_run_on_is_refused_with_the_cause(tmp_path: Pat
             recording.channel(column)
 
 
-@pytest.mark.parametrize(
-    ("head", "last"),
-    [
-        pytest.param("", None, id="each row continues the one above"),
-        pytest.param("El Centro 1940 NS component acceleration in g\n", None, id="a sentence of as many words above"),
-        pytest.param("", shaking(1603)[1600:], id="the last row is shorter"),
-        pytest.param("NPTS = 1600\n", None, id="the header announces as many"),
-        pytest.param("10 values per line, 8 values per line\n", None, id="the header tells a row's numbers"),
-    ],
-)
-def test_each_sign_of_numbers_that_run_on(tmp_path: Path, head: str, last: np.ndarray | None) -> None:
-    series = shaking(1603)[: 1600 if last is None else None]
-    path = written(tmp_path, series[:1600].reshape(-1, 8), head=head, last=last)
+@every(("head", "size"), [("NPTS = 1600\n", 1600), ("NPTS = 1603\n", 1603), ("8 values per line\n", 1603)])
+def test_numbers_run_on_where_the_header_counts_them_or_those_of_a_row(tmp_path: Path, head: str, size: int) -> None:
+    series = shaking(1603)[:size]
+    path = written(tmp_path, series[:1600].reshape(-1, 8), head=head, last=series[1600:])
     np.testing.assert_array_equal(read(path).channel(1).values, series)
     assert read_motion(path, unit="g", dt=0.02).peak == pytest.approx(np.abs(series).max() * STANDARD_GRAVITY)
 
 
-@pytest.mark.parametrize(
-    ("head", "sign"),
-    [("NPTS = 400\n", "400 rows"), ("", "shorter"), ("        NS        EW        UD\n", "names")],
-    ids=["the header announces as many as rows", "each column goes on by itself", "names above"],
-)
-def test_each_sign_of_columns(tmp_path: Path, head: str, sign: str) -> None:
+@every("head", ["NPTS = 400\n", "        NS        EW        UD\n"])
+def test_columns_are_channels_where_the_header_counts_rows_or_names_stand_above(tmp_path: Path, head: str) -> None:
     recording = read(written(tmp_path, components(), head=head, form="%10.4f"))
     assert len(recording.channels) == 3
     np.testing.assert_allclose(recording.channel(2).values, components()[:, 1], atol=5e-5)
 
 
-@pytest.mark.parametrize(
-    "head", ["3F10.4 units are g, dt = 0.01 sec\n        NS        EW        UD\n", "3F10.4\nNS EW UD\n"]
-)
-def test_three_components_with_names_are_not_interleaved(tmp_path: Path, head: str) -> None:
+def test_three_components_with_names_are_not_interleaved(tmp_path: Path) -> None:
+    head = "3F10.4 units are g, dt = 0.01 sec\n        NS        EW        UD\n"
     path = written(tmp_path, components(), head=head, form="%10.4f")
     with pytest.raises(ReadError, match='3 columns may be the acceleration: "NS", "EW", "UD"'):
         read_motion(path, unit="g", dt=0.01)
@@ -116,19 +102,12 @@ def test_pairs_of_time_and_value_run_on(tmp_path: Path) -> None:
     assert motion.dt == pytest.approx(0.02)
 
 
-@pytest.mark.parametrize(
-    ("table", "head"),
-    [
-        pytest.param(np.random.default_rng(3).standard_normal((60, 4)), "", id="white noise shows nothing"),
-        pytest.param(components(), "NPTS = 1200\n", id="components, and the header's count contradicts"),
-        pytest.param(
-            np.sin(np.pi * np.arange(2000) / 5 + 0.3).reshape(-1, 10),
-            "in the format of 10F10.5\n",
-            id="whole periods a row",
-        ),
-    ],
+@every(
+    "head",
+    ["", "El Centro 1940 NS component acceleration in g\n", "in the format of 8F10.5\n", "NPTS = 1500\n"],
 )
-def test_what_the_file_does_not_show_has_to_be_said(tmp_path: Path, table: np.ndarray, head: str) -> None:
+def test_what_the_file_does_not_declare_has_to_be_said(tmp_path: Path, head: str) -> None:
+    table = shaking(1600).reshape(-1, 8)
     path = written(tmp_path, table, head=head)
     with pytest.raises(ReadError, match=r'does not show whether.*layout = "columns" or layout = "running"'):
         read(path)
@@ -143,24 +122,12 @@ def test_three_phones_that_feel_the_same_are_three_channels(shared_data: Path) -
     assert len(read(shared_data / "shaketable" / "earthquake-test1.csv").channels) == 3
 
 
-@every("width", [2, 3, 5, 8, 10])
-@every("cutoff", [0.02, 0.1, 0.3])
-def test_a_series_is_never_taken_for_columns_nor_columns_for_a_series(width: int, cutoff: float) -> None:
-    rows = 150
-    series = shaking(rows * width, cutoff=cutoff).reshape(rows, width)
-    channels = np.column_stack([shaking(rows, cutoff=cutoff, seed=seed) for seed in range(width)])
-    drift = np.linspace(-0.2, 0.3, width) * np.random.default_rng(width).permutation(width)
-    for table, layout in ((series, "running"), (channels, "columns"), (channels + np.round(drift, 5), "columns")):
-        verdict = judge(list(table.T), HeaderClaims(), named="", is_free=True, is_whole=True)
-        assert verdict.layout == layout, verdict
-
-
 def test_a_column_that_ends_earlier_is_no_series_that_runs_on(tmp_path: Path) -> None:
     table = components()
     text = "".join(
         " ".join(f"{number:.4f}" for number in row[: 3 if line < 390 else 2]) + "\n" for line, row in enumerate(table)
     )
-    (tmp_path / "record.txt").write_text(text)
+    (tmp_path / "record.txt").write_text("NPTS = 400\n" + text)
     assert len(read(tmp_path / "record.txt").channels) == 3
 
 
@@ -174,8 +141,56 @@ def test_a_single_series_takes_unit_and_interval_from_the_lines_above(tmp_path: 
     assert (motion.dt, motion.peak) == (pytest.approx(0.005), pytest.approx(np.abs(series).max() / 100))
 
 
-def test_a_title_that_fills_the_first_of_eight_cells_names_no_columns(tmp_path: Path) -> None:
-    series = shaking(800)
-    rows = "\n".join(",".join(f"{number:.5f}" for number in row) for row in series.reshape(-1, 8))
-    (tmp_path / "motion.csv").write_text(f"El Centro 1940 NS,,,,,,,\n{rows}\n")
-    np.testing.assert_array_equal(read(tmp_path / "motion.csv").channel(1).values, series)
+BLANKS = Dialect("utf-8", WHITESPACE, ".")
+
+
+def block(tmp_path: Path, text: str) -> Path:
+    path = tmp_path / "a.txt"
+    path.write_text(text)
+    return path
+
+
+def test_a_block_is_one_series_with_rows_of_touching_fields_above_its_first(tmp_path: Path) -> None:
+    path = block(tmp_path, "title\n-1.0-2.0-3.0\n 1.0 2.0 3.0\n 4.0 5.0\n")
+    assert read_block(text_of(path), BLANKS, 2, 4).tolist() == [-1, -2, -3, 1, 2, 3, 4, 5]
+    assert read_block(text_of(path), BLANKS, 2, None).tolist() == [1, 2, 3, 4, 5]
+
+
+@every("text", ["1 2\n3 x\n5 6\n", "1 2\nend\n5 6\n"])
+def test_a_line_that_does_not_continue_the_block_is_refused(tmp_path: Path, text: str) -> None:
+    with pytest.raises(ReadError, match=r"a\.txt: line \d, .* does not continue the numbers above it"):
+        read_block(text_of(block(tmp_path, text)), BLANKS, 0, None)
+
+
+@every(
+    ("text", "claim", "value"),
+    [
+        ("4096 points, dt = 0.01 s", "step", 0.01),
+        ("NPTS=2999", "counts", (2999,)),
+        ("5 points per line", "per_row", 5),
+        ("(8F10.5)", "width", 10),
+        ("Units: cm/s/s", "unit", "cm/s/s"),
+        ("dt = 0 s", "step", None),
+        ("time step 0.02", "step", 0.02),
+        ("Sampling interval: 0.005,", "step", 0.005),
+        ("at increments of 0.02 seconds", "step", 0.02),
+        ("0.02 sec intervals", "step", 0.02),
+        ("Load step 2", "step", None),
+        ("load step: 2, cycle 3", "step", None),
+        ("steps 100,", "step", None),
+        ("10 increments, 2 stages", "step", None),
+        ("North component", "unit", None),
+    ],
+)
+def test_a_claim_is_found_in_its_words(text: str, claim: str, value: object) -> None:
+    assert getattr(header_claims(text), claim) == value
+
+
+def test_a_claimed_interval_gives_times() -> None:
+    claims = header_claims("equal spacing of 0.02 sec")
+    times = claims.times(3)
+    assert times is not None
+    assert times.tolist() == [0, 0.02, 0.04]
+    assert claims.clock_note == "clock: 0.02 s, as the header says"
+    assert header_claims("").times(3) is None
+    assert header_claims("").clock_note == "no clock"

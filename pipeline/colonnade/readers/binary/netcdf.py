@@ -3,28 +3,182 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
+from colonnade.readers.binary.hdf5 import Walk, open_hdf5
 from colonnade.readers.binary.magic import HDF5, NETCDF, by_mark, head
 from colonnade.readers.binary.vector_clocks import ClockOptions, find_clocks
-from colonnade.readers.binary.vectors import Column, named, recorded
+from colonnade.readers.binary.vectors import Column, UnreadableError, named, recorded
 from colonnade.readers.clock import Clocks, given_clock
 from colonnade.readers.format import Format, Recognition
-from colonnade.readers.hdf5.content import Variable, read_classic, read_hdf5
 from colonnade.readers.recording import TIME_UNITS, Recording
 
+if TYPE_CHECKING:
+    import h5py
+
+HIDDEN = frozenset(("CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_Netcdf4Dimid", "_Netcdf4Coordinates"))
+SCALE = "DIMENSION_SCALE"
+DIMENSION_ONLY = "This is a netCDF dimension but not a netCDF variable"
 MOST_COLUMNS = 1000
 """Of one variable; a wider one does not hold channels."""
 SINCE = re.compile(r"(?P<unit>\w+)\s+since\s+(?P<moment>.+)", re.IGNORECASE)
 DAYS = {"d": 86400.0, "day": 86400.0, "days": 86400.0, "ns": 1e-9, "nanosecond": 1e-9, "nanoseconds": 1e-9}
+
+
+@dataclass(frozen=True)
+class Variable:
+    """
+    An array of numbers.
+
+    Attributes
+    ----------
+    path : str
+        With its groups: `run/top`.
+    values : ndarray
+        As stored.
+    dimensions : tuple of (str or None)
+        Name of each, if it has one.
+    attributes : dict
+    """
+
+    path: str
+    values: NDArray[Any]
+    dimensions: tuple[str | None, ...]
+    attributes: dict[str, Any]
+
+    @property
+    def groups(self) -> tuple[str, ...]:
+        """The groups that contain it, outermost first."""
+        return tuple(self.path.split("/")[:-1])
+
+
+class Content(Walk):
+    """
+    What a file holds.
+
+    Attributes
+    ----------
+    variables : list of Variable
+    attributes : dict
+        Of the file.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.variables: list[Variable] = []
+        self.attributes: dict[str, Any] = {}
+
+    def dataset(self, dataset: h5py.Dataset, path: str, around: tuple[int, ...]) -> None:
+        """Add a dataset; a table gives each of its columns of numbers."""
+        kinds = dataset.dtype
+        if kinds.kind not in "fiub" and not (kinds.names and dataset.ndim == 1):
+            raise UnreadableError("it holds no numbers")
+        # Each attribute is read once: a text whose length is damaged costs up to 4 GB before it is refused.
+        kept = dict(_items(dataset.attrs))
+        if DIMENSION_ONLY in str(kept.get("NAME", b"")):
+            return
+        if not kinds.names:
+            self.variables.append(Variable(path, dataset[()], _dimensions(dataset, kept), _attributes(kept.items())))
+            return
+        table = dataset[()]
+        for name in kinds.names:
+            if kinds[name].kind in "fiub" and kinds[name].shape == ():
+                self.variables.append(Variable(f"{path}/{name}", np.array(table[name]), (path,), {}))
+            else:
+                self.left_out[f"{path}/{name}"] = "it holds no numbers"
+
+
+def read_hdf5(path: Path) -> Content:
+    """
+    Read NetCDF-4, or any other HDF5 file.
+
+    Raises
+    ------
+    ReadError
+        As `open_hdf5`.
+    """
+    content = Content()
+    with open_hdf5(path) as file:
+        content.attributes = _attributes(_items(file.attrs))
+        content.read(file)
+    return content
+
+
+def read_classic(path: Path) -> Content:
+    """
+    Read NetCDF of the classic format.
+
+    Raises
+    ------
+    ReadError
+        If it is of the variant for very large variables (CDF-5).
+    """
+    from scipy.io import netcdf_file
+
+    with path.open("rb") as stream:
+        if stream.read(4) == b"CDF\x05":
+            raise ReadError(
+                f"{path.name}: it is NetCDF of the variant CDF-5, which is not read. Convert it: nccopy -k nc4 "
+                f"{path.name} converted.nc"
+            )
+        stream.seek(0)
+        file = netcdf_file(stream, mmap=False)
+        content = Content()
+        content.attributes = _attributes(file._attributes.items())
+        for name, variable in file.variables.items():
+            if variable.data.dtype.kind not in "fiu":
+                content.left_out[name] = "it holds text"
+                continue
+            values = np.array(variable.data, dtype=variable.data.dtype.newbyteorder("="))
+            content.variables.append(
+                Variable(name, values, tuple(variable.dimensions), _attributes(variable._attributes.items()))
+            )
+    return content
+
+
+def _dimensions(dataset: h5py.Dataset, kept: dict[str, Any]) -> tuple[str | None, ...]:
+    """
+    Paths of the variables that are the dataset's dimensions, by its attributes; of a coordinate it is its own.
+
+    Taken from the attributes in which they are kept: HDF5's own functions for them end the process where those are
+    damaged.
+    """
+    if SCALE in str(kept.get("CLASS", "")):
+        return (str(dataset.name).strip("/"), *(None,) * (dataset.ndim - 1))
+    scales = np.atleast_1d(kept.get("DIMENSION_LIST", np.empty(0, dtype=object)))
+    if scales.shape != (dataset.ndim,):
+        return tuple(None for _ in dataset.shape)
+    return tuple(str(dataset.file[axis[0]].name).strip("/") if len(axis) else None for axis in scales)
+
+
+def _items(attributes: Any) -> Iterator[tuple[str, Any]]:
+    for name in attributes:
+        try:
+            yield name, attributes[name]
+        except (OSError, RuntimeError, ValueError, TypeError, KeyError, UnicodeError):
+            continue  # an attribute that cannot be read says nothing
+
+
+def _attributes(items: Any) -> dict[str, Any]:
+    """Attributes as text or numbers."""
+    plain = {}
+    for name, value in items:
+        if name in HIDDEN:
+            continue
+        if isinstance(value, np.ndarray) and value.size == 1:
+            value = value.ravel()[0]
+        plain[name] = value.decode("utf-8", "replace") if isinstance(value, bytes) else value
+    return plain
 
 
 class NetcdfOptions(ClockOptions):

@@ -13,15 +13,13 @@ from typing import Any
 import numpy as np
 
 from colonnade.errors import ReadError
-from colonnade.readers.binary.unpacking import Unpacking, UnreadableError
-from colonnade.readers.matlab.tree import Node, Tree, object_reason
+from colonnade.readers.binary.matlab_columns import FUNCTION, Node, Tree, object_reason
+from colonnade.readers.binary.vectors import UnreadableError
 
 HEADER = 128
 MATRIX, COMPRESSED = 14, 15
 OPAQUE = 17
 """Class of an object whose form MathWorks does not publish."""
-MOST_PARTS = 100_000
-"""Cells, or structs times fields, of one array; a recording has fewer."""
 
 
 def read_v5(path: Path) -> Tree:
@@ -34,14 +32,13 @@ def read_v5(path: Path) -> Tree:
         If its header is not MATLAB's.
     """
     content = memoryview(path.read_bytes())
-    orders = {b"IM": "<", b"MI": ">"}
-    order = orders.get(bytes(content[126:HEADER]))
+    order = {b"IM": "<", b"MI": ">"}.get(bytes(content[126:HEADER]))
     if order is None:
         raise ReadError(
             f'{path.name}: its bytes 127 and 128 should be "IM" or "MI" and are {bytes(content[126:HEADER])!r}: the '
             f"header is damaged, or the file ends within it ({len(content)} bytes). Copy it again."
         )
-    tree, unpacking = Tree(), Unpacking(len(content))
+    tree = Tree()
     position = HEADER
     while position < len(content):
         if len(content) - position < 8:
@@ -63,37 +60,15 @@ def read_v5(path: Path) -> Tree:
             )
             break
         try:
-            matrix = content[start:end]
-            if kind == COMPRESSED:
-                matrix = _unpacked(matrix, order, unpacking)
-            value = _loaded(content[:HEADER], matrix, order)
+            value = _loaded(content, slice(position, end))
             if value is not None:
                 tree.variables[name] = _node(value, name, tree.left_out)
         except UnreadableError as reason:
             tree.left_out[name] = str(reason)
-        except MemoryError:
-            tree.left_out[name] = "it needs more memory than a file of its size explains"
-        except Exception as error:
-            tree.warnings.append(f"variable {name} is damaged and not read: {error}")
+        except (Exception, MemoryError) as error:
+            tree.warnings.append(f"variable {name} is damaged and not read: {str(error) or 'too large for the memory'}")
         position = end
     return tree
-
-
-def _unpacked(content: memoryview, order: str, unpacking: Unpacking) -> memoryview:
-    """Unpack a compressed variable, as far as it says that it reaches and no further."""
-    unpacker = zlib.decompressobj()
-    start = unpacker.decompress(content, 8)
-    if len(start) < 8:
-        raise ValueError("its compressed content is empty")
-    kind, size = struct.unpack(order + "II", start)
-    if kind != MATRIX:
-        raise ValueError(f"its compressed content is of type {kind}")
-    unpacking.take(size)
-    unpacked = unpacker.decompress(unpacker.unconsumed_tail, size) if size else b""
-    if len(unpacked) < size:
-        raise ValueError(f"it unpacks to {len(unpacked)} of {size} bytes")
-    unpacker.decompress(unpacker.unconsumed_tail, 1)  # goes through the check sum at its end
-    return memoryview(unpacked)
 
 
 def _name(content: memoryview, order: str, kind: int) -> str:
@@ -111,14 +86,13 @@ def _name(content: memoryview, order: str, kind: int) -> str:
     return "?"
 
 
-def _loaded(header: memoryview, matrix: memoryview, order: str) -> Any:
+def _loaded(content: memoryview, part: slice) -> Any:
     """Have SciPy read one variable; None for MATLAB's own data about its objects, which has no name."""
     from scipy.io import loadmat
 
-    stream = BytesIO(b"".join((header, struct.pack(order + "II", MATRIX, len(matrix)), matrix)))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        variables = loadmat(stream)
+        variables = loadmat(BytesIO(b"".join((content[:HEADER], content[part]))), simplify_cells=True)
     return next((value for name, value in variables.items() if not name.startswith("__")), None)
 
 
@@ -131,34 +105,31 @@ def _node(value: Any, path: str, left_out: dict[str, str]) -> Node:
     UnreadableError
         If it is not data. A part that is not is left out with its reason, by the path from the variable to it.
     """
+    if isinstance(value, dict):
+        return _parts({name: (f"{path}.{name}", part) for name, part in value.items()}, left_out)
+    if isinstance(value, list) or (isinstance(value, np.ndarray) and value.dtype.kind == "O"):
+        parts = value if isinstance(value, list) else value.ravel(order="F").tolist()
+        brackets = "()" if any(isinstance(part, dict) for part in parts) else "{}"
+        numbered = {k: (f"{path}{brackets[0]}{k}{brackets[1]}", part) for k, part in enumerate(parts, 1)}
+        return list(_parts(numbered, left_out).values())
     if reason := _refusal(value):
         raise UnreadableError(reason)
+    value = np.asarray(value)
     if value.dtype.kind == "U":
         return "\n".join(text.rstrip() for text in value.ravel().tolist())
-    if value.dtype.kind in "fiub":
-        numbers: Node = value
-        return numbers
-    parts = value.ravel(order="F")
-    fields = parts.dtype.names
-    if len(parts) * len(fields or (0,)) > MOST_PARTS:
-        raise UnreadableError(f"it has {len(parts)} parts, more than the {MOST_PARTS} that are read")
-    if fields is None:
-        return [_part(cell, f"{path}{{{number}}}", left_out) for number, cell in enumerate(parts, 1)]
-    structs = []
-    for number, each in enumerate(parts, 1):
-        place = path if len(parts) == 1 else f"{path}({number})"
-        values = {field: _part(each[field], f"{place}.{field}", left_out) for field in fields}
-        structs.append({field: node for field, node in values.items() if node is not None})
-    return structs[0] if len(structs) == 1 else structs
+    numbers: Node = value
+    return numbers
 
 
-def _part(value: Any, path: str, left_out: dict[str, str]) -> Any:
-    """A cell or a field; None if it is not data."""
-    try:
-        return np.empty((0, 0)) if value is None else _node(value, path, left_out)
-    except UnreadableError as reason:
-        left_out[path] = str(reason)
-        return None
+def _parts(parts: dict[Any, tuple[str, Any]], left_out: dict[str, str]) -> dict[Any, Node]:
+    """Take cells or fields apart, each with its path; what is not data is left out."""
+    nodes: dict[Any, Node] = {}
+    for key, (path, part) in parts.items():
+        try:
+            nodes[key] = _node(part, path, left_out)
+        except UnreadableError as reason:
+            left_out[path] = str(reason)
+    return nodes
 
 
 def _refusal(value: Any) -> str:
@@ -169,13 +140,14 @@ def _refusal(value: Any) -> str:
     if issparse(value):
         return "it is a sparse matrix"
     if isinstance(value, MatlabFunction):
-        return "it is a function; nothing in a recording is executed"
+        return FUNCTION
     if isinstance(value, MatlabOpaque):
         return object_reason(value["s2"].item().decode("latin-1"))
     if isinstance(value, MatlabObject):
         return object_reason(value.classname)
-    if value.dtype.kind == "c":
+    kind = np.asarray(value).dtype.kind
+    if kind == "c":
         return "it holds complex numbers"
-    if value.dtype.kind == "U" and value.ndim > 1:
-        return f"it is a text of {value.ndim + 1} dimensions; texts of one or several lines are read"
-    return "" if value.dtype.kind in "fiubUOV" else f"it is of kind {value.dtype.kind}, which is not read"
+    if kind == "U" and np.ndim(value) > 1:
+        return f"it is a text of {np.ndim(value) + 1} dimensions; texts of one or several lines are read"
+    return "" if kind in "fiubU" else f"it is of kind {kind}, which is not read"

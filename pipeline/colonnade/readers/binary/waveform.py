@@ -1,10 +1,12 @@
-"""Seismic waveforms in all formats that ObsPy reads: miniSEED, SAC, K-NET, Kinemetrics, GSE2 and others."""
+"""Seismic waveforms of ten kinds, recognised by their first bytes, read by ObsPy: miniSEED, SAC, K-NET and others."""
 
 from __future__ import annotations
 
+import struct
 import warnings
 from collections.abc import Sequence
 from datetime import UTC, datetime
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -17,8 +19,34 @@ from colonnade.readers.clock import even_times
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.refusal import refusing
-from colonnade.readers.waveform.kinds import kind_of_waveform
 
+READERS = {
+    "GSE1": "obspy.io.gse2.core:_read_gse1",
+    "GSE2": "obspy.io.gse2.core:_read_gse2",
+    "KINEMETRICS_EVT": "obspy.io.kinemetrics.core:read_evt",
+    "KNET": "obspy.io.nied.knet:_read_knet_ascii",
+    "MSEED": "obspy.io.mseed.core:_read_mseed",
+    "SAC": "obspy.io.sac.core:_read_sac",
+    "SEG2": "obspy.io.seg2.seg2:_read_seg2",
+    "SLIST": "obspy.io.ascii.core:_read_slist",
+    "TSPAIR": "obspy.io.ascii.core:_read_tspair",
+    "WAV": "obspy.io.wav.core:_read_wav",
+}
+"""ObsPy's functions by kind; none follows what a file says to another file, or runs what it holds."""
+HEAD = 640
+LONGEST_STEP = 1e5
+"""Seconds; a header with a larger one is none of SAC's."""
+STARTS = {
+    b"Origin Time": "KNET",
+    b"WID2 ": "GSE2",
+    b"BEGIN GSE2": "GSE2",
+    b"BEGIN IMS": "GSE2",
+    b"WID1 ": "GSE1",
+    b"XW01 ": "GSE1",
+    b"\x55\x3a": "SEG2",
+    b"\x3a\x55": "SEG2",
+}
+"""Kinds, as ObsPy names them, by what their files start with."""
 UNITS = {"KNET": "m/s^2", "KINEMETRICS_EVT": "m/s^2"}
 """Units of kinds whose header gives the factor to them."""
 LARGEST_GAP = 10.0
@@ -31,7 +59,7 @@ class WaveformOptions(Options):
     """What can be said about a seismic file."""
 
     kind: str | None = Field(
-        default=None, description='Its name in ObsPy, such as "SEGY" or "AH", if the first bytes do not show it.'
+        default=None, description='Its name in ObsPy, such as "SAC", if the first bytes do not show it.'
     )
 
 
@@ -40,7 +68,7 @@ def recognise(path: Path) -> Recognition:
     kind = kind_of_waveform(path)
     if kind is not None:
         return Recognition(True, f"its first bytes are those of {kind}")
-    return Recognition(False, "its first bytes match no seismic format (ObsPy's other formats need `kind`)")
+    return Recognition(False, "its first bytes match no seismic format that is read")
 
 
 def read(path: Path, options: WaveformOptions) -> Recording:
@@ -52,7 +80,7 @@ def read(path: Path, options: WaveformOptions) -> Recording:
     Raises
     ------
     ReadError
-        If ObsPy does not know the kind or cannot read it, or it holds no samples.
+        If the kind is not known, ObsPy cannot read it, or it holds no samples.
     """
     path.stat()  # ObsPy has no message of its own for a file that is not there
     kind = _kind(path, options)
@@ -83,34 +111,88 @@ def read(path: Path, options: WaveformOptions) -> Recording:
     return Recording(path, "waveform", tuple(channels), start, tuple(dict.fromkeys(notes)), tuple(told))
 
 
-def _kind(path: Path, options: WaveformOptions) -> str:
-    from colonnade.readers.waveform.plugins import IN_OTHER_FILES, KINDS
+def kind_of_waveform(path: Path) -> str | None:
+    """
+    Name the kind of a seismic file.
 
+    Returns
+    -------
+    kind : str or None
+        As ObsPy calls it; None if the first bytes are none of those known here. Other kinds that ObsPy reads have
+        no sign that separates them from text or noise.
+    """
+    with path.open("rb") as stream:
+        head = stream.read(HEAD)
+    for start, kind in STARTS.items():
+        if head.startswith(start):
+            return kind
+    if head.startswith(b"TIMESERIES "):
+        first = head.split(b"\n", 1)[0]
+        return next((kind for kind in ("SLIST", "TSPAIR") if kind.encode() in first), None)
+    if head.startswith(b"RIFF") and head[8:12] == b"WAVE":
+        return "WAV"
+    for looks, kind in ((_is_mini_seed, "MSEED"), (_is_kinemetrics, "KINEMETRICS_EVT"), (_is_sac, "SAC")):
+        if looks(head):
+            return kind
+    return None
+
+
+def _is_mini_seed(head: bytes) -> bool:
+    """Six digits or blanks, a letter for the kind of record, a blank; then a year, or the volume's first blockette."""
+    if len(head) < 48 or not all(byte in b"0123456789 \0" for byte in head[:6]):
+        return False
+    if head[6:7] == b"V":
+        return head[8:11] == b"010"
+    years = (struct.unpack_from(order + "H", head, 20)[0] for order in "<>")
+    return (
+        head[6:7] in (b"D", b"R", b"Q", b"M")
+        and head[7:8] in (b" ", b"\0")
+        and any(1900 < year < 2200 for year in years)
+    )
+
+
+def _is_kinemetrics(head: bytes) -> bool:
+    """A tag: K, byte order, then a file header (type 1) of one of two lengths."""
+    if len(head) < 16 or head[:1] != b"K" or head[1] not in (0, 1):
+        return False
+    kind, length = struct.unpack_from((">" if head[1] else "<") + "LH", head, 4)
+    return kind == 1 and length in (2040, 2736)
+
+
+def _is_sac(head: bytes) -> bool:
+    """Header version 6 or 7 at its place, with a step and a number of points that can be."""
+    if len(head) < 632:
+        return False
+    for order in "<>":
+        step = struct.unpack_from(order + "f", head)[0]
+        version, points = struct.unpack_from(order + "i", head, 304)[0], struct.unpack_from(order + "i", head, 316)[0]
+        if version in (6, 7) and 0 < step < LONGEST_STEP and points > 0:
+            return True
+    return False
+
+
+def _kind(path: Path, options: WaveformOptions) -> str:
     kind = (options.kind or kind_of_waveform(path) or "").upper()
     if not kind:
         raise ReadError(
-            f'{path.name}: its first bytes do not show its format. Give it, for example kind = "SEGY". '
-            f"ObsPy knows {', '.join(KINDS)}."
+            f'{path.name}: its first bytes do not show its format. Give it, for example kind = "SAC"; '
+            f"{', '.join(READERS)} are read."
         )
-    if kind in IN_OTHER_FILES:
-        raise ReadError(
-            f"{path.name}: {kind} has its samples in other files and is not read here. Convert it to miniSEED, for "
-            f'example with ObsPy: obspy.read("{path.name}", format="{kind}").write("{path.stem}.mseed").'
-        )
-    if kind not in KINDS:
-        raise ReadError(f'{path.name}: ObsPy has no format "{kind}" that is safe to read.{nearest(kind, KINDS)}')
+    if kind not in READERS:
+        convert = f'obspy.read("{path.name}", format="{kind}").write("{path.stem}.mseed")'
+        advice = f" Convert the file to miniSEED, for example with ObsPy: {convert}." if kind != "PICKLE" else ""
+        raise ReadError(f"{path.name}: ObsPy's format {kind} is not read here.{nearest(kind, READERS)}{advice}")
     return kind
 
 
 def _stream(path: Path, kind: str) -> tuple[Any, list[str]]:
     """Have ObsPy read a file, and say what it warned of."""
-    from colonnade.readers.waveform.plugins import reader_of
-
+    module, _, function = READERS[kind].partition(":")
     settings = {"round_sampling_interval": False} if kind == "SAC" else {}
     with refusing(path, kind), warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         # Not by obspy.read, which takes a name as a pattern, and would unpack an archive whatever its size.
-        stream = reader_of(kind)(str(path.resolve()), **settings)
+        stream = getattr(import_module(module), function)(str(path.resolve()), **settings)
     told = dict.fromkeys(f"ObsPy: {' '.join(str(warning.message).split())}" for warning in caught)
     return stream, [text for text in told if "eprecat" not in text]
 
@@ -169,10 +251,10 @@ def _start(origin: Any) -> datetime | None:
 
 FORMAT = Format(
     name="waveform",
-    summary="Seismic waveforms of all kinds that ObsPy reads: miniSEED, SAC, K-NET, Kinemetrics, GSE2 …",
+    summary="Seismic waveforms: miniSEED, SAC, K-NET, Kinemetrics, GSE1, GSE2, SEG-2, WAV, SLIST, TSPAIR.",
     suffixes=(".mseed", ".sac", ".evt", ".gse", ".sg2"),
     options=WaveformOptions,
     recognise=recognise,
     read=read,
-    modules=("colonnade.readers.waveform.plugins", "numpy.ma"),
+    modules=(*sorted({reader.partition(":")[0] for reader in READERS.values()}), "numpy.ma"),
 )

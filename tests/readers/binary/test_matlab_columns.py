@@ -7,7 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as some
 
-from colonnade.readers.matlab.columns import MOST_COLUMNS, find_columns
+from colonnade.readers.binary.matlab_columns import (
+    MOST_COLUMNS,
+    find_columns,
+    lacking_channels,
+    numbered_channels,
+    object_reason,
+)
+from colonnade.readers.binary.vectors import Column
 
 VECTOR = np.arange(50.0).reshape(-1, 1)
 
@@ -70,3 +77,60 @@ def test_any_nest_of_variables_gives_columns_of_several_numbers(variables: dict[
     assert all(column.values.ndim == 1 and column.values.size > 0 for column in found.columns)
     paths = [column.path for column in found.columns]
     assert len(set(paths)) == len(paths)
+
+
+SINE, RISING = np.sin(np.arange(20.0)).reshape(-1, 1), np.arange(20.0).reshape(-1, 1)
+
+
+def layout(first: np.ndarray, rate: object = "200") -> dict[str, object]:
+    return {
+        "File_Header": {"SampleFrequency": rate},
+        "Channel_1_Header": {"SignalName": " LVDT 1 ", "Unit": "mm"},
+        "Channel_1_Data": first,
+        "Channel_2_Data": SINE,
+        "comment": "kept",
+    }
+
+
+def test_channels_have_the_names_and_units_of_their_headers() -> None:
+    others, columns, scalars, notes = numbered_channels(layout(SINE))  # type: ignore[arg-type]
+    assert [(column.name, column.unit, column.values.shape) for column in columns] == [
+        ("LVDT 1", "mm", (20,)),
+        (None, None, (20,)),
+    ]
+    assert others == {"comment": "kept"}
+    assert scalars == {"File_Header.SampleFrequency": 200.0}
+    assert notes
+
+
+def test_a_first_channel_that_rises_is_the_clock() -> None:
+    _, columns, scalars, notes = numbered_channels(layout(RISING))  # type: ignore[arg-type]
+    assert columns[0].name == "time"
+    assert scalars == {}
+    assert "Channel_1_Data rises: it is the clock" in notes
+
+
+@pytest.mark.parametrize("rate", ["", "fast", -5, np.empty((0, 0)), {}], ids=str)
+def test_a_rate_that_is_none_is_none(rate: object) -> None:
+    assert numbered_channels(layout(SINE, rate))[2] == {}  # type: ignore[arg-type]
+
+
+def test_a_file_of_another_layout_is_left_as_it_is() -> None:
+    variables = {"x": SINE}
+    assert numbered_channels(variables) == (variables, [], {}, [])
+
+
+def test_channels_that_are_missing_are_counted() -> None:
+    columns = [Column(f"chan{number}", (), SINE.ravel()) for number in (1, 2)]
+    assert lacking_channels({"No_Channels": np.array([[3]])}, columns) == [
+        "No_Channels says 3, but 2 channels are in the file"
+    ]
+    assert lacking_channels({"No_Channels": np.array([[2]])}, columns) == []
+    assert lacking_channels({}, columns) == []
+
+
+@pytest.mark.parametrize(("name", "told"), [("timetable", "timetable2table(x)"), ("odd", "as plain arrays")])
+def test_an_object_is_refused_with_what_to_do(name: str, told: str) -> None:
+    reason = object_reason(name)
+    assert f"MATLAB's class {name}, which only MATLAB can open" in reason
+    assert told in reason

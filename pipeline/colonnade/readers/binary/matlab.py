@@ -9,15 +9,13 @@ from pydantic import Field
 
 from colonnade.errors import ReadError, nearest
 from colonnade.readers.binary.magic import HDF5, head, look
+from colonnade.readers.binary.matlab_5 import read_v5
+from colonnade.readers.binary.matlab_73 import read_v73
+from colonnade.readers.binary.matlab_columns import Node, Tree, find_columns, lacking_channels, numbered_channels
 from colonnade.readers.binary.vector_clocks import ClockOptions, find_clocks
 from colonnade.readers.binary.vectors import named, recorded
 from colonnade.readers.clock import given_clock
 from colonnade.readers.format import Format, Recognition
-from colonnade.readers.matlab.bristol import lacking_channels, numbered_channels
-from colonnade.readers.matlab.columns import find_columns
-from colonnade.readers.matlab.tree import Node, Tree
-from colonnade.readers.matlab.version_5 import read_v5
-from colonnade.readers.matlab.version_73 import read_v73
 from colonnade.readers.recording import Recording
 
 MARK = b"MATLAB "

@@ -1,1 +1,0 @@
-"""NetCDF and plain HDF5."""

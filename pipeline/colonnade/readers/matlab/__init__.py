@@ -1,1 +1,0 @@
-"""MATLAB files of versions 5 to 7.3."""

@@ -1,1 +1,0 @@
-"""Seismic waveforms, read by ObsPy."""
