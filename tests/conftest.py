@@ -123,7 +123,7 @@ def made_once(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Con
 
 
 def _made_by(fill: Callable[[Path], object], files: Iterable[Path]) -> str:
-    """Hash the package, versions of others, the examples, the helpers, the module of the function, and further files."""
+    """Hash the package, the versions of others, examples, helpers, the module of the function, and further files."""
     from colonnade.sources import package_hash
 
     versions = sorted(path.name for path in Path(sysconfig.get_path("purelib")).glob("*.dist-info"))
