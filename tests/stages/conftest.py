@@ -98,8 +98,12 @@ def recorded(time, angle, acceleration, *, noise=1e-5, seed=0, slide=0.0):
     return {"main": Recording(Path("small.csv"), "delimited", channels)}
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture
 def free_vibration():
+    return _free_vibration()
+
+
+def _free_vibration():
     """Held tilted for one second, released, at rest in the end: recordings, times, true angles, true e."""
     decay = rock(PRISM, restitution=0.93, theta0=0.5 * PRISM.critical_angle, duration=9.0, model="nonlinear")
     time = np.arange(0, 12, 1 / RATE)
@@ -123,8 +127,12 @@ def released():
     return release
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture
 def shaken():
+    return _shaken()
+
+
+def _shaken():
     """A base motion under which the prism rocks and comes to rest: recordings, times, true angles, base motion."""
     time = np.arange(0, 12, 1 / RATE)
     envelope = np.clip(np.minimum(time - 1, 7 - time), 0, 1)
@@ -153,10 +161,10 @@ def shaken_upwards(small_campaign, shaken):
 
 
 @pytest.fixture(scope="session")
-def conditioned_and_measured(tmp_path_factory, free_vibration, shaken):
+def conditioned_and_measured(tmp_path_factory):
     """Both tests of the small campaign up to the rocking angle: conditioned, measured; look only."""
     campaign, found = _load(tmp_path_factory.mktemp("small")), {}
-    for name, recordings in (("free-01", free_vibration[0]), ("shake-01", shaken[0])):
+    for name, recordings in (("free-01", _free_vibration()[0]), ("shake-01", _shaken()[0])):
         test = campaign.tests[name]
         read = ingest.ingest(recordings, ingest.IngestInputs.of(campaign, test))
         ready = condition.condition(read, condition.ConditionInputs.of(campaign, test))
