@@ -11,17 +11,15 @@ from pydantic import Field
 from colonnade.campaign.assessing.assessment import Assessment
 from colonnade.campaign.assessing.prototype import Prototype
 from colonnade.campaign.channel import Channel
-from colonnade.campaign.decision import Review
-from colonnade.campaign.motions import ReferenceMotion
-from colonnade.campaign.naming.watched import Watched
+from colonnade.campaign.review import Review
 from colonnade.campaign.settings import NextSettings, Processing
-from colonnade.campaign.setup import Setup
-from colonnade.campaign.shake_table import ShakeTable
+from colonnade.campaign.setup import Setup, ShakeTable
 from colonnade.campaign.specimen import AnySpecimen, Specimen
 from colonnade.campaign.syntax.fields import Gravity, Text, schema_version
-from colonnade.campaign.syntax.identifier import Identifier
+from colonnade.campaign.syntax.names import Identifier
 from colonnade.campaign.syntax.table import Table
-from colonnade.campaign.test import Test
+from colonnade.campaign.test import ReferenceMotion, Test
+from colonnade.campaign.watched import Watched
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
 from colonnade.findings import Finding
 

@@ -10,9 +10,18 @@ from typing import Annotated, Any, Self
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
 from colonnade import units
-from colonnade.campaign.syntax.bounds import CONVERSION, outside
-from colonnade.campaign.syntax.fields import Column, Delay, Direction, Position, number, one_of, shown
-from colonnade.campaign.syntax.identifier import Identifier
+from colonnade.campaign.syntax.fields import (
+    CONVERSION,
+    Column,
+    Delay,
+    Direction,
+    Position,
+    number,
+    one_of,
+    outside,
+    shown,
+)
+from colonnade.campaign.syntax.names import Identifier
 from colonnade.campaign.syntax.table import Table, problem, refuse
 from colonnade.errors import UnitError
 

@@ -13,8 +13,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
-from colonnade.campaign.syntax.bounds import STEP
-from colonnade.campaign.syntax.fields import Angle, Duration, number_between, one_of, or_word, quantity, shown
+from colonnade.campaign.syntax.fields import STEP, Angle, Duration, number_between, one_of, or_word, quantity, shown
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.contact.law import DEFAULT_STEP, STATIC_PENETRATION
 from colonnade.dynamics.models.registry import MODELS, model_of

@@ -1,4 +1,4 @@
-"""Setups: how the raw files are read, the recorders, and the channels."""
+"""Setups: how the raw files are read, the recorders, and the channels; and what the shake table can do."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from pydantic_core import InitErrorDetails
 
 from colonnade.campaign.channel import MAIN, Channel
-from colonnade.campaign.syntax.fields import Angle, Frequency, PositiveAngle, shown
-from colonnade.campaign.syntax.identifier import Identifier, identifier
+from colonnade.campaign.syntax.fields import Angle, Frequency, PositiveAngle, quantity, shown
+from colonnade.campaign.syntax.names import Identifier, identifier
 from colonnade.campaign.syntax.table import Table, problem, refuse
 from colonnade.errors import nearest
 
@@ -158,3 +158,20 @@ class Setup(Table):
         return {MAIN: Recorder.model_construct(file=self.file, sampling_rate=self.sampling_rate, clock="trigger")} | (
             self.further_recorders
         )
+
+
+class ShakeTable(Table):
+    """Limits of the shake table, each at its peak; motions beyond one are not advised."""
+
+    acceleration: Annotated[float, *quantity("acceleration", above_zero=True)] | None = Field(
+        default=None, json_schema_extra={"unit": "m/s^2"}
+    )
+    """Largest acceleration, such as "1.2 g"."""
+    velocity: Annotated[float, *quantity("velocity", above_zero=True)] | None = Field(
+        default=None, json_schema_extra={"unit": "m/s"}
+    )
+    """Largest velocity, such as "0.8 m/s"."""
+    stroke: Annotated[float, *quantity("length", above_zero=True)] | None = Field(
+        default=None, json_schema_extra={"unit": "m"}
+    )
+    """Largest displacement from the middle, such as "75 mm"."""

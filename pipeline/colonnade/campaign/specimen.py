@@ -9,8 +9,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from colonnade.campaign.syntax.bounds import FREQUENCY_PARAMETER, outside
 from colonnade.campaign.syntax.fields import (
+    FREQUENCY_PARAMETER,
     Length,
     Mass,
     Scale,
@@ -19,6 +19,7 @@ from colonnade.campaign.syntax.fields import (
     SidedInertia,
     SidedLength,
     SidedRestitution,
+    outside,
 )
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair

@@ -1,17 +1,19 @@
-"""Tests: the specimen, the setup, what was done, and the raw files."""
+"""Tests: the specimen, the setup, what was done, and the raw files; and the motions that the table was to follow."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema
+from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema, model_validator
 
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.syntax.days import Day
 from colonnade.campaign.syntax.fields import (
     INTERVAL_SCHEMA,
+    Column,
+    Duration,
     Frequency,
     Interval,
     PositiveNumber,
@@ -23,8 +25,7 @@ from colonnade.campaign.syntax.fields import (
     shown,
     text,
 )
-from colonnade.campaign.syntax.identifier import Identifier
-from colonnade.campaign.syntax.rawpath import inside
+from colonnade.campaign.syntax.names import Identifier, inside
 from colonnade.campaign.syntax.table import Table, problem, refuse
 
 KINDS = ("free-vibration", "sine", "earthquake", "pulse", "noise", "tilt", "other")
@@ -120,3 +121,28 @@ class Test(Table):
     """Anything worth keeping."""
     planned: bool = False
     """Whether it may still have to be run: until its raw file is there it is pending, not failed."""
+
+
+def _path(value: object, info: ValidationInfo) -> Path:
+    return inside(info.context["folder"] if info.context else Path.cwd(), value)
+
+
+MotionPath = Annotated[Path, BeforeValidator(_path), WithJsonSchema({"type": "string", "minLength": 1})]
+
+
+class ReferenceMotion(Table):
+    """A base motion as published: a text file; only the shape of the motion counts. A bare path is its `file`."""
+
+    file: MotionPath
+    """Its file, from the folder of the campaign file."""
+    interval: Duration | None = None
+    """Its sampling interval, such as "0.02 s", if the file does not give it."""
+    column: Column | None = None
+    """Name or number, from 1, of the column of accelerations, if there are several."""
+    layout: Literal["columns", "running"] | None = None
+    """"columns" or "running" (numbers run on from row to row), if the file does not show which."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _bare_path(cls, value: Any) -> Any:
+        return value if isinstance(value, Mapping) else {"file": value}

@@ -11,7 +11,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.decision import Review
+from colonnade.campaign.review import Review
 from colonnade.campaign.settings import QualitySettings
 from colonnade.errors import StageError
 from colonnade.findings import Finding, Severity

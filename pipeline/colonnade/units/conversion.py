@@ -196,6 +196,22 @@ def same_unit(first: str, second: str) -> bool:
     return one.dimension == other.dimension and abs(one.factor - other.factor) <= 1e-9 * abs(one.factor)
 
 
+def is_of(unit: str, dimension: str) -> bool:
+    """
+    Whether a unit is known and of a dimension.
+
+    Examples
+    --------
+    >>> is_of("g", "acceleration"), is_of("mm", "acceleration"), is_of("", "length")
+    (True, False, False)
+    """
+    try:
+        factor_to_si(unit, dimension)
+    except UnitError:
+        return False
+    return True
+
+
 def is_physical(unit: str) -> bool:
     """
     Whether a unit is known and that of a physical quantity, neither a recorder's counts nor a plain number.

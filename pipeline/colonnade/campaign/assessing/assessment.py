@@ -10,11 +10,11 @@ from colonnade import units
 from colonnade.assessment.intensity.baselines import NONE, baseline_of
 from colonnade.assessment.intensity.ground import LARGEST_DRIFT
 from colonnade.assessment.intensity.registry import measure_of
-from colonnade.campaign.motions import MotionPath
 from colonnade.campaign.settings import count_between, setting
 from colonnade.campaign.syntax.fields import Scale, Text, number_between, one_of, shown, text
-from colonnade.campaign.syntax.identifier import Identifier
+from colonnade.campaign.syntax.names import Identifier
 from colonnade.campaign.syntax.table import Table, problem, refuse
+from colonnade.campaign.test import MotionPath
 from colonnade.dynamics.models.registry import PLANE_MODELS
 from colonnade.errors import UnitError
 

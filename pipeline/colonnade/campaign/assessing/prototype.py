@@ -6,8 +6,15 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from colonnade.campaign.syntax.bounds import FREQUENCY_PARAMETER
-from colonnade.campaign.syntax.fields import RESTITUTION, list_of, number_between, or_word, quantity, shown
+from colonnade.campaign.syntax.fields import (
+    FREQUENCY_PARAMETER,
+    RESTITUTION,
+    list_of,
+    number_between,
+    or_word,
+    quantity,
+    shown,
+)
 from colonnade.campaign.syntax.table import Table, problem, refuse
 
 _FREQUENCY_PARAMETER = quantity("angular_velocity", above_zero=True, between=FREQUENCY_PARAMETER, example="1.26 rad/s")

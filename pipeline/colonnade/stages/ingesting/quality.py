@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from colonnade.arrays import Array, Vector
-from colonnade.campaign.decision import Review
+from colonnade.campaign.review import Review
 from colonnade.campaign.settings import QualitySettings
 from colonnade.findings import Finding
 from colonnade.signals import quality

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.campaign.naming.pattern import PARTS, Pattern
+from colonnade.campaign.watched import Pattern, parts
 from every import every
 
 NAMES = {
@@ -61,7 +61,7 @@ def test_no_text_of_a_pattern_or_a_name_is_an_exception(text: str, name: str) ->
     pattern = Pattern(text)
     if not list(pattern.problems()):
         found = pattern.match(name, NAMES)
-        assert found is None or set(found) <= set(PARTS)
+        assert found is None or set(found) <= set(parts())
 
 
 @given(
