@@ -13,7 +13,7 @@ from colonnade.units.conversion import (
     si_factor,
     to_si,
 )
-from colonnade.units.dimensions import DIMENSIONS, QUANTITY_DIMENSIONS
+from colonnade.units.registry import DIMENSIONS, QUANTITY_DIMENSIONS
 from colonnade.units.writing import PERCENT, format_percent, format_quantity, format_uncertain, with_minus
 
 __all__ = [

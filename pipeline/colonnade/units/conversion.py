@@ -6,8 +6,7 @@ import re
 from math import isfinite
 
 from colonnade.errors import UnitError, quoted
-from colonnade.units.dimensions import DIMENSIONS, article, expected, words
-from colonnade.units.registry import Unit, collected, resolve
+from colonnade.units.registry import DIMENSIONS, Unit, article, collected, expected, resolve, words
 
 NUMBER_PATTERN = r"[+\-−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-−]?[0-9]+)?"
 _QUANTITY = re.compile(rf"({NUMBER_PATTERN})\s*(.*)", re.DOTALL)

@@ -16,7 +16,6 @@ from colonnade.campaign.syntax.names import Identifier
 from colonnade.campaign.syntax.table import Table, problem, refuse
 from colonnade.campaign.test import MotionPath
 from colonnade.dynamics.models.registry import PLANE_MODELS
-from colonnade.errors import UnitError
 
 MOST_LEVELS = 100
 
@@ -91,7 +90,7 @@ class Assessment(Table):
     def _levels_are_of_the_measure(self) -> Self:
         try:
             self.levels_in_si()
-        except (ValueError, UnitError) as error:
+        except ValueError as error:
             raise refuse("assessment", [problem(str(error), "levels", value=self.levels)]) from None
         return self
 

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, WithJsonSchema
 
 from colonnade import units
-from colonnade.errors import UnitError, nearest, quoted
+from colonnade.errors import nearest, quoted
 
 UNITS = {"frequency": "Hz", "acceleration": "m/s^2", "inertia": "kg m^2", "pressure": "Pa", "mass": "kg"} | {
     "length": "m",
@@ -144,10 +144,7 @@ def quantity(
             raise ValueError(f'{shown(value)} has no unit. A quantity in quotes was expected, such as "{example}".')
         if "?" in value:
             raise ValueError(f'{shown(value)} still has to be filled in. A quantity such as "{example}" was expected.')
-        try:
-            number = units.to_si(value, dimension)
-        except UnitError as error:
-            raise ValueError(str(error)) from None
+        number = units.to_si(value, dimension)
         if not isfinite(number):
             raise ValueError(f"{shown(value)} is too large.")
         if not above_zero:
