@@ -30,7 +30,7 @@ SCHEMA = 1
 class CampaignFile(Table):
     """A campaign file as written; `tests` may also be the path of a test log, which is read before this."""
 
-    version: Annotated[int, *schema_version(SCHEMA, "campaign files")] = Field(alias="schema")
+    version: Annotated[int, schema_version(SCHEMA, "campaign files")] = Field(alias="schema")
     """Version of the campaign file's form: 1."""
     campaign: Identifier
     """Id of the campaign, such as "prism-2013"."""
@@ -38,7 +38,7 @@ class CampaignFile(Table):
     """Title of the report."""
     facility: Text | None = None
     """Laboratory and shake table."""
-    gravity: Gravity = Field(default=STANDARD_GRAVITY, json_schema_extra={"unit": "m/s^2"})
+    gravity: Gravity = STANDARD_GRAVITY
     """Gravity at the laboratory; 9.81 m/s² if it is not given."""
     specimens: dict[Identifier, AnySpecimen] = Field(min_length=1)
     """Specimens, by id."""

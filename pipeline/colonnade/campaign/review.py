@@ -6,12 +6,22 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+from pydantic import BaseModel, ConfigDict, Field
 
 from colonnade.campaign.setup import Setup
 from colonnade.campaign.syntax.days import Day
 from colonnade.campaign.syntax.document import parse, read_text, refusal, validated
-from colonnade.campaign.syntax.fields import FACTOR, Interval, Text, number, one_of, outside, schema_version, shown
+from colonnade.campaign.syntax.fields import (
+    FACTOR,
+    Interval,
+    Kind,
+    Text,
+    number,
+    one_of,
+    outside,
+    schema_version,
+    shown,
+)
 from colonnade.campaign.syntax.names import inside
 from colonnade.campaign.syntax.places import Place, Source, key_lines, unknown
 from colonnade.campaign.syntax.table import Table
@@ -39,12 +49,9 @@ def _factor(value: object) -> float:
     return factor
 
 
-Tests = Annotated[
-    tuple[str, ...],
-    BeforeValidator(_tests),
-    WithJsonSchema({"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 1}]}),
-]
-Factor = Annotated[float, BeforeValidator(_factor), WithJsonSchema({"type": "number"})]
+_TESTS = {"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 1}]}
+Tests = Annotated[tuple[str, ...], Kind(_tests, _TESTS)]
+Factor = Annotated[float, Kind(_factor, {"type": "number"})]
 
 
 class Entry(Table):
@@ -101,7 +108,7 @@ class FlagStretch(Entry):
     """The channel."""
     window: Interval
     """The stretch, in the file's own time, such as ["3.2 s", "3.4 s"]."""
-    flag: Annotated[Literal["suspect", "fail"], *one_of("suspect", "fail")] = Field(alias="as")
+    flag: Annotated[Literal["suspect", "fail"], one_of("suspect", "fail")] = Field(alias="as")
     """"suspect" (reported, still used) or "fail" (bridged)."""
 
     @property
@@ -128,7 +135,7 @@ class Correct(Entry):
 class ReviewFile(Table):
     """A review.toml as written."""
 
-    version: Annotated[int, *schema_version(SCHEMA, "review files")] = Field(alias="schema")
+    version: Annotated[int, schema_version(SCHEMA, "review files")] = Field(alias="schema")
     """Version of the review file's form: 1."""
     exclude: tuple[Exclude, ...] = ()
     """Tests or channels that are left out."""

@@ -9,18 +9,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from colonnade.campaign.syntax.fields import (
-    FREQUENCY_PARAMETER,
-    Length,
-    Mass,
-    Scale,
-    Sided,
-    SidedAngle,
-    SidedInertia,
-    SidedLength,
-    SidedRestitution,
-    outside,
-)
+from colonnade.campaign.syntax import fields
+from colonnade.campaign.syntax.fields import FREQUENCY_PARAMETER, outside
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
 from colonnade.dynamics.density import UnlikelyBlockWarning, cone_volume, prism_volume
@@ -48,17 +38,17 @@ class Specimen(Table):
 
     shape: str
     """Its shape: "prism", "cylinder", "cone" or "measured"."""
-    mass: Mass
+    mass: fields.Mass
     """Mass, such as "26.10 kg"."""
-    scale: Scale | None = None
+    scale: fields.Scale | None = None
     """Scale of the model: 20 means 1:20."""
-    critical_angle: SidedAngle | None = None
+    critical_angle: fields.SidedAngle | None = None
     """Rotation that brings the centre of mass above the pole, such as "0.1864 rad"."""
-    pole_distance: SidedLength | None = None
+    pole_distance: fields.SidedLength | None = None
     """Distance of the centre of mass from the pole, such as "232 mm"."""
-    inertia: SidedInertia | None = None
+    inertia: fields.SidedInertia | None = None
     """Moment of inertia about the pole, such as "1.873 kg m^2"."""
-    restitution: SidedRestitution | None = None
+    restitution: fields.SidedRestitution | None = None
     """Coefficient of restitution, a plain number such as 0.976; without it the identified one is used."""
 
     def sizes(self) -> dict[str, float]:
@@ -143,7 +133,7 @@ class Specimen(Table):
         }
         sentences = []
         for name, (unit, factor) in _MEASURED.items():
-            given: Sided | None = getattr(self, name)
+            given: fields.Sided | None = getattr(self, name)
             if given is None:
                 continue
             expected = float(getattr(side, name))
@@ -165,11 +155,11 @@ class Prism(Specimen):
 
     shape: Literal["prism"]
     """Its shape."""
-    width: Length
+    width: fields.Length
     """Along x, the direction of shaking, such as "86 mm"."""
-    depth: Length
+    depth: fields.Length
     """Along y, across the direction of shaking."""
-    height: Length
+    height: fields.Length
     """Along z."""
 
     @property
@@ -183,9 +173,9 @@ class Cylinder(Specimen):
 
     shape: Literal["cylinder"]
     """Its shape."""
-    diameter: Length
+    diameter: fields.Length
     """Diameter, such as "97 mm"."""
-    height: Length
+    height: fields.Length
     """Along z."""
 
     @property
@@ -203,11 +193,11 @@ class Cone(Specimen):
 
     shape: Literal["cone"]
     """Its shape."""
-    base_diameter: Length
+    base_diameter: fields.Length
     """Diameter of the base circle."""
-    top_diameter: Length
+    top_diameter: fields.Length
     """Diameter at the top."""
-    height: Length
+    height: fields.Length
     """Along z."""
 
     @property
@@ -225,11 +215,11 @@ class Measured(Specimen):
 
     shape: Literal["measured"]
     """Its shape."""
-    critical_angle: SidedAngle
+    critical_angle: fields.SidedAngle
     """Rotation that brings the centre of mass above the pole, such as "0.21 rad"."""
-    pole_distance: SidedLength
+    pole_distance: fields.SidedLength
     """Distance of the centre of mass from the pole, such as "610 mm"."""
-    inertia: SidedInertia
+    inertia: fields.SidedInertia
     """Moment of inertia about the pole, such as "41.2 kg m^2"."""
 
 

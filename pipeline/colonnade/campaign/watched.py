@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema
+from pydantic import Field, ValidationInfo
 
 from colonnade import units
-from colonnade.campaign.syntax.fields import Duration, shown, text
+from colonnade.campaign.syntax.fields import SOME_TEXT, Duration, Kind, shown, text
 from colonnade.campaign.syntax.names import inside
 from colonnade.campaign.syntax.table import Table
 from colonnade.campaign.test import Test
@@ -174,24 +174,21 @@ def _words(value: object) -> dict[str, str]:
     return {str(word).casefold(): meaning for word, meaning in value.items()}
 
 
-_TABLE = {"type": "object", "required": ["file"], "properties": {"file": {"type": "string", "minLength": 1}}}
-_ENTRY = [{"type": "string", "minLength": 1}, _TABLE]
+_WORDS = {"type": "object", "additionalProperties": {"type": "string"}}
+_TABLE = {"type": "object", "required": ["file"], "properties": {"file": SOME_TEXT}}
+_ENTRY = [SOME_TEXT, _TABLE]
 _ENTRIES = {"anyOf": [*_ENTRY, {"type": "array", "items": {"anyOf": _ENTRY}}]}
 
 
 class Watched(Table):
     """Where raw files appear, when they are finished, and what their names say."""
 
-    folder: Annotated[str, BeforeValidator(_folder), WithJsonSchema({"type": "string", "minLength": 1})] = "raw"
+    folder: Annotated[str, Kind(_folder, SOME_TEXT)] = "raw"
     """Folder in which raw files appear, from the folder of the campaign file."""
-    settle: Duration = Field(default=1.0, json_schema_extra={"unit": "s"})
+    settle: Duration = 1.0
     """A file is finished when its size and time have not changed for this long."""
-    pattern: Annotated[tuple[NamedTests, ...], BeforeValidator(_patterns), WithJsonSchema(_ENTRIES)] = ()
+    pattern: Annotated[tuple[NamedTests, ...], Kind(_patterns, _ENTRIES)] = ()
     """Names of raw files, such as "{specimen}-{kind}-{number}.csv", each file a test; or a list of them, each with
     keys of its tests: {file = "{specimen}-free-{number}.csv", kind = "free-vibration", setup = "bench"}."""
-    words: Annotated[
-        dict[str, str],
-        BeforeValidator(_words),
-        WithJsonSchema({"type": "object", "additionalProperties": {"type": "string"}}),
-    ] = Field(default={})
+    words: Annotated[dict[str, str], Kind(_words, _WORDS)] = Field(default={})
     """What words in the names stand for, such as {free = "free-vibration"}."""

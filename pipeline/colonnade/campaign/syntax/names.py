@@ -7,9 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path, PureWindowsPath
 from typing import Annotated
 
-from pydantic import BeforeValidator, WithJsonSchema
-
-from colonnade.campaign.syntax.fields import shown
+from colonnade.campaign.syntax.fields import Kind, shown
 
 ID_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]*$"
 _DEVICES = {"con", "prn", "aux", "nul", "conin$", "conout$"} | {
@@ -116,4 +114,4 @@ def inside(folder: Path, value: object) -> Path:
     return path
 
 
-Identifier = Annotated[str, BeforeValidator(identifier), WithJsonSchema({"type": "string", "pattern": ID_PATTERN})]
+Identifier = Annotated[str, Kind(identifier, {"type": "string", "pattern": ID_PATTERN})]
