@@ -30,6 +30,12 @@ OUTER_DIMENSIONS = ("width", "depth", "diameter", "base_diameter", "top_diameter
 
 _BLOCKS: dict[str, Callable[..., Block]] = {"prism": Block.prism, "cylinder": Block.cylinder, "cone": Block.cone}
 
+_VOLUMES: dict[str, Callable[..., float]] = {
+    "prism": prism_volume,
+    "cylinder": lambda diameter, height: cone_volume(diameter, diameter, height),
+    "cone": cone_volume,
+}
+
 _MEASURED = {"critical_angle": ("rad", 1.0), "pole_distance": ("mm", 1e3), "inertia": ("kg m²", 1.0)}
 
 
@@ -75,11 +81,15 @@ class Specimen(Table):
     @property
     def volume(self) -> float | None:
         """m³; None if the specimen has no dimensions."""
-        return None
+        volume = _VOLUMES.get(self.shape)
+        return volume(**self.sizes()) if volume else None
 
     def radius(self, z: float) -> float | None:
         """Radius at a height above the base, m; None if the specimen is not round."""
-        return None
+        sizes = self.sizes()
+        base = sizes.get("diameter", sizes.get("base_diameter"))
+        top = sizes.get("top_diameter", base)
+        return None if base is None or top is None else (base + (top - base) * z / sizes["height"]) / 2
 
     def block(self, gravity: float) -> Block:
         """
@@ -162,11 +172,6 @@ class Prism(Specimen):
     height: fields.Length
     """Along z."""
 
-    @property
-    def volume(self) -> float:
-        """m³."""
-        return prism_volume(**self.sizes())
-
 
 class Cylinder(Specimen):
     """A solid upright cylinder."""
@@ -177,15 +182,6 @@ class Cylinder(Specimen):
     """Diameter, such as "97 mm"."""
     height: fields.Length
     """Along z."""
-
-    @property
-    def volume(self) -> float:
-        """m³."""
-        return cone_volume(self.diameter, self.diameter, self.height)
-
-    def radius(self, z: float) -> float:
-        """Radius at a height above the base, m."""
-        return self.diameter / 2
 
 
 class Cone(Specimen):
@@ -199,15 +195,6 @@ class Cone(Specimen):
     """Diameter at the top."""
     height: fields.Length
     """Along z."""
-
-    @property
-    def volume(self) -> float:
-        """m³."""
-        return cone_volume(**self.sizes())
-
-    def radius(self, z: float) -> float:
-        """Radius at a height above the base, m."""
-        return (self.base_diameter + (self.top_diameter - self.base_diameter) * z / self.height) / 2
 
 
 class Measured(Specimen):
