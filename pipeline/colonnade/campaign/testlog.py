@@ -18,10 +18,6 @@ from colonnade.findings import Finding, note
 from colonnade.readers.irregular import irregular
 
 EXCEL_SUFFIXES = (".xlsx", ".xlsm", ".xls", ".ods")
-_NUMBERS = ("span", "time_scale")
-_QUANTITIES = ("frequency", "amplitude", "window", "zero")
-_INTERVALS = ("window", "zero")
-_LISTS = ("photos",)
 _LARGEST_BYTES = 10_000_000
 _MOST_COLUMNS = 1000
 
@@ -170,18 +166,18 @@ def _test(cells: dict[str, str], decimal_comma: bool) -> dict[str, Any]:
 
 
 def _value(key: str, cell: str, decimal_comma: bool) -> Any:
-    text = cell.strip()
-    if decimal_comma and key in (*_NUMBERS, *_QUANTITIES):
+    text, form = cell.strip(), Test.forms()[key]
+    if decimal_comma and (form.is_number or form.dimension or form.is_interval):
         text = re.sub(r"(?<=[0-9]),(?=[0-9])", ".", text)
-    if key in _NUMBERS:
+    if form.is_number:
         try:
             return float(text)
         except ValueError:
             return text
-    if key in _INTERVALS:
+    if form.is_interval:
         parts = [part.strip() for part in re.split(r"[;,…]|\.\.\.|\bto\b", text.strip("[]")) if part.strip()]
         return [part.strip("\"'") for part in parts] if len(parts) > 1 else text
-    if key in _LISTS:
+    if form.is_list:
         return [part.strip() for part in re.split("[;,]", text) if part.strip()]
     return text
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.campaign.syntax.document import natural, toml_value
-from colonnade.campaign.syntax.rawpath import inside
+from colonnade.campaign.syntax.names import inside
 from colonnade.errors import ColonnadeError
 from colonnade.readers.irregular import irregular
 from colonnade.readers.recording import RecordedChannel, Recording

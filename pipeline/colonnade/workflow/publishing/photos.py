@@ -9,7 +9,7 @@ from io import BytesIO
 from pathlib import Path
 
 from colonnade.campaign import Campaign
-from colonnade.campaign.syntax.rawpath import inside
+from colonnade.campaign.syntax.names import inside
 from colonnade.errors import ReadError
 from colonnade.findings import Finding, warning
 from colonnade.interruption import expect_none

@@ -6,7 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.campaign.naming.pattern import PARTS, Pattern
+from colonnade.campaign.test import Test
+from colonnade.campaign.watched import Pattern, parts
+from colonnade.units import DIMENSIONS
 from every import every
 
 NAMES = {
@@ -61,7 +63,7 @@ def test_no_text_of_a_pattern_or_a_name_is_an_exception(text: str, name: str) ->
     pattern = Pattern(text)
     if not list(pattern.problems()):
         found = pattern.match(name, NAMES)
-        assert found is None or set(found) <= set(PARTS)
+        assert found is None or set(found) <= set(parts())
 
 
 @given(
@@ -73,3 +75,11 @@ def test_what_is_written_into_a_name_is_read_from_it(specimen: str, frequency: o
     written = str(frequency).replace(".", sign)
     found = Pattern("{specimen}-{frequency:Hz}.csv").match(f"{specimen}-{written}.csv", NAMES)
     assert found == {"specimen": specimen, "frequency": f"{frequency} Hz"}
+
+
+def test_every_number_and_quantity_of_a_test_is_a_part_with_its_unit() -> None:
+    forms = Test.forms()
+    assert {"frequency", "amplitude", "span", "time_scale"} <= set(parts()) <= {*forms, "recorder", "number"}
+    for key in set(parts()) & forms.keys():
+        unit = DIMENSIONS[forms[key].dimension][1] if forms[key].dimension else ""
+        assert list(Pattern(f"{{{key}:{unit}}}.csv" if unit else f"{{{key}}}.csv").problems()) == []

@@ -1,20 +1,20 @@
-"""Ids: names of tests, specimens, setups, recorders and channels that every file system can hold."""
+"""Names that every file system can hold: ids, and paths inside the folder of the campaign file."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from pathlib import Path, PureWindowsPath
 from typing import Annotated
 
-from pydantic import BeforeValidator, WithJsonSchema
-
-from colonnade.campaign.syntax.fields import shown
+from colonnade.campaign.syntax.fields import Kind, shown
 
 ID_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]*$"
 _DEVICES = {"con", "prn", "aux", "nul", "conin$", "conout$"} | {
     f"{port}{n}" for port in ("com", "lpt") for n in range(10)
 }
 _LONGEST = 100
+_EXAMPLE = 'A path from the folder of the campaign file was expected, such as "raw/free-01.csv"'
 
 
 def identifier(value: object) -> str:
@@ -78,4 +78,40 @@ def folded(name: str, *, as_variables: bool = False) -> str:
     return re.sub(r"[.-]", "_", plain) if as_variables else plain
 
 
-Identifier = Annotated[str, BeforeValidator(identifier), WithJsonSchema({"type": "string", "pattern": ID_PATTERN})]
+def inside(folder: Path, value: object) -> Path:
+    """
+    Resolve a path of the campaign file.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of the campaign file, absolute and resolved.
+    value : object
+        As written.
+
+    Returns
+    -------
+    path : Path
+        Absolute; the file itself need not exist.
+
+    Raises
+    ------
+    ValueError
+        If it is not a relative path, or leaves the folder, be it through a link.
+    """
+    if not isinstance(value, str) or not value.strip():
+        raise ValueError(f"{shown(value)} was found. {_EXAMPLE}.")
+    if "\\" in value:
+        raise ValueError(f"{shown(value)} has a backslash. {_EXAMPLE}, with / between folders on every system.")
+    if value.startswith("/") or PureWindowsPath(value).drive:
+        raise ValueError(f"{shown(value)} is an absolute path. {_EXAMPLE}, so that the campaign can be moved.")
+    try:
+        path = (folder / value).resolve()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise ValueError(f"{shown(value)} is an invalid path ({error}). {_EXAMPLE}.") from None
+    if not path.is_relative_to(folder) or path == folder:
+        raise ValueError(f"{shown(value)} is outside the campaign's folder: {path}. {_EXAMPLE}.")
+    return path
+
+
+Identifier = Annotated[str, Kind(identifier, {"type": "string", "pattern": ID_PATTERN})]
