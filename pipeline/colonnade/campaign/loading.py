@@ -16,7 +16,7 @@ from colonnade.campaign.syntax.places import Place, Source, key_lines
 from colonnade.campaign.syntax.rawpath import inside
 from colonnade.campaign.testlog import Log, read_log
 from colonnade.errors import CampaignError
-from colonnade.readers.irregular import irregular
+from colonnade.readers.files import irregular
 
 FILE_NAME = "campaign.toml"
 
