@@ -15,7 +15,7 @@ from colonnade.campaign.channel import MAIN
 from colonnade.campaign.test import Test
 from colonnade.errors import ReadError, nearest, quoted
 from colonnade.findings import Finding, note
-from colonnade.readers.irregular import irregular
+from colonnade.readers.files import irregular
 
 EXCEL_SUFFIXES = (".xlsx", ".xlsm", ".xls", ".ods")
 _LARGEST_BYTES = 10_000_000
@@ -125,10 +125,10 @@ def _decoded(raw: bytes) -> str:
 
 
 def _workbook(path: Path) -> list[list[str]]:
-    from colonnade.readers.bounded import process as bounded
+    from colonnade.readers.binary.excel import cells_of_first_sheet
 
     try:
-        rows = bounded.cells(path)
+        rows = cells_of_first_sheet(path)
     except ReadError as error:
         raise ValueError(str(error)) from None
     widest = max(map(len, rows), default=0)
