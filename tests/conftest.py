@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import os
 import shutil
 import signal
-from collections.abc import Callable, Iterator
+import sys
+import sysconfig
+from collections.abc import Callable, Iterable, Iterator
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -44,7 +48,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=_turn)
 
 
-SHARED_DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
+TESTS = Path(__file__).resolve().parent
+SHARED_DATA = TESTS.parents[1] / "shared" / "data"
 
 
 @pytest.fixture(scope="session")
@@ -63,7 +68,7 @@ def interruptible() -> Iterator[None]:
     signal.signal(signal.SIGINT, before)
 
 
-REPORTS = Path(__file__).resolve().parents[1] / "reports"
+REPORTS = TESTS.parent / "reports"
 
 
 @pytest.fixture(scope="session")
@@ -91,25 +96,46 @@ def as_reported() -> Callable[[Path, str], None]:
 
 
 @pytest.fixture(scope="session")
-def made_once(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, Callable[[Path], object]], Path]:
-    """Have a folder filled by the first process of the tests that needs it; all only look at it."""
-    shared = tmp_path_factory.getbasetemp()
+def made_once(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config) -> Callable[..., Path]:
+    """
+    Have a folder filled by the first process of the tests that needs it; all only look at it.
+
+    It is kept in pytest's cache for later runs of the tests, until something changes that it is made by; further files
+    that it is made from are given. A run looks at a copy, so that what it does to it is gone with it.
+    """
+    shared, cache = tmp_path_factory.getbasetemp(), pytestconfig.cache.mkdir("made")
     if "PYTEST_XDIST_WORKER" in os.environ:
         shared = shared.parent
 
-    def made(name: str, fill: Callable[[Path], object]) -> Path:
-        folder, done = shared / name, shared / f"{name}.done"
-        with FileLock(shared / f"{name}.lock"):
-            if not done.exists():
-                fill(folder)
-                done.touch()
+    def made(name: str, fill: Callable[[Path], object], *files: Path) -> Path:
+        folder, kept = shared / name, cache / name / _made_by(fill, files)
+        with FileLock(cache / f"{name}.lock"):
+            if not kept.exists():
+                shutil.rmtree(kept.parent, ignore_errors=True)
+                kept.parent.mkdir()
+                fill(kept.with_name("filled"))
+                kept.with_name("filled").rename(kept)
+            if not folder.exists():
+                shutil.copytree(kept, folder)
         return folder
 
     return made
 
 
+def _made_by(fill: Callable[[Path], object], files: Iterable[Path]) -> str:
+    """Hash the package, the versions of others, examples, helpers, the module of the function, and further files."""
+    from colonnade.sources import package_hash
+
+    versions = sorted(path.name for path in Path(sysconfig.get_path("purelib")).glob("*.dist-info"))
+    digest = sha256(f"{package_hash()} {sys.version} {versions}".encode())
+    examples = sorted(path for path in (TESTS.parent / "raw_schema" / "examples").rglob("*") if path.is_file())
+    for path in (*examples, *sorted((TESTS / "helpers").rglob("*.py")), Path(inspect.getfile(fill)), *files):
+        digest.update(f"{path.name}\n".encode() + path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
 @pytest.fixture(scope="session")
-def filled_campaign(made_once: Callable[[str, Callable[[Path], object]], Path]) -> tuple[Any, Any]:
+def filled_campaign(made_once: Callable[..., Path]) -> tuple[Any, Any]:
     """A small virtual campaign and its layout after one real run; look only."""
     from colonnade.campaign import load
     from colonnade.store.layout import Layout
@@ -148,7 +174,7 @@ def foreseen_copy(foreseen: tuple[Path, Any], tmp_path: Path) -> Path:
 
 
 @pytest.fixture(scope="session")
-def assessed(made_once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
+def assessed(made_once: Callable[..., Path]) -> Path:
     """A campaign with a real column that is assessed, after one real run; look only."""
     from assessing import write_assessed
     from colonnade.workflow.run import run

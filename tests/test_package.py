@@ -15,7 +15,7 @@ import colonnade
 from every import every
 
 PROJECT = Path(__file__).parents[1]
-HEAVY = ("numba", "matplotlib", "pint", "xarray", "pandas", "scipy", "netCDF4", "joblib")
+HEAVY = ("numba", "matplotlib", "xarray", "pandas", "scipy", "netCDF4", "joblib")
 
 
 def loaded_by(statement: str) -> set[str]:

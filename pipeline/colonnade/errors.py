@@ -26,7 +26,7 @@ class ColonnadeError(Exception):
     """
 
 
-class UnitError(ColonnadeError):
+class UnitError(ColonnadeError, ValueError):
     """A quantity or unit in text that cannot be parsed."""
 
 

@@ -180,7 +180,7 @@ WRONG = [
     (
         'daq2 = "raw/free',
         'daq3 = "raw/free',
-        'tests[free-01].file.daq3: Unknown recorder in set-up "frame". Did you',
+        'tests[free-01].file.daq3: Unknown recorder "daq3" in set-up "frame". Did you',
     ),
     ('main = "raw', 'daq2 = "raw', "this is not valid TOML"),
     (

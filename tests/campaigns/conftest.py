@@ -37,6 +37,12 @@ class Outcome:
 
 
 @pytest.fixture(scope="session")
+def outcome():
+    """Open what came of a campaign that was run."""
+    return Outcome
+
+
+@pytest.fixture(scope="session")
 def run_campaign():
     """Run a campaign as a user does, and open what came of it."""
     from colonnade.workflow import run

@@ -92,8 +92,13 @@ def test_a_console_without_greek_letters_gets_question_marks(process, campaign):
     ("send", "sent"),
     [
         pytest.param("killpg", signal.SIGINT, id="Ctrl-C reaches the workers too"),
-        pytest.param("kill", signal.SIGTERM, id="a polite kill reaches the parent alone"),
-        pytest.param("killpg", getattr(signal, "SIGHUP", 0), id="a terminal that closes reaches the workers too"),
+        pytest.param("kill", signal.SIGTERM, id="a polite kill reaches the parent alone", marks=pytest.mark.whole),
+        pytest.param(
+            "killpg",
+            getattr(signal, "SIGHUP", 0),
+            id="a terminal that closes reaches the workers too",
+            marks=pytest.mark.whole,
+        ),
     ],
 )
 @pytest.mark.usefixtures("interruptible")

@@ -34,7 +34,7 @@ def instead(made_once):
             reader.do(Block("", "sh", f"{line}\n"))
             (shared / "output.txt").write_text(reader.output, encoding="utf-8")
 
-        shared = made_once(line.replace(" ", "-"), make)
+        shared = made_once(line.replace(" ", "-"), make, *sorted(folder.glob("*.py")))
         shutil.copytree(shared / "made", folder, dirs_exist_ok=True)
         return (shared / "output.txt").read_text(encoding="utf-8")
 

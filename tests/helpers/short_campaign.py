@@ -24,6 +24,9 @@ title = "A small campaign"
 [specimens]
 {SPECIMEN}
 
+[processing.predict.ensemble]
+members = 20
+
 [setups.frame.channels]
 top = {{column = "top", quantity = "displacement", unit = "mm", on = "specimen", at = ["43 mm", "0 mm", "440 mm"], \
 direction = [1, 0, 0], relative_to = "table"}}

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-import shutil
 
 import pytest
 
+from colonnade.store.layout import Layout
 from colonnade.workflow import run
+from small_campaign import write_small_campaign
 
 WRONG_GAIN = """
 schema = 1
@@ -23,19 +24,21 @@ why = "a slip"
 
 
 @pytest.fixture(scope="module")
-def first(empty_campaign, tmp_path_factory) -> str:
+def first(made_once) -> str:
     """Words of the overview up to its summary."""
-    folder = tmp_path_factory.mktemp("urgent") / "campaign"
-    shutil.copytree(empty_campaign[1].folder, folder, ignore=shutil.ignore_patterns("processed", "report"))
+    page = Layout(made_once("urgent", _run)).report.read_text(encoding="utf-8")
+    main = page[page.index("<main") : page.index('<section id="summary">')]
+    return " ".join(re.sub(r"<[^>]+>", " ", main).split())
+
+
+def _run(folder) -> None:
+    write_small_campaign(folder)
     (folder / "review.toml").write_text(WRONG_GAIN, encoding="utf-8")
     path = folder / "campaign.toml"
     text = path.read_text(encoding="utf-8").replace("members = 20", "members = 0")
     text = text.replace('id = "span-2.5"', 'id = "span-2.5"\nobserved_outcome = "overturned"')
     path.write_text(text, encoding="utf-8")
-    result = run(folder, only=["span-2.0", "span-2.5", "span-3.0", "sine-dead"], workers=1)
-    page = result.report.read_text(encoding="utf-8")
-    main = page[page.index("<main") : page.index('<section id="summary">')]
-    return " ".join(re.sub(r"<[^>]+>", " ", main).split())
+    run(folder, only=["span-2.0", "span-2.5", "span-3.0", "sine-dead"], workers=1)
 
 
 def test_the_failed_test_comes_first_with_its_reason(first):

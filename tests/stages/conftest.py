@@ -12,6 +12,7 @@ from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.readers.recording import RecordedChannel, Recording
+from colonnade.stages import condition, ingest, rocking
 from prism import PRISM
 
 TEXT = """
@@ -73,11 +74,15 @@ RATE = 500.0
 POINTS = [[0.043, 0.0, 0.400], [0.043, 0.0, 0.020]]
 
 
-@pytest.fixture
-def small_campaign(tmp_path):
-    path = tmp_path / "campaign.toml"
+def _load(folder):
+    path = folder / "campaign.toml"
     path.write_text(TEXT, encoding="utf-8")
     return campaigns.load(path)
+
+
+@pytest.fixture
+def small_campaign(tmp_path):
+    return _load(tmp_path)
 
 
 def recorded(time, angle, acceleration, *, noise=1e-5, seed=0, slide=0.0):
@@ -95,6 +100,10 @@ def recorded(time, angle, acceleration, *, noise=1e-5, seed=0, slide=0.0):
 
 @pytest.fixture
 def free_vibration():
+    return _free_vibration()
+
+
+def _free_vibration():
     """Held tilted for one second, released, at rest in the end: recordings, times, true angles, true e."""
     decay = rock(PRISM, restitution=0.93, theta0=0.5 * PRISM.critical_angle, duration=9.0, model="nonlinear")
     time = np.arange(0, 12, 1 / RATE)
@@ -120,6 +129,10 @@ def released():
 
 @pytest.fixture
 def shaken():
+    return _shaken()
+
+
+def _shaken():
     """A base motion under which the prism rocks and comes to rest: recordings, times, true angles, base motion."""
     time = np.arange(0, 12, 1 / RATE)
     envelope = np.clip(np.minimum(time - 1, 7 - time), 0, 1)
@@ -145,3 +158,15 @@ def shaken_upwards(small_campaign, shaken):
     noisy = vertical / 9.80665 + np.random.default_rng(5).normal(0, 1e-4, time.size)
     channel = RecordedChannel("ACZ", "g", noisy, time)
     return campaign, Recording(recordings.path, recordings.format, (*recordings.channels, channel)), angle
+
+
+@pytest.fixture(scope="session")
+def conditioned_and_measured(tmp_path_factory):
+    """Both tests of the small campaign up to the rocking angle: conditioned, measured; look only."""
+    campaign, found = _load(tmp_path_factory.mktemp("small")), {}
+    for name, recordings in (("free-01", _free_vibration()[0]), ("shake-01", _shaken()[0])):
+        test = campaign.tests[name]
+        read = ingest.ingest(recordings, ingest.IngestInputs.of(campaign, test))
+        ready = condition.condition(read, condition.ConditionInputs.of(campaign, test))
+        found[name] = ready, rocking.rocking(ready, rocking.RockingInputs.of(campaign, test))
+    return found

@@ -10,12 +10,9 @@ import pytest
 from colonnade.dynamics.ensembles.uncertainty import INPUTS
 from colonnade.identification.response.rank import FEWEST, is_within, rank
 from colonnade.stages import compare as comparing
-from colonnade.stages import condition as conditioning
 from colonnade.stages import ensemble as running
-from colonnade.stages import ingest as ingesting
 from colonnade.stages import predict as predicting
 from colonnade.stages import restitution as identifying
-from colonnade.stages import rocking as rocking_stage
 from colonnade.stages import specimen as pooling
 from prism import PRISM
 
@@ -23,14 +20,11 @@ MEMBERS = 60
 
 
 @pytest.fixture
-def results(small_campaign, free_vibration, shaken):
+def results(small_campaign, conditioned_and_measured):
     """Conditioned and rocking of both tests, and the pooled specimen."""
-    found = {}
-    for name, recordings in (("free-01", free_vibration[0]), ("shake-01", shaken[0])):
-        test = small_campaign.tests[name]
-        recorded = ingesting.ingest(recordings, ingesting.IngestInputs.of(small_campaign, test))
-        ready = conditioning.condition(recorded, conditioning.ConditionInputs.of(small_campaign, test))
-        found[name] = (ready, rocking_stage.rocking(ready, rocking_stage.RockingInputs.of(small_campaign, test)))
+    found = {
+        name: tuple(result.copy(deep=True) for result in results) for name, results in conditioned_and_measured.items()
+    }
     read = identifying.RestitutionInputs.of(small_campaign, small_campaign.tests["free-01"])
     identified = identifying.restitution(found["free-01"][1], read)
     pooled = pooling.specimen({"free-01": identified}, pooling.SpecimenInputs.of(small_campaign, "prism"))

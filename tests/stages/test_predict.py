@@ -17,14 +17,8 @@ from colonnade.stages.parts.beginning import begin
 
 
 @pytest.fixture
-def measured(small_campaign, free_vibration, shaken):
-    results = {}
-    for name, recordings in (("free-01", free_vibration[0]), ("shake-01", shaken[0])):
-        test = small_campaign.tests[name]
-        recorded = ingesting.ingest(recordings, ingesting.IngestInputs.of(small_campaign, test))
-        ready = conditioning.condition(recorded, conditioning.ConditionInputs.of(small_campaign, test))
-        results[name] = rocking_stage.rocking(ready, rocking_stage.RockingInputs.of(small_campaign, test))
-    return results
+def measured(conditioned_and_measured):
+    return {name: result.copy(deep=True) for name, (_, result) in conditioned_and_measured.items()}
 
 
 @pytest.fixture

@@ -6,8 +6,20 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as some
 
+from colonnade import units
 from colonnade.errors import UnitError
-from colonnade.units.registry import COMMON, LARGEST_POWER, LONGEST, collected, resolve
+from colonnade.units.registry import (
+    COMMON,
+    DIMENSIONS,
+    LARGEST_POWER,
+    LONGEST,
+    QUANTITY_DIMENSIONS,
+    article,
+    collected,
+    expected,
+    resolve,
+    words,
+)
 from every import every
 
 NAMES = some.sampled_from([name for name in COMMON if "/" not in name])
@@ -80,3 +92,26 @@ def test_any_text_is_a_unit_or_refused(text: str) -> None:
         assert resolve(text).factor > 0
     except UnitError as error:
         assert "Unknown unit" in str(error)  # noqa: PT017 - either outcome is right
+
+
+@every("dimension", DIMENSIONS)
+def test_the_example_of_a_dimension_has_that_dimension(dimension: str) -> None:
+    si_unit, example = DIMENSIONS[dimension]
+    assert units.factor_to_si(si_unit, dimension) == 1
+    assert units.factor_to_si(example, dimension) > 0
+    assert words(dimension) in expected(dimension).casefold() or dimension == "dimensionless"
+
+
+def test_every_quantity_has_a_known_dimension() -> None:
+    assert {dimension for dimension in QUANTITY_DIMENSIONS.values() if dimension} <= DIMENSIONS.keys()
+
+
+def test_an_expectation_repeats_the_number_that_was_given() -> None:
+    assert expected("length") == 'A length was expected, such as "mm".'
+    assert expected("length", 86) == 'A length was expected, such as "86 mm".'
+    assert expected("dimensionless") == "A plain number was expected."
+    assert [article(each) for each in ("acceleration", "inertia", "mass")] == [
+        "an acceleration",
+        "a moment of inertia",
+        "a mass",
+    ]

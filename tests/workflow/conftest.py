@@ -12,7 +12,7 @@ from short_campaign import Small, write_campaign
 
 
 @pytest.fixture(scope="session")
-def undisturbed(made_once: Callable[[str, Callable[[Path], object]], Path]) -> Small:
+def undisturbed(made_once: Callable[..., Path]) -> Small:
     """The campaign as one run in one process leaves it; it is only looked at."""
     return Small(made_once("undisturbed", lambda folder: Small(write_campaign(folder)).complete()))
 

@@ -55,7 +55,7 @@ def test_every_result_of_the_contact_model_tells_its_law_and_its_nodes(in_space)
 
 
 def test_an_ensemble_of_the_contact_model_is_compared_and_reported_while_it_is_asked_for(in_space):
-    in_space.edit("[processing.predict]", "[processing.predict]\nensemble = {members = 5, contact = {members = 3}}")
+    in_space.edit("members = 20", "members = 5\ncontact = {members = 3}")
     in_space.edit('step = "30 us", penetration = 1e-6', 'step = "90 us", penetration = 1e-5')
     in_space.run(until="report")
     bands = files.read(in_space.layout.stage("pulse-01", "ensemble", "contact"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from colonnade.campaign.syntax.bounds import BETWEEN, CONVERSION, SCALE
+from colonnade.campaign.syntax.fields import BETWEEN, CONVERSION, SCALE
 from colonnade.errors import CampaignError
 
 PROCESSING = {

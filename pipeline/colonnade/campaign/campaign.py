@@ -11,17 +11,15 @@ from pydantic import Field
 from colonnade.campaign.assessing.assessment import Assessment
 from colonnade.campaign.assessing.prototype import Prototype
 from colonnade.campaign.channel import Channel
-from colonnade.campaign.decision import Review
-from colonnade.campaign.motions import ReferenceMotion
-from colonnade.campaign.naming.watched import Watched
+from colonnade.campaign.review import Review
 from colonnade.campaign.settings import NextSettings, Processing
-from colonnade.campaign.setup import Setup
-from colonnade.campaign.shake_table import ShakeTable
+from colonnade.campaign.setup import Setup, ShakeTable
 from colonnade.campaign.specimen import AnySpecimen, Specimen
 from colonnade.campaign.syntax.fields import Gravity, Text, schema_version
-from colonnade.campaign.syntax.identifier import Identifier
+from colonnade.campaign.syntax.names import Identifier
 from colonnade.campaign.syntax.table import Table
-from colonnade.campaign.test import Test
+from colonnade.campaign.test import ReferenceMotion, Test
+from colonnade.campaign.watched import Watched
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block
 from colonnade.findings import Finding
 
@@ -32,7 +30,7 @@ SCHEMA = 1
 class CampaignFile(Table):
     """A campaign file as written; `tests` may also be the path of a test log, which is read before this."""
 
-    version: Annotated[int, *schema_version(SCHEMA, "campaign files")] = Field(alias="schema")
+    version: Annotated[int, schema_version(SCHEMA, "campaign files")] = Field(alias="schema")
     """Version of the campaign file's form: 1."""
     campaign: Identifier
     """Id of the campaign, such as "prism-2013"."""
@@ -40,7 +38,7 @@ class CampaignFile(Table):
     """Title of the report."""
     facility: Text | None = None
     """Laboratory and shake table."""
-    gravity: Gravity = Field(default=STANDARD_GRAVITY, json_schema_extra={"unit": "m/s^2"})
+    gravity: Gravity = STANDARD_GRAVITY
     """Gravity at the laboratory; 9.81 m/s² if it is not given."""
     specimens: dict[Identifier, AnySpecimen] = Field(min_length=1)
     """Specimens, by id."""

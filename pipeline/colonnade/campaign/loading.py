@@ -6,17 +6,18 @@ from dataclasses import replace
 from pathlib import Path
 
 from colonnade.campaign.campaign import Campaign, CampaignFile, resolved
-from colonnade.campaign.naming.found import find_tests
+from colonnade.campaign.found import find_tests
 from colonnade.campaign.notices import notices
 from colonnade.campaign.references import dangling
 from colonnade.campaign.review import read_review
 from colonnade.campaign.specimen import SHAPES
 from colonnade.campaign.syntax.document import parse, read_text, refusal, validated
+from colonnade.campaign.syntax.names import inside
 from colonnade.campaign.syntax.places import Place, Source, key_lines
-from colonnade.campaign.syntax.rawpath import inside
 from colonnade.campaign.testlog import Log, read_log
 from colonnade.errors import CampaignError
-from colonnade.readers.irregular import irregular
+from colonnade.findings import Finding
+from colonnade.readers.files import irregular
 
 FILE_NAME = "campaign.toml"
 
@@ -47,15 +48,17 @@ def load(path: Path | str) -> Campaign:
         log = _log(document["tests"], path.parent, source)
         document = document | {"tests": list(log.tests)}
         source = replace(source, log=log.name, rows=log.rows)
-    found = find_tests(document, path.parent)
-    if found.tests:
-        document = document | {"tests": [*document.get("tests", []), *found.tests]}
     written, wrong = validated(CampaignFile, document, path.parent)
-    problems = [*((_place(place), message) for place, message in wrong), *dangling(document)]
+    problems = [(_place(place), message) for place, message in wrong]
+    findings: tuple[Finding, ...] = ()
+    if written is not None:
+        tests, findings = find_tests(written, path.parent)
+        written = written.model_copy(update={"tests": (*written.tests, *tests)})
+        problems += dangling(written)
     paragraphs = [*log.problems, *source.paragraphs(problems, document)]
     if paragraphs or written is None:
         raise refusal(paragraphs)
-    campaign = resolved(written, path, (*log.warnings, *found.findings, *notices(written)))
+    campaign = resolved(written, path, (*log.warnings, *findings, *notices(written)))
     return replace(campaign, reviews=read_review(path.parent, campaign.tests, campaign.setups))
 
 

@@ -3,23 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field, WithJsonSchema
+from pydantic import BaseModel, ConfigDict, Field
 
-from colonnade.campaign.decision import Review, decided
 from colonnade.campaign.setup import Setup
-from colonnade.campaign.syntax.bounds import FACTOR, outside
 from colonnade.campaign.syntax.days import Day
 from colonnade.campaign.syntax.document import parse, read_text, refusal, validated
-from colonnade.campaign.syntax.fields import Interval, Text, number, one_of, schema_version, shown
-from colonnade.campaign.syntax.places import Place, Source, key_lines
-from colonnade.campaign.syntax.rawpath import inside
+from colonnade.campaign.syntax.fields import (
+    FACTOR,
+    Interval,
+    Kind,
+    Text,
+    number,
+    one_of,
+    outside,
+    schema_version,
+    shown,
+)
+from colonnade.campaign.syntax.names import inside
+from colonnade.campaign.syntax.places import Place, Source, key_lines, unknown
 from colonnade.campaign.syntax.table import Table
 from colonnade.campaign.test import Test
-from colonnade.errors import CampaignError, nearest
+from colonnade.errors import CampaignError
 
 FILE_NAME = "review.toml"
 SCHEMA = 1
@@ -42,12 +49,9 @@ def _factor(value: object) -> float:
     return factor
 
 
-Tests = Annotated[
-    tuple[str, ...],
-    BeforeValidator(_tests),
-    WithJsonSchema({"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 1}]}),
-]
-Factor = Annotated[float, BeforeValidator(_factor), WithJsonSchema({"type": "number"})]
+_TESTS = {"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 1}]}
+Tests = Annotated[tuple[str, ...], Kind(_tests, _TESTS)]
+Factor = Annotated[float, Kind(_factor, {"type": "number"})]
 
 
 class Entry(Table):
@@ -62,6 +66,16 @@ class Entry(Table):
     why: Text
     """Why, for whoever reads the results."""
 
+    @property
+    def what(self) -> str:
+        """What is done, in words."""
+        raise NotImplementedError
+
+    @property
+    def said(self) -> str:
+        """When, who, what and why, in a sentence."""
+        return f"{self.when}, {self.who}: {self.what}: {self.why}"
+
 
 class Exclude(Entry):
     """Leave a test out, or one channel of it."""
@@ -69,12 +83,22 @@ class Exclude(Entry):
     channel: Text | None = None
     """The channel to leave out; without it the whole test."""
 
+    @property
+    def what(self) -> str:
+        """What is done, in words."""
+        return f"channel {self.channel} excluded" if self.channel else "test excluded"
+
 
 class Trim(Entry):
     """Use only a part of a test."""
 
     window: Interval
     """The part that is used, in the file's own time, such as ["2 s", "14 s"]."""
+
+    @property
+    def what(self) -> str:
+        """What is done, in words."""
+        return f"only {self.window[0]:g} s to {self.window[1]:g} s used"
 
 
 class FlagStretch(Entry):
@@ -84,8 +108,14 @@ class FlagStretch(Entry):
     """The channel."""
     window: Interval
     """The stretch, in the file's own time, such as ["3.2 s", "3.4 s"]."""
-    flag: Annotated[str, *one_of("suspect", "fail")] = Field(alias="as")
+    flag: Annotated[Literal["suspect", "fail"], one_of("suspect", "fail")] = Field(alias="as")
     """"suspect" (reported, still used) or "fail" (bridged)."""
+
+    @property
+    def what(self) -> str:
+        """What is done, in words."""
+        low, high = self.window
+        return f"channel {self.channel} from {low:g} s to {high:g} s flagged as {self.flag}"
 
 
 class Correct(Entry):
@@ -96,11 +126,16 @@ class Correct(Entry):
     factor: Factor
     """What the gain has to be multiplied by: -1 turns the sign."""
 
+    @property
+    def what(self) -> str:
+        """What is done, in words."""
+        return f"gain of channel {self.channel} multiplied by {self.factor:g}"
+
 
 class ReviewFile(Table):
     """A review.toml as written."""
 
-    version: Annotated[int, *schema_version(SCHEMA, "review files")] = Field(alias="schema")
+    version: Annotated[int, schema_version(SCHEMA, "review files")] = Field(alias="schema")
     """Version of the review file's form: 1."""
     exclude: tuple[Exclude, ...] = ()
     """Tests or channels that are left out."""
@@ -111,13 +146,86 @@ class ReviewFile(Table):
     correct: tuple[Correct, ...] = ()
     """Gains and signs that are corrected."""
 
+    def entries(self) -> Iterator[tuple[Place, Entry]]:
+        """Give all entries with their places."""
+        for kind in ("exclude", "trim", "flag", "correct"):
+            yield from (((kind, index), entry) for index, entry in enumerate(getattr(self, kind)))
 
-@dataclass(frozen=True)
-class _Known:
-    """The tests, and the channels of each, that entries may name."""
 
-    tests: Mapping[str, Test]
-    setups: Mapping[str, Setup]
+class Flagged(BaseModel):
+    """A stretch of a channel that people flagged; the whole channel if the window is None."""
+
+    model_config = ConfigDict(frozen=True)
+
+    channel: str
+    window: tuple[float, float] | None
+    flag: Literal["suspect", "fail"]
+    reason: str
+
+
+class Review(BaseModel):
+    """
+    The decisions about one test.
+
+    Attributes
+    ----------
+    excluded : str
+        Why the whole test is left out, with who and when; empty if it is not.
+    window : (float, float) or None
+        The part of the file that is used, s.
+    flags : tuple of Flagged
+    factors : dict of str to float
+        Factor on the gain of each channel.
+    sentences : tuple of str
+        One sentence for each entry: when, who, what, why.
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    excluded: str = ""
+    window: tuple[float, float] | None = None
+    flags: tuple[Flagged, ...] = ()
+    factors: dict[str, float] = {}
+    sentences: tuple[str, ...] = ()
+
+    def within(self, window: tuple[float, float] | None) -> tuple[float, float] | None:
+        """
+        Return the part of a test's window that is used.
+
+        Examples
+        --------
+        >>> Review(window=(2.0, 9.0)).within((0.0, 5.0))
+        (2.0, 5.0)
+        """
+        if window is None or self.window is None:
+            return window or self.window
+        return max(window[0], self.window[0]), min(window[1], self.window[1])
+
+
+def decided(entries: Iterable[Entry]) -> Review:
+    """
+    Gather the decisions about one test.
+
+    Several trims of a test leave their common part; several corrections of a channel multiply.
+    """
+    excluded, window = "", None
+    flags: list[Flagged] = []
+    factors: dict[str, float] = {}
+    entries = list(entries)
+    for entry in entries:
+        reason = f"review of {entry.said}"
+        if isinstance(entry, Exclude) and entry.channel:
+            flags.append(Flagged(channel=entry.channel, window=None, flag="fail", reason=reason))
+        elif isinstance(entry, Exclude):
+            excluded = excluded or f"excluded by {entry.who} on {entry.when}: {entry.why}"
+        elif isinstance(entry, FlagStretch):
+            flags.append(Flagged(channel=entry.channel, window=entry.window, flag=entry.flag, reason=reason))
+        elif isinstance(entry, Trim):
+            window = Review(window=window).within(entry.window)
+        elif isinstance(entry, Correct):
+            factors[entry.channel] = factors.get(entry.channel, 1.0) * entry.factor
+    sentences = tuple(entry.said for entry in entries)
+    return Review(excluded=excluded, window=window, flags=tuple(flags), factors=factors, sentences=sentences)
 
 
 def read_review(folder: Path, tests: Mapping[str, Test], setups: Mapping[str, Setup]) -> dict[str, Review]:
@@ -150,62 +258,29 @@ def read_review(folder: Path, tests: Mapping[str, Test], setups: Mapping[str, Se
         raise CampaignError(f"{FILE_NAME}: {error}") from None
     document, source = parse(written, path.name), Source(path.name, key_lines(written))
     review, problems = validated(ReviewFile, document, folder)
-    problems += _dangling(document, _Known(tests, setups))
-    if review and not problems:
-        problems += _empty_windows(review)
+    if review is not None:
+        problems = list(_problems(review, tests, setups))
     if problems or review is None:
         raise refusal(source.paragraphs(problems, document))
-    concerned = dict.fromkeys(name for _, entry in _entries(review) for name in entry.tests)
-    return {name: decided(_of_test(review, name)) for name in concerned}
+    entries = [entry for _, entry in review.entries()]
+    concerned = dict.fromkeys(name for entry in entries for name in entry.tests)
+    return {name: decided(entry for entry in entries if name in entry.tests) for name in concerned}
 
 
-def _entries(review: ReviewFile) -> Iterator[tuple[Place, Any]]:
-    for kind in ("exclude", "trim", "flag", "correct"):
-        for index, entry in enumerate(getattr(review, kind)):
-            yield (kind, index), entry
-
-
-def _of_test(review: ReviewFile, test: str) -> list[tuple[str, dict[str, Any]]]:
-    return [(str(place[0]), dict(entry)) for place, entry in _entries(review) if test in entry.tests]
-
-
-def _dangling(document: Mapping[str, Any], known: _Known) -> Iterator[tuple[Place, str]]:
-    """Find names that refer to nothing, in the file as written, so that all problems are reported at once."""
-    for kind in ("exclude", "trim", "flag", "correct"):
-        entries = document.get(kind)
-        for index, entry in enumerate(entries if isinstance(entries, list) else []):
-            if isinstance(entry, dict):
-                yield from _unknown_names((kind, index), entry, known)
-
-
-def _unknown_names(place: Place, entry: Mapping[str, Any], known: _Known) -> Iterator[tuple[Place, str]]:
-    named = entry.get("test")
-    for test in named if isinstance(named, list) else [named]:
-        if not isinstance(test, str):
-            continue
-        if test not in known.tests:
-            yield (*place, "test"), f"Unknown test {shown(test)}.{nearest(test, known.tests)}"
-            continue
-        channel, setup = entry.get("channel"), known.tests[test].setup
-        channels = known.setups[setup].channels
-        if isinstance(channel, str) and channel not in channels:
-            hint = nearest(channel, channels)
-            yield (*place, "channel"), f'Unknown channel {shown(channel)} in set-up "{setup}" of {test}.{hint}'
-
-
-def _empty_windows(review: ReviewFile) -> Iterator[tuple[Place, str]]:
-    """Find trims of one test that have no instant in common."""
-    kept: dict[str, tuple[float, float]] = {}
-    for index, entry in enumerate(review.trim):
+def _problems(
+    review: ReviewFile, tests: Mapping[str, Test], setups: Mapping[str, Setup]
+) -> Iterator[tuple[Place, str]]:
+    """Find names that refer to nothing, and trims of one test that have no instant in common."""
+    kept: dict[str, tuple[float, float] | None] = {}
+    for place, entry in review.entries():
         for test in entry.tests:
-            low, high = _common(kept.get(test), entry.window)
-            if low >= high:
-                yield ("trim", index, "window"), f"This and an earlier [[trim]] leave no samples of {test}."
-            kept[test] = (low, high)
-
-
-def _common(first: Iterable[float] | None, second: tuple[float, float]) -> tuple[float, float]:
-    if first is None:
-        return second
-    low, high = first
-    return max(low, second[0]), min(high, second[1])
+            yield from unknown((*place, "test"), "test", test, tests)
+            channel = getattr(entry, "channel", None)
+            if test in tests and channel:
+                setup = tests[test].setup
+                where = f' in set-up "{setup}" of {test}'
+                yield from unknown((*place, "channel"), "channel", channel, setups[setup].channels, where)
+            if isinstance(entry, Trim):
+                kept[test] = low, high = Review(window=kept.get(test)).within(entry.window) or entry.window
+                if low >= high:
+                    yield (*place, "window"), f"This and an earlier [[trim]] leave no samples of {test}."

@@ -11,10 +11,20 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, WithJsonSchema
+from pydantic import Field
 
-from colonnade.campaign.syntax.bounds import STEP
-from colonnade.campaign.syntax.fields import Angle, Duration, number_between, one_of, or_word, quantity, shown
+from colonnade.campaign.syntax.fields import (
+    STEP,
+    Angle,
+    Duration,
+    Kind,
+    count_between,
+    number_between,
+    one_of,
+    or_word,
+    quantity,
+    shown,
+)
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.contact.law import DEFAULT_STEP, STATIC_PENETRATION
 from colonnade.dynamics.models.registry import MODELS, model_of
@@ -27,17 +37,6 @@ MESHES = ("rigid", "coarse", "medium", "fine")
 """Bodies of the contact model: rigid on nodes or circles, or elastic on one of three meshes."""
 
 
-def count_between(low: int, high: int) -> tuple[Any, Any]:
-    """Give validator and JSON Schema of a whole number within bounds, the bounds included."""
-
-    def counted(value: object) -> int:
-        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-            raise ValueError(f"{shown(value)} was found. A whole number from {low} to {high} was expected.")
-        return value
-
-    return BeforeValidator(counted), WithJsonSchema({"type": "integer", "minimum": low, "maximum": high})
-
-
 def _models(value: object) -> tuple[str, ...]:
     names = [value] if isinstance(value, str) else value
     if not isinstance(names, (list, tuple)) or not names or len(set(map(str, names))) != len(names):
@@ -48,12 +47,9 @@ def _models(value: object) -> tuple[str, ...]:
     return tuple(names)
 
 
-AutoFrequency = Annotated[Literal["auto"] | float, *or_word(quantity("frequency", above_zero=True), "auto")]
-Models = Annotated[
-    tuple[str, ...],
-    BeforeValidator(_models),
-    WithJsonSchema({"type": "array", "items": {"enum": list(MODELS)}, "minItems": 1, "uniqueItems": True}),
-]
+AutoFrequency = Annotated[Literal["auto"] | float, or_word(quantity("frequency"), "auto")]
+_MODELS = {"type": "array", "items": {"enum": list(MODELS)}, "minItems": 1, "uniqueItems": True}
+Models = Annotated[tuple[str, ...], Kind(_models, _MODELS)]
 
 
 def setting(default: Any, unit: str = "") -> Any:
@@ -64,15 +60,15 @@ def setting(default: Any, unit: str = "") -> Any:
 class QualitySettings(Table):
     """Settings of the quality checks in `ingest`."""
 
-    spike_threshold: Annotated[float, *number_between(1.0, 1000.0, exclusive=True)] = setting(
+    spike_threshold: Annotated[float, number_between(1.0, 1000.0, exclusive=True)] = setting(
         8.0, "robust standard deviations"
     )
     """A sample that differs from its neighbours by more than this is flagged as a spike and bridged."""
     flat_duration: Duration = setting(0.5, "s")
     """A value that stays exactly the same for longer than this is flagged as flat."""
-    gap: Annotated[float, *number_between(1.0, 1000.0, exclusive=True)] = setting(1.5, "sampling intervals")
+    gap: Annotated[float, number_between(1.0, 1000.0, exclusive=True)] = setting(1.5, "sampling intervals")
     """A longer step of the clock is a gap."""
-    jitter: Annotated[float, *number_between(0.0, 1.0, exclusive=True)] = setting(0.05, "sampling intervals")
+    jitter: Annotated[float, number_between(0.0, 1.0, exclusive=True)] = setting(0.05, "sampling intervals")
     """A clock whose steps differ by more than this is flagged."""
 
 
@@ -85,7 +81,7 @@ class ConditionSettings(Table):
     """Cut-off of the zero-phase low-pass of channels on the specimen; "auto" chooses it from specimen and rate."""
     base_lowpass: AutoFrequency = setting("auto", "Hz")
     """Cut-off of the zero-phase low-pass of channels on the table; "auto" chooses it from the rate."""
-    filter_order: Annotated[int, *count_between(1, 10)] = setting(4)
+    filter_order: Annotated[int, count_between(1, 10)] = setting(4)
     """Order of the Butterworth low-pass, before it is run forwards and backwards."""
     rest_duration: Duration = setting(0.5, "s")
     """Shortest quiet stretch that counts as rest."""
@@ -96,20 +92,20 @@ class ConditionSettings(Table):
 class RestitutionSettings(Table):
     """Settings of the identification of the coefficient of restitution."""
 
-    lowest_amplitude: Annotated[float, *number_between(1e-6, 1.0, exclusive=True)] = setting(0.02, "of α")
+    lowest_amplitude: Annotated[float, number_between(1e-6, 1.0, exclusive=True)] = setting(0.02, "of α")
     """Peaks below this fraction of the critical angle are left out."""
-    level: Annotated[float, *number_between(0.5, 0.999999, exclusive=True)] = setting(0.95)
+    level: Annotated[float, number_between(0.5, 0.999999, exclusive=True)] = setting(0.95)
     """Probability of the interval that is given for e."""
 
 
 class ContactEnsembleSettings(Table):
     """Settings of the contact model's ensembles: the number of runs, and the ranges of its inputs."""
 
-    members: Annotated[int, *count_between(0, 100_000)] = setting(0)
+    members: Annotated[int, count_between(0, 100_000)] = setting(0)
     """Runs of the contact model over its unknown inputs, each as long as its prediction; 0 for no ensemble."""
-    friction: Annotated[float, *number_between(0.0, 1.0)] = setting(0.2, "of the friction")
+    friction: Annotated[float, number_between(0.0, 1.0)] = setting(0.2, "of the friction")
     """Half of the range of friction, about that of the contact model; all values in it are equally likely."""
-    damping_fraction: Annotated[float, *number_between(0.0, 1.0)] = setting(0.2, "of the damping fraction")
+    damping_fraction: Annotated[float, number_between(0.0, 1.0)] = setting(0.2, "of the damping fraction")
     """Half of the range of the contact's damping, about that of the contact model."""
     out_of_plane: Angle = setting(1e-3, "rad")
     """Half of the range of the rotation about x at the start, about that of the contact model."""
@@ -118,30 +114,30 @@ class ContactEnsembleSettings(Table):
 class MeasurementSettings(Table):
     """How well the measured rocking angle is known, and how uncertain a prediction may become."""
 
-    angle_gain: Annotated[float, *number_between(0.0, 0.5)] = setting(0.005, "of the angle")
+    angle_gain: Annotated[float, number_between(0.0, 0.5)] = setting(0.005, "of the angle")
     """Standard deviation of the calibration of the measured rocking angle."""
-    angle_zero: Annotated[float, *number_between(0.0, 0.5)] = setting(5e-4, "of α")
+    angle_zero: Annotated[float, number_between(0.0, 0.5)] = setting(5e-4, "of α")
     """Standard deviation of the zero of the measured rocking angle; that of its drift between the rests, if larger."""
-    horizon: Annotated[float, *number_between(0.0, 10.0, exclusive=True)] = setting(0.2, "of α")
+    horizon: Annotated[float, number_between(0.0, 10.0, exclusive=True)] = setting(0.2, "of α")
     """A history is predicted up to the first time at which the 95 % band of its runs is wider than this."""
 
 
 class PlaneEnsembleSettings(Table):
     """Settings of the plane models' ensembles: the number of runs, and how well their inputs are known."""
 
-    members: Annotated[int, *count_between(0, 1_000_000)] = setting(100)
+    members: Annotated[int, count_between(0, 1_000_000)] = setting(100)
     """Runs of each model over its uncertain inputs; 0 for no ensemble."""
-    restitution: Annotated[float, *number_between(0.0, 0.5)] = setting(0.005)
+    restitution: Annotated[float, number_between(0.0, 0.5)] = setting(0.005)
     """Standard deviation of e from test to test if fewer than two free vibrations show it."""
-    critical_angle: Annotated[float, *number_between(0.0, 0.5)] = setting(0.005, "of α")
+    critical_angle: Annotated[float, number_between(0.0, 0.5)] = setting(0.005, "of α")
     """Standard deviation of the critical angle."""
-    p: Annotated[float, *number_between(0.0, 0.5)] = setting(0.005, "of p")
+    p: Annotated[float, number_between(0.0, 0.5)] = setting(0.005, "of p")
     """Standard deviation of the frequency parameter."""
-    gain: Annotated[float, *number_between(0.0, 0.5)] = setting(0.005, "of the acceleration")
+    gain: Annotated[float, number_between(0.0, 0.5)] = setting(0.005, "of the acceleration")
     """Standard deviation of the calibration of the table's acceleration."""
-    clock: Annotated[float, *number_between(0.0, 0.1)] = setting(1e-5, "of the sampling interval")
+    clock: Annotated[float, number_between(0.0, 0.1)] = setting(1e-5, "of the sampling interval")
     """Standard deviation of the recorder's clock rate."""
-    filter: Annotated[float, *number_between(0.0, 0.5)] = setting(0.1, "of the cut-off")
+    filter: Annotated[float, number_between(0.0, 0.5)] = setting(0.1, "of the cut-off")
     """Standard deviation of the low-pass cut-off of the table's acceleration: how much its choice matters."""
 
 
@@ -155,24 +151,22 @@ class EnsembleSettings(MeasurementSettings, PlaneEnsembleSettings):
 class ContactSettings(Table):
     """Settings of the contact model."""
 
-    mesh: Annotated[str, *one_of(*MESHES)] = setting("rigid")
+    mesh: Annotated[str, one_of(*MESHES)] = setting("rigid")
     """Body of the contact model: "rigid" (a round base on whole circles), or elastic on a "coarse", "medium" or "fine"
     mesh."""
-    step: Annotated[float, *quantity("time", above_zero=True, between=STEP, example="10 us")] = setting(
-        DEFAULT_STEP, "s"
-    )
+    step: Annotated[float, quantity("time", between=STEP, example="10 us")] = setting(DEFAULT_STEP, "s")
     """Time step of the contact model; it has to be stable."""
-    damping_fraction: Annotated[Literal["auto"] | float, *or_word(number_between(0.0, 10.0), "auto")] = setting("auto")
+    damping_fraction: Annotated[Literal["auto"] | float, or_word(number_between(0.0, 10.0), "auto")] = setting("auto")
     """Critical damping fraction of the contact; "auto" finds the one that gives the specimen's restitution."""
-    penetration: Annotated[float, *number_between(1e-10, 0.01, exclusive=True)] = setting(
+    penetration: Annotated[float, number_between(1e-10, 0.01, exclusive=True)] = setting(
         STATIC_PENETRATION, "of the height of the centre of mass"
     )
     """How deep the standing specimen sinks into its contact, which sets the contact's stiffness."""
-    friction: Annotated[float, *number_between(0.0, 10.0)] = setting(0.6)
+    friction: Annotated[float, number_between(0.0, 10.0)] = setting(0.6)
     """Coulomb's coefficient between specimen and table."""
-    modulus: Annotated[float, *quantity("pressure", above_zero=True)] = setting(2e11, "Pa")
+    modulus: Annotated[float, quantity("pressure")] = setting(2e11, "Pa")
     """Young's modulus of an elastic specimen."""
-    poisson_ratio: Annotated[float, *number_between(-0.999, 0.4999, exclusive=True)] = setting(0.3)
+    poisson_ratio: Annotated[float, number_between(-0.999, 0.4999, exclusive=True)] = setting(0.3)
     """Poisson's ratio of an elastic specimen."""
     out_of_plane: Angle = setting(0.0, "rad")
     """Rotation about x at the start of the contact model: a disturbance out of the plane."""
@@ -183,7 +177,7 @@ class PredictSettings(Table):
 
     models: Models = setting(DEFAULT_MODELS)
     """Models of rocking that are run on the recorded base motion."""
-    rest_angle: Annotated[float, *number_between(1e-10, 0.1, exclusive=True)] = setting(1e-6, "of α")
+    rest_angle: Annotated[float, number_between(1e-10, 0.1, exclusive=True)] = setting(1e-6, "of α")
     """An arc after an impact that stays below this fraction of the critical angle counts as rest."""
     ensemble: EnsembleSettings = EnsembleSettings()
     """The ensembles of the predictions."""
@@ -198,13 +192,13 @@ class PredictSettings(Table):
 class NextSettings(Table):
     """Settings of the advice on which test tells most."""
 
-    largest_risk: Annotated[float, *number_between(0.0, 1.0, exclusive=True)] = setting(0.6)
+    largest_risk: Annotated[float, number_between(0.0, 1.0, exclusive=True)] = setting(0.6)
     """Largest probability of overturning of a test that is advised."""
-    boundary_width: Annotated[float, *number_between(0.02, 1.0)] = setting(0.05, "of the amplitude")
+    boundary_width: Annotated[float, number_between(0.02, 1.0)] = setting(0.05, "of the amplitude")
     """Wanted width of the 90 % interval of the amplitude at which the specimen overturns half the time."""
-    discrepancy: Annotated[float, *number_between(0.005, 1.0)] = setting(0.15, "of the amplitude")
+    discrepancy: Annotated[float, number_between(0.005, 1.0)] = setting(0.15, "of the amplitude")
     """Standard deviation of that amplitude about the one that the models predict."""
-    restitution_width: Annotated[float, *number_between(1e-5, 0.5)] = setting(0.005)
+    restitution_width: Annotated[float, number_between(1e-5, 0.5)] = setting(0.005)
     """Wanted width of the interval of e."""
 
 

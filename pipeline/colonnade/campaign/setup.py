@@ -1,4 +1,4 @@
-"""Setups: how the raw files are read, the recorders, and the channels."""
+"""Setups: how the raw files are read, the recorders, and the channels; and what the shake table can do."""
 
 from __future__ import annotations
 
@@ -6,12 +6,21 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic_core import InitErrorDetails
 
 from colonnade.campaign.channel import MAIN, Channel
-from colonnade.campaign.syntax.fields import Angle, Frequency, PositiveAngle, shown
-from colonnade.campaign.syntax.identifier import Identifier, identifier
+from colonnade.campaign.syntax.fields import (
+    Acceleration,
+    Angle,
+    Frequency,
+    Kind,
+    Length,
+    PositiveAngle,
+    Velocity,
+    shown,
+)
+from colonnade.campaign.syntax.names import Identifier, identifier
 from colonnade.campaign.syntax.table import Table, problem, refuse
 from colonnade.errors import nearest
 
@@ -116,9 +125,9 @@ _CLOCK_SCHEMA = {
         },
     ]
 }
-FileTable = Annotated[FileOptions, BeforeValidator(_file_options), WithJsonSchema({"type": "object"})]
-Clock = Annotated[Literal["trigger"] | Align, BeforeValidator(_clock), WithJsonSchema(_CLOCK_SCHEMA)]
-RecorderId = Annotated[str, BeforeValidator(_recorder_id), WithJsonSchema({"type": "string"})]
+FileTable = Annotated[FileOptions, Kind(_file_options, {"type": "object"})]
+Clock = Annotated[Literal["trigger"] | Align, Kind(_clock, _CLOCK_SCHEMA)]
+RecorderId = Annotated[str, Kind(_recorder_id, {"type": "string"})]
 
 
 class Recorder(Table):
@@ -158,3 +167,14 @@ class Setup(Table):
         return {MAIN: Recorder.model_construct(file=self.file, sampling_rate=self.sampling_rate, clock="trigger")} | (
             self.further_recorders
         )
+
+
+class ShakeTable(Table):
+    """Limits of the shake table, each at its peak; motions beyond one are not advised."""
+
+    acceleration: Acceleration | None = None
+    """Largest acceleration, such as "1.2 g"."""
+    velocity: Velocity | None = None
+    """Largest velocity, such as "0.8 m/s"."""
+    stroke: Length | None = None
+    """Largest displacement from the middle, such as "75 mm"."""

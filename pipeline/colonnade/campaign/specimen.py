@@ -9,17 +9,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from colonnade.campaign.syntax.bounds import FREQUENCY_PARAMETER, outside
-from colonnade.campaign.syntax.fields import (
-    Length,
-    Mass,
-    Scale,
-    Sided,
-    SidedAngle,
-    SidedInertia,
-    SidedLength,
-    SidedRestitution,
-)
+from colonnade.campaign.syntax import fields
+from colonnade.campaign.syntax.fields import FREQUENCY_PARAMETER, outside
 from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
 from colonnade.dynamics.density import UnlikelyBlockWarning, cone_volume, prism_volume
@@ -39,6 +30,12 @@ OUTER_DIMENSIONS = ("width", "depth", "diameter", "base_diameter", "top_diameter
 
 _BLOCKS: dict[str, Callable[..., Block]] = {"prism": Block.prism, "cylinder": Block.cylinder, "cone": Block.cone}
 
+_VOLUMES: dict[str, Callable[..., float]] = {
+    "prism": prism_volume,
+    "cylinder": lambda diameter, height: cone_volume(diameter, diameter, height),
+    "cone": cone_volume,
+}
+
 _MEASURED = {"critical_angle": ("rad", 1.0), "pole_distance": ("mm", 1e3), "inertia": ("kg m²", 1.0)}
 
 
@@ -47,17 +44,17 @@ class Specimen(Table):
 
     shape: str
     """Its shape: "prism", "cylinder", "cone" or "measured"."""
-    mass: Mass
+    mass: fields.Mass
     """Mass, such as "26.10 kg"."""
-    scale: Scale | None = None
+    scale: fields.Scale | None = None
     """Scale of the model: 20 means 1:20."""
-    critical_angle: SidedAngle | None = None
+    critical_angle: fields.SidedAngle | None = None
     """Rotation that brings the centre of mass above the pole, such as "0.1864 rad"."""
-    pole_distance: SidedLength | None = None
+    pole_distance: fields.SidedLength | None = None
     """Distance of the centre of mass from the pole, such as "232 mm"."""
-    inertia: SidedInertia | None = None
+    inertia: fields.SidedInertia | None = None
     """Moment of inertia about the pole, such as "1.873 kg m^2"."""
-    restitution: SidedRestitution | None = None
+    restitution: fields.SidedRestitution | None = None
     """Coefficient of restitution, a plain number such as 0.976; without it the identified one is used."""
 
     def sizes(self) -> dict[str, float]:
@@ -84,11 +81,15 @@ class Specimen(Table):
     @property
     def volume(self) -> float | None:
         """m³; None if the specimen has no dimensions."""
-        return None
+        volume = _VOLUMES.get(self.shape)
+        return volume(**self.sizes()) if volume else None
 
     def radius(self, z: float) -> float | None:
         """Radius at a height above the base, m; None if the specimen is not round."""
-        return None
+        sizes = self.sizes()
+        base = sizes.get("diameter", sizes.get("base_diameter"))
+        top = sizes.get("top_diameter", base)
+        return None if base is None or top is None else (base + (top - base) * z / sizes["height"]) / 2
 
     def block(self, gravity: float) -> Block:
         """
@@ -142,7 +143,7 @@ class Specimen(Table):
         }
         sentences = []
         for name, (unit, factor) in _MEASURED.items():
-            given: Sided | None = getattr(self, name)
+            given: fields.Sided | None = getattr(self, name)
             if given is None:
                 continue
             expected = float(getattr(side, name))
@@ -164,17 +165,12 @@ class Prism(Specimen):
 
     shape: Literal["prism"]
     """Its shape."""
-    width: Length
+    width: fields.Length
     """Along x, the direction of shaking, such as "86 mm"."""
-    depth: Length
+    depth: fields.Length
     """Along y, across the direction of shaking."""
-    height: Length
+    height: fields.Length
     """Along z."""
-
-    @property
-    def volume(self) -> float:
-        """m³."""
-        return prism_volume(**self.sizes())
 
 
 class Cylinder(Specimen):
@@ -182,19 +178,10 @@ class Cylinder(Specimen):
 
     shape: Literal["cylinder"]
     """Its shape."""
-    diameter: Length
+    diameter: fields.Length
     """Diameter, such as "97 mm"."""
-    height: Length
+    height: fields.Length
     """Along z."""
-
-    @property
-    def volume(self) -> float:
-        """m³."""
-        return cone_volume(self.diameter, self.diameter, self.height)
-
-    def radius(self, z: float) -> float:
-        """Radius at a height above the base, m."""
-        return self.diameter / 2
 
 
 class Cone(Specimen):
@@ -202,21 +189,12 @@ class Cone(Specimen):
 
     shape: Literal["cone"]
     """Its shape."""
-    base_diameter: Length
+    base_diameter: fields.Length
     """Diameter of the base circle."""
-    top_diameter: Length
+    top_diameter: fields.Length
     """Diameter at the top."""
-    height: Length
+    height: fields.Length
     """Along z."""
-
-    @property
-    def volume(self) -> float:
-        """m³."""
-        return cone_volume(**self.sizes())
-
-    def radius(self, z: float) -> float:
-        """Radius at a height above the base, m."""
-        return (self.base_diameter + (self.top_diameter - self.base_diameter) * z / self.height) / 2
 
 
 class Measured(Specimen):
@@ -224,11 +202,11 @@ class Measured(Specimen):
 
     shape: Literal["measured"]
     """Its shape."""
-    critical_angle: SidedAngle
+    critical_angle: fields.SidedAngle
     """Rotation that brings the centre of mass above the pole, such as "0.21 rad"."""
-    pole_distance: SidedLength
+    pole_distance: fields.SidedLength
     """Distance of the centre of mass from the pole, such as "610 mm"."""
-    inertia: SidedInertia
+    inertia: fields.SidedInertia
     """Moment of inertia about the pole, such as "41.2 kg m^2"."""
 
 

@@ -1,30 +1,18 @@
-"""Tests: the specimen, the setup, what was done, and the raw files."""
+"""Tests: the specimen, the setup, what was done, and the raw files; and the motions that the table was to follow."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema
+from pydantic import Field, ValidationInfo, model_validator
 
 from colonnade.campaign.channel import MAIN
+from colonnade.campaign.syntax import fields
 from colonnade.campaign.syntax.days import Day
-from colonnade.campaign.syntax.fields import (
-    INTERVAL_SCHEMA,
-    Frequency,
-    Interval,
-    PositiveNumber,
-    Text,
-    interval,
-    one_of,
-    or_word,
-    quantity,
-    shown,
-    text,
-)
-from colonnade.campaign.syntax.identifier import Identifier
-from colonnade.campaign.syntax.rawpath import inside
+from colonnade.campaign.syntax.fields import shown, text
+from colonnade.campaign.syntax.names import Identifier, inside
 from colonnade.campaign.syntax.table import Table, problem, refuse
 
 KINDS = ("free-vibration", "sine", "earthquake", "pulse", "noise", "tilt", "other")
@@ -51,18 +39,8 @@ def _files(value: object, info: ValidationInfo) -> dict[str, Path]:
     return paths
 
 
-Files = Annotated[
-    dict[str, Path],
-    BeforeValidator(_files),
-    WithJsonSchema(
-        {
-            "anyOf": [
-                {"type": "string", "minLength": 1},
-                {"type": "object", "required": [MAIN], "additionalProperties": {"type": "string", "minLength": 1}},
-            ]
-        }
-    ),
-]
+_FILES = {"anyOf": [fields.SOME_TEXT, {"type": "object", "required": [MAIN], "additionalProperties": fields.SOME_TEXT}]}
+Files = Annotated[dict[str, Path], fields.Kind(_files, _FILES)]
 
 
 def _photos(value: object) -> tuple[str, ...]:
@@ -72,13 +50,8 @@ def _photos(value: object) -> tuple[str, ...]:
     return tuple(dict.fromkeys(text(path).strip() for path in value))
 
 
-Photos = Annotated[
-    tuple[str, ...],
-    BeforeValidator(_photos),
-    WithJsonSchema({"type": "array", "items": {"type": "string", "minLength": 1}}),
-]
-Amplitude = Annotated[float, *quantity("acceleration", above_zero=True)]
-Zero = Annotated[str | tuple[float, float], *or_word((BeforeValidator(interval), INTERVAL_SCHEMA), *ZEROS)]
+Photos = Annotated[tuple[str, ...], fields.Kind(_photos, {"type": "array", "items": fields.SOME_TEXT})]
+Zero = Annotated[str | tuple[float, float], fields.or_word(fields.INTERVAL, *ZEROS)]
 
 
 class Test(Table):
@@ -86,7 +59,7 @@ class Test(Table):
 
     id: Identifier
     """Its id, such as "free-01"; results are in a folder of this name."""
-    kind: Annotated[str, *one_of(*KINDS)]
+    kind: Annotated[str, fields.one_of(*KINDS)]
     """What was done: "free-vibration", "sine", "earthquake", "pulse", "noise", "tilt" or "other"."""
     specimen: str
     """Id of its specimen."""
@@ -94,29 +67,54 @@ class Test(Table):
     """Id of its set-up."""
     files: Files = Field(alias="file")
     """Its raw file, from the folder of the campaign file; with several recorders a table of one each."""
-    window: Interval | None = None
+    window: fields.Interval | None = None
     """Part of the file that is this test, such as ["2 s", "14 s"]."""
     zero: Zero = "auto"
     """Where the transducers' zero is taken: "auto", "start", "end", "none" or an interval."""
-    frequency: Frequency | None = None
+    frequency: fields.Frequency | None = None
     """Frequency of a sine or pulse, such as "3 Hz"."""
-    amplitude: Amplitude | None = Field(default=None, json_schema_extra={"unit": "m/s^2"})
+    amplitude: fields.Acceleration | None = None
     """Amplitude of the table's acceleration in a sine or pulse as it was asked for, such as "0.2 g"."""
-    motion: Text | None = None
+    motion: fields.Text | None = None
     """Name of the base motion, such as "El Centro 1940 NS"."""
-    span: PositiveNumber | None = None
+    span: fields.PositiveNumber | None = None
     """The table's intensity setting."""
-    time_scale: PositiveNumber | None = None
+    time_scale: fields.PositiveNumber | None = None
     """Factor on the motion's time."""
-    observed_outcome: Annotated[str, *one_of(*OUTCOMES)] | None = None
+    observed_outcome: Annotated[str, fields.one_of(*OUTCOMES)] | None = None
     """What was seen: "overturned", "not-overturned", "no-rocking" or "rocking"."""
     date: Day | None = None
     """The day of the test, such as 2013-04-26."""
-    operator: Text | None = None
+    operator: fields.Text | None = None
     """Who ran it."""
     photos: Photos = ()
     """Photos of it, JPEG or PNG, from the folder of the campaign file."""
-    notes: Text | None = None
+    notes: fields.Text | None = None
     """Anything worth keeping."""
     planned: bool = False
     """Whether it may still have to be run: until its raw file is there it is pending, not failed."""
+
+
+def _path(value: object, info: ValidationInfo) -> Path:
+    return inside(info.context["folder"] if info.context else Path.cwd(), value)
+
+
+MotionPath = Annotated[Path, fields.Kind(_path, fields.SOME_TEXT)]
+
+
+class ReferenceMotion(Table):
+    """A base motion as published: a text file; only the shape of the motion counts. A bare path is its `file`."""
+
+    file: MotionPath
+    """Its file, from the folder of the campaign file."""
+    interval: fields.Duration | None = None
+    """Its sampling interval, such as "0.02 s", if the file does not give it."""
+    column: fields.Column | None = None
+    """Name or number, from 1, of the column of accelerations, if there are several."""
+    layout: Literal["columns", "running"] | None = None
+    """"columns" or "running" (numbers run on from row to row), if the file does not show which."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _bare_path(cls, value: Any) -> Any:
+        return value if isinstance(value, Mapping) else {"file": value}

@@ -15,13 +15,9 @@ from colonnade.campaign.channel import MAIN
 from colonnade.campaign.test import Test
 from colonnade.errors import ReadError, nearest, quoted
 from colonnade.findings import Finding, note
-from colonnade.readers.irregular import irregular
+from colonnade.readers.files import irregular
 
 EXCEL_SUFFIXES = (".xlsx", ".xlsm", ".xls", ".ods")
-_NUMBERS = ("span", "time_scale")
-_QUANTITIES = ("frequency", "amplitude", "window", "zero")
-_INTERVALS = ("window", "zero")
-_LISTS = ("photos",)
 _LARGEST_BYTES = 10_000_000
 _MOST_COLUMNS = 1000
 
@@ -129,10 +125,10 @@ def _decoded(raw: bytes) -> str:
 
 
 def _workbook(path: Path) -> list[list[str]]:
-    from colonnade.readers.bounded import process as bounded
+    from colonnade.readers.binary.excel import cells_of_first_sheet
 
     try:
-        rows = bounded.cells(path)
+        rows = cells_of_first_sheet(path)
     except ReadError as error:
         raise ValueError(str(error)) from None
     widest = max(map(len, rows), default=0)
@@ -170,18 +166,18 @@ def _test(cells: dict[str, str], decimal_comma: bool) -> dict[str, Any]:
 
 
 def _value(key: str, cell: str, decimal_comma: bool) -> Any:
-    text = cell.strip()
-    if decimal_comma and key in (*_NUMBERS, *_QUANTITIES):
+    text, form = cell.strip(), Test.forms()[key]
+    if decimal_comma and (form.is_number or form.dimension or form.is_interval):
         text = re.sub(r"(?<=[0-9]),(?=[0-9])", ".", text)
-    if key in _NUMBERS:
+    if form.is_number:
         try:
             return float(text)
         except ValueError:
             return text
-    if key in _INTERVALS:
+    if form.is_interval:
         parts = [part.strip() for part in re.split(r"[;,…]|\.\.\.|\bto\b", text.strip("[]")) if part.strip()]
         return [part.strip("\"'") for part in parts] if len(parts) > 1 else text
-    if key in _LISTS:
+    if form.is_list:
         return [part.strip() for part in re.split("[;,]", text) if part.strip()]
     return text
 

@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Codes, Mask
-from colonnade.signals.clocks.clock import LONGEST_BRIDGE, resample, uniform_clock
-from colonnade.signals.clocks.timing import read_clock
 from colonnade.signals.filters import lowpass, noise_below
 from colonnade.signals.quality import Flag
+from colonnade.signals.timing import LONGEST_BRIDGE, read_clock, resample, uniform_clock
 
 EMPTIEST = 100
 """Intervals a sample; a clock with fewer samples is not worth to be made even (nor would it fit into memory)."""

@@ -11,7 +11,7 @@ from colonnade.campaign import Campaign, Channel, Test
 from colonnade.campaign.settings import ConditionSettings
 from colonnade.errors import StageError
 from colonnade.findings import Finding
-from colonnade.signals.clocks.alignment import Offset
+from colonnade.signals.alignment import Offset
 from colonnade.signals.filters import default_lowpass
 from colonnade.signals.record import on_clock, smoothed
 from colonnade.stages.ingesting.clocks import (

@@ -11,13 +11,12 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.decision import Review
+from colonnade.campaign.review import Review
 from colonnade.campaign.settings import QualitySettings
 from colonnade.errors import StageError
 from colonnade.findings import Finding, Severity
 from colonnade.readers.recording import RecordedChannel, Recording, Window
-from colonnade.signals import quality
-from colonnade.signals.clocks import timing
+from colonnade.signals import quality, timing
 from colonnade.signals.parallel import side_by_side
 from colonnade.stages.ingesting import dates
 from colonnade.stages.ingesting.columns import dimension_of, find_column, rounding, too_short, unit_findings, within

@@ -18,10 +18,10 @@ from colonnade.identification.fusion.readings import Circumstances, TableReading
 from colonnade.identification.fusion.separation import UnseenRotationError
 from colonnade.identification.response.ending import ending
 from colonnade.identification.response.features import angle_features
-from colonnade.signals.clocks.timing import STRONG
 from colonnade.signals.quality import Flag
 from colonnade.signals.shock import single_shock
 from colonnade.signals.stretches import stretches
+from colonnade.signals.timing import STRONG
 from colonnade.stages.parts.conditioned import LEAST_NOISE, axes, base_motion, group
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.stages.parts.transducers import Transducers, outline, transducers

@@ -6,8 +6,7 @@ import re
 from math import isfinite
 
 from colonnade.errors import UnitError, quoted
-from colonnade.units.dimensions import DIMENSIONS, article, expected, words
-from colonnade.units.registry import Unit, collected, resolve
+from colonnade.units.registry import DIMENSIONS, Unit, article, collected, expected, resolve, words
 
 NUMBER_PATTERN = r"[+\-−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-−]?[0-9]+)?"
 _QUANTITY = re.compile(rf"({NUMBER_PATTERN})\s*(.*)", re.DOTALL)
@@ -194,6 +193,22 @@ def same_unit(first: str, second: str) -> bool:
     except UnitError:
         return False
     return one.dimension == other.dimension and abs(one.factor - other.factor) <= 1e-9 * abs(one.factor)
+
+
+def is_of(unit: str, dimension: str) -> bool:
+    """
+    Whether a unit is known and of a dimension.
+
+    Examples
+    --------
+    >>> is_of("g", "acceleration"), is_of("mm", "acceleration"), is_of("", "length")
+    (True, False, False)
+    """
+    try:
+        factor_to_si(unit, dimension)
+    except UnitError:
+        return False
+    return True
 
 
 def is_physical(unit: str) -> bool:

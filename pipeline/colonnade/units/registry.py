@@ -1,5 +1,5 @@
 """
-The units of laboratories: their own registry, and the spellings that recorders use.
+The units of laboratories: one table of them, the spellings that recorders use, and the dimensions with their names.
 
 `g` is the gravity unit 9.80665 m/s², never the gram, and `Gal` is 1 cm/s², never the gallon. Angles have a dimension
 here, so that rad/s and Hz are not taken for each other.
@@ -11,51 +11,77 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from math import isfinite
-from typing import TYPE_CHECKING, Any
+from math import isfinite, prod
 
 from colonnade.errors import UnitError, nearest, quoted
-from colonnade.units.dimensions import expected
 
-if TYPE_CHECKING:
-    import pint
+DIMENSIONS: dict[str, tuple[str, str]] = {
+    "length": ("m", "mm"),
+    "mass": ("kg", "kg"),
+    "time": ("s", "s"),
+    "frequency": ("s-1", "Hz"),
+    "angle": ("rad", "deg"),
+    "angular_velocity": ("rad s-1", "deg/s"),
+    "velocity": ("m s-1", "mm/s"),
+    "acceleration": ("m s-2", "g"),
+    "force": ("kg m s-2", "kN"),
+    "inertia": ("kg m2", "kg m^2"),
+    "pressure": ("kg m-1 s-2", "GPa"),
+    "voltage": ("V", "V"),
+    "dimensionless": ("1", ""),
+}
+"""Dimension: its SI unit, and a unit that a laboratory would write."""
 
-DEFINITIONS = """
-nano- = 1e-9 = n-
-micro- = 1e-6 = µ- = μ- = u-
-milli- = 1e-3 = m-
-centi- = 1e-2 = c-
-kilo- = 1e3 = k-
-mega- = 1e6 = M-
-giga- = 1e9 = G-
-metre = [length] = m = meter
-kilogram = [mass] = kg = Kg = KG
-second = [time] = s = sec
-radian = [angle] = rad
-volt = [voltage] = V = v
-ampere = [current] = A = amp
-count = [count] = _ = digit = bit = LSB
-celsius = [temperature] = degC
-percent = 0.01 = %
-strain = 1
-hertz = 1 / second = Hz = hz = HZ = sps
-minute = 60 * second = min
-hour = 3600 * second = h
-gravity = 9.80665 * metre / second ** 2 = g = G
-gal = 0.01 * metre / second ** 2 = Gal = GAL
-newton = kilogram * metre / second ** 2 = N
-kilogram_force = 9.80665 * newton = kgf
-pound_force = 4.4482216152605 * newton = lbf
-pascal = newton / metre ** 2 = Pa
-bar = 1e5 * pascal
-tonne = 1000 * kilogram = t
-pound = 0.45359237 * kilogram = lb
-inch = 0.0254 * metre = in
-foot = 0.3048 * metre = ft = feet
-degree = 0.017453292519943295 * radian = deg
-revolution = 6.283185307179586 * radian = rev
-rpm = revolution / minute
-"""
+QUANTITY_DIMENSIONS: dict[str, str | None] = {
+    "displacement": "length",
+    "velocity": "velocity",
+    "acceleration": "acceleration",
+    "angle": "angle",
+    "angular_velocity": "angular_velocity",
+    "force": "force",
+    "other": None,
+}
+"""What a channel can record, and its dimension; `other` may have any."""
+
+# Symbol: SI units in one of it, its dimension as powers of SI units, and further names.
+_UNITS = {
+    "m": (1.0, "m", "metre meter"),
+    "kg": (1.0, "kg", "kilogram Kg KG"),
+    "s": (1.0, "s", "second sec"),
+    "rad": (1.0, "rad", "radian"),
+    "V": (1.0, "V", "volt v"),
+    "A": (1.0, "A", "ampere amp"),
+    "count": (1.0, "count", "digit bit LSB"),
+    "degC": (1.0, "degC", "celsius"),
+    "%": (0.01, "", "percent"),
+    "strain": (1.0, "", ""),
+    "Hz": (1.0, "s-1", "hertz hz HZ sps"),
+    "min": (60.0, "s", "minute"),
+    "h": (3600.0, "s", "hour"),
+    "g": (9.80665, "m s-2", "gravity G"),
+    "Gal": (0.01, "m s-2", "gal GAL"),
+    "N": (1.0, "kg m s-2", "newton"),
+    "kgf": (9.80665, "kg m s-2", "kilogram_force"),
+    "lbf": (4.4482216152605, "kg m s-2", "pound_force"),
+    "Pa": (1.0, "kg m-1 s-2", "pascal"),
+    "bar": (1e5, "kg m-1 s-2", ""),
+    "t": (1000.0, "kg", "tonne"),
+    "lb": (0.45359237, "kg", "pound"),
+    "in": (0.0254, "m", "inch"),
+    "ft": (0.3048, "m", "foot feet"),
+    "deg": (0.017453292519943295, "rad", "degree"),
+    "rev": (6.283185307179586, "rad", "revolution"),
+    "rpm": (6.283185307179586 / 60.0, "rad s-1", ""),
+}
+_PREFIXES = {
+    "n": (1e-9, "nano"),
+    "µ": (1e-6, "micro μ u"),
+    "m": (1e-3, "milli"),
+    "c": (1e-2, "centi"),
+    "k": (1e3, "kilo"),
+    "M": (1e6, "mega"),
+    "G": (1e9, "giga"),
+}
 
 # Hints at what was meant.
 COMMON = ("mm", "cm", "m", "kg", "s", "ms", "Hz", "g", "Gal", "m/s^2", "mm/s", "V", "mV", "N", "kN", "rad", "deg")
@@ -104,16 +130,13 @@ def resolve(text: str, dimension: str | None = None) -> Unit:
     if len(text) > LONGEST:
         raise _unknown(text, text, dimension)
     powers = collected(_factors(text, dimension))
-    registry = _registry()
-    try:
-        quantity: Any = registry.Quantity(1.0, registry.UnitsContainer(powers)).to_root_units()
-    except OverflowError:
-        raise _unknown(text, text, dimension) from None
-    factor = float(quantity.magnitude)
-    if not (isfinite(factor) and factor > 0.0) or any(abs(power) > LARGEST_POWER for power in powers.values()):
+    if any(abs(power) > LARGEST_POWER for power in powers.values()):
         raise _unknown(text, text, dimension)
-    base = sorted((str(registry.get_symbol(name)), round(power)) for name, power in quantity.unit_items())
-    return Unit(factor, tuple(base), _spelled(powers))
+    factor = prod(_known()[name][0] ** power for name, power in powers.items())
+    if not (isfinite(factor) and factor > 0.0):
+        raise _unknown(text, text, dimension)
+    base = collected((unit, each * power) for name, power in powers.items() for unit, each in _known()[name][1])
+    return Unit(factor, tuple(sorted(base.items())), _spelled(powers))
 
 
 def collected(factors: Iterable[tuple[str, int]]) -> dict[str, int]:
@@ -171,25 +194,29 @@ def _factors(text: str, dimension: str | None) -> list[tuple[str, int]]:
 
 
 def _symbol(name: str, text: str, dimension: str | None) -> str:
-    import pint
-
     if name in UNCLEAR:
         raise UnitError(f"Unknown unit {quoted(name)}: it may be two. Did you mean {quoted(UNCLEAR[name])}?")
     known = SHOUTED.get(name, name)
     # A spelled-out or shouted unit ("Volts", "MM", "SEC") is taken in lower case; one letter is not: M and m differ.
     for spelling in (known, name.lower(), SHOUTED.get(name.upper(), known)) if len(name) > 1 else (name,):
-        try:
-            return str(_registry().get_symbol(spelling))
-        except pint.UndefinedUnitError:
-            continue
+        if spelling in _known():
+            return _known()[spelling][2]
     raise _unknown(name, text, dimension)
 
 
 @cache
-def _registry() -> pint.UnitRegistry[Any]:
-    import pint
-
-    return pint.UnitRegistry(DEFINITIONS.strip().splitlines(), cache_folder=None)
+def _known() -> dict[str, tuple[float, tuple[tuple[str, int], ...], str]]:
+    """Give SI units in one, dimension and symbol of every unit, alone and behind every prefix, by each of its names."""
+    found: dict[str, tuple[float, tuple[tuple[str, int], ...], str]] = {}
+    for mark, (times, spellings) in {"": (1.0, ""), **_PREFIXES}.items():
+        for symbol, (factor, written, names) in _UNITS.items():
+            powers = tuple((unit, int(power or 1)) for unit, power in re.findall(r"([A-Za-z]+)(-?\d)?", written))
+            for prefix in {mark, *spellings.split()}:
+                for name in (symbol, *names.split()):
+                    # A name may have a plural; "Vs" is no volts.
+                    for spelling in (name, f"{name}s") if len(name) > 1 else (name,):
+                        found.setdefault(prefix + spelling, (times * factor, powers, mark + symbol))
+    return found
 
 
 def _unknown(name: str, text: str, dimension: str | None) -> UnitError:
@@ -200,3 +227,23 @@ def _unknown(name: str, text: str, dimension: str | None) -> UnitError:
         f"Unknown unit {quoted(name)}{within}.{hint if 'Did you mean' in hint else ''} "
         + (expected(dimension) if dimension else 'A unit such as "mm", "V" or "m/s^2" was expected.')
     )
+
+
+def expected(dimension: str, value: float | None = None) -> str:
+    """Say that a quantity of this dimension was expected, with an example."""
+    example = DIMENSIONS[dimension][1]
+    if dimension == "dimensionless":
+        return "A plain number was expected."
+    shown = example if value is None else f"{value:g} {example}"
+    return f'{article(dimension).capitalize()} was expected, such as "{shown}".'
+
+
+def article(dimension: str) -> str:
+    """Name a dimension with its article."""
+    name = words(dimension)
+    return f"{'an' if name[0] in 'aei' else 'a'} {name}"
+
+
+def words(dimension: str) -> str:
+    """Name a dimension."""
+    return {"inertia": "moment of inertia", "angular_velocity": "angular velocity"}.get(dimension, dimension)

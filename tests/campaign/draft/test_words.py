@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from colonnade.campaign.draft.words import Line, axis, comment, find, unique
 from colonnade.campaign.syntax.document import toml_key, toml_value
-from colonnade.campaign.syntax.identifier import clashes, identifier
+from colonnade.campaign.syntax.names import clashes, identifier
 from every import every
 
 

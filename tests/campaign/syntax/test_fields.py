@@ -26,9 +26,9 @@ def read(kind: Any, value: object) -> Any:
         (fields.Direction, [0, 0, -2], (0.0, 0.0, -1.0)),
         (fields.Interval, ["2 s", "0.5 min"], (2.0, 30.0)),
         (fields.Column, 3, 3),
-        (Annotated[Any, *fields.or_word(fields.quantity("frequency"), "auto")], "auto", "auto"),
-        (Annotated[Any, *fields.or_word(fields.quantity("frequency"), "auto")], "25 Hz", 25.0),
-        (Annotated[float, *fields.number_between(0.0, 1.0)], 1, 1.0),
+        (Annotated[Any, fields.or_word(fields.quantity("frequency"), "auto")], "auto", "auto"),
+        (Annotated[Any, fields.or_word(fields.quantity("frequency"), "auto")], "25 Hz", 25.0),
+        (Annotated[float, fields.number_between(0.0, 1.0)], 1, 1.0),
     ],
 )
 def test_what_is_written_becomes_its_si_value(kind, value, found):
@@ -55,12 +55,12 @@ def test_what_is_written_becomes_its_si_value(kind, value, found):
         (fields.PositiveNumber, 10**400, "The number is too large."),
         (fields.PositiveNumber, float("nan"), "A finite number was expected."),
         (fields.Scale, 0, "A number from 0.001 to 100000 was expected."),
-        (Annotated[float, *fields.number_between(0.0, 1.0, exclusive=True)], 1.0, "between 0 and 1 was expected."),
-        (Annotated[Any, *fields.or_word(fields.quantity("frequency"), "auto")], "atuo", 'Or "auto".'),
-        (Annotated[str, *fields.one_of("table", "ground")], "tabel", '"tabel" was found. Did you mean "table"?'),
-        (Annotated[str, *fields.one_of("table", "ground")], 3, 'Choose one of: "table", "ground".'),
-        (Annotated[int, *fields.schema_version(1, "campaign files")], 2, "reads campaign files of schema 1."),
-        (Annotated[int, *fields.schema_version(1, "campaign files")], True, "true was found."),
+        (Annotated[float, fields.number_between(0.0, 1.0, exclusive=True)], 1.0, "between 0 and 1 was expected."),
+        (Annotated[Any, fields.or_word(fields.quantity("frequency"), "auto")], "atuo", 'Or "auto".'),
+        (Annotated[str, fields.one_of("table", "ground")], "tabel", '"tabel" was found. Did you mean "table"?'),
+        (Annotated[str, fields.one_of("table", "ground")], 3, 'Choose one of: "table", "ground".'),
+        (Annotated[int, fields.schema_version(1, "campaign files")], 2, "reads campaign files of schema 1."),
+        (Annotated[int, fields.schema_version(1, "campaign files")], True, "true was found."),
     ],
 )
 def test_what_does_not_fit_is_refused_with_what_was_expected(kind, value, told):

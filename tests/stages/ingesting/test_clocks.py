@@ -10,8 +10,7 @@ from colonnade.campaign import Channel
 from colonnade.campaign.setup import Align, Recorder
 from colonnade.errors import StageError
 from colonnade.findings import Severity
-from colonnade.signals.clocks.alignment import Offset
-from colonnade.signals.clocks.rate import ClockRate
+from colonnade.signals.alignment import ClockRate, Offset
 from colonnade.signals.quality import Flag
 from colonnade.signals.record import Record
 from colonnade.stages.ingesting import clocks

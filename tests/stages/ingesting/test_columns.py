@@ -10,7 +10,7 @@ import pytest
 from colonnade.errors import ReadError, StageError
 from colonnade.findings import Severity
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.signals.clocks.timing import Clock
+from colonnade.signals.timing import Clock
 from colonnade.stages.ingesting.columns import dimension_of, find_column, rounding, too_short, unit_findings, within
 from colonnade.stages.ingesting.quality import ChannelInputs
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from colonnade.campaign.decision import Flagged, Review
+from colonnade.campaign.review import Flagged, Review
 from colonnade.campaign.settings import QualitySettings
 from colonnade.signals.quality import Flag
 from colonnade.stages.ingesting.quality import ChannelInputs, channel_verdicts, flag_dead_on_specimen, reviewed

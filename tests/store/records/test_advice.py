@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colonnade.campaign.shake_table import ShakeTable
+from colonnade.campaign.setup import ShakeTable
 from colonnade.store.records.advice import Advice, beyond, demand_of_sine, ranked
 
 

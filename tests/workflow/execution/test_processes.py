@@ -74,6 +74,7 @@ def killer(monkeypatch):
     return arm
 
 
+@pytest.mark.whole
 def test_a_worker_that_is_stopped_once_costs_nothing(untouched, undisturbed, killer, tmp_path):
     killer("pulse-01", tmp_path, times=1)
     result = untouched.run(workers=2)
@@ -83,6 +84,7 @@ def test_a_worker_that_is_stopped_once_costs_nothing(untouched, undisturbed, kil
     assert re.search(r"A worker process was stopped \(SIGKILL\(-9\).*tried again alone: .*pulse-01", notice)
 
 
+@pytest.mark.whole
 def test_a_test_that_stops_its_worker_each_time_fails_alone_and_is_tried_again(
     untouched, undisturbed, killer, tmp_path, monkeypatch
 ):
@@ -179,6 +181,7 @@ def left_of(session: int) -> dict[int, str]:
 in_proc = pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="processes are found in Linux's /proc")
 
 
+@pytest.mark.whole
 @in_proc
 @pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_ends_the_workers_quietly_and_the_next_run_goes_on(going, untouched, undisturbed):
@@ -191,6 +194,7 @@ def test_ctrl_c_ends_the_workers_quietly_and_the_next_run_goes_on(going, untouch
     assert untouched.contents() == undisturbed.contents()
 
 
+@pytest.mark.whole
 @in_proc
 @pytest.mark.usefixtures("interruptible")
 @pytest.mark.parametrize("delay", [0.0, 0.1, 0.4], ids=lambda delay: f"after {delay} s")
@@ -206,6 +210,7 @@ def test_ctrl_c_does_not_tear_workers_from_their_imports(start, delay):
     assert left_of(starting.pid) == {}
 
 
+@pytest.mark.whole
 @in_proc
 def test_no_worker_outlives_a_run_that_is_killed(going):
     going.kill()
@@ -213,6 +218,7 @@ def test_no_worker_outlives_a_run_that_is_killed(going):
     assert left_of(going.pid) == {}
 
 
+@pytest.mark.whole
 @in_proc
 def test_a_worker_that_was_never_given_work_does_not_outlive_its_parent(start):
     waiting = start(WAIT)

@@ -66,6 +66,7 @@ def test_what_a_stopped_worker_did_is_done_again(tmp_path):
     assert "done again" in told[0]
 
 
+@pytest.mark.whole
 @pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
 def test_a_worker_that_is_stopped_is_an_error_with_what_to_do():
     with pytest.raises(ColonnadeError, match=r"A worker process was stopped.*Run again with fewer workers"):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from colonnade.campaign import load
-from colonnade.campaign.syntax.bounds import MOST_CYCLES, MOST_POINTS
+from colonnade.campaign.syntax.fields import MOST_CYCLES, MOST_POINTS
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.errors import CampaignError
 from colonnade.identification.response.boundaries import MapPoint

@@ -212,6 +212,7 @@ make_maps(sys.argv[1], wanted, workers=1, progress=told)
 """
 
 
+@pytest.mark.whole
 def test_a_map_that_is_killed_goes_on_where_it_was_and_leaves_nothing_behind(small):
     process = subprocess.Popen([sys.executable, "-c", MAP, str(small.folder)], stdout=subprocess.PIPE, text=True)
     while process.stdout.readline().strip() not in ("3", ""):

@@ -25,6 +25,7 @@ def ended(behind: Behind) -> Ended:
     return found
 
 
+@pytest.mark.whole
 def test_it_gives_way_and_then_says_what_failed_and_when_it_was_refused(small: Any) -> None:
     small.raw("pulse-02").write_text("nothing\n")
     behind = Behind(small.folder / "campaign.toml", None, 1)
@@ -66,9 +67,6 @@ def test_a_run_that_is_killed_says_so(small: Any) -> None:
     assert (found.was_refused, found.headline) == (False, "It ended with exit code -9.")
 
 
-LONG = "[processing.predict.ensemble]\nmembers = 10000\n"
-"""A run of minutes."""
-
 WATCH = """
 import sys, time
 from pathlib import Path
@@ -89,7 +87,7 @@ def wait_until(condition: Any) -> None:
 @pytest.mark.skipif(os.name != "posix", reason="a process is killed as only POSIX does")
 def test_it_ends_in_order_when_the_watch_is_killed(small: Any) -> None:
     toml = small.folder / "campaign.toml"
-    toml.write_text(toml.read_text(encoding="utf-8") + LONG, encoding="utf-8")
+    small.edit("members = 20", "members = 10000")  # a run of minutes
     holder = small.layout.lock_holder
     watch = subprocess.Popen([sys.executable, "-c", WATCH, str(toml)])
     run = 0

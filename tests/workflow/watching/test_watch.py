@@ -20,6 +20,7 @@ from colonnade.workflow.watching.line import Line
 from colonnade.workflow.watching.watch import watch
 
 
+@pytest.mark.whole
 def test_arriving_files_become_lines_and_the_rest_follows(
     small: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from colonnade.campaign.forms.record import Known, Record
+from colonnade.campaign.syntax.table import Known, Record
 
 UNCORRECTED = "records as they are"
 """Name of the variant without the correction of the records that was asked for."""

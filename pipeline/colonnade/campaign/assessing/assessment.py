@@ -4,19 +4,28 @@ from __future__ import annotations
 
 from typing import Annotated, Self
 
-from pydantic import AfterValidator, BeforeValidator, WithJsonSchema, model_validator
+from pydantic import AfterValidator, model_validator
 
 from colonnade import units
 from colonnade.assessment.intensity.baselines import NONE, baseline_of
 from colonnade.assessment.intensity.ground import LARGEST_DRIFT
 from colonnade.assessment.intensity.registry import measure_of
-from colonnade.campaign.motions import MotionPath
-from colonnade.campaign.settings import count_between, setting
-from colonnade.campaign.syntax.fields import Scale, Text, number_between, one_of, shown, text
-from colonnade.campaign.syntax.identifier import Identifier
+from colonnade.campaign.settings import setting
+from colonnade.campaign.syntax.fields import (
+    SOME_TEXT,
+    Kind,
+    Scale,
+    Text,
+    count_between,
+    number_between,
+    one_of,
+    shown,
+    text,
+)
+from colonnade.campaign.syntax.names import Identifier
 from colonnade.campaign.syntax.table import Table, problem, refuse
+from colonnade.campaign.test import MotionPath
 from colonnade.dynamics.models.registry import PLANE_MODELS
-from colonnade.errors import UnitError
 
 MOST_LEVELS = 100
 
@@ -28,11 +37,7 @@ def _texts(value: object) -> tuple[str, ...]:
     return tuple(dict.fromkeys(text(each).strip() for each in listed))
 
 
-Texts = Annotated[
-    tuple[str, ...],
-    BeforeValidator(_texts),
-    WithJsonSchema({"type": "array", "items": {"type": "string", "minLength": 1}, "minItems": 1}),
-]
+Texts = Annotated[tuple[str, ...], Kind(_texts, {"type": "array", "items": SOME_TEXT, "minItems": 1})]
 
 
 def _measure(name: str) -> str:
@@ -72,26 +77,26 @@ class Assessment(Table):
     """Measures that are compared with it; all that the records have if not given."""
     hazard: MotionPath | None = None
     """CSV file with annual rates of exceedance of the measure at the site."""
-    overturned: Annotated[float, *number_between(0.05, 1.0)] = setting(1.0, "of α")
+    overturned: Annotated[float, number_between(0.05, 1.0)] = setting(1.0, "of α")
     """A largest rotation beyond this fraction of the critical angle counts as overturned."""
-    model: Annotated[str, *one_of(*PLANE_MODELS)] = setting("nonlinear")
+    model: Annotated[str, one_of(*PLANE_MODELS)] = setting("nonlinear")
     """Model in the plane that is run."""
-    draws: Annotated[int, *count_between(1, 1000)] = setting(8)
+    draws: Annotated[int, count_between(1, 1000)] = setting(8)
     """Draws of e, critical angle, p and friction, the same for each record and level."""
-    resamples: Annotated[int, *count_between(100, 100_000)] = setting(1000)
+    resamples: Annotated[int, count_between(100, 100_000)] = setting(1000)
     """Times that the records are drawn again for the intervals."""
-    drift: Annotated[float, *number_between(0.0, 1.0)] = setting(LARGEST_DRIFT, "of the peak velocity")
+    drift: Annotated[float, number_between(0.0, 1.0)] = setting(LARGEST_DRIFT, "of the peak velocity")
     """Largest velocity at the end of a record that has no drift."""
     baseline: Annotated[Text, AfterValidator(_baseline)] = setting(NONE)
     """Correction of records that drift; "none" leaves them as they are."""
-    seed: Annotated[int, *count_between(0, 2**31 - 1)] = setting(0)
+    seed: Annotated[int, count_between(0, 2**31 - 1)] = setting(0)
     """Of all that is drawn."""
 
     @model_validator(mode="after")
     def _levels_are_of_the_measure(self) -> Self:
         try:
             self.levels_in_si()
-        except (ValueError, UnitError) as error:
+        except ValueError as error:
             raise refuse("assessment", [problem(str(error), "levels", value=self.levels)]) from None
         return self
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from colonnade.campaign.syntax.fields import one_line
-from colonnade.campaign.syntax.identifier import folded, identifier
+from colonnade.campaign.syntax.names import folded, identifier
 
 WORDS: dict[str, dict[str, str]] = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
 """Words in the names of columns and files, by what they are about and what they mean."""

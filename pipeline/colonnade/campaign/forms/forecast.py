@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from colonnade.campaign.forms.record import Record
+from colonnade.campaign.syntax.table import Record
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.ensembles.uncertainty import Uncertainty
 from colonnade.dynamics.models.registry import MODELS

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from colonnade.campaign.forms.record import Known, Record
+from colonnade.campaign.syntax.table import Known, Record
 
 
 class ForecastScores(Record):

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from colonnade.campaign.assessing.assessed import AssessmentSummary
 from colonnade.campaign.forms.foreseen import ForecastsSummary, TestForecast
-from colonnade.campaign.forms.record import Known, Record
+from colonnade.campaign.syntax.table import Known, Record
 from colonnade.findings import Finding, Severity
 
 Outcome = Literal["no-rocking", "rocking", "overturned"]

@@ -6,9 +6,7 @@ import re
 from datetime import date, datetime
 from typing import Annotated
 
-from pydantic import BeforeValidator, WithJsonSchema
-
-from colonnade.campaign.syntax.fields import shown
+from colonnade.campaign.syntax.fields import Kind, shown
 
 FIRST_YEAR, LAST_YEAR = 1900, 2100
 """Years between which a test was done; another is a slip of the pen."""
@@ -79,7 +77,5 @@ def _calendar_day(year: int, month: int, of_month: int) -> date | None:
         return None
 
 
-DAY_SCHEMA = WithJsonSchema(
-    {"type": "string", "format": "date", "description": "a date of TOML, or text", "examples": ["2013-04-26"]}
-)
-Day = Annotated[date, BeforeValidator(day), DAY_SCHEMA]
+DAY_SCHEMA = {"type": "string", "format": "date", "description": "a date of TOML, or text", "examples": ["2013-04-26"]}
+Day = Annotated[date, Kind(day, DAY_SCHEMA)]

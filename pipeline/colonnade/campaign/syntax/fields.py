@@ -1,17 +1,72 @@
-"""The kinds of value in a campaign file, parsed to SI; an error says what was expected."""
+"""The kinds of value in a campaign file, parsed to SI within bounds; an error says what was expected."""
 
 from __future__ import annotations
 
 import reprlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from datetime import date, time
+from inspect import signature
 from math import hypot, isfinite
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, WithJsonSchema
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, core_schema
 
 from colonnade import units
-from colonnade.campaign.syntax.bounds import AT_MOST, BETWEEN, CONVERSION, PLAIN, SCALE, UNITS, outside, too_large
-from colonnade.errors import UnitError, nearest, quoted
+from colonnade.errors import nearest, quoted
+
+UNITS = {"frequency": "Hz", "acceleration": "m/s^2", "inertia": "kg m^2", "pressure": "Pa", "mass": "kg"} | {
+    "length": "m",
+    "velocity": "m/s",
+    "time": "s",
+    "angle": "rad",
+    "angular_velocity": "rad/s",
+}
+"""In which bounds are written, by dimension."""
+
+BETWEEN = {
+    "length": (1e-3, 1e3),
+    "mass": (1e-6, 1e9),
+    "time": (1e-6, 1e6),
+    "frequency": (1e-4, 1e7),
+    "angle": (1e-6, 3.2),
+    "velocity": (1e-4, 1e3),
+    "acceleration": (1e-2, 1e4),
+    "inertia": (1e-12, 1e15),
+    "pressure": (1e3, 1e13),
+}
+"""Least and largest SI value of a quantity that has to be above zero, by its dimension."""
+
+AT_MOST = {"length": 1e4, "time": 1e10, "angle": 6.3}
+"""Largest magnitude, SI, of a quantity that may have either sign: a position, a delay or an instant, a tilt."""
+
+STEP = (1e-7, 1e-3)
+"""Of the step of the contact model, s."""
+
+CONVERSION = (1e-15, 1e15)
+"""Of the SI value of one recorded unit; offsets and ranges are at most the latter."""
+
+FACTOR = (1e-9, 1e9)
+"""Of what a review multiplies a gain by."""
+
+SCALE = (1e-3, 1e5)
+"""Of a model: 1e5 means 1:100 000."""
+
+PLAIN = (1e-6, 1e6)
+"""Of other numbers that have no unit."""
+
+FREQUENCY_PARAMETER = (1e-2, 1e3)
+"""Of a specimen's p, rad/s: of columns of 1 km and of less than 0.1 mm."""
+
+MAP_RATIO = (1e-3, 1e3)
+"""Of the frequency and amplitude ratios of a map."""
+
+MOST_CYCLES = 10_000.0
+"""Of a sine of a map, and of its rise."""
+
+MOST_POINTS = 10_000
+"""Of either axis of a map."""
 
 Vector = tuple[float, float, float]
 Sided = float | tuple[float, float]
@@ -51,54 +106,90 @@ def one_line(message: str) -> str:
     return "".join(sign if sign.isprintable() else sign.encode("unicode_escape").decode() for sign in message)
 
 
-def quantity(
-    dimension: str, *, above_zero: bool = False, example: str = "", between: tuple[float, float] | None = None
-) -> tuple[Any, Any]:
+def outside(value: float, between: tuple[float, float], unit: str = "") -> str:
     """
-    Give validator and JSON Schema of a quantity in text, such as ``"86 mm"``, that becomes its SI value.
+    Say that a number's magnitude is too small or too large.
 
-    One above zero has to lie between the bounds, SI, by default those of its dimension.
+    Returns
+    -------
+    expected : str
+        A sentence with what was expected; empty if it is between.
+
+    Examples
+    --------
+    >>> outside(1e300, (1.0, 10.0), "m")
+    'A value between 1 m and 10 m was expected.'
+    """
+    low, high = between
+    if low <= abs(value) <= high:
+        return ""
+    written = [f"{bound:g} {unit}".rstrip() for bound in between]
+    return f"A value between {written[0]} and {written[1]} was expected."
+
+
+@dataclass(frozen=True, eq=False)
+class Kind:
+    """A kind of value, as annotation of a type: what takes it as written or says what was expected; its JSON Schema."""
+
+    take: Callable[..., Any]
+    schema: Mapping[str, Any]
+
+    def then(self, refine: Callable[[Any, object], Any]) -> Kind:
+        """Return the kind whose values are taken further; `refine` gets the value and what was written."""
+        return Kind(lambda value: refine(self.take(value), value), self.schema)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Have pydantic take the value; some need its context too."""
+        if len(signature(self.take).parameters) == 2:
+            return core_schema.with_info_before_validator_function(self.take, handler(source))
+        return core_schema.no_info_before_validator_function(self.take, handler(source))
+
+    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Give the schema of what is written."""
+        return dict(self.schema)
+
+
+def quantity(
+    dimension: str, *, signed: bool = False, example: str = "", between: tuple[float, float] | None = None
+) -> Kind:
+    """
+    Give the kind of a quantity in text, such as ``"86 mm"``, that becomes its SI value.
+
+    It is above zero and lies between bounds, SI, by default those of its dimension; if `signed`, it has either sign.
     """
     example = example or f"1 {units.DIMENSIONS[dimension][1]}"
+    unit, largest = UNITS[dimension], AT_MOST.get(dimension, CONVERSION[1])
+    low, high = (-largest, largest) if signed else between or BETWEEN[dimension]
 
-    def convert(value: object) -> float:
+    def take(value: object) -> float:
         if not isinstance(value, str):
             raise ValueError(f'{shown(value)} has no unit. A quantity in quotes was expected, such as "{example}".')
         if "?" in value:
             raise ValueError(f'{shown(value)} still has to be filled in. A quantity such as "{example}" was expected.')
-        try:
-            number = units.to_si(value, dimension)
-        except UnitError as error:
-            raise ValueError(str(error)) from None
+        number = units.to_si(value, dimension)
         if not isfinite(number):
             raise ValueError(f"{shown(value)} is too large.")
-        if not above_zero:
-            expected = too_large(number, dimension)
+        if signed:
+            expected = "" if abs(number) <= largest else f"At most {largest:g} {unit} was expected."
         elif number <= 0.0:
             expected = "A value above zero was expected."
         else:
-            expected = outside(number, between or BETWEEN[dimension], UNITS[dimension])
+            expected = outside(number, (low, high), unit)
         if expected:
             raise ValueError(f"{shown(value)} was found. {expected}")
         return number
 
-    schema = {
-        "type": "string",
-        "pattern": _QUANTITY_PATTERN,
-        "description": f"{dimension}, with its unit",
-        "examples": [example],
-        "unit": UNITS[dimension],
-        "between": _limits(dimension, between, above_zero=above_zero),
-    }
-    return BeforeValidator(convert), WithJsonSchema(schema)
-
-
-def _limits(dimension: str, between: tuple[float, float] | None, *, above_zero: bool) -> str:
-    """Write the least and the largest value of a quantity."""
-    if not above_zero:
-        largest = AT_MOST.get(dimension, CONVERSION[1])
-        between = (-largest, largest)
-    return " and ".join(f"{bound:g} {UNITS[dimension]}" for bound in between or BETWEEN[dimension])
+    return Kind(
+        take,
+        {
+            "type": "string",
+            "pattern": _QUANTITY_PATTERN,
+            "description": f"{dimension}, with its unit",
+            "examples": [example],
+            "unit": unit,
+            "between": f"{low:g} {unit} and {high:g} {unit}",
+        },
+    )
 
 
 def number(value: object) -> float:
@@ -114,34 +205,45 @@ def number(value: object) -> float:
     return converted
 
 
-def number_between(low: float, high: float, *, exclusive: bool = False) -> tuple[Any, Any]:
-    """Give validator and JSON Schema of a number within bounds, the bounds themselves included or not."""
-    expected = f"A number {'between' if exclusive else 'from'} {low:g} {'and' if exclusive else 'to'} {high:g}"
+def number_between(low: float, high: float, *, exclusive: bool = False) -> Kind:
+    """Give the kind of a number within bounds, the bounds themselves included or not."""
+    word, end = ("between", "and") if exclusive else ("from", "to")
+    expected = f"A number {word} {low:g} {end} {high:g}"
 
-    def within(value: object) -> float:
+    def take(value: object) -> float:
         converted = number(value)
         if not low <= converted <= high or (exclusive and converted in (low, high)):
             raise ValueError(f"{shown(value)} was found. {expected} was expected.")
         return converted
 
     least, most = ("exclusiveMinimum", "exclusiveMaximum") if exclusive else ("minimum", "maximum")
-    return BeforeValidator(within), WithJsonSchema({"type": "number", least: low, most: high})
+    return Kind(take, {"type": "number", least: low, most: high})
 
 
-def or_word(kind: tuple[Any, Any], *words: str) -> tuple[Any, Any]:
-    """Give validator and JSON Schema of a kind of value, or of one of a few words in its place."""
-    convert, schema = kind
+def count_between(low: int, high: int) -> Kind:
+    """Give the kind of a whole number within bounds, the bounds included."""
+
+    def take(value: object) -> int:
+        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+            raise ValueError(f"{shown(value)} was found. A whole number from {low} to {high} was expected.")
+        return value
+
+    return Kind(take, {"type": "integer", "minimum": low, "maximum": high})
+
+
+def or_word(kind: Kind, *words: str) -> Kind:
+    """Give the kind of another one, or of one of a few words in its place."""
     listed = ", ".join(f'"{word}"' for word in words)
 
-    def either(value: object) -> Any:
+    def take(value: object) -> Any:
         if isinstance(value, str) and value in words:
             return value
         try:
-            return convert.func(value)
+            return kind.take(value)
         except ValueError as error:
             raise ValueError(f"{error} Or {listed}.") from None
 
-    return BeforeValidator(either), WithJsonSchema({"anyOf": [{"enum": list(words)}, schema.json_schema]})
+    return Kind(take, {"anyOf": [{"enum": list(words)}, kind.schema]})
 
 
 def _restitution(value: object) -> float:
@@ -151,57 +253,43 @@ def _restitution(value: object) -> float:
     return converted
 
 
-RESTITUTION = (
-    BeforeValidator(_restitution),
-    WithJsonSchema({"type": "number", "exclusiveMinimum": 0, "maximum": 1}),
-)
-"""Validator and JSON Schema of a coefficient of restitution."""
+RESTITUTION = Kind(_restitution, {"type": "number", "exclusiveMinimum": 0, "maximum": 1})
 
 
-def list_of(count: int, kind: tuple[Any, Any], what: str) -> tuple[Any, Any]:
-    """Give validator and JSON Schema of a list of values of one kind."""
-    convert, schema = kind
+def list_of(count: int, kind: Kind, what: str) -> Kind:
+    """Give the kind of a list of values of one kind."""
 
-    def several(value: object) -> tuple[Any, ...]:
+    def take(value: object) -> tuple[Any, ...]:
         if not isinstance(value, (list, tuple)) or len(value) != count:
             raise ValueError(f"{shown(value)} was found. A list of {count} was expected: {what}.")
-        return tuple(convert.func(item) for item in value)
+        return tuple(map(kind.take, value))
 
-    array = {"type": "array", "items": schema.json_schema, "minItems": count, "maxItems": count, "description": what}
-    return BeforeValidator(several), WithJsonSchema(array)
-
-
-def _sided(kind: tuple[Any, Any]) -> tuple[Any, Any]:
-    """Give validator and JSON Schema of one value, or a pair where the specimen is not symmetric."""
-    (one, schema), (pair, both) = kind, list_of(2, kind, "[for θ < 0, for θ > 0]")
-
-    def either(value: object) -> Sided:
-        converted: Sided = (pair if isinstance(value, (list, tuple)) else one).func(value)
-        return converted
-
-    return BeforeValidator(either), WithJsonSchema({"anyOf": [schema.json_schema, both.json_schema]})
+    array = {"type": "array", "items": kind.schema, "minItems": count, "maxItems": count, "description": what}
+    return Kind(take, array)
 
 
-_NUMBERS, _NUMBERS_SCHEMA = list_of(
-    3, (BeforeValidator(number), WithJsonSchema({"type": "number"})), "x, y and z, such as [1, 0, 0]"
-)
-_TIMES, INTERVAL_SCHEMA = list_of(2, quantity("time"), 'start and end, such as ["2 s", "14 s"]')
+def _sided(kind: Kind) -> Kind:
+    """Give the kind of one value, or of a pair where the specimen is not symmetric."""
+    pair = list_of(2, kind, "[for θ < 0, for θ > 0]")
+
+    def take(value: object) -> Any:
+        return (pair if isinstance(value, (list, tuple)) else kind).take(value)
+
+    return Kind(take, {"anyOf": [kind.schema, pair.schema]})
 
 
-def _unit_vector(value: object) -> Vector:
-    x, y, z = _NUMBERS.func(value)
-    length = hypot(x, y, z)
+def _unit_vector(vector: Vector, written: object) -> Vector:
+    length = hypot(*vector)
     if not (length > 0.0 and isfinite(length)):
-        raise ValueError(f"{shown(value)} was found. A direction other than zero was expected, such as [1, 0, 0].")
+        raise ValueError(f"{shown(written)} was found. A direction other than zero was expected, such as [1, 0, 0].")
+    x, y, z = vector
     return x / length, y / length, z / length
 
 
-def interval(value: object) -> tuple[float, float]:
-    """Take two times, such as ``["2 s", "14 s"]``, the second after the first; in s."""
-    start, stop = _TIMES.func(value)
-    if not start < stop:
-        raise ValueError(f"{shown(value)} was found. The end has to come after the start.")
-    return start, stop
+def _rising(times: tuple[float, float], written: object) -> tuple[float, float]:
+    if not times[0] < times[1]:
+        raise ValueError(f"{shown(written)} was found. The end has to come after the start.")
+    return times
 
 
 def text(value: object) -> str:
@@ -213,26 +301,26 @@ def text(value: object) -> str:
     return value
 
 
-def schema_version(schema: int, files: str) -> tuple[Any, Any]:
-    """Give validator and JSON Schema of the version of a file's form."""
+def schema_version(schema: int, files: str) -> Kind:
+    """Give the kind of the version of a file's form."""
 
-    def known(value: object) -> int:
+    def take(value: object) -> int:
         if value != schema or isinstance(value, bool) or not isinstance(value, int):
             raise ValueError(f"{shown(value)} was found. This colonnade reads {files} of schema {schema}.")
         return value
 
-    return BeforeValidator(known), WithJsonSchema({"const": schema})
+    return Kind(take, {"const": schema})
 
 
-def one_of(*choices: str) -> tuple[Any, Any]:
-    """Give validator and JSON Schema of a word out of a few."""
+def one_of(*choices: str) -> Kind:
+    """Give the kind of a word out of a few."""
 
-    def chosen(value: object) -> str:
+    def take(value: object) -> str:
         if not isinstance(value, str) or value not in choices:
             raise ValueError(f"{shown(value)} was found.{nearest(str(value), choices)}")
         return value
 
-    return BeforeValidator(chosen), WithJsonSchema({"type": "string", "enum": list(choices)})
+    return Kind(take, {"type": "string", "enum": list(choices)})
 
 
 def _column(value: object) -> str | int:
@@ -243,26 +331,32 @@ def _column(value: object) -> str | int:
     raise ValueError(f"{shown(value)} was found. A column's name, or its number from 1, was expected.")
 
 
-Length = Annotated[float, *quantity("length", above_zero=True)]
-Mass = Annotated[float, *quantity("mass", above_zero=True)]
-Duration = Annotated[float, *quantity("time", above_zero=True)]
-Delay = Annotated[float, *quantity("time")]
-Frequency = Annotated[float, *quantity("frequency", above_zero=True)]
-Angle = Annotated[float, *quantity("angle")]
-PositiveAngle = Annotated[float, *quantity("angle", above_zero=True)]
-Gravity = Annotated[float, *quantity("acceleration", above_zero=True, example="9.81 m/s^2")]
-SidedAngle = Annotated[Sided, *_sided(quantity("angle", above_zero=True))]
-SidedLength = Annotated[Sided, *_sided(quantity("length", above_zero=True))]
-SidedInertia = Annotated[Sided, *_sided(quantity("inertia", above_zero=True))]
-SidedRestitution = Annotated[Sided, *_sided(RESTITUTION)]
-Position = Annotated[Vector, *list_of(3, quantity("length"), 'x, y and z, each as "1 mm"')]
-Direction = Annotated[Vector, BeforeValidator(_unit_vector), _NUMBERS_SCHEMA]
-PositiveNumber = Annotated[float, *number_between(*PLAIN)]
-Scale = Annotated[float, *number_between(*SCALE)]
-Text = Annotated[str, BeforeValidator(text), WithJsonSchema({"type": "string", "minLength": 1})]
-Interval = Annotated[tuple[float, float], BeforeValidator(interval), INTERVAL_SCHEMA]
-Column = Annotated[
-    str | int,
-    BeforeValidator(_column),
-    WithJsonSchema({"anyOf": [{"type": "string", "minLength": 1}, {"type": "integer", "minimum": 1}]}),
-]
+SOME_TEXT = {"type": "string", "minLength": 1}
+"""JSON Schema of text that is not empty."""
+
+INTERVAL = list_of(2, quantity("time", signed=True), 'start and end, such as ["2 s", "14 s"]').then(_rising)
+"""Two times, the second after the first."""
+
+_NUMBERS = list_of(3, Kind(number, {"type": "number"}), "x, y and z, such as [1, 0, 0]")
+
+Length = Annotated[float, quantity("length")]
+Mass = Annotated[float, quantity("mass")]
+Duration = Annotated[float, quantity("time")]
+Delay = Annotated[float, quantity("time", signed=True)]
+Frequency = Annotated[float, quantity("frequency")]
+Angle = Annotated[float, quantity("angle", signed=True)]
+PositiveAngle = Annotated[float, quantity("angle")]
+Velocity = Annotated[float, quantity("velocity")]
+Acceleration = Annotated[float, quantity("acceleration")]
+Gravity = Annotated[float, quantity("acceleration", example="9.81 m/s^2")]
+SidedAngle = Annotated[Sided, _sided(quantity("angle"))]
+SidedLength = Annotated[Sided, _sided(quantity("length"))]
+SidedInertia = Annotated[Sided, _sided(quantity("inertia"))]
+SidedRestitution = Annotated[Sided, _sided(RESTITUTION)]
+Position = Annotated[Vector, list_of(3, quantity("length", signed=True), 'x, y and z, each as "1 mm"')]
+Direction = Annotated[Vector, _NUMBERS.then(_unit_vector)]
+PositiveNumber = Annotated[float, number_between(*PLAIN)]
+Scale = Annotated[float, number_between(*SCALE)]
+Text = Annotated[str, Kind(text, SOME_TEXT)]
+Interval = Annotated[tuple[float, float], INTERVAL]
+Column = Annotated[str | int, Kind(_column, {"anyOf": [SOME_TEXT, {"type": "integer", "minimum": 1}]})]

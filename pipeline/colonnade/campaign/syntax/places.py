@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from colonnade.errors import quoted
+from colonnade.campaign.syntax.fields import shown
+from colonnade.errors import nearest, quoted
 
 Place = tuple[str | int, ...]
 
@@ -136,3 +137,9 @@ class Source:
 
 def _head(place: Place) -> str:
     return f"file.{place[3]}" if place[2] == "file" and len(place) > 3 else str(place[2])
+
+
+def unknown(place: Place, what: str, name: str, known: Collection[str], where: str = "") -> Iterator[tuple[Place, str]]:
+    """Report a name that is not known."""
+    if name not in known:
+        yield place, f"Unknown {what} {shown(name)}{where}.{nearest(name, known)}"

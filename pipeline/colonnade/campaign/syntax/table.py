@@ -1,14 +1,32 @@
-"""The base of every table of a campaign file: frozen, strict about keys, with plain messages about wrong ones."""
+"""The bases of tables of a campaign file, with plain messages about wrong keys, and of records written as JSON."""
 
 from __future__ import annotations
 
-from typing import Any, Self
+from functools import cache
+from math import isnan
+from typing import Annotated, Any, NamedTuple, Self
 
-from pydantic import BaseModel, ConfigDict, ModelWrapValidatorHandler, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    ModelWrapValidatorHandler,
+    ValidationError,
+    model_validator,
+)
 from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
-from colonnade.campaign.syntax.fields import shown
+from colonnade.campaign.syntax.fields import UNITS, shown
 from colonnade.errors import nearest
+
+
+class Form(NamedTuple):
+    """What a key may be: a number, a quantity of a dimension (or empty), an interval of time, another list."""
+
+    is_number: bool
+    dimension: str
+    is_interval: bool
+    is_list: bool
 
 
 class Table(BaseModel):
@@ -34,6 +52,24 @@ class Table(BaseModel):
     def purposes(cls) -> dict[str, str]:
         """Keys as in the file, with the purpose of each."""
         return {field.alias or name: field.description or "" for name, field in cls.model_fields.items()}
+
+    @classmethod
+    @cache
+    def forms(cls) -> dict[str, Form]:
+        """Keys as in the file, with what each may be, by the types of the fields."""
+        return {name: _form(schema) for name, schema in cls.model_json_schema()["properties"].items()}
+
+
+def _form(schema: dict[str, Any]) -> Form:
+    either = schema.get("anyOf", [schema])
+    dimensions = {unit: dimension for dimension, unit in UNITS.items()}
+    lists = [each.get("items", {}) for each in either if each.get("type") == "array"]
+    return Form(
+        any(each.get("type") in ("number", "integer") for each in either),
+        next((dimensions[each["unit"]] for each in either if "unit" in each), ""),
+        any("unit" in items for items in lists),
+        any("unit" not in items for items in lists),
+    )
 
 
 def problem(message: str, *place: str | int, value: object = None) -> InitErrorDetails:
@@ -76,3 +112,19 @@ def _explained(table: type[Table], error: ErrorDetails) -> InitErrorDetails:
 def _purpose(table: type[Table], place: tuple[str | int, ...]) -> str:
     purpose = table.purposes().get(str(place[0]), "") if len(place) == 1 else ""
     return f"Expected: {purpose[0].lower()}{purpose[1:]}" if purpose else ""
+
+
+def _known(value: Any) -> Any:
+    return None if isinstance(value, float) and isnan(value) else value
+
+
+Known = Annotated[float | None, BeforeValidator(_known)]
+"""A number, or null if it is not known; NaN becomes null, as JSON has no NaN."""
+
+
+class Record(BaseModel):
+    """Base of all records that are written as JSON: no unknown field, no NaN."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True, use_attribute_docstrings=True
+    )

@@ -10,7 +10,7 @@ from colonnade.dynamics.block import Block
 from colonnade.figures.histories import Spread
 from colonnade.figures.panels.curve import Curve
 from colonnade.figures.record import Quantity
-from colonnade.signals.displacement import displacement
+from colonnade.signals.filters import displacement
 from colonnade.store.records.stored import Stored
 from colonnade.units import from_si
 

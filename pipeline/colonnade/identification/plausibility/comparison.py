@@ -9,7 +9,7 @@ import numpy as np
 
 from colonnade.arrays import Array, Mask
 from colonnade.identification.plausibility.scale import SURE, least_squares
-from colonnade.signals.clocks.alignment import RIVAL_EVIDENCE, find_offset
+from colonnade.signals.alignment import RIVAL_EVIDENCE, find_offset
 from colonnade.signals.filters import lowpass
 
 SLOWEST = 0.5

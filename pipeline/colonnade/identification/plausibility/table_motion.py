@@ -15,7 +15,7 @@ from colonnade.findings import Finding, serious, warning
 from colonnade.identification.plausibility.comparison import Comparison, compare, integrated
 from colonnade.identification.plausibility.factors import DEAD, MISLEADING, STANDING, UNKNOWN, as_expected, cause, dead
 from colonnade.signals.filters import lowpass, second_derivative
-from colonnade.signals.hum import find_hum
+from colonnade.signals.spectra import find_hum
 from colonnade.units import format_percent, format_uncertain
 
 BANDWIDTH = 10.0

@@ -12,9 +12,9 @@ from colonnade.campaign import Channel
 from colonnade.campaign.setup import Align, Recorder
 from colonnade.errors import StageError, count
 from colonnade.findings import Finding, note, serious, warning
-from colonnade.signals.clocks.alignment import Offset, link
-from colonnade.signals.clocks.clock import uniform_clock
+from colonnade.signals.alignment import Offset, link
 from colonnade.signals.record import Record, even_record
+from colonnade.signals.timing import uniform_clock
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.store.description import variable_name
 

@@ -12,7 +12,7 @@ from colonnade.errors import StageError, count
 from colonnade.findings import Finding, note, serious
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.heading import LETTERED
-from colonnade.signals.clocks import timing
+from colonnade.signals import timing
 from colonnade.stages.ingesting.quality import ChannelInputs
 from colonnade.store.description import variable_name
 

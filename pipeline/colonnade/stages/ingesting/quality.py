@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from colonnade.arrays import Array, Vector
-from colonnade.campaign.decision import Review
+from colonnade.campaign.review import Review
 from colonnade.campaign.settings import QualitySettings
 from colonnade.findings import Finding
-from colonnade.signals import quality
-from colonnade.signals.clocks import timing
-from colonnade.signals.rails import check_rails
+from colonnade.signals import quality, timing
+from colonnade.signals.quality import check_rails
 from colonnade.stages.parts.inputs import Inputs
 from colonnade.store.description import variable_name
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from math import inf, pi
 from typing import Any, Literal
 
-from colonnade.campaign.shake_table import ShakeTable
+from colonnade.campaign.setup import ShakeTable
 from colonnade.errors import count
 from colonnade.store.records.wording import probability, quantity
 

@@ -25,7 +25,7 @@ from colonnade.campaign.forms.forecast import (
     ForecastTable,
     ModelForecast,
 )
-from colonnade.campaign.syntax.bounds import PLAIN, outside
+from colonnade.campaign.syntax.fields import PLAIN, outside
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError, nearest

@@ -13,7 +13,7 @@ import numpy as np
 from colonnade import units
 from colonnade.arrays import Array
 from colonnade.campaign import Campaign, Test
-from colonnade.campaign.syntax.bounds import BETWEEN, PLAIN, outside
+from colonnade.campaign.syntax.fields import BETWEEN, PLAIN, outside
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError, ReadError, StoreError, UnitError, nearest
 from colonnade.findings import Finding

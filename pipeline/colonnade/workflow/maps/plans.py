@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from colonnade.campaign import Campaign
-from colonnade.campaign.syntax.bounds import MAP_RATIO, MOST_CYCLES, MOST_POINTS, outside
+from colonnade.campaign.syntax.fields import MAP_RATIO, MOST_CYCLES, MOST_POINTS, outside
 from colonnade.dynamics.block import Sided
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.errors import CampaignError, StoreError, nearest

@@ -11,7 +11,7 @@ from colonnade import units
 from colonnade.assessment.intensity.baselines import NONE, corrected
 from colonnade.assessment.intensity.ground import Ground
 from colonnade.campaign import Campaign
-from colonnade.campaign.syntax.bounds import BETWEEN, outside
+from colonnade.campaign.syntax.fields import BETWEEN, outside
 from colonnade.dynamics.block import Block, pair
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError, UnitError

@@ -12,7 +12,7 @@ import numpy as np
 
 from colonnade.assessment.intensity.measured import IntensityMeasures, intensity_measures
 from colonnade.campaign import Campaign
-from colonnade.campaign.syntax.bounds import MAP_RATIO, MOST_POINTS, outside
+from colonnade.campaign.syntax.fields import MAP_RATIO, MOST_POINTS, outside
 from colonnade.dynamics.history import History
 from colonnade.dynamics.maps.plan import WIDTH
 from colonnade.dynamics.models.nonlinear import NONLINEAR

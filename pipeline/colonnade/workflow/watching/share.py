@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from colonnade.campaign.naming.found import files_in
-from colonnade.readers.hashing import sha256_of
+from colonnade.campaign.found import files_in
+from colonnade.readers.files import sha256_of
 from colonnade.workflow.watching.arrivals import Arrivals, marks_of
 
 UNFINISHED = ".partial"

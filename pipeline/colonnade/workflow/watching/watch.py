@@ -13,7 +13,7 @@ from pathlib import Path
 from colonnade.campaign import Campaign, load
 from colonnade.campaign.campaign import missing_file
 from colonnade.campaign.forms.summary import TestSummary
-from colonnade.campaign.naming.found import WITHOUT_TEST, files_in
+from colonnade.campaign.found import WITHOUT_TEST, files_in
 from colonnade.errors import CampaignError, StoreError
 from colonnade.interruption import expect_none
 from colonnade.report.interactive.state import EVERY

@@ -1,0 +1,193 @@
+"""The tests whose raw files are in the watched folder, by the names of these files; nothing is written."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from colonnade.campaign.campaign import CampaignFile
+from colonnade.campaign.channel import MAIN
+from colonnade.campaign.syntax.document import natural, validated
+from colonnade.campaign.syntax.names import folded
+from colonnade.campaign.syntax.places import unknown
+from colonnade.campaign.test import KINDS, Test
+from colonnade.campaign.watched import COUNTER, Watched
+from colonnade.errors import quoted
+from colonnade.findings import Finding, note, serious
+
+WITHOUT_TEST = "raw file without a test"
+"""Kind of the findings about files of which no test was made."""
+
+MOST_FILES = 100_000
+"""Files of a folder that are looked at."""
+
+UNFINISHED = (".partial", ".part", ".tmp", ".crdownload")
+"""Endings of files that a program has not finished."""
+
+
+def find_tests(campaign: CampaignFile, folder: Path) -> tuple[tuple[Test, ...], tuple[Finding, ...]]:
+    """
+    Find the tests that [watch] describes.
+
+    Parameters
+    ----------
+    campaign : CampaignFile
+        An entry of the file or its test log that names a raw file counts alone.
+    folder : Path
+        Of the campaign file.
+
+    Returns
+    -------
+    tests : tuple of Test
+        In the order of the names of their files.
+    findings : tuple of Finding
+        Files that fit a pattern and still make no test, and those that fit none.
+    """
+    watched = campaign.watch
+    if not watched.pattern:
+        return (), ()
+    listed = {path for test in campaign.tests for path in test.files.values()}
+    unlisted = [path for path in files_in(folder / watched.folder) if folder / watched.folder / path not in listed]
+    named, refused, strange = _sorted_by_name(watched, names_in(campaign), unlisted)
+    taken = {folded(test.id) for test in campaign.tests}
+    tests: list[Test] = []
+    for entry, files in named:
+        try:
+            test = _test(campaign, entry, files, folder, taken)
+        except ValueError as reason:
+            refused.setdefault(str(reason), []).append(next(iter(files.values()))[0])
+        else:
+            taken.add(folded(test.id))
+            tests.append(test)
+    findings = [_refused(reason, paths) for reason, paths in refused.items()]
+    if strange:
+        told = f"{_first(strange)}: no test names it, and its name fits no pattern of [watch]. It is not read."
+        findings.append(note(WITHOUT_TEST, told))
+    return tuple(tests), tuple(findings)
+
+
+def files_in(folder: Path) -> Iterator[str]:
+    """Give the paths of the regular files in a folder and below it; links, hidden and unfinished files are left out."""
+    waiting, count = [folder], 0
+    while waiting:
+        try:
+            entries = sorted(os.scandir(waiting.pop()), key=lambda entry: entry.name)
+        except OSError:
+            continue
+        for entry in entries:
+            if entry.name.startswith((".", "~")) or entry.name.casefold().endswith(UNFINISHED):
+                continue
+            if entry.is_dir(follow_symlinks=False):
+                waiting.append(Path(entry.path))
+            elif entry.is_file(follow_symlinks=False) and count < MOST_FILES:
+                count += 1
+                yield Path(entry.path).relative_to(folder).as_posix()
+
+
+def _sorted_by_name(
+    watched: Watched, names: Mapping[str, Mapping[str, str]], unlisted: Iterable[str]
+) -> tuple[list[tuple[dict[str, Any], dict[str, list[str]]]], dict[str, list[str]], list[str]]:
+    """
+    Bring files of the same parts together, in the order of their names.
+
+    Returns
+    -------
+    named : list of (dict, dict of str to list)
+        Keys of each test by its name, and its files by recorder.
+    refused : dict of str to list
+        Files that fit several patterns, by the reason.
+    strange : list
+        Files that fit none.
+    """
+    together: dict[str, tuple[dict[str, Any], dict[str, list[str]]]] = {}
+    refused: dict[str, list[str]] = {}
+    strange = []
+    for path in sorted(unlisted, key=natural):
+        whole = f"{watched.folder}/{path}"
+        matches = [(each, match) for each in watched.pattern if (match := each.pattern.match(path, names)) is not None]
+        if not matches:
+            strange.append(whole)
+        elif len(matches) > 1:
+            patterns = " and ".join(quoted(each.pattern.text) for each, _ in matches[:2])
+            refused.setdefault(f"The name fits two patterns of [watch]: {patterns}.", []).append(whole)
+        else:
+            named, parts = matches[0]
+            recorder = str(parts.pop("recorder", MAIN))
+            entry, files = together.setdefault(repr(sorted(parts.items())), ({}, {}))
+            if recorder == MAIN or not entry:
+                entry.update(named.entry(parts))
+            files.setdefault(recorder, []).append(whole)
+    return list(together.values()), refused, strange
+
+
+def _test(
+    campaign: CampaignFile,
+    named: Mapping[str, Any],
+    files: Mapping[str, list[str]],
+    folder: Path,
+    taken: Collection[str],
+) -> Test:
+    """
+    Make a test.
+
+    Raises
+    ------
+    ValueError
+        If the files make none; the message is a sentence.
+    """
+    for paths in files.values():
+        if len(paths) > 1:
+            raise ValueError(f"By their names, {' and '.join(paths[:3])} are the same test.")
+    if MAIN not in files:
+        raise ValueError("The file of the main recorder is missing.")
+    stem = str(Path(files[MAIN][0].removeprefix(f"{campaign.watch.folder}/")).with_suffix(""))
+    name = re.sub(r"[^A-Za-z0-9._-]+", "-", stem).strip("-._")
+    if folded(name) in taken:
+        raise ValueError(f'The name gives the id "{name}", which another test has.')
+    # The specimen and the set-up of a campaign that has only one need not be named.
+    only = {"specimen": list(campaign.specimens), "setup": list(campaign.setups)}
+    entry = {key: names[0] for key, names in only.items() if len(names) == 1} | dict(named)
+    entry.pop(COUNTER, None)
+    test, wrong = validated(
+        Test, entry | {"id": name, "file": {each: paths[0] for each, paths in files.items()}}, folder
+    )
+    if test is None:
+        place, message = wrong[0]
+        raise ValueError(f"{'.'.join(map(str, place))}: {message}")
+    for key, known in (("specimen", campaign.specimens), ("setup", campaign.setups)):
+        for _, message in unknown((key,), key, getattr(test, key), known):
+            raise ValueError(message)
+    return test
+
+
+def _refused(reason: str, paths: list[str]) -> Finding:
+    return serious(
+        WITHOUT_TEST,
+        f"{_first(paths)}: no test was made of it. {reason} Rename it, give it an entry in [[tests]], or change "
+        "`pattern` in [watch].",
+    )
+
+
+def _first(paths: list[str]) -> str:
+    return f"{paths[0]} and {len(paths) - 1} more" if len(paths) > 1 else paths[0]
+
+
+def names_in(campaign: CampaignFile) -> dict[str, dict[str, str]]:
+    """Give what each part may be in a file name, in lower case, and what it stands for."""
+    own: dict[str, Iterable[str]] = {
+        "kind": KINDS,
+        "specimen": campaign.specimens,
+        "setup": campaign.setups,
+        "motion": campaign.motions,
+        "recorder": [name for setup in campaign.setups.values() for name in setup.further_recorders],
+    }
+    names = {part: {name.casefold(): name for name in each} for part, each in own.items()}
+    for word, meaning in campaign.watch.words.items():
+        parts = [part for part, each in names.items() if meaning in each.values()]
+        # What is no other name of the campaign is that of a motion: those of tests need no entry.
+        for part in parts or ["motion"]:
+            names[part][word] = meaning
+    return names

@@ -1,1 +1,0 @@
-"""Tests found by the names of their raw files."""

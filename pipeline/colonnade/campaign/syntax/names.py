@@ -1,0 +1,117 @@
+"""Names that every file system can hold: ids, and paths inside the folder of the campaign file."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from pathlib import Path, PureWindowsPath
+from typing import Annotated
+
+from colonnade.campaign.syntax.fields import Kind, shown
+
+ID_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]*$"
+_DEVICES = {"con", "prn", "aux", "nul", "conin$", "conout$"} | {
+    f"{port}{n}" for port in ("com", "lpt") for n in range(10)
+}
+_LONGEST = 100
+_EXAMPLE = 'A path from the folder of the campaign file was expected, such as "raw/free-01.csv"'
+
+
+def identifier(value: object) -> str:
+    """
+    Take an id.
+
+    Raises
+    ------
+    ValueError
+        If it is not text, has characters that a file name may not have everywhere, or is a Windows device's name.
+    """
+    if not isinstance(value, str):
+        raise ValueError(f'{shown(value)} was found. An id in quotes was expected, such as "free-01".')
+    if not re.fullmatch(ID_PATTERN[1:-1], value):
+        raise ValueError(
+            f"{shown(value)} cannot be an id. Letters and digits without accents, '.', '_' and '-' were expected, "
+            "the first a letter or digit."
+        )
+    if value.split(".")[0].casefold() in _DEVICES:
+        raise ValueError(f"{shown(value)} is the name of a device on Windows. Choose another id.")
+    if len(value) > _LONGEST:
+        raise ValueError(
+            f"An id of {len(value)} characters is too long for a file name. At most {_LONGEST} were expected."
+        )
+    return value
+
+
+def clashes(ids: Iterable[str], *, as_variables: bool = False) -> list[tuple[int, str, str]]:
+    """
+    Find ids that a file system, or a results file, takes for the same.
+
+    Parameters
+    ----------
+    ids : iterable of str
+    as_variables : bool, optional
+        Whether ``.``, ``-`` and ``_`` count as the same too, as in the name of a variable.
+
+    Returns
+    -------
+    clashes : list of (int, str, str)
+        Index of the later one, the later one, the earlier one.
+
+    Examples
+    --------
+    >>> clashes(["a-1", "A-1", "a_1"])
+    [(1, 'A-1', 'a-1')]
+    """
+    seen: dict[str, str] = {}
+    found = []
+    for index, name in enumerate(ids):
+        same = folded(name, as_variables=as_variables)
+        if same in seen:
+            found.append((index, name, seen[same]))
+        seen.setdefault(same, name)
+    return found
+
+
+def folded(name: str, *, as_variables: bool = False) -> str:
+    """Reduce an id to what has to differ from other ids'; see `clashes`."""
+    plain = name.casefold().rstrip(".")
+    return re.sub(r"[.-]", "_", plain) if as_variables else plain
+
+
+def inside(folder: Path, value: object) -> Path:
+    """
+    Resolve a path of the campaign file.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of the campaign file, absolute and resolved.
+    value : object
+        As written.
+
+    Returns
+    -------
+    path : Path
+        Absolute; the file itself need not exist.
+
+    Raises
+    ------
+    ValueError
+        If it is not a relative path, or leaves the folder, be it through a link.
+    """
+    if not isinstance(value, str) or not value.strip():
+        raise ValueError(f"{shown(value)} was found. {_EXAMPLE}.")
+    if "\\" in value:
+        raise ValueError(f"{shown(value)} has a backslash. {_EXAMPLE}, with / between folders on every system.")
+    if value.startswith("/") or PureWindowsPath(value).drive:
+        raise ValueError(f"{shown(value)} is an absolute path. {_EXAMPLE}, so that the campaign can be moved.")
+    try:
+        path = (folder / value).resolve()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise ValueError(f"{shown(value)} is an invalid path ({error}). {_EXAMPLE}.") from None
+    if not path.is_relative_to(folder) or path == folder:
+        raise ValueError(f"{shown(value)} is outside the campaign's folder: {path}. {_EXAMPLE}.")
+    return path
+
+
+Identifier = Annotated[str, Kind(identifier, {"type": "string", "pattern": ID_PATTERN})]

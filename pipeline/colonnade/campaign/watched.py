@@ -1,0 +1,194 @@
+"""[watch]: the folder in which raw files appear, and the patterns of their names: "{specimen}-{frequency:Hz}Hz.csv"."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Annotated, Any
+
+from pydantic import Field, ValidationInfo
+
+from colonnade import units
+from colonnade.campaign.syntax.fields import SOME_TEXT, Duration, Kind, shown, text
+from colonnade.campaign.syntax.names import inside
+from colonnade.campaign.syntax.table import Table
+from colonnade.campaign.test import Test
+from colonnade.errors import nearest, quoted
+
+WORDS = ("kind", "specimen", "setup", "motion", "recorder")
+"""Parts that are one of the campaign's own names, or a word that stands for one."""
+
+COUNTER = "number"
+"""The part that only tells repeated tests apart."""
+
+_PART = re.compile(r"\{([^{}:]*)(?::([^{}]*))?\}")
+_NUMBER = r"\d{1,9}(?:[.,p]\d{1,9})?"
+_LONGEST = 200
+
+
+def parts() -> tuple[str, ...]:
+    """Parts that a pattern may have: words, keys of a test that are a number or a quantity, and the counter."""
+    keys = Test.forms()
+    return (*WORDS, *(key for key, form in keys.items() if form.is_number or form.dimension), COUNTER)
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """
+    A pattern of file names.
+
+    Attributes
+    ----------
+    text : str
+        As written: a path from the watched folder, with parts in braces.
+
+    Examples
+    --------
+    >>> pattern = Pattern("{specimen}-{frequency:Hz}Hz-{number}.csv")
+    >>> pattern.match("prism-4Hz-02.csv", {"specimen": {"prism": "prism"}})
+    {'specimen': 'prism', 'frequency': '4 Hz', 'number': '02'}
+    """
+
+    text: str
+
+    @cached_property
+    def units(self) -> dict[str, str]:
+        """Unit of each part, empty if it has none; in the order of the pattern."""
+        return {found[1]: found[2] or "" for found in _PART.finditer(self.text)}
+
+    def problems(self) -> Iterator[str]:
+        """Say what is wrong with the pattern, in finished sentences."""
+        if len(self.text) > _LONGEST:
+            yield f"A pattern of {len(self.text)} characters was found. At most {_LONGEST} were expected."
+            return
+        outside = _PART.sub("", self.text)
+        if "{" in outside or "}" in outside:
+            yield f"{quoted(self.text)} has a brace without its partner. Parts are written as {{specimen}}."
+        if outside.startswith("/") or "\\" in outside or ".." in self.text.split("/"):
+            yield f"{quoted(self.text)} is not a path from the watched folder."
+        names = [found[1] for found in _PART.finditer(self.text)]
+        for name, unit in self.units.items():
+            dimension = form.dimension if (form := Test.forms().get(name)) else ""
+            if name not in parts():
+                yield f"Unknown part {{{name}}}.{nearest(name, parts())}"
+            elif names.count(name) > 1:
+                yield f"{{{name}}} is there {names.count(name)} times. Each part may be there once."
+            elif dimension and not units.is_of(unit, dimension):
+                example = f"{{{name}:{units.DIMENSIONS[dimension][1]}}}"
+                yield f"{{{name}{f':{unit}' if unit else ''}}} needs the unit of its number, such as {example}."
+            elif unit and not dimension:
+                yield f"{{{name}:{unit}}}: this part has no unit. Write {{{name}}}."
+
+    def match(self, path: str, names: Mapping[str, Mapping[str, str]]) -> dict[str, str | float] | None:
+        """
+        Read the name of a file.
+
+        Parameters
+        ----------
+        path : str
+            From the watched folder, with ``/``.
+        names : mapping
+            For each part in `WORDS`, what it may be in a name, in lower case, and what that stands for.
+
+        Returns
+        -------
+        parts : dict or None
+            Values as a test in campaign.toml would have them, and `number`; None if the name does not fit.
+        """
+        pieces, end = [], 0
+        for part in _PART.finditer(self.text):
+            pieces.append(re.escape(self.text[end : part.start()].casefold()))
+            # The longest word first, so that "cone-2" is not taken for "cone".
+            words = sorted(names.get(part[1], {}), key=len, reverse=True)
+            form = "|".join(map(re.escape, words)) or r"(?!)" if part[1] in WORDS else _NUMBER
+            pieces.append(f"(?P<{part[1]}>{form})")
+            end = part.end()
+        found = re.fullmatch("".join(pieces) + re.escape(self.text[end:].casefold()), path.casefold())
+        return found and {part: self._value(part, found[part], names) for part in self.units}
+
+    def _value(self, part: str, written: str, names: Mapping[str, Mapping[str, str]]) -> str | float:
+        if part in WORDS:
+            return names[part][written]
+        if part == COUNTER:
+            return written
+        number = re.sub("[,p]", ".", written)
+        return f"{number} {self.units[part]}" if self.units[part] else float(number)
+
+
+@dataclass(frozen=True)
+class NamedTests:
+    """
+    Tests whose raw files are named by one pattern.
+
+    Attributes
+    ----------
+    pattern : Pattern
+    given : dict
+        Keys of these tests as in [[tests]]; text in them may name parts, as in "{specimen}-table".
+    """
+
+    pattern: Pattern
+    given: dict[str, Any] = field(default_factory=dict)
+
+    def entry(self, parts: Mapping[str, str | float]) -> dict[str, Any]:
+        """Give the keys of a test whose file's name has these parts; what the name says counts more."""
+
+        def filled(value: Any) -> Any:
+            for part, meaning in parts.items():
+                value = value.replace(f"{{{part}}}", str(meaning)) if isinstance(value, str) else value
+            return value
+
+        return {key: filled(value) for key, value in self.given.items()} | dict(parts)
+
+
+def _folder(value: object, info: ValidationInfo) -> str:
+    if info.context:
+        inside(info.context["folder"], value)
+    return text(value).strip("/")
+
+
+def _patterns(value: object) -> tuple[NamedTests, ...]:
+    return tuple(map(_named, value if isinstance(value, (list, tuple)) else [value]))
+
+
+def _named(value: object) -> NamedTests:
+    given = dict(value) if isinstance(value, Mapping) else {"file": value}
+    written = given.pop("file", None)
+    if not isinstance(written, str):
+        raise ValueError(f'{shown(value)} was found. A pattern was expected, such as "{{specimen}}-{{number}}.csv".')
+    allowed = Test.purposes().keys() - {"id", "file", "planned", "photos"}
+    for key in given:
+        if key not in allowed:
+            raise ValueError(f"Unknown key {shown(key)} of a pattern.{nearest(str(key), ('file', *allowed))}")
+    pattern = Pattern(text(written).strip())
+    if problems := list(pattern.problems()):
+        raise ValueError(" ".join(problems))
+    return NamedTests(pattern, given)
+
+
+def _words(value: object) -> dict[str, str]:
+    if not isinstance(value, Mapping) or not all(isinstance(each, str) for each in value.values()):
+        raise ValueError(f'{shown(value)} was found. Words of file names were expected: {{free = "free-vibration"}}.')
+    return {str(word).casefold(): meaning for word, meaning in value.items()}
+
+
+_WORDS = {"type": "object", "additionalProperties": {"type": "string"}}
+_TABLE = {"type": "object", "required": ["file"], "properties": {"file": SOME_TEXT}}
+_ENTRY = [SOME_TEXT, _TABLE]
+_ENTRIES = {"anyOf": [*_ENTRY, {"type": "array", "items": {"anyOf": _ENTRY}}]}
+
+
+class Watched(Table):
+    """Where raw files appear, when they are finished, and what their names say."""
+
+    folder: Annotated[str, Kind(_folder, SOME_TEXT)] = "raw"
+    """Folder in which raw files appear, from the folder of the campaign file."""
+    settle: Duration = 1.0
+    """A file is finished when its size and time have not changed for this long."""
+    pattern: Annotated[tuple[NamedTests, ...], Kind(_patterns, _ENTRIES)] = ()
+    """Names of raw files, such as "{specimen}-{kind}-{number}.csv", each file a test; or a list of them, each with
+    keys of its tests: {file = "{specimen}-free-{number}.csv", kind = "free-vibration", setup = "bench"}."""
+    words: Annotated[dict[str, str], Kind(_words, _WORDS)] = Field(default={})
+    """What words in the names stand for, such as {free = "free-vibration"}."""

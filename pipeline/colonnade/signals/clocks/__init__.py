@@ -1,1 +1,0 @@
-"""Clocks of recorders: time columns, delays and rates."""

@@ -1,0 +1,307 @@
+"""Time columns: the reliable stamps, the even clock behind rounded ones, their faults; values on another clock."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+from colonnade.arrays import Array, Mask
+from colonnade.errors import count
+from colonnade.signals.quality import Flag, Verdict, blocks, counted, first_at
+from colonnade.signals.stretches import stretches
+
+ROUNDING = 0.75
+"""Of the last digit; times that lie closer to an even clock than this were rounded (or cut off) from it."""
+
+COARSEST = 0.01
+"""Of a record's length; from times of fewer digits its interval cannot be told."""
+
+EXACT = 1e-7
+"""Of an interval; times that lie closer than this to an even clock are on it."""
+
+STRONG = 0.5
+"""Of the largest departure from the median; samples with as much belong to the strong part of a record."""
+
+LAG = 200
+"""Samples over which the interval of rounded times is first taken."""
+
+LONGEST_BRIDGE = 5
+"""Intervals; over a longer gap values are not interpolated but missing."""
+
+
+@dataclass(frozen=True)
+class Clock:
+    """
+    What a time column says.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s, increasing; NaN where a sample's stamp cannot be relied on.
+    interval : float
+        s; NaN where no two times increase.
+    resolution : float
+        Last digit that the stamps were rounded to, s, where `time` is the even clock behind them; otherwise 0.
+    is_exact : bool
+        Whether no stamp is further than `EXACT` from an even clock; its order, steps and gaps are then known.
+    """
+
+    time: Array
+    interval: float
+    resolution: float
+    is_exact: bool = False
+
+
+def read_clock(stamps: Array) -> Clock:
+    """
+    Find the times of a record from its time column.
+
+    Parameters
+    ----------
+    stamps : ndarray, shape (n,)
+        s, as in the file; NaN where missing.
+
+    Returns
+    -------
+    clock : Clock
+
+    Notes
+    -----
+    Kept is the longest run of stamps in order, so that one wild stamp costs one sample. A line through the kept stamps
+    over their sample numbers, with a step at each gap, replaces them where it meets all of them within their rounding.
+
+    Examples
+    --------
+    >>> read_clock(np.array([0.0, 0.1, 99.0, 0.3])).time.tolist()
+    [0.0, 0.1, nan, 0.3]
+    """
+    if _is_exact(stamps):
+        return Clock(stamps, float(np.diff(stamps).mean()), 0.0, is_exact=True)
+    kept = _in_order(stamps, repeats=True)
+    resolution = _resolution(stamps[kept])
+    if kept.size > 2 and 0 < resolution <= COARSEST * np.ptp(stamps[kept]):
+        even, interval = _even(kept, stamps[kept], resolution)
+        misfit = float(np.abs(even - stamps[kept]).max())
+        if 1e-6 * interval < misfit <= ROUNDING * resolution and (np.diff(even) > 0).all():
+            return Clock(_in_place(kept, even, stamps.size), interval, resolution)
+    kept = _in_order(stamps, repeats=False)
+    return Clock(_in_place(kept, stamps[kept], stamps.size), sampling_interval(stamps[kept]), 0.0)
+
+
+def check_order(stamps: Array, clock: Clock) -> Verdict:
+    """Flag samples whose stamp does not fit in with the others."""
+    if clock.is_exact:
+        return Verdict.good(stamps.size)
+    where = np.isfinite(stamps) & ~np.isfinite(clock.time)
+    if not where.any():
+        return Verdict.good(stamps.size)
+    back = np.flatnonzero(np.diff(stamps) <= 0) + 1
+    first = (
+        f"the first is sample {int(np.argmax(where)) + 1}"
+        if back.size == 0
+        else f"the clock goes from {stamps[back[0] - 1]:.6g} to {stamps[back[0]]:.6g} s at sample {back[0] + 1:,}"
+    )
+    return Verdict(Flag.FAIL, where, f"{counted(where)} whose time is out of order; {first}", "time column")
+
+
+def loses_motion(values: Array, where: Mask) -> bool:
+    """Whether samples that are left out, more than can be bridged, belong to the strong part of a channel's record."""
+    starts, stops = stretches(where)
+    size = np.abs(values - np.nanmedian(values))
+    return bool((stops - starts > LONGEST_BRIDGE).any()) and bool(
+        np.nanmax(size[where], initial=0.0) >= STRONG * np.nanmax(size[~where], initial=0.0)
+    )
+
+
+def check_gaps(clock: Clock, *, factor: float) -> Verdict:
+    """Flag the samples on either side of a step of the clock longer than `factor` intervals, lost stamps apart."""
+    if clock.is_exact and factor > 1 + 4 * EXACT:
+        return Verdict.good(clock.time.size)
+    kept, steps, counts = _steps(clock)
+    longer = steps - (counts - 1)
+    after = np.flatnonzero(longer > factor)
+    if after.size == 0:
+        return Verdict.good(clock.time.size)
+    where = np.zeros(clock.time.size, dtype=bool)
+    where[kept[after]] = where[kept[after + 1]] = True
+    lost = int(np.rint(longer[after] - 1).sum())
+    gaps = f"{count(after.size, 'gap')} in time"
+    return Verdict(
+        Flag.SUSPECT, where, f"{gaps}, about {count(lost, 'sample')} lost{first_at(clock.time, where)}", "lost samples"
+    )
+
+
+def check_jitter(clock: Clock, *, share: float, factor: float) -> Verdict:
+    """Flag samples whose step differs from the interval by more than `share` of it, gaps (`factor`) apart."""
+    if clock.is_exact and share > 4 * EXACT:
+        return Verdict.good(clock.time.size)
+    kept, steps, counts = _steps(clock)
+    # Where a stamp is lost, its sample may be lost with it or not.
+    off = np.minimum(np.abs(steps - 1), np.abs(steps - counts))
+    uneven = (off > share) & (steps - (counts - 1) <= factor)
+    if not uneven.any():
+        return Verdict.good(clock.time.size)
+    where = np.zeros(clock.time.size, dtype=bool)
+    where[kept[1:][uneven]] = True
+    largest = 1e3 * clock.interval * float(off[uneven].max())
+    reason = f"{counted(where)} up to {largest:.3g} ms off an even clock of {1e3 * clock.interval:.6g} ms"
+    return Verdict(Flag.SUSPECT, where, reason, "time column")
+
+
+def _is_exact(stamps: Array) -> bool:
+    """Whether all stamps lie on the line through the first and the last, within `EXACT` of its step."""
+    if stamps.size < 3:
+        return False
+    first, interval = float(stamps[0]), float(stamps[-1] - stamps[0]) / (stamps.size - 1)
+    if not 0 < interval < np.inf:
+        return False
+    return all(
+        np.abs(stamps[part] - first - interval * np.arange(part.start, part.stop)).max() <= EXACT * interval
+        for part in blocks(stamps.size)
+    )
+
+
+def _steps(clock: Clock) -> tuple[NDArray[np.intp], Array, NDArray[np.intp]]:
+    """Indices of the samples with a time, and the steps between them in intervals and in samples."""
+    kept = np.flatnonzero(np.isfinite(clock.time))
+    return kept, np.diff(clock.time[kept]) / clock.interval, np.diff(kept)
+
+
+def _in_place(kept: NDArray[np.intp], times: Array, size: int) -> Array:
+    time = np.full(size, np.nan)
+    time[kept] = times
+    return time
+
+
+def _in_order(stamps: Array, *, repeats: bool) -> NDArray[np.intp]:
+    """Indices of the longest increasing (or, with `repeats`, not decreasing) subsequence of the finite stamps."""
+    finite = np.flatnonzero(np.isfinite(stamps))
+    steps = np.diff(stamps[finite])
+    if (steps < 0).any() or not (repeats or (steps > 0).all()):
+        finite = finite[_longest_increasing(stamps[finite].tolist(), repeats=repeats)]
+    # A wild stamp at an end is in order all the same, but further off than all others reach.
+    if finite.size > 8:
+        first, second, last_but_one, last = stamps[finite[[0, 1, -2, -1]]]
+        reach = last_but_one - second
+        finite = finite[int(second - first > reach) : finite.size - int(last - last_but_one > reach)]
+    return finite
+
+
+def _longest_increasing(values: list[float], *, repeats: bool) -> NDArray[np.intp]:
+    """Indices of the longest subsequence in order, by patience sorting."""
+    place = bisect_right if repeats else bisect_left
+    tops: list[float] = []
+    on_top: list[int] = []
+    before: list[int] = []
+    for index, value in enumerate(values):
+        pile = place(tops, value)
+        before.append(on_top[pile - 1] if pile else -1)
+        tops[pile : pile + 1] = [value]
+        on_top[pile : pile + 1] = [index]
+    chain = []
+    index = on_top[-1]
+    while index >= 0:
+        chain.append(index)
+        index = before[index]
+    return np.array(chain[::-1], dtype=np.intp)
+
+
+def _resolution(times: Array) -> float:
+    """Largest power of ten, s, that all times are multiples of; 0 if it has none."""
+    largest = float(np.abs(times).max(initial=0.0))
+    for decimals in range(10):
+        scaled = times * 10.0**decimals
+        tolerance = 1e-6 + 4 * np.finfo(np.float64).eps * largest * 10.0**decimals
+        if tolerance < 1e-2 and np.abs(scaled - np.round(scaled)).max(initial=0.0) < tolerance:
+            return float(10.0**-decimals)
+    return 0.0
+
+
+def _even(numbers: NDArray[np.intp], times: Array, resolution: float) -> tuple[Array, float]:
+    """Line of one slope through times over sample numbers, with a step at each gap; and the slope, s."""
+    interval = 0.0
+    for lag in (min(LAG, numbers.size - 1), numbers.size // 2):
+        if interval <= 0:
+            interval = float(np.median((times[lag:] - times[:-lag]) / (numbers[lag:] - numbers[:-lag])))
+    gaps = np.diff(times) > (np.diff(numbers) + 0.5) * interval + resolution
+    stretch = np.concatenate(([0], np.cumsum(gaps)))
+    sizes = np.bincount(stretch)
+    middle_number = (np.bincount(stretch, numbers) / sizes)[stretch]
+    middle_time = (np.bincount(stretch, times) / sizes)[stretch]
+    across, along = numbers - middle_number, times - middle_time
+    slope = float(across @ along / max(float(across @ across), 1.0))
+    return middle_time + slope * across, slope
+
+
+def sampling_interval(time: Array) -> float:
+    """
+    Interval of a clock, s.
+
+    Returns
+    -------
+    interval : float
+        The mean of the steps that lie within half of their median, so that gaps, repeated times and times written with
+        few digits do not count; NaN where no two times increase.
+    """
+    steps = np.diff(time[np.isfinite(time)])
+    steps = steps[steps > 0]
+    if steps.size == 0:
+        return float("nan")
+    typical = float(np.median(steps))
+    return float(steps[np.abs(steps - typical) <= 0.5 * typical].mean())
+
+
+def uniform_clock(start: float, stop: float, interval: float) -> Array:
+    """Times from `start` in steps of `interval` up to `stop`, s; `stop` counts as reached within 1e-6 intervals."""
+    count = int(np.floor((stop - start) / interval + 1e-6)) + 1
+    return start + interval * np.arange(max(count, 0), dtype=np.float64)
+
+
+def resample(time: Array, values: Array, onto: Array, interval: float) -> tuple[Array, Mask]:
+    """
+    Bring values to another clock.
+
+    Parameters
+    ----------
+    time, values : ndarray, shape (n,)
+        s, increasing; finite.
+    onto : ndarray, shape (m,)
+        s, increasing.
+    interval : float
+        Of `time`, s.
+
+    Returns
+    -------
+    resampled : ndarray, shape (m,)
+        By a cubic spline; over gaps, straight lines.
+    missing : ndarray of bool, shape (m,)
+        Samples outside the record or inside a gap of more than `LONGEST_BRIDGE` intervals.
+
+    Notes
+    -----
+    The error of the spline for a sine with n samples a period is about 2 (2π/n)⁴ / 384 of its amplitude: 1.6e-5 at 30.
+    """
+    if time.size == onto.size and np.abs(time - onto).max() <= 1e-6 * interval:
+        return values, np.zeros(onto.size, dtype=bool)
+    steps = np.diff(time)
+    gaps = np.flatnonzero(steps > 1.5 * interval)
+    knots, heights = time, values
+    if gaps.size:
+        # Points on the chord keep the spline from swinging out over a gap.
+        filling = [uniform_clock(time[gap] + interval, time[gap + 1] - 0.5 * interval, interval) for gap in gaps]
+        knots = np.sort(np.concatenate([time, *filling]))
+        heights = np.interp(knots, time, values)
+    inside = np.clip(onto, time[0], time[-1])
+    resampled = (
+        scipy.interpolate.CubicSpline(knots, heights)(inside) if knots.size > 3 else np.interp(inside, knots, heights)
+    )
+    after = np.clip(np.searchsorted(time, onto, side="right"), 1, max(time.size - 1, 1))
+    within = time[after] - time[after - 1] > (LONGEST_BRIDGE + 0.5) * interval if time.size > 1 else np.ones(onto.size)
+    slack = 1e-6 * interval
+    outside = (onto < time[0] - slack) | (onto > time[-1] + slack)
+    on_sample = np.minimum(np.abs(onto - time[after - 1]), np.abs(onto - time[after])) <= slack
+    return np.asarray(resampled, dtype=np.float64), outside | (np.asarray(within, dtype=bool) & ~on_sample)
