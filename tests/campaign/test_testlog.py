@@ -106,7 +106,7 @@ def test_a_log_gives_the_tests_whatever_wrote_it(name, tmp_path):
 
 
 def test_a_workbook_is_not_parsed_in_this_process(tmp_path, monkeypatch):
-    monkeypatch.setattr("colonnade.readers.excel.workbook._sheet", None)
+    monkeypatch.setattr("colonnade.readers.binary.excel._sheet", None)
     with_log(tmp_path, "log.xlsx", LOGS["log.xlsx"])
 
 

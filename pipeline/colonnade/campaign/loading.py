@@ -17,7 +17,7 @@ from colonnade.campaign.syntax.places import Place, Source, key_lines
 from colonnade.campaign.testlog import Log, read_log
 from colonnade.errors import CampaignError
 from colonnade.findings import Finding
-from colonnade.readers.irregular import irregular
+from colonnade.readers.files import irregular
 
 FILE_NAME = "campaign.toml"
 

@@ -15,7 +15,7 @@ from colonnade.campaign.channel import MAIN
 from colonnade.campaign.test import Test
 from colonnade.errors import ReadError, nearest, quoted
 from colonnade.findings import Finding, note
-from colonnade.readers.irregular import irregular
+from colonnade.readers.files import irregular
 
 EXCEL_SUFFIXES = (".xlsx", ".xlsm", ".xls", ".ods")
 _LARGEST_BYTES = 10_000_000

@@ -12,7 +12,7 @@ from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Trial, 
 from colonnade.laboratory.files import FileFormat
 from colonnade.laboratory.instruments import VOLTS, Transducer
 from colonnade.laboratory.plans.schedule import begun
-from colonnade.readers.irregular import irregular
+from colonnade.readers.files import irregular
 
 FILE_NAME = "campaign.toml"
 MARK = "# Written by colonnade's virtual laboratory"

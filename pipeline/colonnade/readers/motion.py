@@ -16,7 +16,7 @@ from colonnade.readers import registry
 from colonnade.readers.clock import equal_step, rising_share
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.delimited_header import DelimitedOptions, read_header
-from colonnade.readers.text.lines.encoding import text_of
+from colonnade.readers.text.encoding import text_of
 from colonnade.validation import described, number, text, whole
 
 MOST_COLUMNS = 1_000_000

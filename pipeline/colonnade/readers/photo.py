@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.errors import ReadError
-from colonnade.readers.irregular import irregular
+from colonnade.readers.files import irregular
 
 LARGEST_SIDE = 1600
 """Pixels of the longer side of what the report shows."""

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from colonnade.readers.binary.magic import head
 from colonnade.readers.text.layout import header_claims
-from colonnade.readers.text.lines.numbered import first_lines
+from colonnade.readers.text.numbered import first_lines
 
 HEADER_LINES = 64
 """As many as the longest of these headers has (ESM)."""

@@ -15,18 +15,17 @@ from pydantic import BaseModel, ValidationError
 
 from colonnade.errors import ReadError, nearest, quoted
 from colonnade.readers.bounded import process as bounded
-from colonnade.readers.bounded.bounds import bounds_of
+from colonnade.readers.bounded.enclosure import bounds_of
 from colonnade.readers.bounded.messages import Request
+from colonnade.readers.files import in_one_line, irregular, refusing, unreachable
 from colonnade.readers.format import Format, Recognition
-from colonnade.readers.irregular import irregular
 from colonnade.readers.recording import Recording, Window
-from colonnade.readers.refusal import in_one_line, refusing, unreachable
 from colonnade.readers.refused import retired
 
 OWN = (
-    *("binary.catman", "strong_motion.cosmos", "text.delimited", "binary.diadem", "excel.workbook"),
-    *("binary.famos", "text.lvm", "binary.matlab", "text.mts", "binary.netcdf", "strong_motion.peer"),
-    *("tdms.file", "binary.uff", "binary.waveform"),
+    *("binary.catman", "text.cosmos", "text.delimited", "binary.diadem", "binary.excel"),
+    *("binary.famos", "text.lvm", "binary.matlab", "text.mts", "binary.netcdf", "text.peer"),
+    *("binary.tdms", "binary.uff", "binary.waveform"),
 )
 """Modules of this folder with a format, as their `FORMAT`."""
 GROUP = "colonnade.formats"

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from colonnade.campaign import Campaign
 from colonnade.findings import Finding, serious
-from colonnade.readers.hashing import sha256_of
+from colonnade.readers.files import sha256_of
 
 NAMED = 3
 """Number of copies that the warning names."""

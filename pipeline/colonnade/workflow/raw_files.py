@@ -9,7 +9,7 @@ from pathlib import Path
 from colonnade.campaign import Campaign, Test
 from colonnade.campaign.setup import FileOptions
 from colonnade.errors import ReadError, StoreError
-from colonnade.readers.hashing import sha256_of
+from colonnade.readers.files import sha256_of
 from colonnade.readers.registry import companions
 from colonnade.workflow.catalogue import Catalogue, Mark, mark_of
 

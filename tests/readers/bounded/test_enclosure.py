@@ -1,4 +1,4 @@
-"""What a process gives up before it opens a stranger's file; each test binds a process of its own."""
+"""What a process may take and gives up before it opens a stranger's file; each test binds a process of its own."""
 
 from __future__ import annotations
 
@@ -8,7 +8,21 @@ from pathlib import Path
 
 import pytest
 
+from colonnade.readers.bounded import enclosure as bounds
 from colonnade.readers.bounded.enclosure import OUT_OF_MEMORY, own_folders
+
+
+def test_a_long_file_has_more_time_and_memory_up_to_the_machine(tmp_path: Path) -> None:
+    short, long = tmp_path / "short", tmp_path / "long"
+    short.write_bytes(b"1")
+    with long.open("wb") as stream:
+        stream.truncate(50_000_000)
+    small, large = bounds.bounds_of(short), bounds.bounds_of(short, long)
+    assert small.processor == 8
+    assert large.processor == 208
+    assert small.memory < large.memory <= small.memory + 64 * 50_000_001
+    assert bounds.bounds_of(tmp_path / "missing") == bounds.Bounds(bounds.MEMORY, 8, 24)
+
 
 on_linux = pytest.mark.skipif(sys.platform != "linux", reason="only Linux binds a process so far")
 
@@ -66,7 +80,7 @@ def test_a_link_that_leads_outside_is_outside(tmp_path: Path) -> None:
 
 LIMIT = """
 import sys
-from colonnade.readers.bounded.bounds import Bounds
+from colonnade.readers.bounded.enclosure import Bounds
 from colonnade.readers.bounded.enclosure import limit
 limit(Bounds(int(sys.argv[1]), 60, 60.0))
 print(len(bytearray(100_000_000)))
@@ -87,7 +101,7 @@ def test_a_limit_that_holds_already_is_kept() -> None:
 
 WATCHED = """
 import sys, time
-from colonnade.readers.bounded.bounds import Bounds
+from colonnade.readers.bounded.enclosure import Bounds
 from colonnade.readers.bounded.enclosure import watched_memory
 with watched_memory(Bounds(int(sys.argv[1]), 60, 60.0)):
     taken = bytearray(b"1") * 100_000_000

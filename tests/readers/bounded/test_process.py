@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.bounded import bounds, landlock, messages, process
+from colonnade.readers.bounded import enclosure, landlock, messages, process
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import formats, read
 
@@ -97,7 +97,7 @@ def test_an_exception_is_told_with_its_message_and_a_refusal_as_it_is(do: Deed) 
 
 @on_linux
 def test_what_swells_is_stopped_at_its_bound(do: Deed, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(bounds, "MEMORY", 200_000_000)
+    monkeypatch.setattr(enclosure, "MEMORY", 200_000_000)
     with pytest.raises(ReadError, match=r"reading it as .hostile. took more than 200 MB of memory"):
         do("swell")
     assert came_of(do("swell_natively")) == 0
@@ -107,11 +107,11 @@ def test_what_swells_is_stopped_at_its_bound(do: Deed, monkeypatch: pytest.Monke
 
 @on_linux
 def test_what_does_not_end_is_stopped(do: Deed, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(bounds, "SECONDS", 1)
-    monkeypatch.setattr(bounds, "PATIENCE", 100)
+    monkeypatch.setattr(enclosure, "SECONDS", 1)
+    monkeypatch.setattr(enclosure, "PATIENCE", 100)
     with pytest.raises(ReadError, match=r"reading it as .hostile. took more than 1 s of processor time"):
         do("spin")
-    monkeypatch.setattr(bounds, "PATIENCE", 1.5)
+    monkeypatch.setattr(enclosure, "PATIENCE", 1.5)
     with pytest.raises(ReadError, match=r"reading it as .hostile. took more than 2 s") as late:
         do("sleep")
     assert isinstance(late.value.__cause__, OSError)  # the machine may have been busy: the next run tries again
@@ -222,7 +222,7 @@ def test_a_worker_that_may_have_no_children_of_multiprocessing_reads_too(do: Dee
 def test_a_system_without_safe_copies_reads_in_the_process_itself(installed: Path, tmp_path: Path) -> None:
     path = tmp_path / "free-01.hostile"
     path.write_bytes(b"1")
-    request = messages.Request("recording", str(path), str(tmp_path), "hostile", {}, None, bounds.bounds_of(path))
+    request = messages.Request("recording", str(path), str(tmp_path), "hostile", {}, None, enclosure.bounds_of(path))
     serve = (
         "import sys; sys.path.insert(0, sys.argv[1]); from colonnade.readers.bounded import server; "
         "server.serve(sys.stdin.buffer, sys.stdout.buffer, server.in_place)"

@@ -10,7 +10,7 @@ import pytest
 
 from colonnade.readers import registry
 from colonnade.readers.bounded import messages, server
-from colonnade.readers.bounded.bounds import bounds_of
+from colonnade.readers.bounded.enclosure import bounds_of
 from colonnade.readers.bounded.messages import Answer, Request
 
 

@@ -101,7 +101,7 @@ def test_timestamps_are_seconds_from_the_first(tmp_path: Path, stamps: list[str]
 @pytest.fixture
 def long(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A file of several pieces, with a damaged line and a last one that is cut off."""
-    monkeypatch.setattr("colonnade.readers.text.lines.pieces.PIECE", 20_000)
+    monkeypatch.setattr("colonnade.readers.text.encoding.PIECE", 20_000)
     path = tmp_path / "long.csv"
     rows = [f"{number / 200:.3f},{number % 97}.5,{-number}" for number in range(9000)]
     rows[4100] += ",7"

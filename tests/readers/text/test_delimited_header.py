@@ -11,7 +11,7 @@ from pydantic import ValidationError
 
 from colonnade.errors import ReadError
 from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
-from colonnade.readers.text.lines.encoding import text_of
+from colonnade.readers.text.encoding import text_of
 
 ROWS = "".join(f"{number},0;{number},25;{-number},5\n" for number in range(30))
 

@@ -129,7 +129,7 @@ def test_numbers_of_fifteen_digits_are_exact_in_any_notation(tmp_path: Path, val
 def test_a_file_longer_than_a_piece_is_read_whole(
     tmp_path: Path, line_end: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("colonnade.readers.text.lines.pieces.PIECE", 20_000)
+    monkeypatch.setattr("colonnade.readers.text.encoding.PIECE", 20_000)
     path = tmp_path / "record.csv"
     expected = np.arange(9000) / 8
     path.write_bytes(line_end.join(["t,x", *(f"{value},{-value}" for value in expected)]).encode())
@@ -146,7 +146,7 @@ def test_what_is_read_does_not_depend_on_the_pieces(tmp_path: Path, size: int, m
     path = tmp_path / "record.csv"
     path.write_text("t;x;said\r\n" + "\r\n".join(rows).replace(".", ","), encoding="utf-8", newline="")
     expected = read(path)
-    monkeypatch.setattr("colonnade.readers.text.lines.pieces.PIECE", size)
+    monkeypatch.setattr("colonnade.readers.text.encoding.PIECE", size)
     found = read(path)
     assert (found.notes, found.warnings) == (expected.notes, expected.warnings)
     for channel, same in zip(found.channels, expected.channels, strict=True):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from colonnade.readers.text.cells import Dialect
 from colonnade.readers.text.heading import HeadingLines, describe_columns, looks_like_unit, take_apart
-from colonnade.readers.text.lines.cells import Dialect
 from every import every
 
 

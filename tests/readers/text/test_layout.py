@@ -11,9 +11,9 @@ from scipy.signal import butter, sosfiltfilt
 from colonnade.errors import ReadError
 from colonnade.readers.motion import read_motion
 from colonnade.readers.registry import read
+from colonnade.readers.text.cells import WHITESPACE, Dialect
+from colonnade.readers.text.encoding import text_of
 from colonnade.readers.text.layout import header_claims, read_block
-from colonnade.readers.text.lines.cells import WHITESPACE, Dialect
-from colonnade.readers.text.lines.encoding import text_of
 from every import every
 
 STANDARD_GRAVITY = 9.80665

@@ -14,7 +14,7 @@ from colonnade.arrays import Array
 from colonnade.campaign.syntax.document import natural, toml_value
 from colonnade.campaign.syntax.names import inside
 from colonnade.errors import ColonnadeError
-from colonnade.readers.irregular import irregular
+from colonnade.readers.files import irregular
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import MOST_GENERAL, read
 

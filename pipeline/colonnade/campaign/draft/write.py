@@ -15,7 +15,7 @@ from colonnade.campaign.draft.words import Line, as_id, comment, find, unique
 from colonnade.campaign.loading import FILE_NAME
 from colonnade.campaign.syntax.document import toml_key, toml_value
 from colonnade.errors import CampaignError
-from colonnade.readers.irregular import irregular
+from colonnade.readers.files import irregular
 
 RAW_FOLDERS = ("raw", "data", "rohdaten", "dati", "daten")
 """Names of folders that say nothing about the campaign in them."""

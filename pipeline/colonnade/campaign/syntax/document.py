@@ -15,7 +15,7 @@ from pydantic import BaseModel, ValidationError
 from colonnade.campaign.syntax.fields import one_line
 from colonnade.campaign.syntax.places import Place
 from colonnade.errors import CampaignError
-from colonnade.readers.irregular import irregular
+from colonnade.readers.files import irregular
 
 Model = TypeVar("Model", bound=BaseModel)
 

@@ -12,8 +12,7 @@ from colonnade.readers.binary.magic import HDF5, head, look
 from colonnade.readers.binary.matlab_5 import read_v5
 from colonnade.readers.binary.matlab_73 import read_v73
 from colonnade.readers.binary.matlab_columns import Node, Tree, find_columns, lacking_channels, numbered_channels
-from colonnade.readers.binary.vector_clocks import ClockOptions, find_clocks
-from colonnade.readers.binary.vectors import named, recorded
+from colonnade.readers.binary.vectors import ClockOptions, find_clocks, named, recorded
 from colonnade.readers.clock import given_clock
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import Recording

@@ -17,8 +17,7 @@ from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.binary.hdf5 import Walk, open_hdf5
 from colonnade.readers.binary.magic import HDF5, NETCDF, by_mark, head
-from colonnade.readers.binary.vector_clocks import ClockOptions, find_clocks
-from colonnade.readers.binary.vectors import Column, UnreadableError, named, recorded
+from colonnade.readers.binary.vectors import ClockOptions, Column, UnreadableError, find_clocks, named, recorded
 from colonnade.readers.clock import Clocks, given_clock
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import TIME_UNITS, Recording

@@ -16,7 +16,7 @@ from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
-from colonnade.readers.text.lines.running import read_running
+from colonnade.readers.text.numbered import read_running
 
 MARK = "-1"
 HEADER_LINES = 11

@@ -16,9 +16,9 @@ from pydantic import Field
 from colonnade.arrays import Array
 from colonnade.errors import ReadError, nearest
 from colonnade.readers.clock import even_times
+from colonnade.readers.files import refusing
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.refusal import refusing
 
 READERS = {
     "GSE1": "obspy.io.gse2.core:_read_gse1",

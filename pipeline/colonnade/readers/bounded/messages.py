@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from pydantic import AfterValidator, BaseModel, ConfigDict, NonNegativeInt, PositiveInt
 
 from colonnade.arrays import Array
-from colonnade.readers.bounded.bounds import Bounds
+from colonnade.readers.bounded.enclosure import Bounds
 from colonnade.readers.recording import RecordedChannel, Recording, Window
 
 LONGEST_LINE = 64_000_000

@@ -18,8 +18,7 @@ import colonnade
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.bounded import messages
-from colonnade.readers.bounded.bounds import MEGABYTE, bounds_of
-from colonnade.readers.bounded.enclosure import OUT_OF_MEMORY
+from colonnade.readers.bounded.enclosure import MEGABYTE, OUT_OF_MEMORY, bounds_of
 from colonnade.readers.bounded.messages import Answer, BrokenAnswerError, EndedError, Request
 from colonnade.readers.photo import LARGEST_SIDE, Pixels
 from colonnade.readers.recording import Recording

@@ -91,7 +91,7 @@ def _handle(request: Request, answers: IO[bytes], announce: Callable[[], object]
 
 
 def _answer(request: Request) -> tuple[Answer, list[Array]]:
-    from colonnade.readers.excel.workbook import rows_of_first_sheet
+    from colonnade.readers.binary.excel import rows_of_first_sheet
     from colonnade.readers.registry import companions_here, read_here
 
     path = Path(request.path)

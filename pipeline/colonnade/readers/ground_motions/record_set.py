@@ -7,9 +7,9 @@ from pathlib import Path
 
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import ColonnadeError, ReadError
+from colonnade.readers.files import in_one_line
 from colonnade.readers.ground_motions.files import Component, components_of, in_folder
 from colonnade.readers.ground_motions.listed import LeftOut, read_list
-from colonnade.readers.refusal import in_one_line
 from colonnade.readers.registry import companions
 
 MOST_FILES = 2000

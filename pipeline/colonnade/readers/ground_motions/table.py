@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from colonnade.errors import ReadError, quoted
-from colonnade.readers.irregular import irregular
-from colonnade.readers.refusal import unreachable
-from colonnade.readers.text.lines.encoding import detect_encoding, looks_binary, open_text
+from colonnade.readers.files import irregular, unreachable
+from colonnade.readers.text.encoding import detect_encoding, looks_binary, open_text
 
 LARGEST_BYTES = 5_000_000
 MOST_ROWS = 10_000

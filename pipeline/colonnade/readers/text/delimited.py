@@ -12,14 +12,13 @@ from colonnade.errors import ReadError
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import TIME_UNITS, Recording, Window
 from colonnade.readers.refused import foreign_format
+from colonnade.readers.text.cells import WHITESPACE
+from colonnade.readers.text.columns import past_midnight
+from colonnade.readers.text.damage import mend
 from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
+from colonnade.readers.text.encoding import Text, pieces_of_text, text_of
 from colonnade.readers.text.layout import Layout, declared_layout, read_block, series_of
-from colonnade.readers.text.lines.cells import WHITESPACE
-from colonnade.readers.text.lines.damage import mend
-from colonnade.readers.text.lines.encoding import Text, text_of
-from colonnade.readers.text.lines.pieces import pieces_of_text
-from colonnade.readers.text.lines.rows import Rows, Stretch, read_rows
-from colonnade.readers.text.lines.timestamps import past_midnight
+from colonnade.readers.text.rows import Rows, Stretch, read_rows
 from colonnade.readers.text.table import Table
 
 

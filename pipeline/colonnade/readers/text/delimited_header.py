@@ -8,13 +8,12 @@ from typing import Annotated, Literal, Self
 from pydantic import AfterValidator, Field, model_validator
 
 from colonnade.errors import ReadError
-from colonnade.readers.text.first_sample import column_kinds, find_first_sample
+from colonnade.readers.text.cells import COMMENT_SIGNS, MISSING, WHITESPACE, Dialect
+from colonnade.readers.text.encoding import Text, TextOptions, head_lines, looks_binary
 from colonnade.readers.text.heading import Heading, HeadingLines, describe_columns, find_heading, unread_numbers
 from colonnade.readers.text.layout import HeaderClaims, header_claims, touching_fields
-from colonnade.readers.text.lines.cells import COMMENT_SIGNS, MISSING, WHITESPACE, Dialect
-from colonnade.readers.text.lines.encoding import Text, TextOptions, head_lines, looks_binary
-from colonnade.readers.text.lines.faults import RowForm
-from colonnade.readers.text.sniffing import sniff
+from colonnade.readers.text.rows import RowForm
+from colonnade.readers.text.sniffing import column_kinds, find_first_sample, sniff
 from colonnade.readers.text.table import TableOptions
 
 DELIMITER_WORDS = {"comma": ",", "semicolon": ";", "tab": "\t", "\\t": "\t", "pipe": "|", "space": " ", "spaces": " "}

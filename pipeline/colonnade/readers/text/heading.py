@@ -7,7 +7,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from colonnade.readers.text.lines.cells import WHITESPACE, Dialect, kind_of, looks_like_numbers, quoted_cells
+from colonnade.readers.text.cells import WHITESPACE, Dialect, kind_of, looks_like_numbers, quoted_cells
 from colonnade.readers.text.sniffing import DELIMITERS
 
 _BASE = (

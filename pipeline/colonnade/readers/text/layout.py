@@ -14,11 +14,10 @@ from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.clock import RISING_SHARE, equal_step, even_times, rising_share
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.lines.cells import Dialect
-from colonnade.readers.text.lines.encoding import Text, head_lines
-from colonnade.readers.text.lines.pieces import pieces_of_text
-from colonnade.readers.text.lines.rows import filled_length
-from colonnade.readers.text.lines.running import split_numbers
+from colonnade.readers.text.cells import Dialect
+from colonnade.readers.text.encoding import Text, head_lines, pieces_of_text
+from colonnade.readers.text.numbered import split_numbers
+from colonnade.readers.text.rows import filled_length
 
 _NUMBER = r"(\d*\.\d+|\d+\.?)"
 _STEPS = r"(?:spacing|interval|steps?|increments?)"

@@ -17,14 +17,12 @@ from colonnade.errors import ReadError
 from colonnade.readers.clock import RISING_SHARE, moment_after, rising_share
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
+from colonnade.readers.text.cells import WHITESPACE, Dialect, is_timestamp
+from colonnade.readers.text.damage import mend
+from colonnade.readers.text.encoding import TextOptions, ends_within_line, pieces_of_lines
 from colonnade.readers.text.heading import looks_like_unit
-from colonnade.readers.text.lines.cells import WHITESPACE, Dialect, is_timestamp
-from colonnade.readers.text.lines.damage import mend
-from colonnade.readers.text.lines.encoding import TextOptions, ends_within_line
-from colonnade.readers.text.lines.faults import RowForm
-from colonnade.readers.text.lines.numbered import NumberedLines, first_lines
-from colonnade.readers.text.lines.pieces import pieces_of_lines
-from colonnade.readers.text.lines.rows import read_rows
+from colonnade.readers.text.numbered import NumberedLines, first_lines
+from colonnade.readers.text.rows import RowForm, read_rows
 
 SIGNATURE = "MTS793|"
 DELIMITERS = {"0": WHITESPACE, "1": ",", "2": "\t"}

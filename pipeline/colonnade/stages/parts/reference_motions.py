@@ -13,9 +13,9 @@ from pydantic import BaseModel, ConfigDict, Field
 from colonnade.campaign import Campaign
 from colonnade.errors import ReadError
 from colonnade.findings import Finding, warning
-from colonnade.readers.hashing import sha256_of
+from colonnade.readers.files import sha256_of
+from colonnade.readers.ground_motions import el_centro
 from colonnade.readers.registry import companions
-from colonnade.readers.strong_motion import el_centro
 from colonnade.signals.named_motion import Series
 
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from colonnade.campaign.assessing.assessment import Assessment
 from colonnade.errors import ReadError
+from colonnade.readers.files import sha256_of
 from colonnade.readers.ground_motions.record_set import files_of
-from colonnade.readers.hashing import sha256_of
 from colonnade.store.freshness import Recipe
 from colonnade.store.provenance import hash_of
 from colonnade.store.results import ResultId

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from colonnade.campaign import Campaign, load
 from colonnade.errors import StoreError
-from colonnade.readers.hashing import sha256_of
+from colonnade.readers.files import sha256_of
 from colonnade.report import addresses, who_and_when
 from colonnade.report.interactive.state import UNWATCHED
 from colonnade.store import bundle, files, stamps

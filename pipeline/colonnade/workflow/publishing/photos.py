@@ -13,7 +13,7 @@ from colonnade.campaign.syntax.names import inside
 from colonnade.errors import ReadError
 from colonnade.findings import Finding, warning
 from colonnade.interruption import expect_none
-from colonnade.readers.hashing import sha256_of
+from colonnade.readers.files import sha256_of
 from colonnade.readers.photo import Pixels, read_photo
 from colonnade.report.photos import KIND, address_of
 from colonnade.store import files

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from colonnade.campaign.found import files_in
-from colonnade.readers.hashing import sha256_of
+from colonnade.readers.files import sha256_of
 from colonnade.workflow.watching.arrivals import Arrivals, marks_of
 
 UNFINISHED = ".partial"

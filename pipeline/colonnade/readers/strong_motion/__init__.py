@@ -1,1 +1,0 @@
-"""Strong-motion records as networks publish them."""

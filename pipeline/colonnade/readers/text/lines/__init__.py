@@ -1,1 +1,0 @@
-"""Lines of a text file: encoding, cells, blocks of numbers, and damage."""

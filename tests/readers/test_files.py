@@ -1,0 +1,90 @@
+"""What a path leads to, what it hashes to, and what is said of one that cannot be opened."""
+
+from __future__ import annotations
+
+import errno
+import os
+from pathlib import Path
+
+import pytest
+
+from colonnade.errors import ReadError
+from colonnade.readers.files import in_one_line, irregular, refusing, sha256_of, unreachable
+
+
+def test_folders_pipes_and_devices_are_named(tmp_path: Path) -> None:
+    assert irregular(tmp_path) == "a folder"
+    if not hasattr(os, "mkfifo"):
+        pytest.skip("this system has no named pipes")
+    os.mkfifo(tmp_path / "pipe")
+    assert irregular(tmp_path / "pipe") == "a named pipe"
+    assert irregular(Path(os.devnull)) == "a device"
+
+
+def test_a_file_and_what_is_missing_are_not(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("1\n")
+    assert irregular(tmp_path / "a.csv") == ""
+    assert irregular(tmp_path / "b.csv") == ""
+
+
+def test_the_hash_is_that_of_the_content(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_bytes(b"abc")
+    # The SHA-256 of "abc": FIPS 180-2, B.1.
+    expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
+    assert sha256_of(tmp_path / "a.csv") == expected
+
+
+def test_what_is_missing_or_no_file_has_none(tmp_path: Path) -> None:
+    assert sha256_of(tmp_path / "missing.csv") is None
+    assert sha256_of(tmp_path) is None
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_a_pipe_is_not_opened(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")  # opening it would wait for a writer for ever
+    assert sha256_of(tmp_path / "pipe") is None
+
+
+PATH = Path("raw/free-01.tdms")
+
+
+@pytest.mark.parametrize(
+    ("error", "told"),
+    [
+        (
+            ValueError("half a\n block"),
+            "(ValueError: half a block). The file is damaged, was cut off, or is of an unknown version",
+        ),
+        (KeyError(), "(KeyError). The file is damaged"),
+        (OSError("no block"), "(OSError: no block). The file is damaged"),
+        (OSError(errno.EINVAL, "Invalid argument"), "Invalid argument). The file is damaged"),
+        (PermissionError(errno.EACCES, os.strerror(errno.EACCES)), "Check its permissions and that its disk is"),
+        (FileNotFoundError(errno.ENOENT, "x"), "there is no such file"),
+    ],
+    ids=["a message", "none", "of the parser", "a place before the start", "of the machine", "missing"],
+)
+def test_what_a_parser_raises_becomes_a_message_of_what_to_do(error: Exception, told: str) -> None:
+    with pytest.raises(ReadError) as refused, refusing(PATH, '"tdms"'):
+        raise error
+    assert str(refused.value).startswith("free-01.tdms: ")
+    assert told in str(refused.value)
+    of_the_machine = isinstance(error, OSError) and error.errno not in (None, errno.EINVAL)
+    assert isinstance(refused.value.__cause__, OSError) == of_the_machine  # such a file is tried again
+
+
+@pytest.mark.parametrize("error", [ReadError("a.csv: no"), MemoryError(), KeyboardInterrupt()], ids=repr)
+def test_a_refusal_and_what_is_not_the_files_fault_pass(error: BaseException) -> None:
+    with pytest.raises(type(error)) as raised, refusing(PATH, "SAC"):
+        raise error
+    assert raised.value is error
+
+
+def test_a_long_message_is_cut() -> None:
+    assert len(in_one_line(ValueError("x" * 5000))) < 250
+
+
+def test_a_missing_file_is_told_with_the_nearest_name(tmp_path: Path) -> None:
+    (tmp_path / "free-01.csv").touch()
+    error = FileNotFoundError(errno.ENOENT, "x")
+    assert 'Did you mean "free-01.csv"?' in unreachable(tmp_path / "free-10.csv", error)
+    assert "as there is no folder" in unreachable(tmp_path / "raw" / "free-01.csv", error)
