@@ -70,6 +70,7 @@ def seed(whole: Path, corpus: Path, format: str) -> list[Path]:
 def target(format: Any, path: Path) -> Callable[[bytes], None]:
     """Build what is fuzzed: a file is recognised and read."""
     from colonnade.errors import ReadError
+    from colonnade.readers.bounded.recordings import recording_of
     from colonnade.readers.registry import read_here
 
     warnings.simplefilter("ignore")
@@ -80,7 +81,10 @@ def target(format: Any, path: Path) -> Callable[[bytes], None]:
         if not format.recognise(path).yes:
             return
         try:
-            recording = read_here(path, format.name, {}, None) if format.name in GUARDED else format.read(path, options)
+            if format.name in GUARDED:
+                recording = recording_of(path, *read_here(path, format.name, {}, None))
+            else:
+                recording = format.read(path, options)
         except ReadError:
             return
         for channel in recording.channels:

@@ -36,7 +36,8 @@ MEMORY = 4 << 30
 
 def shortest(path: Path, format: str) -> int:
     """Values of a file's shortest channel."""
-    return min(channel.values.size for channel in read_here(path, format, {}, None).channels)
+    _, arrays = read_here(path, format, {}, None)
+    return min(array.size for array in arrays)
 
 
 def outcome(path: Path, format: str, size: int, least: int) -> str:

@@ -119,7 +119,7 @@ def unpickle(victim: str) -> float:
 def lie(victim: str) -> None:
     for descriptor in range(3, 30):
         try:
-            os.write(descriptor, b'{"columns": [1], "sizes": [1000000000000]}\n' * 3)
+            os.write(descriptor, b'{"arrays": [{"dtype": "<f8", "shape": [1000000000000]}]}\n' * 3)
         except OSError:
             continue
 

@@ -125,10 +125,10 @@ def _decoded(raw: bytes) -> str:
 
 
 def _workbook(path: Path) -> list[list[str]]:
-    from colonnade.readers.bounded import process as bounded
+    from colonnade.readers.binary.excel import cells_of_first_sheet
 
     try:
-        rows = bounded.cells(path)
+        rows = cells_of_first_sheet(path)
     except ReadError as error:
         raise ValueError(str(error)) from None
     widest = max(map(len, rows), default=0)

@@ -47,7 +47,7 @@ def read_photo(path: Path, *, within: Path) -> Pixels:
     ReadError
         If it is missing, a link, too large, damaged, or neither JPEG nor PNG.
     """
-    from colonnade.readers.bounded import process
+    from colonnade.readers.bounded.process import run_bounded
 
     if Path(os.path.realpath(path)) != Path(os.path.normpath(path)):
         raise ReadError(f"{path.name}: this is a link, or in a folder that is one. Copy the photo itself there.")
@@ -59,7 +59,21 @@ def read_photo(path: Path, *, within: Path) -> Pixels:
         raise ReadError(f"{path.name}: photo not found in {path.parent.name}/. Check the path.") from None
     if size > MOST_BYTES:
         raise ReadError(f"{path.name}: {size / 1e6:.0f} MB is too large. At most {MOST_BYTES / 1e6:.0f} MB is shown.")
-    return process.decode(path, within)
+    return run_bounded(
+        "colonnade.readers.photo:photo_here", path, {}, _taken, kind="photo", within=within, modules=MODULES
+    )
+
+
+def photo_here(path: Path) -> tuple[None, list[Pixels]]:
+    """Decode a photo in this process, for another one."""
+    return None, [decode_here(path)]
+
+
+def _taken(header: object, arrays: list[Pixels]) -> Pixels:
+    (pixels,) = arrays
+    if pixels.dtype != np.uint8 or pixels.ndim != 3 or pixels.shape[2] != 3 or max(pixels.shape) > LARGEST_SIDE:
+        raise ValueError("the pixels of a photo were expected")
+    return pixels
 
 
 def decode_here(path: Path) -> Pixels:

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import replace
-from functools import cache
+from dataclasses import asdict, replace
+from functools import cache, partial
 from importlib import import_module
 from importlib.metadata import entry_points
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from typing import Any
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from colonnade.errors import ReadError, nearest, quoted
-from colonnade.readers.bounded import process as bounded
-from colonnade.readers.bounded.enclosure import bounds_of
-from colonnade.readers.bounded.messages import Request
+from colonnade.readers.bounded.messages import Arrays
+from colonnade.readers.bounded.process import Taken, run_bounded
+from colonnade.readers.bounded.recordings import recording_of, told
 from colonnade.readers.files import in_one_line, irregular, refusing, unreachable
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import Recording, Window
@@ -84,8 +84,16 @@ def read(
     if chosen.in_process:
         recording = _guarded(chosen, path, checked, window)
     else:
-        request = _request(chosen, path, checked, within, window)
-        recording = bounded.read(request, has_companions=chosen.companions is not None)
+        folder = path.resolve().parent if within is None else within.resolve()
+        others = _companions(chosen, path, checked, folder) if chosen.companions is not None else ()
+        for other in others:
+            if not (to := other.resolve()).is_relative_to(folder):
+                raise ReadError(
+                    f"{path.name}: its values are in {other.name}, which is a link to {to}, outside {folder}. "
+                    "It is not followed. Copy the file itself there."
+                )
+        wanted = {"window": None if window is None else asdict(window)}
+        recording = _bounded("read_here", chosen, path, checked, partial(recording_of, path), folder, others, **wanted)
     return replace(recording, notes=(*evidence, *recording.notes))
 
 
@@ -118,20 +126,23 @@ def companions(
         chosen = next((each for each in several if _recognition(each, path).yes), None)
     if chosen is None:
         return ()
-    return bounded.companions(_request(chosen, path, check_options(chosen, options or {}, where=path.name), within))
+    folder = path.resolve().parent if within is None else within.resolve()
+    return _companions(chosen, path, check_options(chosen, options or {}, where=path.name), folder)
 
 
-def companions_here(path: Path, format: str, options: Mapping[str, Any]) -> tuple[str, ...]:
-    """Names of the other files that a raw file is in, found in this process."""
+def companions_here(path: Path, format: str, options: Mapping[str, Any]) -> tuple[list[str], Arrays]:
+    """Names of the other files that a raw file is in, found in this process for another one."""
     chosen = _named(format)
     with refusing(path, f'"{format}"'):
-        return () if chosen.companions is None else chosen.companions(path, chosen.options(**options))
+        return [] if chosen.companions is None else [*chosen.companions(path, chosen.options(**options))], []
 
 
-def read_here(path: Path, format: str, options: Mapping[str, Any], window: Window | None) -> Recording:
-    """Read a raw file in this process, whatever its format; see `read`."""
+def read_here(
+    path: Path, format: str, options: Mapping[str, Any], window: Mapping[str, Any] | None
+) -> tuple[dict[str, Any], Arrays]:
+    """Read a raw file in this process for another one, whatever its format; see `read`."""
     chosen = _named(format)
-    return _guarded(chosen, path, chosen.options(**options), window)
+    return told(_guarded(chosen, path, chosen.options(**options), None if window is None else Window(**window)))
 
 
 def check_options(format: Format, options: Mapping[str, Any], where: str) -> BaseModel:
@@ -160,12 +171,32 @@ def check_options(format: Format, options: Mapping[str, Any], where: str) -> Bas
         raise ReadError("\n".join(problems)) from error
 
 
-def _request(
-    format: Format, path: Path, options: BaseModel, within: Path | None, window: Window | None = None
-) -> Request:
-    told = options.model_dump(mode="json", exclude_unset=True)
-    folder = path.resolve().parent if within is None else within.resolve()
-    return Request("recording", str(path.absolute()), str(folder), format.name, told, window, bounds_of(path))
+def _companions(format: Format, path: Path, options: BaseModel, within: Path) -> tuple[Path, ...]:
+    """Find the other files that a raw file is in; all are in its folder, whatever it says."""
+
+    def found(names: Any, arrays: Arrays) -> tuple[Path, ...]:
+        names = TypeAdapter(list[str]).validate_python(names)
+        if any(name in ("", "..") or name != PureWindowsPath(name).name or "\0" in name for name in names):
+            raise ValueError("names of files were expected")
+        return tuple(path.with_name(name) for name in dict.fromkeys(names))
+
+    return _bounded("companions_here", format, path, options, found, within)
+
+
+def _bounded(
+    function: str,
+    format: Format,
+    path: Path,
+    options: BaseModel,
+    take: Callable[[Any, Arrays], Taken],
+    within: Path,
+    others: tuple[Path, ...] = (),
+    **wanted: Any,
+) -> Taken:
+    """Call a function of this module in the bounded process."""
+    given = {"format": format.name, "options": options.model_dump(mode="json", exclude_unset=True), **wanted}
+    where = f"colonnade.readers.registry:{function}"
+    return run_bounded(where, path, given, take, kind=format.name, within=within, modules=format.modules, others=others)
 
 
 def _guarded(format: Format, path: Path, options: BaseModel, window: Window | None) -> Recording:

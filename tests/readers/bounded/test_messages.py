@@ -6,12 +6,14 @@ from dataclasses import fields
 from datetime import UTC, datetime
 from pathlib import Path
 from tempfile import TemporaryFile
+from typing import Any
 
 import numpy as np
 import pytest
 
-from colonnade.readers.bounded import messages
+from colonnade.readers.bounded import messages, recordings
 from colonnade.readers.recording import RecordedChannel, Recording
+from every import every
 
 
 @pytest.mark.parametrize(
@@ -20,10 +22,11 @@ from colonnade.readers.recording import RecordedChannel, Recording
         b"",
         b"{}",
         b"[]\n",
-        b'{"columns": [{"name": 1}]}\n',
-        b'{"sizes": [-1]}\n',
-        b'{"sizes": [1000000]}\n',
-        b'{"sizes": [2]}\n12345678',
+        b'{"arrays": [{"dtype": "<f8", "shape": [-1]}]}\n',
+        b'{"arrays": [{"dtype": "O", "shape": [1]}]}\n12345678',
+        b'{"arrays": [{"dtype": "<f8", "shape": [1000000]}]}\n',
+        b'{"arrays": [{"dtype": "<f8", "shape": [1000000, 1000000, 1000000]}]}\n',
+        b'{"arrays": [{"dtype": "<f8", "shape": [2]}]}\n12345678',
         b'{"surprise": 1}\n',
         b"\x80\x04\x95\n",
     ],
@@ -35,12 +38,25 @@ def test_an_answer_that_is_none_is_refused(tmp_path: Path, answer: bytes) -> Non
         messages.receive(stream, 1000)
 
 
-def test_an_answer_whose_parts_do_not_fit_is_refused() -> None:
-    column = {"name": "a", "unit": None, "heading": "a", "is_clock": False, "values": 0, "time": 1}
-    answer = messages.Answer.model_validate({"columns": [column], "sizes": [2, 3]})
-    for arrays in ([np.zeros(2)], [np.zeros(2), np.zeros(3)]):
-        with pytest.raises(messages.BrokenAnswerError):
-            messages.recording_of(Path("r"), answer, arrays)
+HEADER = {"format": "odd", "start": None, "notes": [], "warnings": [], "hint": "", "left_out": []}
+COLUMN = {"name": "a", "unit": None, "heading": "a", "is_clock": False, "values": 0, "time": 1}
+
+
+@every(
+    ("header", "arrays"),
+    [
+        ({**HEADER, "columns": [COLUMN]}, [np.zeros(2)]),
+        ({**HEADER, "columns": [COLUMN]}, [np.zeros(2), np.zeros(3)]),
+        ({**HEADER, "columns": [COLUMN]}, [np.zeros((2, 1)), np.zeros((2, 1))]),
+        ({**HEADER, "columns": [COLUMN]}, [np.zeros(2, dtype=np.uint8)] * 2),
+        ({**HEADER, "columns": [{**COLUMN, "name": 1}]}, [np.zeros(2)] * 2),
+        (HEADER, []),
+        (None, []),
+    ],
+)
+def test_a_recording_whose_parts_do_not_fit_is_refused(header: Any, arrays: list[np.ndarray]) -> None:
+    with pytest.raises(ValueError, match=r"\w"):
+        recordings.recording_of(Path("r"), header, arrays)
 
 
 def test_all_that_a_recording_holds_comes_through() -> None:
@@ -53,11 +69,12 @@ def test_all_that_a_recording_holds_comes_through() -> None:
     )
     start = datetime(2013, 4, 26, 10, 15, 0, 250000, UTC)
     whole = Recording(Path("r"), "odd", channels, start, ("a",), ("b",), hint="c", left_out=(("d", "e"),))
-    assert {field.name for field in fields(Recording)} <= {*messages.Answer.model_fields, "path", "channels"}
     with TemporaryFile() as stream:
-        messages.send(stream, *messages.told(whole))
+        header, arrays = recordings.told(whole)
+        messages.send(stream, arrays, header=header)
         stream.seek(0)
-        back = messages.recording_of(Path("r"), *messages.receive(stream, 1000))
+        answer, received = messages.receive(stream, 1000)
+    back = recordings.recording_of(Path("r"), answer.header, received)
     for field in fields(Recording):
         if field.name != "channels":
             assert getattr(back, field.name) == getattr(whole, field.name)

@@ -222,16 +222,17 @@ def test_a_worker_that_may_have_no_children_of_multiprocessing_reads_too(do: Dee
 def test_a_system_without_safe_copies_reads_in_the_process_itself(installed: Path, tmp_path: Path) -> None:
     path = tmp_path / "free-01.hostile"
     path.write_bytes(b"1")
-    request = messages.Request("recording", str(path), str(tmp_path), "hostile", {}, None, enclosure.bounds_of(path))
+    function, given = "colonnade.readers.registry:read_here", {"format": "hostile", "options": {}, "window": None}
+    request = messages.Request(function, str(path), str(tmp_path), given, "hostile", (), enclosure.bounds_of(path))
     serve = (
         "import sys; sys.path.insert(0, sys.argv[1]); from colonnade.readers.bounded import server; "
         "server.serve(sys.stdin.buffer, sys.stdout.buffer, server.in_place)"
     )
     elsewhere = tmp_path.parent / f"{tmp_path.name}-secret"
     elsewhere.write_text("secret")
-    deed = replace(request, options={"deed": "look", "victim": str(elsewhere)})
+    deed = replace(request, options={**given, "options": {"deed": "look", "victim": str(elsewhere)}})
     lines = request.line() + deed.line() + request.line()
     told = subprocess.run([sys.executable, "-c", serve, str(installed)], input=lines, capture_output=True, check=True)
     first, refused, last = (part.split(b"\n", 1)[0] for part in told.stdout.split(messages.BEGUN)[1:])
-    assert json.loads(first)["sizes"] == json.loads(last)["sizes"] == [2]
+    assert json.loads(first)["arrays"] == json.loads(last)["arrays"] == [{"dtype": "<f8", "shape": [2]}]
     assert "outside the campaign's folder" in json.loads(refused)["refusal"]

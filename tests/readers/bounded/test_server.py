@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,10 @@ from colonnade.readers.bounded.messages import Answer, Request
 
 
 def request(path: Path, format: str = "delimited", **options: object) -> Request:
-    return Request("recording", str(path), str(path.parent), format, dict(options), None, bounds_of(path))
+    given = {"format": format, "options": options, "window": None}
+    modules = registry.formats()[format].modules
+    function = "colonnade.readers.registry:read_here"
+    return Request(function, str(path), str(path.parent), given, format, modules, bounds_of(path))
 
 
 @pytest.fixture
@@ -30,7 +34,8 @@ def answers(*requests: Request) -> list[Answer]:
     said = io.BytesIO()
 
     def handle(request: Request, _: object, stream: io.BytesIO) -> None:
-        messages.send(stream, *server._answer(request))
+        arrays, answer = server._answer(request)
+        messages.send(stream, arrays, **answer)
 
     server.serve(io.BytesIO(b"".join(each.line() for each in requests)), said, handle)  # type: ignore[arg-type]
     said.seek(0)
@@ -39,7 +44,8 @@ def answers(*requests: Request) -> list[Answer]:
 
 def test_each_request_has_its_answer_in_order(table: Path) -> None:
     read, missing, again = answers(request(table), request(table.with_name("b.csv")), request(table))
-    assert [column.name for column in read.columns] == ["t", "top"]
+    assert isinstance(read.header, dict)
+    assert [column["name"] for column in read.header["columns"]] == ["t", "top"]
     assert "there is no such file" in missing.refusal
     assert missing.error_number == 2
     assert again == read
@@ -61,16 +67,10 @@ def test_what_swells_says_so(table: Path, monkeypatch: pytest.MonkeyPatch) -> No
     assert answers(request(table))[0].out_of_memory
 
 
-def test_a_format_that_is_in_one_file_has_no_companions(table: Path) -> None:
-    (found,) = answers(replace(request(table), wanted="companions"))
-    assert found.companions == ()
-    assert not found.refusal
-
-
 def test_what_a_format_needs_is_imported_before_its_file_is_opened(
     table: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     imported: list[str] = []
-    monkeypatch.setattr(server, "import_module", imported.append)
-    answers(request(table), request(table, "tdms"), request(table, "unknown"))
-    assert imported == list(registry.formats()["tdms"].modules)
+    monkeypatch.setattr(server, "import_module", lambda name: imported.append(name) or import_module(name))
+    answers(request(table, "tdms"))
+    assert imported == ["colonnade.readers.registry", "nptdms", "colonnade.readers.registry"]

@@ -10,10 +10,11 @@ from datetime import date, datetime, time, timedelta
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pydantic import Field
+from pydantic import Field, TypeAdapter
 
 from colonnade.errors import ReadError, nearest
 from colonnade.readers.binary.magic import OLE, ZIP, head, look
+from colonnade.readers.bounded.process import run_bounded
 from colonnade.readers.files import in_one_line
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.recording import Recording
@@ -87,7 +88,7 @@ def read(path: Path, options: ExcelOptions) -> Recording:
     )
 
 
-def rows_of_first_sheet(path: Path) -> list[list[str]]:
+def cells_of_first_sheet(path: Path) -> list[list[str]]:
     """
     Read all cells of a workbook's first sheet as text, as for a table that people wrote; dates as ISO 8601.
 
@@ -96,8 +97,18 @@ def rows_of_first_sheet(path: Path) -> list[list[str]]:
     ReadError
         If it is not a workbook, or is damaged.
     """
+    function, within = "colonnade.readers.binary.excel:cells_here", path.absolute().parent
+    return run_bounded(function, path, {}, _cells, kind="excel", within=within, modules=FORMAT.modules)
+
+
+def cells_here(path: Path) -> tuple[list[list[str]], list[Any]]:
+    """Read the cells of a workbook's first sheet in this process, for another one."""
     _expect_workbook(path)
-    return [[_typed(cell) for cell in row] for row in _sheet(path, 1)[0]]
+    return [[_typed(cell) for cell in row] for row in _sheet(path, 1)[0]], []
+
+
+def _cells(header: Any, arrays: list[Any]) -> list[list[str]]:
+    return TypeAdapter(list[list[str]]).validate_python(header)
 
 
 def _lines(rows: list[list[Any]]) -> Iterator[str]:

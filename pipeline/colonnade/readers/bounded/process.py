@@ -9,19 +9,18 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import replace
-from pathlib import Path, PureWindowsPath
+from pathlib import Path
+from typing import Any, TypeVar
 
 import colonnade
-from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.bounded import messages
 from colonnade.readers.bounded.enclosure import MEGABYTE, OUT_OF_MEMORY, bounds_of
-from colonnade.readers.bounded.messages import Answer, BrokenAnswerError, EndedError, Request
-from colonnade.readers.photo import LARGEST_SIDE, Pixels
-from colonnade.readers.recording import Recording
+from colonnade.readers.bounded.messages import Answer, Arrays, BrokenAnswerError, EndedError, Request
+
+Taken = TypeVar("Taken")
 
 START = 120.0
 """Seconds within which the process has to have imported what it needs."""
@@ -38,86 +37,46 @@ _COMMAND = "import sys; sys.path[:] = sys.argv[1:]; from colonnade.readers.bound
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS", "NUMEXPR_MAX_THREADS")
 
 
-def read(request: Request, *, has_companions: bool) -> Recording:
+def run_bounded(
+    function: str,
+    path: Path,
+    options: dict[str, Any],
+    take: Callable[[Any, Arrays], Taken],
+    *,
+    kind: str,
+    within: Path,
+    modules: tuple[str, ...] = (),
+    others: tuple[Path, ...] = (),
+) -> Taken:
     """
-    Read a raw file in the bounded process.
+    Have a function read a file in the bounded process.
 
     Parameters
     ----------
-    request : Request
-        For the recording, with the bounds of its file alone.
-    has_companions : bool
-        Whether a file of that format may be in several; the sizes of the others count too.
+    function : str
+        `module:name`; it is called with the path and the options, and returns a header for JSON and arrays.
+    path : Path
+    options : dict
+        For JSON.
+    take : callable
+        Makes what is wanted of the header and the arrays, neither of which can be trusted; ValueError if they are not
+        what the function returns.
+    kind : str
+        What the file is read as, for messages.
+    within : Path
+        Folder whose files may be read.
+    modules : tuple of str
+        Heavy packages that the function imports.
+    others : tuple of Path
+        Other files that a part of it is in, whose sizes count too.
 
     Raises
     ------
     ReadError
-        If the format refuses the file, reading it crashes, swells or does not end, or a part of it is a link to
-        elsewhere.
+        If the function refuses the file, or reading it crashes, swells or does not end.
     """
-    path, others = Path(request.path), companions(request) if has_companions else ()
-    for other in others:
-        if not (to := other.resolve()).is_relative_to(request.within):
-            raise ReadError(
-                f"{path.name}: its values are in {other.name}, which is a link to {to}, outside {request.within}. "
-                "It is not followed. Copy the file itself there."
-            )
-    request = replace(request, bounds=bounds_of(path, *others))
-    answer, arrays = _answer(request)
-    try:
-        return messages.recording_of(path, answer, arrays)
-    except BrokenAnswerError:
-        raise _crash(request, 0) from None
-
-
-def companions(request: Request) -> tuple[Path, ...]:
-    """
-    Find the companion files of a raw file; all are in its folder, whatever the file says.
-
-    Raises
-    ------
-    ReadError
-        If what it says of them cannot be read.
-    """
-    request = replace(request, wanted="companions")
-    names = _answer(request)[0].companions
-    if any(name in ("", "..") or name != PureWindowsPath(name).name or "\0" in name for name in names):
-        raise _crash(request, 0)
-    return tuple(Path(request.path).with_name(name) for name in dict.fromkeys(names))
-
-
-def cells(path: Path) -> list[list[str]]:
-    """
-    Read all cells of a workbook's first sheet as text in the bounded process.
-
-    Raises
-    ------
-    ReadError
-        If the workbook is refused, or reading it crashes, swells or does not end.
-    """
-    request = Request("cells", str(path.absolute()), str(path.resolve().parent), "excel", {}, None, bounds_of(path))
-    return [list(row) for row in _answer(request)[0].cells]
-
-
-def decode(path: Path, within: Path) -> Pixels:
-    """
-    Decode a photo in the bounded process.
-
-    Raises
-    ------
-    ReadError
-        If the photo is refused, or decoding it crashes, swells or does not end.
-    """
-    request = Request("photo", str(path.absolute()), str(within), "photo", {}, None, bounds_of(path))
-    answer, arrays = _answer(request)
-    try:
-        return messages.pixels_of(answer, arrays, LARGEST_SIDE)
-    except BrokenAnswerError:
-        raise _crash(request, 0) from None
-
-
-def _answer(request: Request) -> tuple[Answer, list[Array]]:
-    """Ask; ReadError where the file is refused."""
+    folder = str(within.resolve())
+    request = Request(function, str(path.absolute()), folder, options, kind, modules, bounds_of(path, *others))
     answer, arrays = _ask(request)
     if answer.exit_code is not None:
         raise _failure(request, answer.exit_code, [])
@@ -125,7 +84,10 @@ def _answer(request: Request) -> tuple[Answer, list[Array]]:
         raise _swollen(request)
     if answer.refusal:
         raise _refusal(answer.refusal, answer.error_number)
-    return answer, arrays
+    try:
+        return take(answer.header, arrays)
+    except ValueError:
+        raise _crash(request, 0) from None
 
 
 class _Reader:
@@ -150,7 +112,7 @@ class _Reader:
 
             fcntl.fcntl(self.answers, fcntl.F_SETPIPE_SZ, PIPE)
 
-    def ask(self, request: Request) -> tuple[Answer, list[Array]]:
+    def ask(self, request: Request) -> tuple[Answer, Arrays]:
         """Request a file; raises ReadError and ends the process if no answer comes."""
         late: list[float] = []
         begun = False
@@ -216,7 +178,7 @@ _readers: list[_Reader] = []
 """The one process that is there, if it is."""
 
 
-def _ask(request: Request) -> tuple[Answer, list[Array]]:
+def _ask(request: Request) -> tuple[Answer, Arrays]:
     with _lock:
         if _readers and _readers[0].process.poll() is not None:
             _readers.pop().end()
@@ -271,9 +233,9 @@ def _crash(request: Request, code: int) -> ReadError:
 
 def _stopped(request: Request, how: str, number: int | None = None) -> ReadError:
     """What to say of a file that one of its size and kind does not explain."""
-    stray = "holds a cell far outside its table" if request.format == "excel" else "was made to cause this"
+    stray = "holds a cell far outside its table" if request.kind == "excel" else "was made to cause this"
     return _refusal(
-        f'{Path(request.path).name}: reading it as "{request.format}" {how}. The file is damaged, was cut off, or '
+        f'{Path(request.path).name}: reading it as "{request.kind}" {how}. The file is damaged, was cut off, or '
         f"{stray}. Nothing else was affected. Copy it from the recorder again, or export it as text.",
         number,
     )

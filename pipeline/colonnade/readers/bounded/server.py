@@ -12,12 +12,10 @@ from importlib import import_module
 from pathlib import Path
 from typing import IO, Any
 
-from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers import photo
 from colonnade.readers.bounded import messages
 from colonnade.readers.bounded.enclosure import enclose, limit, own_folders, watch, watched_memory
-from colonnade.readers.bounded.messages import Answer, Request
+from colonnade.readers.bounded.messages import Arrays, Request
 
 BACKSTOP = 5.0
 """Seconds by which this process outlives its time, if whoever asks does not end it."""
@@ -44,10 +42,10 @@ def serve(requests: IO[bytes], answers: IO[bytes], handle: Callable[[Request, IO
     from colonnade.readers.registry import formats
 
     own_folders()
+    formats()
     while line := requests.readline():
         request = Request.of(line)
-        format = formats().get(request.format)
-        for module in photo.MODULES if request.wanted == "photo" else () if format is None else format.modules:
+        for module in (request.function.partition(":")[0], *request.modules):
             import_module(module)
         handle(request, requests, answers)
 
@@ -84,31 +82,22 @@ def _handle(request: Request, answers: IO[bytes], announce: Callable[[], object]
     faulthandler.dump_traceback_later(request.bounds.elapsed + BACKSTOP, exit=True, file=2)
     answers.write(messages.BEGUN)
     answers.flush()
-    answer = _answer(request)
+    arrays, answer = _answer(request)
     announce()
-    messages.send(answers, *answer)
+    messages.send(answers, arrays, **answer)
     faulthandler.cancel_dump_traceback_later()
 
 
-def _answer(request: Request) -> tuple[Answer, list[Array]]:
-    from colonnade.readers.binary.excel import rows_of_first_sheet
-    from colonnade.readers.registry import companions_here, read_here
-
-    path = Path(request.path)
+def _answer(request: Request) -> tuple[Arrays, dict[str, Any]]:
+    module, _, name = request.function.partition(":")
     try:
-        if request.wanted == "photo":
-            return messages.pixels_told(photo.decode_here(path))
-        if request.wanted == "cells":
-            return Answer(cells=tuple(map(tuple, rows_of_first_sheet(path)))), []
-        if request.wanted == "companions":
-            return Answer(companions=companions_here(path, request.format, request.options)), []
-        return messages.told(read_here(path, request.format, request.options, request.window))
+        header, arrays = getattr(import_module(module), name)(Path(request.path), **request.options)
+        return arrays, {"header": header}
     except ReadError as error:
         cause: Any = error.__cause__
-        number = cause.errno if isinstance(cause, OSError) else None
-        return Answer(refusal=str(error), error_number=number), []
+        return [], {"refusal": str(error), "error_number": cause.errno if isinstance(cause, OSError) else None}
     except MemoryError:
-        return Answer(refusal="out of memory", out_of_memory=True), []
+        return [], {"out_of_memory": True}
 
 
 def _expect_end(copy: int, ended: int, requests: IO[bytes], answers: IO[bytes]) -> None:
@@ -124,7 +113,7 @@ def _expect_end(copy: int, ended: int, requests: IO[bytes], answers: IO[bytes]) 
     code = os.waitstatus_to_exitcode(os.waitpid(copy, 0)[1])
     code = code if code >= 0 else 128 - code
     if not answered:
-        messages.send(answers, Answer(exit_code=code), [])
+        messages.send(answers, [], exit_code=code)
     elif code:
         os._exit(code)  # half an answer would run into the next one: whoever asks starts another process
 
