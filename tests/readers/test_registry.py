@@ -70,7 +70,9 @@ def stumbling(error: Exception, **told: Any) -> Format:
 
 
 @pytest.fixture
-def only(monkeypatch: pytest.MonkeyPatch) -> Callable[[Format], None]:
+def only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[Format], None]:
+    (tmp_path / "r.bin").write_bytes(b"1")
+
     def use(format: Format) -> None:
         monkeypatch.setattr(registry, "formats", lambda: {format.name: format})
 

@@ -4,14 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from pathlib import Path
 
-from colonnade.readers.binary.magic import head
+from colonnade.readers.head import Head
 from colonnade.readers.text.layout import header_claims
-from colonnade.readers.text.numbered import first_lines
-
-HEADER_LINES = 64
-"""As many as the longest of these headers has (ESM)."""
 
 LINE_NUMBER = slice(72, 74)
 """Columns in which USC numbers the lines of its header."""
@@ -30,23 +25,22 @@ MARKS = {b"MDF     ": MDF, b"UnFinMF ": MDF, b"DIAEXTENDED": DAT, "\ufeffDIAEXTE
 SPECTRA = re.compile(r"response (?:and|spectr)", re.IGNORECASE)
 
 
-def foreign_format(path: Path) -> str:
+def foreign_format(head: Head) -> str:
     """
     Say which known format a file has that is not read here, and what to do; empty if it has none.
 
     Parameters
     ----------
-    path : Path
+    head : Head
 
     Returns
     -------
     reason : str
         Of a strong-motion record with what the header says of interval and unit, which an export has to keep.
     """
-    start = head(path)
-    if reason := next((reason for mark, reason in MARKS.items() if start.startswith(mark)), ""):
+    if reason := next((reason for mark, reason in MARKS.items() if head.content.startswith(mark)), ""):
         return reason
-    lines = first_lines(path, HEADER_LINES)
+    lines = head.lines
     if len(lines) < 2:
         return ""
     network = next((name for name, looks in NETWORKS.items() if looks(lines)), "")

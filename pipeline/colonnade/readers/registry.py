@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from dataclasses import asdict, replace
 from functools import cache, partial
 from importlib import import_module
@@ -19,6 +18,7 @@ from colonnade.readers.bounded.process import Taken, run_bounded
 from colonnade.readers.bounded.recordings import recording_of, told
 from colonnade.readers.files import in_one_line, irregular, refusing, unreachable
 from colonnade.readers.format import Format, Recognition
+from colonnade.readers.head import Head, from_head, head_of
 from colonnade.readers.recording import Recording, Window
 from colonnade.readers.refused import retired
 
@@ -123,7 +123,8 @@ def companions(
     if format is not None:
         chosen = next((each for each in several if each.name == format), None)
     else:
-        chosen = next((each for each in several if _recognition(each, path).yes), None)
+        head = _head(path)
+        chosen = next((each for each in several if _recognition(each, head).yes), None)
     if chosen is None:
         return ()
     folder = path.resolve().parent if within is None else within.resolve()
@@ -224,14 +225,14 @@ def _named(name: str) -> Format:
 def _recognised(path: Path) -> tuple[Format, tuple[str]]:
     """Find the format of a file, with the reason."""
     refusals = []
-    with suppress(OSError):  # the first format that opens it says why
-        if path.stat().st_size == 0:
-            raise ReadError(
-                f"{path.name}: the file is empty (0 bytes): nothing was recorded, or a copy was interrupted. Put the "
-                "recording in its place."
-            )
+    head = _head(path)
+    if not head.content:
+        raise ReadError(
+            f"{path.name}: the file is empty (0 bytes): nothing was recorded, or a copy was interrupted. Put the "
+            "recording in its place."
+        )
     for format in formats().values():
-        recognition = _recognition(format, path)
+        recognition = _recognition(format, head)
         if recognition.yes:
             return format, (f'format "{format.name}" ({recognition.reason})',)
         if recognition.is_known:
@@ -239,19 +240,28 @@ def _recognised(path: Path) -> tuple[Format, tuple[str]]:
         refusals.append(f"  {format.name}: {recognition.reason}")
     raise ReadError(
         # What it is not as text comes last among the formats, and says most.
-        f"{path.name}: no format recognises this file.\n"
+        f"{path.name}: no format recognises this file{f': {what}' if (what := head.look()) else ''}.\n"
         + "\n".join(reversed(refusals))
         + '\n  If you know that it is one of these, name it: file = {format = "…"}.'
     )
 
 
-def _recognition(format: Format, path: Path) -> Recognition:
+def _head(path: Path) -> Head:
+    try:
+        return head_of(path)
+    except OSError as error:
+        raise ReadError(unreachable(path, error)) from error
+
+
+def _recognition(format: Format, head: Head) -> Recognition:
     """Ask a format about a file; one that stumbles over it does not take it."""
     try:
-        return format.recognise(path)
+        if isinstance(format.recognise, from_head):
+            return format.recognise.looks(head)
+        return format.recognise(head.path)
     except MemoryError:
         raise
     except Exception as error:
         if isinstance(error, OSError) and error.errno is not None:
-            raise ReadError(unreachable(path, error)) from error
+            raise ReadError(unreachable(head.path, error)) from error
         return Recognition(False, f"it could not be examined ({in_one_line(error)})")

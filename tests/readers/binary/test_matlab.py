@@ -235,7 +235,7 @@ def test_a_file_that_is_none_is_refused_with_what_it_is(tmp_path: Path, content:
     path = tmp_path / "a.mat"
     path.write_bytes(content)
     # Of an empty file no format is asked.
-    with pytest.raises(ReadError, match=f"matlab: .*{reason}" if content else f"^a.mat: {reason}"):
+    with pytest.raises(ReadError, match=reason):
         read(path)
     with pytest.raises(ReadError, match=reason):
         read(path, "matlab")

@@ -16,6 +16,7 @@ from colonnade.errors import ReadError
 from colonnade.readers.binary.stored_numbers import Bytes, StoredNumbers, values_at
 from colonnade.readers.clock import RISING_SHARE, TIME_NAME, even_times, moment_after, rising_share
 from colonnade.readers.format import Format, Options, Recognition
+from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 
 VERSIONS = range(5010, 5100)
@@ -68,14 +69,13 @@ class _Fields:
         return self.counted(self.take(length_form)).decode("cp1252", errors="replace").strip("\0 ")
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether the first bytes are a catman version and an offset within the file."""
-    with path.open("rb") as stream:
-        head = stream.read(8)
-        size = stream.seek(0, 2)
-    if len(head) == 8:
-        version, offset, _ = struct.unpack("<hih", head)
-        if version in VERSIONS and 80 < offset <= max(size, 1 << 16) and head[6:8] < b"\xff\xff":
+    first, size = head.content[:8], head.path.stat().st_size
+    if len(first) == 8:
+        version, offset, _ = struct.unpack("<hih", first)
+        if version in VERSIONS and 80 < offset <= max(size, 1 << 16) and first[6:8] < b"\xff\xff":
             return Recognition(True, f"it starts with catman's version {version} and the offset of its values")
     return Recognition(False, "it does not start with a version of catman's binary format")
 

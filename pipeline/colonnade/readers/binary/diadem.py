@@ -10,10 +10,10 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from colonnade.errors import ReadError
-from colonnade.readers.binary.magic import ZIP
 from colonnade.readers.binary.stored_numbers import StoredNumbers, beside, name_beside, read_stored
 from colonnade.readers.clock import even_times, find_clocks
 from colonnade.readers.format import Format, Options, Recognition
+from colonnade.readers.head import ZIP, Head, from_head, head_of
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.refused import foreign_format
 
@@ -30,13 +30,13 @@ REFERENCE = re.compile(r'id\("([^"]+)"\)')
 Objects = dict[str, ElementTree.Element]
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether a file is the header of a DIAdem data set."""
-    with path.open("rb") as stream:
-        head = stream.read(4096)
-    if head.startswith(ZIP) and b"header.xml" in head[:200]:
+    first, path = head.content[:4096], head.path
+    if first.startswith(ZIP) and b"header.xml" in first[:200]:
         return Recognition(True, "an archive with the header.xml of a .TDM")
-    if head.lstrip(b"\xef\xbb\xbf").startswith(b"<?xml") and b"<usi:tdm" in head:
+    if first.lstrip(b"\xef\xbb\xbf").startswith(b"<?xml") and b"<usi:tdm" in first:
         return Recognition(True, "XML of a .TDM")
     if path.suffix.casefold() == ".tdx":
         headers = [entry.name for entry in path.parent.glob(f"{path.stem}.*") if entry.suffix.casefold() == ".tdm"]
@@ -90,7 +90,7 @@ def stored_channels(path: Path) -> tuple[list[StoredNumbers], list[str]]:
     ReadError
         If it is not whole XML, or too large.
     """
-    if reason := foreign_format(path):
+    if reason := foreign_format(head_of(path)):
         raise ReadError(f"{path.name}: {reason}")
     try:
         root = ElementTree.fromstring(_content(path))

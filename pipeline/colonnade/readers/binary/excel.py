@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 from pydantic import Field, TypeAdapter
 
 from colonnade.errors import ReadError, nearest
-from colonnade.readers.binary.magic import OLE, ZIP, head, look
 from colonnade.readers.bounded.process import run_bounded
 from colonnade.readers.files import in_one_line
 from colonnade.readers.format import Format, Recognition
+from colonnade.readers.head import OLE, ZIP, Head, from_head
 from colonnade.readers.recording import Recording
 from colonnade.readers.text.delimited import read_text
 from colonnade.readers.text.delimited_header import DelimitedOptions
@@ -39,20 +39,18 @@ class ExcelOptions(TableOptions):
     )
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether a file is a workbook, by its first bytes and what its archive holds."""
     import zipfile
 
-    first = head(path)
+    first = head.content
     if first.startswith(OLE):
         return Recognition(True, "starts as a workbook of Excel 97 to 2003, or another old Office document")
     if not first.startswith(ZIP):
-        what = look(first)
-        return Recognition(
-            False, "it does not start as a workbook of Excel or OpenDocument" + (f"; {what}" if what else "")
-        )
+        return Recognition(False, "it does not start as a workbook of Excel or OpenDocument")
     try:
-        with zipfile.ZipFile(path) as archive:
+        with zipfile.ZipFile(head.path) as archive:
             names = set(archive.namelist())
     except (zipfile.BadZipFile, ValueError, NotImplementedError) as error:
         is_workbook = b"xl/" in first or b"spreadsheet" in first or b"[Content_Types].xml" in first
@@ -75,7 +73,7 @@ def read(path: Path, options: ExcelOptions) -> Recording:
     ReadError
         If it is none, is damaged, holds no rows of numbers, or lacks what the options name.
     """
-    _expect_workbook(path)
+    recognise.expected(path)
     rows, note = _sheet(path, options.sheet)
     text = Text(path, Encoding("utf-8", ""), "".join(f"{line}\n" for line in _lines(rows)))
     given = options.model_dump(exclude={"sheet"}, exclude_unset=True)
@@ -103,7 +101,7 @@ def cells_of_first_sheet(path: Path) -> list[list[str]]:
 
 def cells_here(path: Path) -> tuple[list[list[str]], list[Any]]:
     """Read the cells of a workbook's first sheet in this process, for another one."""
-    _expect_workbook(path)
+    recognise.expected(path)
     return [[_typed(cell) for cell in row] for row in _sheet(path, 1)[0]], []
 
 
@@ -124,12 +122,6 @@ def _typed(cell: object) -> str:
     if isinstance(cell, (date, time)):
         return cell.isoformat()
     return cell if isinstance(cell, str) else _plain(cell)
-
-
-def _expect_workbook(path: Path) -> None:
-    recognition = recognise(path)
-    if not recognition.yes:
-        raise ReadError(f"{path.name}: {recognition.reason}.")
 
 
 def _of_rows(text: str) -> str:

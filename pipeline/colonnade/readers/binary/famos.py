@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.readers.binary.magic import by_mark
 from colonnade.readers.binary.stored_numbers import Bytes, StoredNumbers, values_at
 from colonnade.readers.clock import even_times, moment_after
 from colonnade.readers.format import Format, Options, Recognition
+from colonnade.readers.head import Head, by_mark, from_head
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 
 SIGNATURE = b"|CF,"
@@ -98,9 +98,10 @@ class _Parameters:
             self.text()
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether the first bytes are those of a FAMOS file."""
-    return by_mark(path, (SIGNATURE,), '"|CF,", the mark of imc FAMOS')
+    return by_mark(head, (SIGNATURE,), '"|CF,", the mark of imc FAMOS')
 
 
 def read(path: Path, options: Options) -> Recording:

@@ -8,13 +8,13 @@ from pathlib import Path
 from pydantic import Field
 
 from colonnade.errors import ReadError, nearest
-from colonnade.readers.binary.magic import HDF5, head, look
 from colonnade.readers.binary.matlab_5 import read_v5
 from colonnade.readers.binary.matlab_73 import read_v73
 from colonnade.readers.binary.matlab_columns import Node, Tree, find_columns, lacking_channels, numbered_channels
 from colonnade.readers.binary.vectors import ClockOptions, find_clocks, named, recorded
 from colonnade.readers.clock import given_clock
 from colonnade.readers.format import Format, Recognition
+from colonnade.readers.head import HDF5, Head, from_head
 from colonnade.readers.recording import Recording
 
 MARK = b"MATLAB "
@@ -28,9 +28,10 @@ class MatlabOptions(ClockOptions):
     variables: tuple[str, ...] = Field(default=(), description="Variables to read; by default all of them.")
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether a file is MATLAB's, by its first bytes."""
-    first = head(path)
+    first = head.content
     if first[USER_BLOCK:].startswith(HDF5) and first.startswith(MARK):
         return Recognition(True, "starts as a MATLAB file of version 7.3")
     if first.startswith(MARK) and first[126:128] in (b"IM", b"MI"):
@@ -39,10 +40,9 @@ def recognise(path: Path) -> Recognition:
         return Recognition(
             False, f"it starts like a MATLAB file, but its header is damaged or cut off ({len(first)} bytes)"
         )
-    what = look(first)
-    if not what and path.suffix.casefold() == ".mat":
-        what = "if it is one of version 4, open it in MATLAB and save it again"
-    return Recognition(False, 'it does not start with "MATLAB 5.0" or "MATLAB 7.3"' + (f"; {what}" if what else ""))
+    is_old = head.path.suffix.casefold() == ".mat" and not head.look()
+    what = "; if it is one of version 4, open it in MATLAB and save it again" if is_old else ""
+    return Recognition(False, f'it does not start with "MATLAB 5.0" or "MATLAB 7.3"{what}')
 
 
 def read(path: Path, options: MatlabOptions) -> Recording:
@@ -54,10 +54,8 @@ def read(path: Path, options: MatlabOptions) -> Recording:
     ReadError
         If it is not MATLAB's, is damaged, holds no column of numbers, or lacks a variable that the options name.
     """
-    recognition = recognise(path)
-    if not recognition.yes:
-        raise ReadError(f"{path.name}: {recognition.reason}.")
-    tree = read_v73(path) if head(path)[USER_BLOCK:].startswith(HDF5) else read_v5(path)
+    first = recognise.expected(path).content
+    tree = read_v73(path) if first[USER_BLOCK:].startswith(HDF5) else read_v5(path)
     chosen = _chosen(path, tree, options.variables)
     others, columns, scalars, notes = numbered_channels(chosen)
     found = find_columns(others)

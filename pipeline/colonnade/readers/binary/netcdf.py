@@ -16,10 +16,10 @@ from pydantic import Field
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.binary.hdf5 import Walk, open_hdf5
-from colonnade.readers.binary.magic import HDF5, NETCDF, by_mark, head
 from colonnade.readers.binary.vectors import ClockOptions, Column, UnreadableError, find_clocks, named, recorded
 from colonnade.readers.clock import Clocks, given_clock
 from colonnade.readers.format import Format, Recognition
+from colonnade.readers.head import HDF5, NETCDF, Head, by_mark, from_head
 from colonnade.readers.recording import TIME_UNITS, Recording
 
 if TYPE_CHECKING:
@@ -186,9 +186,10 @@ class NetcdfOptions(ClockOptions):
     group: str | None = Field(default=None, description="Read only this group and those in it.")
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether a file is NetCDF or HDF5, by its first bytes."""
-    return by_mark(path, (*NETCDF, HDF5), "the mark of NetCDF or HDF5")
+    return by_mark(head, (*NETCDF, HDF5), "the mark of NetCDF or HDF5")
 
 
 def read(path: Path, options: NetcdfOptions) -> Recording:
@@ -200,10 +201,8 @@ def read(path: Path, options: NetcdfOptions) -> Recording:
     ReadError
         If it is neither, is damaged, holds no column of numbers, or lacks a group or variable that the options name.
     """
-    recognition = recognise(path)
-    if not recognition.yes:
-        raise ReadError(f"{path.name}: {recognition.reason}.")
-    content = read_classic(path) if head(path).startswith(NETCDF) else read_hdf5(path)
+    is_classic = recognise.expected(path).content.startswith(NETCDF)
+    content = read_classic(path) if is_classic else read_hdf5(path)
     within = "" if options.group is None else options.group.strip("/") + "/"
     variables = [each for each in content.variables if each.path.startswith(within)]
     columns, left_out = _columns(variables)

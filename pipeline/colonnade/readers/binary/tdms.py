@@ -14,10 +14,10 @@ import numpy as np
 from pydantic import Field
 
 from colonnade.errors import ReadError, nearest
-from colonnade.readers.binary.magic import by_mark
 from colonnade.readers.binary.tdms_clocks import NO_TIMING, Column, beginnings, on_clocks, waveform
 from colonnade.readers.binary.vectors import ClockOptions, as_values
 from colonnade.readers.format import Format, Recognition
+from colonnade.readers.head import Head, by_mark, from_head
 from colonnade.readers.recording import RecordedChannel, Recording, Window
 from colonnade.readers.text.heading import take_apart
 
@@ -141,9 +141,10 @@ class TdmsOptions(ClockOptions):
     group: str | None = Field(default=None, description="Read only this group; by default all of them.")
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether a file is TDMS."""
-    return by_mark(path, (b"TDSm",), "TDSm, the mark of LabVIEW's TDMS")
+    return by_mark(head, (b"TDSm",), "TDSm, the mark of LabVIEW's TDMS")
 
 
 def read(path: Path, options: TdmsOptions) -> Recording:
@@ -173,9 +174,7 @@ def read_window(path: Path, options: TdmsOptions, window: Window) -> Recording:
 def _recording(path: Path, options: TdmsOptions, window: Window | None) -> Recording:
     from nptdms import TdmsFile
 
-    recognition = recognise(path)
-    if not recognition.yes:
-        raise ReadError(f"{path.name}: {recognition.reason}.")
+    recognise.expected(path)
     ending = walk(path)
     with _BoundedStream(path) as stream:
         file = _open(path, stream)

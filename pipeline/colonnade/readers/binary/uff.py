@@ -15,6 +15,7 @@ from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times
 from colonnade.readers.format import Format, Options, Recognition
+from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 from colonnade.readers.text.numbered import read_running
 
@@ -42,7 +43,7 @@ DIRECTIONS = {
 
 
 @dataclass(frozen=True)
-class Head:
+class Function:
     """What the eleven lines of a data set 58 say (records 6 to 9 of its definition)."""
 
     name: str
@@ -57,18 +58,17 @@ class Head:
     time_unit: str
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether the first lines open a data set: one of any number, if they are written as universal files are."""
-    with path.open("rb") as stream:
-        head = stream.read(1 << 16)
-    lines = [line.strip() for line in head.split(b"\n")]
+    lines = [line.strip() for line in head.content.split(b"\n")]
     opened = lines[0] == b"-1" and len(lines) > 1
     if opened and lines[1].split(b" ")[0] in (b"58", b"58b"):
         return Recognition(True, "it opens with a data set 58")
     found = opened and any(one == b"-1" and two.split(b" ")[0] in (b"58", b"58b") for one, two in pairwise(lines))
     if found:
         return Recognition(True, "it opens with -1 and holds a data set 58")
-    if opened and OPENING.match(head) and int(lines[1]) in KNOWN_SETS:
+    if opened and OPENING.match(head.content) and int(lines[1]) in KNOWN_SETS:
         return Recognition(True, f"it opens with -1 and a data set {int(lines[1])}")
     return Recognition(False, "it does not open with -1 and the number of a data set")
 
@@ -156,7 +156,7 @@ def _function(
     return RecordedChannel(head.name, head.unit or None, values, time)
 
 
-def _head(lines: list[str]) -> Head:
+def _head(lines: list[str]) -> Function:
     """Take the eleven lines apart, by their columns."""
     kinds, sizes, abscissa, ordinate = lines[5], lines[6].split(), lines[7], lines[8]
     points = int(sizes[1])
@@ -165,7 +165,7 @@ def _head(lines: list[str]) -> Head:
     direction = DIRECTIONS.get(int(kinds[51:55] or 0), "")
     node = f"{kinds[31:41].strip()} {kinds[41:51].strip()} {direction}".replace("NONE", "").strip()
     title = lines[0].strip()
-    return Head(
+    return Function(
         name=title if title and title.upper() != "NONE" else f"node {node}",
         unit=_label(ordinate[46:66]),
         function=int(kinds[:5]),
@@ -192,7 +192,7 @@ def _label(text: str) -> str:
     return "" if bare.upper() == "NONE" else bare
 
 
-def _text(stream: BinaryIO, head: Head) -> tuple[Array, list[str]]:
+def _text(stream: BinaryIO, head: Function) -> tuple[Array, list[str]]:
     """Read the numbers of a text, up to the line that closes the data set."""
 
     def lines() -> Iterator[tuple[int, str]]:
@@ -206,7 +206,7 @@ def _text(stream: BinaryIO, head: Head) -> tuple[Array, list[str]]:
     return read_running(lines())
 
 
-def _binary(stream: BinaryIO, fields: list[str], head: Head) -> Array:
+def _binary(stream: BinaryIO, fields: list[str], head: Function) -> Array:
     """Read binary numbers; uneven abscissae are in single precision."""
     order, size = BYTE_ORDERS.get(fields[1]), int(fields[4])
     if order is None or fields[2] != IEEE or size < 0:

@@ -18,6 +18,7 @@ from colonnade.errors import ReadError, nearest
 from colonnade.readers.clock import even_times
 from colonnade.readers.files import refusing
 from colonnade.readers.format import Format, Options, Recognition
+from colonnade.readers.head import Head, from_head, head_of
 from colonnade.readers.recording import RecordedChannel, Recording
 
 READERS = {
@@ -33,7 +34,6 @@ READERS = {
     "WAV": "obspy.io.wav.core:_read_wav",
 }
 """ObsPy's functions by kind; none follows what a file says to another file, or runs what it holds."""
-HEAD = 640
 LONGEST_STEP = 1e5
 """Seconds; a header with a larger one is none of SAC's."""
 STARTS = {
@@ -63,9 +63,10 @@ class WaveformOptions(Options):
     )
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether the first bytes are those of a seismic format."""
-    kind = kind_of_waveform(path)
+    kind = kind_of_waveform(head)
     if kind is not None:
         return Recognition(True, f"its first bytes are those of {kind}")
     return Recognition(False, "its first bytes match no seismic format that is read")
@@ -111,7 +112,7 @@ def read(path: Path, options: WaveformOptions) -> Recording:
     return Recording(path, "waveform", tuple(channels), start, tuple(dict.fromkeys(notes)), tuple(told))
 
 
-def kind_of_waveform(path: Path) -> str | None:
+def kind_of_waveform(head: Head) -> str | None:
     """
     Name the kind of a seismic file.
 
@@ -121,18 +122,17 @@ def kind_of_waveform(path: Path) -> str | None:
         As ObsPy calls it; None if the first bytes are none of those known here. Other kinds that ObsPy reads have
         no sign that separates them from text or noise.
     """
-    with path.open("rb") as stream:
-        head = stream.read(HEAD)
+    first = head.content
     for start, kind in STARTS.items():
-        if head.startswith(start):
+        if first.startswith(start):
             return kind
-    if head.startswith(b"TIMESERIES "):
-        first = head.split(b"\n", 1)[0]
+    if first.startswith(b"TIMESERIES "):
+        first = first.split(b"\n", 1)[0]
         return next((kind for kind in ("SLIST", "TSPAIR") if kind.encode() in first), None)
-    if head.startswith(b"RIFF") and head[8:12] == b"WAVE":
+    if first.startswith(b"RIFF") and first[8:12] == b"WAVE":
         return "WAV"
     for looks, kind in ((_is_mini_seed, "MSEED"), (_is_kinemetrics, "KINEMETRICS_EVT"), (_is_sac, "SAC")):
-        if looks(head):
+        if looks(first):
             return kind
     return None
 
@@ -172,7 +172,7 @@ def _is_sac(head: bytes) -> bool:
 
 
 def _kind(path: Path, options: WaveformOptions) -> str:
-    kind = (options.kind or kind_of_waveform(path) or "").upper()
+    kind = (options.kind or kind_of_waveform(head_of(path)) or "").upper()
     if not kind:
         raise ReadError(
             f'{path.name}: its first bytes do not show its format. Give it, for example kind = "SAC"; '

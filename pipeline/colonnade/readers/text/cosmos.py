@@ -15,8 +15,9 @@ from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times, moment_after
 from colonnade.readers.format import Format, Options, Recognition
+from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.numbered import NumberedLines, first_lines, read_running, shortage
+from colonnade.readers.text.numbered import NumberedLines, read_running, shortage
 from colonnade.readers.text.peer import spelled
 
 RAW_COUNTS = re.compile(r"\s*Raw\b", re.IGNORECASE)
@@ -52,10 +53,10 @@ class Part:
     start: datetime | None
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether the first line gives a version of the COSMOS format."""
-    head = first_lines(path, 1)
-    if head and FIRST_LINE.search(head[0]):
+    if FIRST_LINE.search(head.first_line):
         return Recognition(True, "the first line gives a version of the COSMOS format")
     return Recognition(False, 'the first line does not give "(Format v… with … text lines)"')
 

@@ -10,6 +10,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.format import Format, Recognition
+from colonnade.readers.head import Head, from_head, head_of
 from colonnade.readers.recording import TIME_UNITS, Recording, Window
 from colonnade.readers.refused import foreign_format
 from colonnade.readers.text.cells import WHITESPACE
@@ -22,10 +23,12 @@ from colonnade.readers.text.rows import Rows, Stretch, read_rows
 from colonnade.readers.text.table import Table
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether a file is text with rows of numbers, and not in a known format that is not read here."""
-    if reason := foreign_format(path):
+    if reason := foreign_format(head):
         return Recognition(False, reason, is_known=True)
+    path = head.path
     try:
         header = read_header(text_of(path), DelimitedOptions())
     except ReadError as error:
@@ -52,7 +55,7 @@ def read(path: Path, options: DelimitedOptions, window: Window | None = None) ->
         whether rows are samples of several channels or pieces of one series. If it is a strong-motion record in a
         format that is not read, unless the options say how many lines to skip.
     """
-    if not options.skip_rows and (reason := foreign_format(path)):
+    if not options.skip_rows and (reason := foreign_format(head_of(path))):
         raise ReadError(f"{path.name}: {reason}")
     return read_text(text_of(path, options.encoding), options, window)
 

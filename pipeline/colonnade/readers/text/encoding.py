@@ -38,13 +38,14 @@ class Encoding:
 
 
 def detect_encoding(path: Path) -> Encoding:
-    """
-    Find a text file's encoding from its head.
+    """Find a text file's encoding; OSError if it cannot be opened."""
+    with path.open("rb") as stream:
+        return encoding_of(stream.read(HEAD_BYTES))
 
-    Parameters
-    ----------
-    path : Path
-        The file; OSError if it cannot be opened.
+
+def encoding_of(head: bytes) -> Encoding:
+    """
+    Find a text's encoding from its first bytes.
 
     Returns
     -------
@@ -52,8 +53,6 @@ def detect_encoding(path: Path) -> Encoding:
         By a byte order mark; else UTF-16 where every second byte is zero; else UTF-8 where that is valid; else
         Windows-1252, the extension of Latin-1 that loggers on Windows write.
     """
-    with path.open("rb") as stream:
-        head = stream.read(HEAD_BYTES)
     # A block of zeros at the end is what a power failure leaves; it says nothing of the encoding.
     head = head.rstrip(b"\0") or head
     for mark, name in BYTE_ORDER_MARKS:

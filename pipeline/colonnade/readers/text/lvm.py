@@ -14,12 +14,13 @@ from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.clock import even_times, moment_after
 from colonnade.readers.format import Format, Recognition
+from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.text.cells import Dialect
 from colonnade.readers.text.damage import mend
 from colonnade.readers.text.encoding import TextOptions, ends_within_line, pieces_of_lines
 from colonnade.readers.text.heading import take_apart
-from colonnade.readers.text.numbered import NumberedLines, first_lines
+from colonnade.readers.text.numbered import NumberedLines
 from colonnade.readers.text.rows import RowForm, filled_length, read_rows
 
 END_OF_HEADER = "***End_of_Header***"
@@ -190,10 +191,10 @@ Piece = tuple[RecordedChannel, datetime | None]
 """A column's samples in one segment, and when it began; their times, if x is a time, count from there."""
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether the first line is that of a LabVIEW measurement file."""
-    head = first_lines(path, 1)
-    if head and head[0].startswith(SIGNATURE):
+    if head.first_line.startswith(SIGNATURE):
         return Recognition(True, f'the first line is "{SIGNATURE}"')
     return Recognition(False, f'the first line is not "{SIGNATURE}"')
 

@@ -16,12 +16,13 @@ from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.clock import RISING_SHARE, moment_after, rising_share
 from colonnade.readers.format import Format, Recognition
+from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 from colonnade.readers.text.cells import WHITESPACE, Dialect, is_timestamp
 from colonnade.readers.text.damage import mend
 from colonnade.readers.text.encoding import TextOptions, ends_within_line, pieces_of_lines
 from colonnade.readers.text.heading import looks_like_unit
-from colonnade.readers.text.numbered import NumberedLines, first_lines
+from colonnade.readers.text.numbered import NumberedLines
 from colonnade.readers.text.rows import RowForm, read_rows
 
 SIGNATURE = "MTS793|"
@@ -62,10 +63,10 @@ class Block:
         return self.columns[0].size
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether the first line is that of an MTS 793 text."""
-    head = first_lines(path, 1)
-    if head and head[0].lstrip('"').startswith(SIGNATURE):
+    if head.first_line.lstrip('"').startswith(SIGNATURE):
         return Recognition(True, f'the first line starts with "{SIGNATURE}"')
     return Recognition(False, f'the first line does not start with "{SIGNATURE}"')
 

@@ -92,25 +92,6 @@ class NumberedLines:
             yield self.number, line
 
 
-def first_lines(path: Path, count: int) -> list[str]:
-    """
-    Read the first lines of what may be a text.
-
-    Returns
-    -------
-    lines : list of str
-        At most `count`; none if the first line is longer than any text's.
-    """
-    found: list[str] = []
-    with NumberedLines(path) as lines:
-        try:
-            while len(found) < count and (line := lines.take()) is not None:
-                found.append(line)
-        except ReadError:
-            pass
-    return found
-
-
 FREE = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?")
 SHOWN = 50
 

@@ -11,8 +11,9 @@ from colonnade import units
 from colonnade.errors import ReadError, UnitError
 from colonnade.readers.clock import even_times
 from colonnade.readers.format import Format, Options, Recognition
+from colonnade.readers.head import Head, from_head, head_of
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.readers.text.numbered import NumberedLines, first_lines, read_running, shortage
+from colonnade.readers.text.numbered import NumberedLines, read_running, shortage
 
 
 def spelled(unit: str) -> str:
@@ -46,9 +47,10 @@ UNITS = re.compile(
 QUANTITIES = (("ACCEL", "acceleration"), ("VELOCITY", "velocity"), ("DISPL", "displacement"))
 
 
-def recognise(path: Path) -> Recognition:
+@from_head
+def recognise(head: Head) -> Recognition:
     """Say whether one of the first lines gives NPTS and DT."""
-    above, _ = _header(path)
+    above, _ = _header(head)
     if not above:
         return Recognition(False, f"none of the first {HEADER_LINES} lines gives NPTS and DT")
     return Recognition(True, f"line {len(above)} gives NPTS and DT")
@@ -63,7 +65,7 @@ def read(path: Path, options: Options) -> Recording:
     ReadError
         If NPTS and DT are not given or no numbers follow.
     """
-    above, size = _header(path)
+    above, size = _header(head_of(path))
     if size is None:
         raise ReadError(
             f"{path.name}: none of the first {HEADER_LINES} lines gives the number of points and the step; "
@@ -88,9 +90,9 @@ def read(path: Path, options: Options) -> Recording:
     return Recording(path, "peer", (channel,), notes=notes, warnings=tuple(warnings))
 
 
-def _header(path: Path) -> tuple[list[str], re.Match[str] | None]:
+def _header(head: Head) -> tuple[list[str], re.Match[str] | None]:
     """Lines down to the one that gives points and step, and what it says; no line if none does."""
-    lines = first_lines(path, HEADER_LINES)
+    lines = head.lines[:HEADER_LINES]
     for number, line in enumerate(lines, 1):
         for spelling in SIZES:
             if found := spelling.search(line):

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from colonnade.readers.binary.magic import by_mark, head, look
+from colonnade.errors import ReadError
+from colonnade.readers.head import BYTES, Head, by_mark, from_head, head_of
 
 
 @pytest.mark.parametrize(
@@ -25,17 +26,29 @@ from colonnade.readers.binary.magic import by_mark, head, look
     ids=["empty", "zeros", "web page", "git-lfs", "index", "gzip", "pickle", "text"],
 )
 def test_a_file_that_is_something_else_is_called_by_its_name(first: bytes, what: str) -> None:
-    found = look(first)
+    found = Head(Path("a"), first).look()
     assert what in found
     assert bool(found) == bool(what)
 
 
 def test_a_file_is_recognised_by_any_of_its_marks(tmp_path: Path) -> None:
     path = tmp_path / "a"
-    path.write_bytes(b"MARK2" + bytes(10_000))
-    assert len(head(path)) < 1000
-    assert by_mark(path, (b"MARK1", b"MARK2"), "a mark").yes
-    refused = by_mark(path, (b"MARK1",), "a mark")
-    assert (refused.yes, refused.reason) == (False, "it does not start with a mark")
+    path.write_bytes(b"MARK2" + bytes(2 * BYTES))
+    head = head_of(path)
+    assert len(head.content) == BYTES
+    assert by_mark(head, (b"MARK1", b"MARK2"), "a mark").yes
+    recognise = from_head(lambda head: by_mark(head, (b"MARK1",), "a mark"))
+    assert recognise(path).reason == "it does not start with a mark"
     path.write_bytes(b"%PDF-1.4")
-    assert by_mark(path, (b"MARK1",), "a mark").reason == "it does not start with a mark; it is a PDF"
+    with pytest.raises(ReadError, match="a: it does not start with a mark; it is a PDF"):
+        recognise.expected(path)
+
+
+def test_the_first_lines_are_text_of_whatever_encoding(tmp_path: Path) -> None:
+    lines = [f"Prüfung {number}" for number in range(100)]
+    for encoding in ("utf-8", "utf-8-sig", "utf-16", "cp1252"):
+        head = Head(Path("a"), "\r\n".join(lines).encode(encoding))
+        assert head.lines == lines[:64]
+        assert head.first_line == lines[0]
+    assert Head(Path("a"), b"1" * BYTES).lines == []
+    assert Head(Path("a"), b"").first_line == ""
