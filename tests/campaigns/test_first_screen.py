@@ -242,6 +242,29 @@ TABLE = {
 }
 """Mistakes of the table's accelerometer: three sizes, how each is planted, the finding."""
 
+
+def _gains(factor):
+    def plant(folder):
+        path = folder / "campaign.toml"
+        gain = r'(?<=gain = ")[\d.]+(?= mm/V".* on = "specimen")'
+        scaled = re.sub(gain, lambda found: f"{factor * float(found[0]):.6g}", path.read_text(encoding="utf-8"))
+        path.write_text(scaled, encoding="utf-8")
+
+    return plant
+
+
+CONTRADICTED = {
+    **{f"all gains x {factor}": _gains(factor) for factor in (1.04, 1.08, 1.4)},
+    **{f"width {width} mm": _in_campaign(('width = "86 mm"', f'width = "{width} mm"')) for width in (90, 94, 120)},
+    "cylinder": _in_campaign(
+        ('shape = "prism", width = "86 mm", depth = "86 mm"', 'shape = "cylinder", diameter = "97 mm"')
+    ),
+}
+"""What a free vibration contradicts and a shaken test uses: how each is planted."""
+
+SILENT = 4.2
+"""s, in which the quake hardly rocks, and contradicts nothing by itself."""
+
 SOUND = {"saturated under noise", "another block", "wrapped rows", "copied folder", "one file twice"}
 """Their free vibration is sound, so that its e takes its time and adds nothing: whole only in `make slow`."""
 
@@ -265,6 +288,27 @@ def test_a_mistake_of_the_table_is_on_the_first_screen_at_any_size(
     assert re.search(expected, screen), screen
     first = re.search(r"^serious .*", screen, re.MULTILINE)
     assert first is None or re.search(expected, first[0]), screen
+
+
+@pytest.mark.parametrize("mistake", CONTRADICTED)
+@pytest.mark.parametrize(
+    "command", [("check",), ("run", "--until", "condition", "--workers", "1")], ids=["check", "run"]
+)
+def test_a_shaken_test_is_told_what_its_free_vibration_contradicts(
+    command, mistake, sound, tmp_path, capsys, monkeypatch
+):
+    monkeypatch.setenv("COLUMNS", "400")
+    folder = tmp_path / "campaign"
+    shutil.copytree(sound, folder)
+    _in_campaign(('id = "quake"', f'id = "quake"\nwindow = ["0 s", "{SILENT} s"]'))(folder)
+    CONTRADICTED[mistake](folder)
+    invoke((command[0], str(folder), *command[1:]))
+    screen = "\n".join(capsys.readouterr().out.splitlines()[:SCREEN])
+    assert re.search(
+        r"(serious|warning) \(gain\): campaign file: free contradicts sizes or gains that it shares with quake, whose "
+        r"θ/α is off for the same cause\. Channels top and bottom all show .*would make them agree",
+        screen,
+    ), screen
 
 
 @pytest.mark.parametrize(

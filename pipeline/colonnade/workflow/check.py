@@ -15,6 +15,7 @@ from colonnade.interruption import expect_none
 from colonnade.readers.recording import Recording
 from colonnade.store.results import models_of
 from colonnade.workflow.copies import digests_of_equal_sizes, with_copies
+from colonnade.workflow.pooling import with_contradictions
 from colonnade.workflow.publishing.photos import unshown_photos
 
 
@@ -54,7 +55,7 @@ class CampaignCheck:
     Attributes
     ----------
     campaign : Campaign
-        With a warning of raw files that are copies.
+        With a warning of raw files that are copies, and of free vibrations that contradict what shaken tests use.
     tests : dict of str to Checked
     assessments : dict of str to Checked
     """
@@ -120,12 +121,15 @@ def check(campaign: Campaign, progress: Callable[[int, int], None] = lambda done
             found[name] = Checked(findings=[note("planned", f"{awaited}. This planned test has not been run yet.")])
         else:
             found[name] = _checked(campaign, test, reading)
+    campaign = with_contradictions(campaign, {name: each.findings for name, each in found.items()})
+    for name, each in found.items():
+        each.concerning = campaign.concerning(name)
     assessments = {name: _records_checked(asked) for name, asked in campaign.assessments.items()}
     return CampaignCheck(campaign, found, assessments)
 
 
 def _checked(campaign: Campaign, test: Test, reading: Reading) -> Checked:
-    checked = Checked(concerning=campaign.concerning(test.id))
+    checked = Checked()
     recordings: dict[str, Recording] = {}
     for recorder, path in test.files.items():
         try:

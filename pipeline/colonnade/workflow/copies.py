@@ -33,7 +33,7 @@ def _shared(campaign: Campaign) -> Iterator[Finding]:
     for (shared, _), tests in named.items():
         same = [each for each in tests if any(_overlap(campaign, each, other) for other in tests if other != each)]
         if same:
-            again.setdefault(_listed(same), []).append(shared)
+            again.setdefault(listed(same), []).append(shared)
     for tests_of, paths in again.items():
         yield serious(
             "copied file",
@@ -74,11 +74,12 @@ def _copies(digests: Digests) -> Iterator[Finding]:
         yield serious(
             "copied file",
             f"{are} the same bytes as that of another test: {named}{more}. Was a folder copied and not yet filled with "
-            f"its own recordings? Put them in their place, or delete the entries of {_listed(list(tests))}.",
+            f"its own recordings? Put them in their place, or delete the entries of {listed(list(tests))}.",
         )
 
 
-def _listed(tests: list[str]) -> str:
+def listed(tests: list[str]) -> str:
+    """Name the first of some tests, and count the others."""
     return ", ".join(tests[:NAMED]) + (f" and {len(tests) - NAMED} more tests" if len(tests) > NAMED else "")
 
 

@@ -1,16 +1,73 @@
-"""The e of each specimen that predictions use."""
+"""What the free vibrations of a specimen tell its other tests: their e, and that sizes or gains are wrong."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from math import isclose
 from typing import TYPE_CHECKING
 
-from colonnade.campaign import Campaign
+from colonnade.campaign import Campaign, Test
 from colonnade.errors import StoreError
+from colonnade.findings import Finding, Severity
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.workflow.copies import listed
 
 if TYPE_CHECKING:
     import xarray as xr
+
+CALIBRATED = 0.05
+"""Relative difference of two gains up to which they are those of one transducer."""
+
+
+def with_contradictions(campaign: Campaign, found: Mapping[str, Iterable[Finding]]) -> Campaign:
+    """
+    Return the campaign, with a finding where free vibrations contradict sizes or gains of shaken tests that are silent.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    found : mapping of str to iterable of Finding
+        What the stage `condition` found, by test.
+    """
+    return replace(campaign, warnings=(*campaign.warnings, *_contradictions(campaign, found)))
+
+
+def _contradictions(campaign: Campaign, found: Mapping[str, Iterable[Finding]]) -> Iterator[Finding]:
+    said = {name: next(filter(_is_of_scale, findings), None) for name, findings in found.items()}
+    free = [name for name in said if campaign.tests[name].kind == "free-vibration"]
+    silent: dict[str, list[str]] = {}
+    for name in said.keys() - free:
+        test = campaign.tests[name]
+        like = [each for each in free if _shares(campaign, test, campaign.tests[each])]
+        against = [each for each in like if said[each]]
+        if said[name] is None and 2 * len(against) > len(like):
+            silent.setdefault(against[0], []).append(name)
+    for witness, tests in silent.items():
+        finding = said[witness]
+        assert finding is not None
+        yield replace(
+            finding,
+            text=f"{witness} contradicts sizes or gains that it shares with {listed(sorted(tests))}, whose θ/α is off "
+            f"for the same cause. {finding.text}",
+            about=f"specimens.{campaign.tests[witness].specimen}",
+        )
+
+
+def _is_of_scale(finding: Finding) -> bool:
+    return finding.kind in ("gain", "specimen") and finding.severity is not Severity.NOTE
+
+
+def _shares(campaign: Campaign, test: Test, other: Test) -> bool:
+    """Whether two tests are of one specimen, and of transducers with the same places and gains."""
+    here, there = (campaign.channels(one) for one in (test, other))
+    both = [name for name in here.keys() & there.keys() if here[name].on == there[name].on == "specimen"]
+    same = (
+        here[name].at == there[name].at and isclose(here[name].factor, there[name].factor, rel_tol=CALIBRATED)
+        for name in both
+    )
+    return test.specimen == other.specimen and bool(both) and all(same)
 
 
 def restitution_taken(campaign: Campaign, layout: Layout, specimen: str) -> xr.Dataset:

@@ -21,6 +21,7 @@ from colonnade.workflow.execution.lock import only_run
 from colonnade.workflow.forecasting.choosing import choose
 from colonnade.workflow.forecasting.records import finding_of, foreseen_of
 from colonnade.workflow.outcome import RunResult
+from colonnade.workflow.pooling import with_contradictions
 from colonnade.workflow.publishing.pages import update_report
 from colonnade.workflow.publishing.photos import with_photos
 from colonnade.workflow.raw_files import RawFiles, raw_files
@@ -127,13 +128,16 @@ def _summed_up(walk: Walk, *, awaiting: bool) -> tuple[Campaign, dict[str, str],
     """
     Write the summary; before it, if the run goes to the report, score forecasts and assess real columns.
 
-    Return the campaign with what is wrong with forecasts, and why the results of which tests are out of date.
+    Return the campaign with what is wrong with forecasts and shaken tests, and why which tests are out of date.
     """
     campaign, layout = walk.graph.campaign, walk.graph.layout
     stale = {name: why for name, why in walk.stale().items() if name not in walk.failed_tests}
     outdated = stale | dict.fromkeys(campaign.tests.keys() - set(walk.included), "")
     forecasts = read_forecasts(layout)
     campaign = replace(campaign, warnings=(*campaign.warnings, *map(finding_of, forecasts.refused)))
+    campaign = with_contradictions(
+        campaign, {stage.subject: stage.findings for stage in walk.stages if stage.stage == "condition"}
+    )
     chosen = choose(campaign, forecasts, walk.raw)
     if walk.until == "report":
         walk.score(chosen.scored, outdated)
