@@ -38,7 +38,7 @@ def _contradictions(campaign: Campaign, found: Mapping[str, Iterable[Finding]]) 
     said = {name: next(filter(_is_of_scale, findings), None) for name, findings in found.items()}
     free = [name for name in said if campaign.tests[name].kind == "free-vibration"]
     silent: dict[str, list[str]] = {}
-    for name in said.keys() - free:
+    for name in [each for each in said if each not in free]:
         test = campaign.tests[name]
         like = [each for each in free if _shares(campaign, test, campaign.tests[each])]
         against = [each for each in like if said[each]]
