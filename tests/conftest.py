@@ -62,10 +62,13 @@ def shared_data() -> Path:
 
 @pytest.fixture
 def interruptible() -> Iterator[None]:
-    """Processes that a test starts hear Ctrl-C, also where this one ignores it (`nohup make test &`)."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    """Processes that a test starts hear Ctrl-C and a hangup, also where this one does not (`nohup make test &`)."""
+    before = {signal.SIGINT: signal.signal(signal.SIGINT, signal.default_int_handler)}
+    if hasattr(signal, "SIGHUP"):
+        before[signal.SIGHUP] = signal.signal(signal.SIGHUP, signal.SIG_DFL)
     yield
-    signal.signal(signal.SIGINT, before)
+    for each, handler in before.items():
+        signal.signal(each, handler)
 
 
 REPORTS = TESTS.parent / "reports"

@@ -63,7 +63,8 @@ def colonnade(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Ca
     """Run a command in this process, in a folder of its own."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
-    monkeypatch.setattr(progress, "EVERY", float("inf"))  # a slow machine is told of by lines of progress
+    for pause in ("FIRST", "EVERY"):
+        monkeypatch.setattr(progress, pause, float("inf"))  # a slow machine is told of by lines of progress
 
     def run(*arguments: str) -> Told:
         capsys.readouterr()

@@ -138,6 +138,9 @@ def test_numbers_that_run_on_are_told_as_the_cause_of_a_missing_column(colonnade
     assert told.returncode == 1
     assert "would fail: free-01: " in told.stdout
     said = " ".join(told.stdout.split())
+    assert 'Say which in `file`: layout = "columns" or layout = "running".' in said
+    path.write_text(path.read_text().replace('"200 Hz"', '"200 Hz"\nfile = {layout = "running"}'))
+    said = " ".join(colonnade("check").stdout.split())
     assert "column 8 is missing; it has 1 column." in said
     assert "Its numbers, 8 in a row, run on from row to row and are read as one series of 2400" in said
     path.write_text(path.read_text().replace("column = 8", "column = 1"))

@@ -124,6 +124,7 @@ def test_an_interrupted_run_is_130_and_the_next_one_ends_it(colonnade, campaign,
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+@pytest.mark.usefixtures("interruptible")
 def test_ending_a_watch_is_no_error(campaign):
     watching = subprocess.Popen(
         [sys.executable, "-m", "colonnade", "watch", "--workers", "1"],

@@ -78,7 +78,7 @@ def read_motion(
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
     ...     path = Path(folder, "table.txt")
-    ...     _ = path.write_text("0.00 0.0\\n0.01 0.1\\n0.02 -0.1\\n0.03 0.0\\n")
+    ...     _ = path.write_text("0.00 0\\n0.01 0.1\\n0.02 -0.1\\n0.03 0\\n0.04 0\\n0.05 0\\n")
     ...     motion = read_motion(path, unit="g")
     >>> motion.dt, round(motion.peak, 3)
     (0.01, 0.981)
