@@ -5,15 +5,21 @@ import pytest
 import xarray as xr
 
 from colonnade.campaign.settings import ContactSettings
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.calibration import TOLERANCE, VELOCITY_RATIO, free_restitution
 from colonnade.dynamics.contact.law import ContactLaw
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
 from colonnade.identification.restitution.identify import identify_restitution
+from colonnade.report.specimens_page import _contact
 from colonnade.stages import contact as calibrating
+from colonnade.stages.contact import IDENTIFIED, law_variables
+from colonnade.store.records.stored import Stored
+from colonnade.store.variables import VARIABLES
 from prism import PRISM
 
 STEP = 3e-5
+CYLINDER = Block.cylinder(diameter=0.097, height=0.455, mass=26.30)
 
 
 def calibrated(restitution, *, lowest_amplitude=0.02, **settings):
@@ -89,3 +95,17 @@ def test_each_law_keeps_the_modes_that_the_step_follows_with_it():
     )
     assert slight.frequencies.size > strong.frequencies.size
     np.testing.assert_array_equal(strong.frequencies, slight.frequencies[: strong.frequencies.size])
+
+
+def test_mass_weight_and_radius_of_each_ring_are_stored_and_shown():
+    body = rigid_body(CYLINDER)
+    law = ContactLaw.stiff(body, CYLINDER.gravity)
+    attributes = {"body": body.description, "contact_restitution_source": IDENTIFIED}
+    stored = xr.Dataset(law_variables(body, law, CYLINDER.gravity), attrs=attributes)
+    assert set(stored) <= set(VARIABLES)
+    np.testing.assert_allclose(stored["ring_radius"], 0.0485 * np.arange(1, 5) / 4)
+    assert float(stored["node_mass"].sum()) == pytest.approx(26.30)
+    assert float(stored["node_weight"].sum()) == pytest.approx(26.30 * CYLINDER.gravity)
+    shown = dict(_contact(Stored({("contact", None): stored})))
+    assert shown["body"] == "rigid, round base, 4 whole rings"
+    assert shown["base nodes"].startswith("4 rings of radius 12.1 to 48.5 mm, ")

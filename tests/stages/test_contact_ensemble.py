@@ -6,14 +6,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import chain
 from colonnade.campaign.settings import ContactSettings
 from colonnade.errors import StageError
-from colonnade.stages import condition as conditioning
 from colonnade.stages import contact as calibrating
 from colonnade.stages import contact_ensemble as running
-from colonnade.stages import ingest as ingesting
 from colonnade.stages import predict as predicting
-from colonnade.stages import rocking as rocking_stage
 
 RUNS = 4
 
@@ -27,9 +25,7 @@ def shaken_in_space(small_campaign, shaken):
     test = small_campaign.tests["shake-01"]
     settings = ContactSettings.model_validate({"step": "50 us", "damping_fraction": 0.3, "penetration": 1e-5})
     space = calibrating.ContactInputs.of(small_campaign, "prism", settings)
-    recorded = ingesting.ingest(shaken[0], ingesting.IngestInputs.of(small_campaign, test))
-    ready = conditioning.condition(recorded, conditioning.ConditionInputs.of(small_campaign, test))
-    rocking = rocking_stage.rocking(ready, rocking_stage.RockingInputs.of(small_campaign, test))
+    ready, rocking = chain.measured(small_campaign, test, shaken[0])
     read = running.ContactEnsembleInputs.of(small_campaign, test).model_copy(update={"space": space})
     return ready, rocking, calibrating.contact(SPECIMEN, space), _set(read, members=RUNS)
 

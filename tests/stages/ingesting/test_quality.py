@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
-import xarray as xr
 
 from colonnade.campaign.review import Flagged, Review
 from colonnade.campaign.settings import QualitySettings
 from colonnade.signals.quality import Flag
-from colonnade.stages.ingesting.quality import ChannelInputs, channel_verdicts, flag_dead_on_specimen, reviewed
+from colonnade.stages.ingesting.quality import ChannelInputs, channel_verdicts, reviewed
 
 TIME = np.arange(0.0, 10.0, 0.01)
 WAVE = np.sin(2 * np.pi * 2.0 * TIME)
@@ -30,31 +28,6 @@ def _channel(on, direction=(1.0, 0.0, 0.0), **changed):
         | {"offset": 0.0, "full_scale": None, "range_recorded": None, "on": on, "direction": direction}
         | changed
     )
-
-
-def _flagged(scale, **changed):
-    noise = np.random.default_rng(0).normal(0.0, 1e-3, TIME.size)
-    values = {"table": WAVE, "block": scale * WAVE + noise}
-    dataset = xr.Dataset({name: ("elapsed", each) for name, each in values.items()})
-    for name in values:
-        dataset[f"{name}_quality"] = ("elapsed", np.full(TIME.size, Flag.GOOD, dtype=np.int8))
-    warnings = []
-    channels = {"table": _channel("table"), "block": _channel("specimen", **changed)}
-    return flag_dead_on_specimen(dataset, channels, warnings), warnings
-
-
-def test_an_accelerometer_that_hardly_moves_with_the_table_is_flagged():
-    dataset, (warning,) = _flagged(0.01)
-    assert warning.text.startswith("channel block: ")
-    assert (dataset["block_quality"] > Flag.GOOD).all()
-    assert (dataset["table_quality"] == Flag.GOOD).all()
-
-
-@pytest.mark.parametrize(
-    ("scale", "changed"), [(0.5, {}), (0.01, {"direction": (0.0, 1.0, 0.0)})], ids=["alive", "along another axis"]
-)
-def test_others_are_not(scale, changed):
-    assert _flagged(scale, **changed)[1] == []
 
 
 def test_clipping_is_judged_by_the_recorded_range_if_it_is_given_so():

@@ -9,7 +9,6 @@ import xarray as xr
 from colonnade.errors import StageError
 from colonnade.stages.parts.base_motion import (
     base_acceleration,
-    left_out,
     transverse_acceleration,
     vertical_acceleration,
     weakened,
@@ -45,37 +44,9 @@ def test_missing_samples_are_refused_with_the_first():
         base_acceleration(_rocking(base_acceleration=_gap(WAVE)))
 
 
-@pytest.mark.parametrize(
-    ("vertical", "severity", "said"),
-    [
-        (_gap(WAVE), "warning", "missing 3 of 200 samples"),
-        (np.zeros(TIME.size), "warning", "is dead"),
-        (12.0 * WAVE, "serious", "the specimen would leave the table"),
-    ],
-    ids=["with a gap", "dead", "beyond gravity"],
-)
-def test_a_vertical_motion_that_cannot_be_used_is_left_out_with_the_reason(vertical, severity, said):
-    rocking = _rocking(vertical_base_acceleration=vertical)
-    used, (finding,) = vertical_acceleration(rocking, gravity=9.81, expected=True)
-    assert (used, finding.severity) == (None, severity)
-    assert said in finding.text
-
-
 def test_a_vertical_motion_is_only_missed_if_the_set_up_has_its_channel():
     assert vertical_acceleration(_rocking(), gravity=9.81, expected=False) == (None, [])
     assert len(vertical_acceleration(_rocking(), gravity=9.81, expected=True)[1]) == 1
-
-
-def test_a_sound_vertical_motion_is_used():
-    used, findings = vertical_acceleration(_rocking(vertical_base_acceleration=WAVE), gravity=9.81, expected=True)
-    np.testing.assert_array_equal(used, WAVE)
-    assert findings == []
-
-
-def test_motion_across_is_reported_above_a_tenth_of_that_along_x():
-    assert left_out(_rocking(transverse_base_acceleration=0.09 * WAVE), WAVE) == []
-    (finding,) = left_out(_rocking(transverse_base_acceleration=0.3 * WAVE), WAVE)
-    assert "30\u00a0% of that along x: the plane models ignore it" in finding.text
 
 
 def test_a_model_in_space_takes_the_motion_across_if_it_is_whole():

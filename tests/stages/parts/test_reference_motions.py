@@ -25,15 +25,6 @@ def with_motions(small_campaign):
     return written
 
 
-def test_wrapped_rows_are_the_whole_motion(small_campaign, with_motions):
-    head = "800 points at equal spacing of 0.02 sec\n8F10.5\n"
-    (small_campaign.folder / "valley.dat").write_text(head + rows(SERIES.reshape(-1, 8), "%10.5f"))
-    warnings = []
-    loaded = reference_motions.load(with_motions('Valley = "valley.dat"'), warnings)
-    np.testing.assert_allclose(loaded["Valley"].acceleration, SERIES)
-    assert warnings == []
-
-
 def test_one_of_three_components_has_to_be_named(small_campaign, with_motions):
     (small_campaign.folder / "valley.dat").write_text(
         "3F10.4\n        NS        EW        UD\n" + rows(SERIES[:798].reshape(3, -1).T, "%10.4f")
