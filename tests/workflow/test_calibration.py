@@ -36,16 +36,6 @@ def test_an_unknown_specimen_is_refused_with_the_nearest(untouched):
     assert not untouched.layout.processed.exists()
 
 
-def test_the_target_is_the_restitution_of_the_campaign_file_as_it_is(small):
-    small.edit("[setups.frame.channels]", COARSE)
-    small.edit(BODY, GIVEN)
-    (made,) = calibrate(small.folder, workers=1)
-    assert made.target == 0.93
-    small.edit(GIVEN, BODY)
-    (made,) = calibrate(small.folder, workers=1)
-    assert made.target == pytest.approx(small.summary()["specimens"]["prism"]["restitution"]["value"], abs=1e-12)
-
-
 def test_a_given_restitution_is_known_without_any_run_and_a_stored_law_is_not_found_again(untouched, monkeypatch):
     untouched.edit("[setups.frame.channels]", COARSE)
     untouched.edit(BODY, GIVEN)

@@ -36,11 +36,3 @@ def test_what_a_step_hands_on_is_what_its_file_holds(untouched, monkeypatch):
         assert given.attrs["warnings"] == stored.attrs["warnings"]
         for name, variable in stored.variables.items():
             assert plain(given[name].attrs) == plain(variable.attrs)
-
-
-def test_a_first_walk_reads_no_result_of_its_own_test_twice(untouched, monkeypatch):
-    names = []
-    read = files.read
-    monkeypatch.setattr(files, "read", lambda path: names.append(path) or read(path))
-    untouched.run(until="restitution")
-    assert not [path for path in names if path.name in ("recorded.nc", "conditioned.nc", "rocking.nc")]

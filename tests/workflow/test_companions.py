@@ -69,12 +69,6 @@ def test_altered_values_are_ingested_again(in_two_parts):
     assert in_two_parts.redone(only="pulse-01", until="ingest") == {}
 
 
-def test_values_altered_behind_their_time_are_found_by_verify(in_two_parts):
-    alter(values_of(in_two_parts), keep_time=True)
-    assert in_two_parts.redone(only="pulse-01", until="ingest") == {}
-    assert ("pulse-01", "ingest") in in_two_parts.redone(only="pulse-01", until="ingest", verify=True)
-
-
 def test_values_that_change_or_go_while_they_are_read_are_told(in_two_parts, monkeypatch):
     from colonnade.workflow import steps
 

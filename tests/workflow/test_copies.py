@@ -7,6 +7,7 @@ import pytest
 from colonnade.campaign import load
 from colonnade.workflow import copies
 from colonnade.workflow.copies import digests_of_equal_sizes, with_copies
+from every import every
 
 
 @pytest.fixture
@@ -16,12 +17,17 @@ def told(small):
     return lambda digests: [found.text for found in with_copies(campaign, digests).warnings]
 
 
-def test_files_that_differ_say_nothing(told):
-    assert told({"a": {"raw/a.csv": "1"}, "b": {"raw/b.csv": "2"}}) == []
-
-
-def test_a_file_that_two_tests_share_is_no_copy(told):
-    assert told({"a": {"raw/a.csv": "1"}, "b": {"raw/a.csv": "1"}}) == []
+@every(
+    "digests",
+    [
+        {"a": {"raw/a.csv": "1"}, "b": {"raw/b.csv": "2"}},
+        {"a": {"raw/a.csv": "1"}, "b": {"raw/a.csv": "1"}},
+        {"a": {"raw/a.csv": "1", "raw/b.csv": "1"}},
+        {"a": {"raw/a.csv": None}, "b": {"raw/b.csv": None}},
+    ],
+)
+def test_files_that_differ_or_are_shared_or_of_one_test_or_empty_are_no_copies(told, digests):
+    assert told(digests) == []
 
 
 @pytest.fixture
@@ -54,14 +60,6 @@ def test_two_tests_of_one_file_are_one_recording(shared):
 def test_windows_keep_two_tests_of_one_file_apart(first, second, is_told, shared):
     first, second = ("" if each is None else f'\nwindow = ["{each[0]}", "{each[1]}"]' for each in (first, second))
     assert bool(shared(first, second)) == is_told
-
-
-def test_two_recorders_of_one_test_may_write_the_same(told):
-    assert told({"a": {"raw/a.csv": "1", "raw/b.csv": "1"}}) == []
-
-
-def test_files_that_are_empty_or_unknown_are_no_copies(told):
-    assert told({"a": {"raw/a.csv": None}, "b": {"raw/b.csv": None}}) == []
 
 
 def test_a_copy_names_both_files_and_the_test_to_look_at(told):

@@ -7,10 +7,9 @@ import os
 import pytest
 
 from colonnade.campaign import load
-from colonnade.errors import StoreError
 from colonnade.workflow import raw_files as module
 from colonnade.workflow.catalogue import Catalogue
-from colonnade.workflow.raw_files import expect_unchanged, raw_files
+from colonnade.workflow.raw_files import raw_files
 
 
 @pytest.fixture
@@ -41,12 +40,3 @@ def test_a_file_that_is_not_there_has_no_hash(untouched, seen):
     found = seen[0](Catalogue(untouched.layout))["raw/pulse-01.csv"]
     assert found.sha256 is None
     assert found.is_empty
-
-
-@pytest.mark.parametrize("change", [lambda path: path.write_text("1"), lambda path: path.unlink()])
-def test_a_file_that_changes_while_it_is_read_is_told(untouched, seen, change):
-    found = seen[0](Catalogue(untouched.layout))
-    expect_unchanged(untouched.folder, found)
-    change(untouched.raw("pulse-01"))
-    with pytest.raises(StoreError, match=r"raw/pulse-01\.csv: this file changed while it was being read"):
-        expect_unchanged(untouched.folder, found)
