@@ -9,7 +9,7 @@ import pytest
 
 import chain
 from colonnade.dynamics.ensembles.uncertainty import INPUTS
-from colonnade.identification.response.rank import FEWEST, is_within, rank
+from colonnade.identification.response.rank import is_within, rank
 from colonnade.stages import ensemble as running
 from prism import PRISM
 
