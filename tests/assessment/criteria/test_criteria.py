@@ -1,11 +1,14 @@
-"""Criteria of practice against their derivations and the round forms by which they are cited."""
+"""Criteria of practice against their derivations, what they ask for, and how they agree with what happened."""
+
+from __future__ import annotations
 
 from math import cos, sqrt, tan
 
 import numpy as np
 import pytest
 
-from colonnade.assessment.criteria.demands import Demands
+from colonnade.assessment.criteria.agreement import agreement
+from colonnade.assessment.criteria.demands import PERIODS, Demands, spectral_velocity
 from colonnade.assessment.criteria.registry import CRITERIA, NOT_COMPUTED, sudden_velocity
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
@@ -65,3 +68,38 @@ def test_housner_equates_the_energies():
     limit = sqrt(BLOCK.gravity * alpha**2 * side.inertia / momentum)
     assert ratio("housner", spectral_velocity=limit) == pytest.approx(1.0)
     assert ratio("housner", spectral_velocity=2 * limit) == pytest.approx(2.0)
+
+
+def test_after_a_short_impulse_every_undamped_oscillator_has_its_velocity():
+    acceleration = np.zeros(4000)
+    acceleration[1] = 500.0
+    assert spectral_velocity(acceleration, 0.001) == pytest.approx(0.5, rel=1e-3)
+    assert PERIODS[-1] < 0.001 * acceleration.size
+
+
+def test_it_is_proportional_to_the_motion():
+    motion = np.random.default_rng(1).normal(0, 1, 1000)
+    assert spectral_velocity(3 * motion, 0.01) == pytest.approx(3 * spectral_velocity(motion, 0.01))
+
+
+def test_every_motion_is_counted_once():
+    found = agreement([0.5, 2, 3, 0.2, np.nan, 1.5], [False, False, True, True, True, True])
+    assert (found.hits, found.false_alarms, found.misses, found.rejections, found.unknown) == (2, 1, 1, 1, 1)
+
+
+@pytest.mark.parametrize(
+    ("happened", "fails"),
+    [
+        pytest.param([True, False], "never", id="all right"),
+        pytest.param([False, False], "to the safe side", id="predicts too much"),
+        pytest.param([True, True], "to the unsafe side", id="predicts too little"),
+        pytest.param([False, True], "to both sides", id="both"),
+    ],
+)
+def test_it_says_in_which_direction_it_fails(happened, fails):
+    assert agreement([2.0, 0.5], happened).fails == fails
+
+
+def test_other_shapes_are_refused():
+    with pytest.raises(ValueError, match="truth values"):
+        agreement([2.0, 0.5], [True])
