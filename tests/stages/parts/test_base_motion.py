@@ -12,6 +12,7 @@ from colonnade.identification.fusion.inertial import Accelerometer
 from colonnade.stages.parts import reference_motions
 from colonnade.stages.parts.base_motion import (
     base_acceleration,
+    left_out,
     transverse_acceleration,
     vertical_acceleration,
     weakened,
@@ -52,6 +53,12 @@ def test_missing_samples_are_refused_with_the_first():
 def test_a_vertical_motion_is_only_missed_if_the_set_up_has_its_channel():
     assert vertical_acceleration(_rocking(), gravity=9.81, expected=False) == (None, [])
     assert len(vertical_acceleration(_rocking(), gravity=9.81, expected=True)[1]) == 1
+
+
+def test_motion_across_is_reported_above_a_tenth_of_that_along_x():
+    assert left_out(_rocking(transverse_base_acceleration=0.09 * WAVE), WAVE) == []
+    (finding,) = left_out(_rocking(transverse_base_acceleration=0.3 * WAVE), WAVE)
+    assert "30\u00a0% of that along x: the plane models ignore it" in finding.text
 
 
 def test_a_model_in_space_takes_the_motion_across_if_it_is_whole():
