@@ -10,6 +10,7 @@ import jsonschema
 import numpy as np
 import pytest
 
+import chain
 from colonnade.campaign import load
 from colonnade.campaign import test as one_test
 from colonnade.campaign.campaign import CampaignFile
@@ -19,7 +20,6 @@ from colonnade.campaign.setup import Setup
 from colonnade.cli.app import app
 from colonnade.errors import ReadError
 from colonnade.readers.registry import formats, read
-from colonnade.stages import condition, ingest, restitution, rocking
 from colonnade.store.layout import Layout
 from every import every
 
@@ -54,7 +54,7 @@ def example(name):
     file = campaign.setups[test.setup].file
     recording = read(test.files["main"], file.format, file.options)
     assert read(test.files["main"]).format == name, "it is recognised without being told"
-    return ingest.ingest({"main": recording}, ingest.IngestInputs.of(campaign, test))
+    return chain.ingested(campaign, test, {"main": recording})
 
 
 def examples_of(record):
@@ -102,15 +102,11 @@ def test_the_delimited_example_gives_the_restitution_it_was_made_with():
     test = campaign.tests["free-01"]
     file = campaign.setups["frame"].file
     recording = read(test.files["main"], file.format, file.options)
-    recorded = ingest.ingest({"main": recording}, ingest.IngestInputs.of(campaign, test))
+    recorded = chain.ingested(campaign, test, {"main": recording})
     assert recorded.sizes["elapsed"] == 801
     assert float(recorded["top"][0]) == pytest.approx(10.02e-3 * 4.1005 - 0.13e-3, rel=1e-12)
     assert float(recorded["table_acceleration"][0]) == pytest.approx(0.5 * 9.80665 * -0.0006, rel=1e-12)
-    rocked = rocking.rocking(
-        condition.condition(recorded, condition.ConditionInputs.of(campaign, test)),
-        rocking.RockingInputs.of(campaign, test),
-    )
-    identified = restitution.restitution(rocked, restitution.RestitutionInputs.of(campaign, test))
+    identified = chain.identified(campaign, chain.measured(campaign, test, {"main": recording})[1])
     assert float(identified["restitution"]) == pytest.approx(0.9, abs=5e-4)
 
 

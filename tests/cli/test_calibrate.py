@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import json
 
-from colonnade.campaign.settings import MESHES
-from colonnade.cli.calibrate import calibrate
-
 CONTACT = """
 [processing.predict.contact]
 step = "30 us"
@@ -41,11 +38,6 @@ def test_an_e_that_was_not_identified_is_shown_as_the_velocity_ratio(colonnade, 
     (made,) = json.loads(colonnade("calibrate", "--workers", "1", "--json").stdout)
     assert made["source"] == "velocity-ratio"
     assert made["restitution"] == made["velocity_ratio"]
-
-
-def test_the_meshes_are_those_of_the_settings():
-    (mesh,) = (option for option in calibrate.params if option.name == "mesh")
-    assert mesh.type.choices == MESHES
 
 
 def test_a_step_without_a_unit_or_above_zero_is_refused(colonnade, campaign):

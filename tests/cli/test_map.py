@@ -6,14 +6,8 @@ import json
 from pathlib import Path
 
 from colonnade.cli.map import map_command
-from colonnade.dynamics.models.registry import MODELS
 
 SMALL = ("--omega", "2", "4", "--amplitude", "0.8", "2", "--points", "3", "5", "--cycles", "3", "--workers", "1")
-
-
-def test_the_models_are_those_of_the_registry():
-    (model,) = (option for option in map_command.params if option.name == "model")
-    assert model.type.choices == tuple(MODELS)
 
 
 def test_a_map_is_written_with_its_picture(colonnade, campaign):

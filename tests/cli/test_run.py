@@ -9,9 +9,7 @@ import zipfile
 import pytest
 
 from colonnade.campaign.forms.summary import Summary
-from colonnade.cli.common.findings import show_by_kind
 from colonnade.cli.run import lines_of_tests
-from colonnade.findings import in_order, note, serious, warning
 
 
 def times(folder):
@@ -78,17 +76,6 @@ def test_verbose_lists_the_stages_and_why(colonnade, campaign):
     assert "free-02" not in told
 
 
-def test_one_bad_file_fails_its_test_alone(colonnade, campaign):
-    (campaign / "raw" / "free-02.csv").write_text("nothing that could be read\n", encoding="utf-8")
-    told = colonnade("run", "--workers", "1")
-    assert told.returncode == 1
-    assert "Traceback" not in told.stdout + told.stderr
-    shown = json.loads(colonnade("show", "tests", "--json").stdout)
-    assert (shown["free-01"]["status"], shown["free-02"]["status"]) == ("done", "failed")
-    assert "free-02.csv" in shown["free-02"]["reason"]
-    assert colonnade("run", "--workers", "1").returncode == 1
-
-
 def test_ingest_stops_after_the_first_stage(colonnade, campaign):
     assert colonnade("ingest", "--workers", "1", "--only", "free-01").returncode == 0
     folder = campaign / "processed" / "tests"
@@ -111,12 +98,6 @@ def test_from_redoes_a_stage_and_what_follows(colonnade, campaign):
         "ensemble",
         "compare",
     }
-
-
-def test_an_unknown_id_is_refused_with_the_nearest_one(colonnade, campaign):
-    told = colonnade("run", "--workers", "1", "--only", "fre-01")
-    assert told.returncode == 2
-    assert 'Did you mean "free-01"?' in told.stderr
 
 
 def ten_times(campaign):
@@ -160,23 +141,6 @@ def test_json_carries_every_finding_with_its_severity(colonnade, campaign):
     again = json.loads(colonnade("identify", "--workers", "1", "--json").stdout)
     assert not [stage for stage in again["stages"] if stage["action"] == "done"]
     assert again["warnings"] == found
-
-
-def test_many_findings_of_a_kind_are_not_as_many_lines(capsys):
-    told = (
-        serious("gain", "Ten times off."),
-        note("spikes", "Spikes."),
-        warning("zero", "Not at rest.", follows=("gain",)),
-    )
-    show_by_kind({f"test-{number}": in_order(told) for number in range(490)})
-    lines = capsys.readouterr().out.splitlines()
-    assert len(lines) < 10
-    assert lines[0] == "serious (gain): test-0: Ten times off."
-    assert (
-        "  and 487 more of this kind: test-3, test-4, test-5, test-6, test-7, test-8, test-9, test-10 and 479 more"
-        in lines
-    )
-    assert lines[-1] == "490 serious findings, 490 notes"
 
 
 def test_the_report_is_typeset_and_bundled_if_asked(colonnade, campaign, tmp_path):

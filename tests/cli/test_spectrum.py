@@ -98,21 +98,15 @@ def test_a_specimen_of_a_campaign_is_taken_at_its_scale(campaign, record, capsys
         (["--motion", "record.csv", *COLUMN, "--omega", "1", "2"], "--omega is only for --pulse"),
         (["--pulse", "sine", *COLUMN, "--cycles", "3"], "--cycles is only for --pulse mavroeidis-papageorgiou"),
         (["--pulse", "sine"], "The column is not known"),
-        (["--pulse", "sine", "--specimen", "prism"], "there is no campaign here"),
-        (["--pulse", "sine", *COLUMN, "--scale", "2"], "--scale is for a specimen"),
         (
             ["--pulse", "sine", *COLUMN, "--restitution", "2"],
             "--restitution: 2.0 was found. A coefficient of",
         ),
-        (["--pulse", "sine", *COLUMN, "--restitution", "identified"], "e is identified of a specimen"),
         (["--pulse", "sine", *COLUMN, "--omega", "3", "1"], "--omega 3 1: two positive values in rising order"),
         (["--pulse", "sine", *COLUMN, "--points", "1"], "--points 1"),
         (["--motion", "record.csv", *COLUMN, "--least-width", "1"], "--least-width is only for --pulse"),
         (["--pulse", "sine", *COLUMN, "--largest", "-1"], "largest is -1.0"),
         (["--pulse", "sine", *COLUMN, "--out", "x.txt"], "unknown ending"),
-        (["--pulse", "sine", "--critical-angle", "2 rad", "--p", "2 rad/s"], "The column cannot be"),
-        (["--pulse", "sine", "--critical-angle", "0.2", "--p", "2 rad/s"], "--critical-angle: "),
-        (["--pulse", "sine", "--critical-angle", "0.2 rad", "--p", "2 m"], "--p: "),
         (["--motion", "nowhere.csv", *COLUMN], "there is no such file and no campaign"),
         (["--motion", "record.csv", *COLUMN, "--unit", "g", "--baseline", "cubic"], "--baseline Unknown baseline"),
         (["--motion", "record.csv", *COLUMN, "--unit", "g", "--peak", "strong"], "--peak strong"),
@@ -129,19 +123,6 @@ def test_a_wrong_use_says_what_was_expected(record, arguments, message, capsys):
 def test_a_file_without_a_unit_is_named(record, capsys):
     assert invoke(["spectrum", "--motion", str(record), *COLUMN]) == 1
     assert "does not give the unit" in capsys.readouterr().err
-
-
-def test_a_scale_that_is_none_is_refused(assessed, capsys):
-    assert invoke(["spectrum", str(assessed), "--pulse", "ricker", "--scale", "-2"]) == 2
-    assert "--scale: -2.0 was found" in capsys.readouterr().err
-
-
-def test_the_e_of_a_real_column_has_to_be_said(campaign, record, capsys):
-    asked = ["spectrum", str(campaign), "--motion", str(record), "--unit", "g", "--points", "2", "--scale", "20"]
-    assert invoke(asked) == 2
-    assert "The e of the real column is not given. Add --restitution" in capsys.readouterr().err
-    assert invoke([*asked, "--restitution", "0.9"]) == 0
-    assert "0.9 (given)" in capsys.readouterr().out
 
 
 def test_the_verdict_is_the_first_line(record, capsys):

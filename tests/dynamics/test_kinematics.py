@@ -1,9 +1,17 @@
+"""Kinematics, motions and similitude."""
+
+from __future__ import annotations
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
+from colonnade.dynamics.similitude import at_prototype
 from prism import PRISM
 
 
@@ -35,3 +43,68 @@ def test_the_centre_of_mass_stands_over_the_pole_at_the_critical_angle():
     centre = np.array([0.0, 0.0, 0.228])
     moved = centre + point_displacement([PRISM.critical_angle], centre, PRISM)[0, 0]
     assert moved[0] == pytest.approx(0.043, abs=1e-15)
+
+
+def test_motion_knows_its_clock_and_peak():
+    motion = Motion([0.0, -2.0, 1.0], 0.5)
+    assert motion.time.tolist() == [0.0, 0.5, 1.0]
+    assert motion.duration == 1.0
+    assert motion.peak == 2.0
+
+
+@pytest.mark.parametrize(
+    ("acceleration", "dt", "words"),
+    [
+        ([], 0.1, "at least one sample"),
+        ([[1.0]], 0.1, "one-dimensional"),
+        ([1.0, np.nan], 0.1, "sample 1"),
+        ([1.0], 0.0, "dt is"),
+    ],
+)
+def test_a_record_that_cannot_be_a_motion_is_refused_with_the_place(acceleration, dt, words):
+    with pytest.raises(ValueError, match=words):
+        Motion(acceleration, dt)
+
+
+def test_a_vertical_record_of_another_length_is_refused():
+    with pytest.raises(ValueError, match="vertical has 2 samples; 3 were expected"):
+        Motion([0.0, 1.0, 2.0], 0.1, vertical=[0.0, 1.0])
+
+
+def test_a_motion_says_how_long_and_how_strong_it_is():
+    motion = Motion([0.0, -2.0, 1.0], 0.01, vertical=[0.0, 0.5, 0.0])
+    assert repr(motion) == "<Motion: duration 0.02 s, interval 0.01 s, max |a| 2 m/s², components along x, vertical>"
+
+
+SCALE = 20.0
+MODEL = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+PROTOTYPE = Block.prism(width=1.72, depth=1.72, height=9.12, mass=26.10 * SCALE**3)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "name"), [("length", "pole_distance"), ("frequency", "p"), ("mass", "mass"), ("inertia", "inertia")]
+)
+def test_a_block_of_prototype_size_has_the_scaled_properties(quantity, name):
+    assert at_prototype(quantity, getattr(MODEL, name), SCALE) == pytest.approx(getattr(PROTOTYPE, name), rel=1e-12)
+
+
+def test_the_prototype_rocks_as_the_model_in_scaled_time():
+    base = 1.8 * MODEL.uplift_acceleration * np.sin(2 * np.pi * 4 * np.arange(0, 3, 0.002))
+    model = rock(MODEL, Motion(base, 0.002), restitution=0.9, model="nonlinear")
+    prototype = rock(PROTOTYPE, Motion(base, at_prototype("time", 0.002, SCALE)), restitution=0.9, model="nonlinear")
+    assert model.outcome == "rocking"
+    np.testing.assert_allclose(prototype.angle, model.angle, atol=1e-9)
+
+
+def test_gravity_is_the_same_for_both():
+    assert at_prototype("acceleration", 9.81, SCALE) == 9.81
+    assert at_prototype("velocity", 1.0, SCALE) == pytest.approx(
+        at_prototype("length", 1.0, SCALE) / at_prototype("time", 1.0, SCALE)
+    )
+
+
+def test_an_unknown_quantity_or_scale_is_an_error():
+    with pytest.raises(ValueError, match="is not a quantity that scales"):
+        at_prototype("colour", 1.0, SCALE)
+    with pytest.raises(ValueError, match="positive"):
+        at_prototype("length", 1.0, 0.0)

@@ -1,8 +1,6 @@
 import numpy as np
-import pytest
 
 from colonnade.figures.agreement import PeakPoint, predicted_over_measured
-from colonnade.figures.files.output import to_svg
 from colonnade.figures.style import journal
 from every import every
 
@@ -49,19 +47,6 @@ def test_a_band_that_ends_with_overturning_reaches_the_upper_edge():
 
 def test_named_tests_carry_their_number():
     assert [text.get_text() for text in panel(point(0.2, 0.3, number=7), point(0.4, 0.4)).texts] == ["7"]
-
-
-def test_every_mark_leads_to_its_test():
-    figure = predicted_over_measured(
-        {"linear": [point(0.2, 0.3, test="a"), point(0.4, 0.4, test="b"), point(0.3, None, test="c")]}
-    )
-    svg = to_svg(figure, identity="peaks", title="t", description="d")
-    assert [f'href="test:{name}"' in svg for name in "abc"] == [True] * 3
-
-
-def test_nothing_to_draw_is_refused():
-    with pytest.raises(ValueError, match="at least one point"):
-        predicted_over_measured({"linear": []})
 
 
 @every("column", ["", "single", "double"])

@@ -69,8 +69,3 @@ def test_the_first_spikes_are_enlarged():
 def test_a_channel_without_samples_enough_has_no_spectrum():
     figure = channels_as_recorded([channel(before=None, after=None)])
     assert [text.get_text() for text in figure.axes[1].texts] == ["no spectrum"]
-
-
-def test_no_channel_is_refused():
-    with pytest.raises(ValueError, match="no channel was given"):
-        channels_as_recorded([])

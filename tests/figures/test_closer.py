@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
 from colonnade.figures.closer import Enlarged, Phase, closer_look
 from colonnade.figures.panels.curve import Curve
@@ -26,8 +25,3 @@ def test_cycles_on_each_other_are_one_line_with_gaps():
     assert len(axes.lines) == 1
     assert np.isnan(axes.lines[0].get_xdata()).sum() == 6
     assert axes.texts[0].get_text() == "last"
-
-
-def test_no_motion_is_refused():
-    with pytest.raises(ValueError, match="no motion was given"):
-        closer_look(None, {}, SEPARATRIX, None)

@@ -24,8 +24,3 @@ def test_more_tests_get_more_bins():
     right = reliability_and_pit({"linear": calibration(200), "nonlinear": calibration(200)}).axes[1]
     (histogram,) = (patch for patch in right.patches if patch.get_label() == "nonlinear model")
     assert histogram.get_data().values.size == 10
-
-
-def test_without_a_model_nothing_is_drawn():
-    with pytest.raises(ValueError, match="no model"):
-        reliability_and_pit({})

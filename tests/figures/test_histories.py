@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import matplotlib
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex
@@ -83,9 +82,3 @@ def test_curves_without_values_have_limits_too():
     assert limit_of([]) == SMALLEST_RATIO
     assert limit_of([Curve(TIME, np.full(TIME.size, np.nan))]) == SMALLEST_RATIO
     assert time_limits([]) == (0.0, 1.0)
-
-
-def test_drawing_changes_no_setting_of_matplotlib():
-    before = dict(matplotlib.rcParams)
-    drawn(swing(0.4), {})
-    assert dict(matplotlib.rcParams) == before

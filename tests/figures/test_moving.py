@@ -68,8 +68,3 @@ def test_each_history_has_its_outline_on_the_moving_base():
     aside = np.array([0.08, 0.0])
     np.testing.assert_allclose(measured, turn(CORNERS, 0.1 * np.sin(4.0), POLES) + aside, atol=1e-6)
     np.testing.assert_allclose(linear, turn(CORNERS, 0.1 * np.cos(4.0), POLES) + aside, atol=1e-6)
-
-
-def test_a_movie_needs_a_history():
-    with pytest.raises(ValueError, match="no history"):
-        rocking_block({}, BODY, None, title="", description="")

@@ -1,15 +1,13 @@
 from __future__ import annotations
 
-import matplotlib
 import numpy as np
 import pytest
-from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from colonnade.dynamics.models.registry import MODELS
 from colonnade.figures import Curve, Peak, Quantity, whole_record
 from colonnade.figures.histories import Spread
-from colonnade.figures.style import model_style, styled
+from colonnade.figures.style import styled
 
 TIME = np.linspace(0.0, 10.0, 2001)
 
@@ -41,11 +39,6 @@ def test_each_quantity_has_a_panel_below_the_angle_in_the_order_given():
 
 def test_a_free_vibration_without_misfit_is_one_panel():
     assert labels(whole()) == ["θ / α"]
-
-
-def test_the_misfit_has_its_models_colour():
-    figure = whole(misfits={"linear": swing(0.1)})
-    assert to_hex(figure.axes[1].lines[0].get_color()) == model_style("linear")["color"]
 
 
 def test_a_misfit_without_any_value_has_no_panel():
@@ -91,12 +84,6 @@ def test_no_label_leaves_the_figure_or_meets_another():
     for axes in figure.axes:
         for text in axes.texts:
             assert text.get_window_extent().x1 <= page.x1
-
-
-def test_drawing_changes_no_setting_of_matplotlib():
-    before = dict(matplotlib.rcParams)
-    whole()
-    assert dict(matplotlib.rcParams) == before
 
 
 def test_the_legend_of_all_models_and_a_band_stays_within_the_figure():

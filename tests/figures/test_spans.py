@@ -63,8 +63,3 @@ def test_a_fourth_span_begins_a_new_band():
 def test_without_prediction_and_base_the_measured_stands_alone():
     figure = spans_side_by_side(panels(2, (), base=False))
     assert [len(axes.lines) for axes in figure.axes] == [1, 1]
-
-
-def test_no_span_is_refused():
-    with pytest.raises(ValueError, match="no test was given"):
-        spans_side_by_side([])

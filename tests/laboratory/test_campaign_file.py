@@ -1,4 +1,4 @@
-"""The campaign file of a virtual campaign: it is loaded back as it was planned, and replaces no other."""
+"""A plan of a virtual campaign and its file: loaded back as planned, whose specimen, and where its raw files are."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from colonnade.campaign import load
 from colonnade.dynamics.block import Block
 from colonnade.errors import CampaignError
 from colonnade.laboratory.campaign_file import FILE_NAME, MARK, campaign_text, refuse_foreign
-from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
-from colonnade.laboratory.files import Tdms
+from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial, raw_path
+from colonnade.laboratory.files import Flavour, Tdms
 from colonnade.laboratory.instruments import Transducer
+from prism import PRISM
 
 SHAPE = {"shape": "prism", "width": "86 mm", "depth": "86 mm", "height": "456 mm", "mass": "26.10 kg"}
 TOP = Transducer("top", "LVDT 1", "displacement", "specimen", 0.100, "mm", offset=0.004, at=(0.043, 0.0, 0.440))
@@ -97,3 +98,39 @@ def test_a_campaign_file_of_another_hand_is_not_replaced(tmp_path, content):
         refuse_foreign(tmp_path)
     path.write_text(campaign_text(plan()), encoding="utf-8")
     refuse_foreign(tmp_path)
+
+
+SPECIMEN = Specimen({"shape": "prism"}, PRISM, 0.93)
+
+
+def plan_with(*specimens):
+    return Plan("one", "One", dict.fromkeys(specimens, SPECIMEN), {"frame": Setup({})}, ())
+
+
+def test_the_only_specimen_needs_no_name():
+    assert plan_with("prism").specimen_of(Trial("free-01", "free-vibration", "frame", 9.0)) == "prism"
+
+
+def test_of_several_specimens_one_is_named():
+    trial = Trial("free-01", "free-vibration", "frame", 9.0)
+    with pytest.raises(ValueError, match="free-01: one of prism, statue was expected"):
+        plan_with("prism", "statue").specimen_of(trial)
+    named = Trial("free-01", "free-vibration", "frame", 9.0, specimen="statue")
+    assert plan_with("prism", "statue").specimen_of(named) == "statue"
+
+
+def test_a_trial_stands_on_a_table_at_rest_unless_it_is_shaken():
+    table = Trial("free-01", "free-vibration", "frame", 9.0).table
+    assert table.acceleration([0.0, 1.0, 8.5]).tolist() == [0.0, 0.0, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("recorder", "flavour", "path"),
+    [
+        (MAIN, Flavour(), "raw/free-01.csv"),
+        (MAIN, Tdms(), "raw/free-01.tdms"),
+        ("daq2", Tdms(), "raw/free-01-daq2.tdms"),
+    ],
+)
+def test_each_recorder_writes_a_file_of_its_own(recorder, flavour, path):
+    assert raw_path(Trial("free-01", "sine", "frame", 9.0), recorder, Recorder((), 200.0, flavour)) == path

@@ -1,11 +1,16 @@
-"""Transducers read what they should, with the errors that are stated and no others."""
+"""Transducers read what they should, with the errors that are stated and no others, and within their ranges."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
+from colonnade.laboratory.experiment import MAIN
 from colonnade.laboratory.instruments import STEP, Imperfections, Transducer, measure
+from colonnade.laboratory.rig import (
+    PRISM_CATCH,
+    prism_setups,
+)
 from colonnade.laboratory.table import ramped_sine, still
 from every import every
 from prism import PRISM
@@ -79,3 +84,12 @@ def test_gain_and_offset_give_the_physical_value_back() -> None:
     assert volts[0] * 0.1 / 10 - 0.00013 == pytest.approx(0.05, abs=2e-6)
     in_millimetres = Transducer("t", "C", "displacement", "specimen", 0.1, "mm", "mm", -0.00013, at=(0.0, 0.0, 0.4))
     assert in_millimetres.written(volts)[0] == pytest.approx(50.0, abs=2e-3)
+
+
+def test_no_transducer_on_the_prism_reaches_its_range_before_the_catch() -> None:
+    assert PRISM_CATCH / PRISM.critical_angle == pytest.approx(1.5, rel=0.02)
+    angle = np.linspace(-PRISM_CATCH, PRISM_CATCH, 101)
+    for transducer in prism_setups()["bench"].recorders[MAIN].transducers:
+        read = transducer.sense(PRISM, still(), np.zeros(angle.size), angle)
+        # Its zero may be off by 2 % of the range; much more room than that would waste resolution.
+        assert 0.5 < np.abs(read).max() / transducer.full_scale < 0.97

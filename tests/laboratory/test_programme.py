@@ -109,7 +109,9 @@ def test_its_campaign_file_loads_with_the_block_that_was_simulated(prism: Writte
     assert block.p == pytest.approx(prism.truth["specimens"]["prism"]["p"], rel=1e-12)
 
 
-def test_every_raw_file_is_read_without_a_warning_with_its_own_clock(prism: WrittenCampaign) -> None:
+def test_every_raw_file_is_read_without_a_warning_by_its_clock_and_within_its_range(
+    prism: WrittenCampaign,
+) -> None:
     for name, test in prism.truth["tests"].items():
         found, setup = recordings(prism, name)
         assert set(found) == set(test["recorder_starts"])
@@ -120,7 +122,7 @@ def test_every_raw_file_is_read_without_a_warning_with_its_own_clock(prism: Writ
                 column = recording.channel(channel.column)
                 assert column.unit == channel.unit
                 np.testing.assert_allclose(np.diff(column.time), 1 / rate, atol=1e-9)
-                assert np.isfinite(column.values).all()
+                assert np.abs(column.values).max() < 9.99  # V, of the 10 V of its range; and every value is finite
 
 
 def test_the_second_recorder_starts_twenty_milliseconds_late_and_never_twice_alike(prism: WrittenCampaign) -> None:
@@ -145,13 +147,6 @@ def test_the_transducer_at_the_top_follows_the_true_angle(prism: WrittenCampaign
     zero = np.median((value - expected)[time > 18.0])
     # Noise of 0.05 % of 150 mm, and the drift of 0.1 %.
     assert np.abs(value - zero - expected).max() < 0.150 * (5 * 0.0005 + 0.001)
-
-
-def test_no_recorded_value_reaches_the_end_of_its_range(prism: WrittenCampaign) -> None:
-    for name in prism.truth["tests"]:
-        found, setup = recordings(prism, name)
-        for channel in setup.channels.values():
-            assert np.abs(found[channel.recorder].channel(channel.column).values).max() < 9.99
 
 
 def test_table_displacement_and_acceleration_are_of_one_motion(prism: WrittenCampaign) -> None:

@@ -95,11 +95,6 @@ def test_the_true_angle_is_that_of_the_simulation_at_the_main_clock(plan: Plan, 
     assert (record["theta0"], record["release"], record["specimen"]) == (0.1, 0.5, "prism")
 
 
-def test_the_raw_files_are_where_the_campaign_says(plan: Plan, tmp_path: Path) -> None:
-    run(plan, 2, tmp_path)
-    assert sorted(each.name for each in (tmp_path / "raw").iterdir()) == ["rest-daq2.kept", "rest.kept"]
-
-
 def test_tests_begin_24_minutes_apart(plan: Plan, formats: tuple[Kept, Kept], tmp_path: Path) -> None:
     for number in (2, 0):
         run(plan, number, tmp_path)

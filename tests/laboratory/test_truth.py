@@ -1,7 +1,8 @@
-"""The truth against closed forms, energy and published overturning limits."""
+"""The truth against closed forms, energy and published limits; what was found beside it."""
 
 from __future__ import annotations
 
+import json
 from itertools import pairwise
 from math import acosh, cos, pi, sin, tan
 
@@ -10,6 +11,7 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
+from colonnade.laboratory.comparison import with_truth
 from colonnade.laboratory.integration import REST_ANGLE, Integration
 from colonnade.laboratory.table import Piece, TableMotion, ramped_sine, recorded
 from colonnade.laboratory.truth import simulate
@@ -156,3 +158,27 @@ def test_samples_of_a_record_and_a_smooth_sine_give_the_same_truth() -> None:
 def test_impossible_blocks_are_refused(change: dict[str, float], said: str) -> None:
     with pytest.raises(ValueError, match=said):
         simulate(PRISM, [1.0], **{"restitution": 0.9, **change})
+
+
+TRUTH = {
+    "specimens": {"prism": {"restitution": 0.95}},
+    "tests": {"free-01": {"outcome": "rocking", "peak_ratio": 0.4, "release_ratio": 0.5}},
+}
+
+
+def test_each_number_has_its_truth_next_to_it(tmp_path):
+    found = {"outcome": "overturned", "peak_ratio": None, "release_ratio": 0.49, "predicted": {"linear": {}}}
+    summary = {"specimens": {"prism": {"restitution": {"value": 0.951}}}, "tests": {"free-01": found}}
+    path = tmp_path / "summary.json"
+    path.write_text(json.dumps(summary), encoding="utf-8")
+    compared = with_truth(TRUTH, path)
+    assert compared["restitution"] == {"prism": {"true": 0.95, "value": 0.951}}
+    assert compared["tests"]["free-01"] == {
+        "true_outcome": "rocking",
+        "outcome": "overturned",
+        "true_peak_ratio": 0.4,
+        "peak_ratio": None,
+        "true_release_ratio": 0.5,
+        "release_ratio": 0.49,
+        "predicted": {"linear": {}},
+    }

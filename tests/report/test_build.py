@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import shutil
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
+from jinja2 import UndefinedError
 
 from colonnade.campaign import Campaign
-from colonnade.figures.stored import record
-from colonnade.report import addresses
+from colonnade.report import addresses, drawings, pages
 from colonnade.report.pages import Renderer
-from colonnade.store import files
+from colonnade.store import files, stamps
 from colonnade.store.layout import Layout
 from read_pages import Page, built, words_of, written
 
@@ -32,28 +31,6 @@ def test_the_same_results_give_the_same_bytes_and_no_new_file(two_tests):
     built(*two_tests)
     assert written(two_tests[1]) == texts
     assert {path: path.stat().st_mtime_ns for path in folder.rglob("*.html")} == before
-
-
-def test_a_page_is_drawn_again_only_where_its_test_or_the_program_changed(two_tests, monkeypatch):
-    drawn: list[str] = []
-    draw = record.record
-    monkeypatch.setattr(record, "record", lambda test, *rest: drawn.append(test.id) or draw(test, *rest))
-
-    def drawn_now(code: str) -> list[str]:
-        drawn.clear()
-        built(*two_tests, code=code)
-        return [name for name in drawn if name.startswith("span-2")]
-
-    assert drawn_now("one") == ["span-2.0", "span-2.5"]
-    texts = written(two_tests[1])
-    assert drawn_now("one") == []
-    assert written(two_tests[1]) == texts
-    path = two_tests[1].stage("span-2.0", "compare")
-    compared = files.read(path)
-    compared["nrmse"] = compared["nrmse"] * 2
-    files.write(compared.drop_attrs(deep=False), path, attributes={"stage": "compare"})
-    assert drawn_now("one") == ["span-2.0"]
-    assert drawn_now("two") == ["span-2.0", "span-2.5"]
 
 
 def test_the_page_of_a_specimen_is_drawn_again_only_if_what_it_shows_changed(two_tests, monkeypatch):
@@ -141,5 +118,28 @@ def test_a_damaged_result_is_told_as_a_failure(empty_campaign, tmp_path):
     assert "1 failed" in Page(text).words
 
 
-def test_the_overviews_path_is_returned(empty_campaign, tmp_path):
-    assert built(empty_campaign[0], Layout(tmp_path)) == Path(tmp_path) / "report" / "index.html"
+def test_a_template_without_what_it_shows_is_an_error(filled_campaign):
+    with pytest.raises(UndefinedError):
+        pages.Renderer(campaign=filled_campaign[0]).page("quality", "quality.html")
+
+
+def test_templates_are_compiled_once_for_all_renderers(filled_campaign):
+    renderers = [pages.renderer_of(filled_campaign[0]) for _ in range(2)]
+    first, second = (each._environment.get_template("parts.html.jinja") for each in renderers)
+    assert first is not second
+    assert first.root_render_func.__code__ is second.root_render_func.__code__
+
+
+def test_a_drawing_is_kept_until_it_changes(empty_campaign, tmp_path):
+    campaign, _ = empty_campaign
+    made = list(drawings.files(campaign, tmp_path, "code"))
+    assert [address for address, *_ in made] == [addresses.of_setup(*pair) for pair in campaign.combinations]
+    assert {address for address, *_ in made} <= {*addresses.addresses(campaign, [])[0]}
+    for address, text, made_from in made:
+        path = tmp_path / address
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(stamps.stamped(text, made_from), encoding="utf-8")
+    assert {text for _, text, _ in drawings.files(campaign, tmp_path, "code")} == {None}
+    heavier = replace(campaign, gravity=9.8)
+    assert None not in {text for _, text, _ in drawings.files(heavier, tmp_path, "code")}
+    assert None not in {text for _, text, _ in drawings.files(campaign, tmp_path, "other")}

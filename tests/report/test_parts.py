@@ -1,15 +1,17 @@
-"""What the report keeps of each test, and when its page is drawn again."""
+"""What the report keeps of each test, as text and back, and when its page is drawn again."""
 
 from __future__ import annotations
 
 import shutil
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from colonnade.campaign import load
 from colonnade.report import addresses
-from colonnade.report.asked import Asked
+from colonnade.report.asked import Asked, asked_of
+from colonnade.report.kept import ALTERED, from_text, to_text
 from colonnade.report.parts import Part, parts_of
 from colonnade.store import stamps
 from colonnade.store.layout import Layout
@@ -58,17 +60,6 @@ def keep(layout, part, *, text=None, key=None, data=None) -> None:
         path.write_text(content, encoding="utf-8")
 
 
-def test_parts_come_in_the_order_in_which_they_are_asked_for(started):
-    names = ["later", "watched", "sine-dead"]
-    found = parts_of(*started, "", [asked(*started, name) for name in names])
-    assert [part.row.id for part in found] == names
-    assert all(part.row.test is started[0].tests[part.row.id] for part in found)
-
-
-def test_no_test_asked_for_gives_no_part(started):
-    assert parts_of(*started, "", []) == []
-
-
 @pytest.mark.parametrize(
     ("test", "has_span", "has_free_vibration"),
     [
@@ -87,19 +78,6 @@ def test_a_test_is_part_of_the_pages_of_its_kind(started, test, has_span, has_fr
     if has_free_vibration:
         assert part.free_vibration.test == test
         assert part.free_vibration.e
-
-
-def test_what_a_test_was_made_with_names_that_test_alone(started):
-    used = part_of(*started).used
-    assert used.values
-    assert used.versions
-    assert {test for values in used.values.values() for tests in values.values() for test in tests} == {SHAKEN}
-
-
-def test_a_test_that_was_not_run_has_a_page_and_nothing_else(started):
-    part = part_of(*started, "later")
-    assert (part.channels, part.used.values, part.used.versions) == ((), {}, {})
-    assert "later" in part.text
 
 
 def test_results_that_are_out_of_date_are_not_read(started):
@@ -172,3 +150,54 @@ def test_a_page_does_not_know_other_tests_or_where_the_campaign_lies(started, tm
     shutil.rmtree(Layout(folder).test("free-01"))
     moved = part_of(load(folder), Layout(folder), code=CODE)
     assert moved.made_from == part_of(campaign, layout, code=CODE).made_from
+
+
+@pytest.fixture(scope="module")
+def parts(filled_campaign):
+    """A free vibration, a test with a Span, and one that failed; their pages are not drawn again."""
+    campaign, layout = filled_campaign
+    asked = [each for each in asked_of(campaign, layout) if each.test in ("free-01", "span-2.0", "sine-dead")]
+    return campaign, {
+        part.row.id: replace(part, text=None, data=None) for part in parts_of(campaign, layout, "", asked)
+    }
+
+
+def again(campaign, part):
+    return from_text(campaign, part.row.id, part.row.record, to_text(part))
+
+
+@pytest.mark.parametrize("test", ["free-01", "span-2.0", "sine-dead"])
+def test_a_part_comes_back_as_it_was(parts, test):
+    campaign, part = parts[0], parts[1][test]
+    back = again(campaign, part)
+    assert (back.row, back.channels, back.thumbnail, back.used) == (part.row, part.channels, part.thumbnail, part.used)
+    assert (back.text, back.data, back.made_from) == (None, None, part.made_from)
+    assert to_text(back) == to_text(part)
+    assert (back.span is None, back.free_vibration is None) == (part.span is None, part.free_vibration is None)
+
+
+def test_curves_and_peaks_come_back_to_the_last_bit(parts):
+    campaign, every = parts
+    panel, back = every["span-2.0"].span.panel, again(campaign, every["span-2.0"]).span.panel
+    assert back.predicted.keys() == panel.predicted.keys()
+    assert np.array_equal(back.measured.values, panel.measured.values, equal_nan=True)
+    series, back = (
+        every["free-01"].free_vibration.drawn.peaks,
+        again(campaign, every["free-01"]).free_vibration.drawn.peaks,
+    )
+    assert np.array_equal(back.angle, series.angle)
+    assert back.used.dtype == np.bool_
+
+
+def test_a_failure_keeps_its_stage(parts):
+    campaign, every = parts
+    assert again(campaign, every["sine-dead"]).row.failures[0].stage == "ingest"
+
+
+@pytest.mark.parametrize(
+    "damage", [lambda text: text[:-9], lambda text: "", lambda text: "\n[1, 2]", lambda text: "\n{}"]
+)
+def test_text_that_was_altered_is_refused(parts, damage):
+    campaign, part = parts[0], parts[1]["free-01"]
+    with pytest.raises(ALTERED):
+        from_text(campaign, "free-01", part.row.record, damage(to_text(part)))

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from colonnade.findings import warning
+from colonnade.report.asked import asked_of
 from colonnade.report.pages import renderer_of
-from colonnade.report.photos import Photo, Photos, photos_of
+from colonnade.report.photos import Photo, Photos, address_of, photos_of
+from colonnade.store.layout import Layout
 
 HOSTILE = '"><script>alert(1)</script>.jpg'
 
@@ -41,3 +43,15 @@ def test_the_section_shows_paths_and_reasons_as_text(empty_campaign):
     assert "<script>" not in text
     assert "it is &lt;damaged&gt;" in text
     assert renderer_of(campaign).page("sections/photos", "tests/a.html", test={"photos": Photos()}).strip() == ""
+
+
+def test_photos_are_those_in_the_folder_of_the_report(filled_campaign, tmp_path):
+    campaign = filled_campaign[0]
+    test = campaign.tests["span-2.0"].model_copy(update={"photos": ("a.jpg", "b.jpg")})
+    campaign = replace(campaign, tests=campaign.tests | {"span-2.0": test})
+    second = Layout(tmp_path).report.parent / address_of("span-2.0", 2)
+    second.parent.mkdir(parents=True)
+    second.write_bytes(b"")
+    found = {each.test: each.photos.shown for each in asked_of(campaign, Layout(tmp_path))}
+    assert [photo.written for photo in found["span-2.0"]] == ["b.jpg"]
+    assert found["free-01"] == ()

@@ -1,11 +1,15 @@
-"""What the programs of reports share: numbers as they were, a record a line; parts of pages in their places."""
+"""What the programs of reports share: numbers as they were, a record a line; pages that stay small."""
+
+from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import rebuild
 import study
 
 KEPT = sorted(path for path in study.HERE.rglob("*.json"))
@@ -43,3 +47,16 @@ def test_a_part_of_a_page_is_replaced_between_its_marks():
 
 def test_a_bar_in_a_cell_does_not_end_it():
     assert study.table(("a", "b"), [("|θ|", 1)]) == "| a | b |\n|---|---|\n| \\|θ\\| | 1 |"
+
+
+REPORTS = Path(__file__).resolve().parents[2] / "reports"
+
+
+@pytest.mark.slow
+def test_the_whole_demo_gives_the_numbers_of_its_report_and_every_outcome_is_right(tmp_path, as_reported):
+    rebuild.rebuild(tmp_path)
+    as_reported(tmp_path, "demo")
+
+
+def test_the_reports_are_small():
+    assert sum(path.stat().st_size for path in REPORTS.rglob("*") if path.is_file()) < 5_000_000

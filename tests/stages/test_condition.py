@@ -4,19 +4,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from colonnade import campaign as campaigns
+from chain import conditioned
 from colonnade.errors import StageError
 from colonnade.signals.quality import Flag
 from colonnade.stages import condition as conditioning
 from colonnade.stages.condition import condition
-from colonnade.stages.ingest import IngestInputs, ingest
 from colonnade.stages.ingesting.clocks import ChannelOnClock
-
-
-def _conditioned(campaign, test, recordings, **changes):
-    read = conditioning.ConditionInputs.of(campaign, test)
-    return condition(ingest(recordings, IngestInputs.of(campaign, test)), read.model_copy(update=changes))
-
 
 OFFSET = 0.02
 """s, by which the second recorder is late."""
@@ -76,55 +69,11 @@ def test_a_delay_and_a_clock_offset_are_each_taken_off_once(linked, of_first, of
         np.testing.assert_allclose(result[name], _shaking(result["elapsed"].to_numpy()), atol=2e-2)
 
 
-def test_linked_channels_that_point_against_each_other_are_aligned(linked):
-    recorded = _two_recorders(_shaking(FIRST), -_shaking(SECOND - OFFSET))
-    result = condition(recorded, linked.model_copy(update={"links": {"daq2": ("first", "second", -1.0)}}))
-    assert result["second"].attrs["clock_offset"] == pytest.approx(OFFSET, abs=2e-4)
-    assert result["second"].attrs["clock_offset_standard_error"] < 1e-3
-    assert result.attrs["warnings"] == []
-
-
-@pytest.mark.parametrize(
-    ("directions", "sign"),
-    [(("[1, 0, 0]", "[-1, 0, 0]"), -1.0), (("[1, 0, 0]", "[1, 0, 0]"), 1.0), (("[0, -1, 0]", "[0, 1, 0]"), -1.0)],
-)
-def test_the_sign_of_a_link_is_that_of_the_directions(tmp_path, small_campaign, directions, sign):
-    setup = """
-[setups.frame.recorders.daq2]
-clock = {align = ["table_acceleration", "second"]}
-
-[setups.frame.channels.second]
-column = "ACC"
-recorder = "daq2"
-quantity = "acceleration"
-unit = "g"
-on = "table"
-"""
-    text = small_campaign.path.read_text(encoding="utf-8")
-    head, tail = text.split("[setups.frame.channels.table_acceleration]")
-    own, tests = tail.split("[[tests]]", 1)
-    own = own.replace("[1, 0, 0]", directions[0])
-    path = tmp_path / "two.toml"
-    channels = f"{head}[setups.frame.channels.table_acceleration]{own}{setup}direction = {directions[1]}\n\n"
-    tests = tests.replace('"shake.csv"', '{main = "shake.csv", daq2 = "shake-2.csv"}')
-    path.write_text(f"{channels}[[tests]]{tests}", encoding="utf-8")
-    campaign = campaigns.load(path)
-    read = conditioning.ConditionInputs.of(campaign, campaign.tests["shake-01"])
-    assert read.links == {"daq2": ("table_acceleration", "second", sign)}
-
-
 def test_an_offset_that_a_steady_sine_leaves_open_is_warned_of(linked):
     recorded = _two_recorders(np.sin(6 * np.pi * FIRST), np.sin(6 * np.pi * (SECOND - 0.2)))
     result = condition(recorded, linked)
     assert any("fits as well" in warning.text for warning in result.attrs["warnings"])
     assert "clock_offset_standard_error" not in result["second"].attrs
-
-
-def test_an_offset_that_is_not_determined_has_no_standard_error(linked):
-    result = condition(_two_recorders(np.zeros(FIRST.size), np.zeros(SECOND.size)), linked)
-    assert result["second"].attrs["clock_offset"] == 0.0
-    assert "clock_offset_standard_error" not in result["second"].attrs
-    assert any("assumed to start with the main one" in warning.text for warning in result.attrs["warnings"])
 
 
 def test_a_channel_of_another_quantity_links_recorders_but_is_not_conditioned(linked):
@@ -154,7 +103,7 @@ def test_nothing_above_the_cut_off_is_folded_into_a_lower_sampling_rate(linked):
 def test_shaking_before_the_table_is_at_rest_is_warned_of(small_campaign, shaken):
     recordings, time, _, _ = shaken
     recordings["main"].channel("ACC").values[:] += np.where(time > 0.1, 0.05 * np.sin(20 * time), 0.0)
-    result = _conditioned(small_campaign, small_campaign.tests["shake-01"], recordings)
+    result = conditioned(small_campaign, "shake-01", recordings)
     (told,) = [found for found in result.attrs["warnings"] if found.kind == "zero"]
     assert told.severity == "warning"
     size = float(re.search(r"The zero of the base acceleration is uncertain by ([\d.]+) m/s²", told.text)[1])
@@ -166,22 +115,22 @@ def test_shaking_before_the_table_is_at_rest_is_warned_of(small_campaign, shaken
 def test_a_zero_that_moves_too_little_to_matter_is_not_told(small_campaign, shaken):
     recordings, time, _, _ = shaken
     recordings["main"].channel("ACC").values[:] += 0.002 * np.sin(20 * time)  # 16 times its noise
-    result = _conditioned(small_campaign, small_campaign.tests["shake-01"], recordings)
+    result = conditioned(small_campaign, "shake-01", recordings)
     assert [found for found in result.attrs["warnings"] if found.kind == "zero"] == []
 
 
 def test_only_a_stretch_that_is_at_rest_is_advised(small_campaign, shaken):
     recordings, time, _, _ = shaken
     recordings["main"].channel("ACC").values[:] += np.where(time < 0.6, 0.05 * np.sin(20 * time), 0.0)
-    result = _conditioned(small_campaign, small_campaign.tests["shake-01"], recordings)
+    result = conditioned(small_campaign, "shake-01", recordings)
     (told,) = [found.text for found in result.attrs["warnings"] if found.kind == "zero"]
     start, stop = map(float, re.search(r'zero = \["([\d.]+) s", "([\d.]+) s"\] avoids it', told).groups())
     assert start >= 0.6
     assert stop - start == pytest.approx(0.5, abs=0.01)
-    advised = _conditioned(small_campaign, small_campaign.tests["shake-01"], recordings, zero=(start, stop))
+    advised = conditioned(small_campaign, "shake-01", recordings, zero=(start, stop))
     assert [found for found in advised.attrs["warnings"] if found.kind == "zero"] == []
     recordings["main"].channel("ACC").values[:] += 0.05 * np.sin(20 * time)
-    result = _conditioned(small_campaign, small_campaign.tests["shake-01"], recordings)
+    result = conditioned(small_campaign, "shake-01", recordings)
     assert "No part of the record is quieter" in " ".join(map(str, result.attrs["warnings"]))
 
 
@@ -189,7 +138,7 @@ def test_missing_cells_stay_missing(small_campaign, free_vibration):
     recordings, _, _, _ = free_vibration
     recordings["main"].channel("LVDT 1").values[1500:1680] = np.nan
     recordings["main"].channel("LVDT 1").values[2000:2003] = np.nan
-    result = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
+    result = conditioned(small_campaign, "free-01", recordings)
     assert np.flatnonzero(np.isnan(result["top"])).tolist() == list(range(1500, 1680))
     assert (result["top_quality"][1500:1680] == Flag.MISSING).all()
     assert (result["top_quality"][2000:2003] == Flag.SUSPECT).all()
@@ -199,7 +148,7 @@ def test_missing_cells_stay_missing(small_campaign, free_vibration):
 def test_a_channel_without_values_where_zero_is_taken_is_left_out(small_campaign, free_vibration):
     recordings, _, _, _ = free_vibration
     recordings["main"].channel("LVDT 1").values[-300:] = np.nan
-    result = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
+    result = conditioned(small_campaign, "free-01", recordings)
     assert "top" not in result
     assert any("channel top is left out: it has no value from" in warning.text for warning in result.attrs["warnings"])
     assert result["elapsed"][-1] == pytest.approx(11.998)
@@ -207,10 +156,10 @@ def test_a_channel_without_values_where_zero_is_taken_is_left_out(small_campaign
 
 def test_rounded_times_give_the_clock_behind_them(small_campaign, free_vibration):
     recordings, time, _, _ = free_vibration
-    exact = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
+    exact = conditioned(small_campaign, "free-01", recordings)
     for channel in recordings["main"].channels:
         channel.time[:] = np.round(time, 2)
-    result = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
+    result = conditioned(small_campaign, "free-01", recordings)
     assert np.diff(result["elapsed"]) == pytest.approx(0.002, rel=1e-4)
     expected = np.interp(result["elapsed"], exact["elapsed"], exact["top"])
     # The clock is known to a fraction of the last digit that was written.
@@ -219,33 +168,33 @@ def test_rounded_times_give_the_clock_behind_them(small_campaign, free_vibration
 
 def test_a_free_vibration_that_starts_tilted_is_zeroed_at_its_end(small_campaign, free_vibration):
     recordings, _, _, _ = free_vibration
-    result = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
+    result = conditioned(small_campaign, "free-01", recordings)
     assert abs(float(result["top"][-100:].mean())) < 2e-6
     assert float(result["top"][100]) > 0.03
     assert result.attrs["warnings"] == []
 
 
 def test_an_earthquake_is_zeroed_at_its_start(small_campaign, shaken):
-    result = _conditioned(small_campaign, small_campaign.tests["shake-01"], shaken[0])
+    result = conditioned(small_campaign, "shake-01", shaken[0])
     assert abs(float(result["table_acceleration"][:200].mean())) < 2e-4
     assert result["top"].attrs["zero_window"].startswith("0 s")
 
 
 def test_zero_can_be_given_or_switched_off(small_campaign, free_vibration):
     test = small_campaign.tests["free-01"]
-    tilted = _conditioned(small_campaign, test, free_vibration[0], zero="start")
+    tilted = conditioned(small_campaign, test, free_vibration[0], zero="start")
     assert abs(float(tilted["top"][:200].mean())) < 2e-6
-    own = _conditioned(small_campaign, test, free_vibration[0], zero=(10.0, 11.0))
+    own = conditioned(small_campaign, test, free_vibration[0], zero=(10.0, 11.0))
     assert own["top"].attrs["zero_window"] == "10 s to 11 s"
-    raw = _conditioned(small_campaign, test, free_vibration[0], zero="none")
+    raw = conditioned(small_campaign, test, free_vibration[0], zero="none")
     assert float(raw["bottom"][-1]) == pytest.approx(0.7e-3, abs=1e-4)
     with pytest.raises(StageError, match="no sample is between 90 and 91 s"):
-        _conditioned(small_campaign, test, free_vibration[0], zero=(90.0, 91.0))
+        conditioned(small_campaign, test, free_vibration[0], zero=(90.0, 91.0))
 
 
 def test_a_record_that_ends_while_rocking_is_warned_of(small_campaign, free_vibration):
     test = small_campaign.tests["free-01"].model_copy(update={"window": (0.0, 3.0)})
-    result = _conditioned(small_campaign, test, free_vibration[0])
+    result = conditioned(small_campaign, test, free_vibration[0])
     told = result.attrs["warnings"][0]
     assert (told.kind, told.severity) == ("zero", "serious")
     assert "The zero of the rocking angle is uncertain by 0.0" in told.text
@@ -255,41 +204,21 @@ def test_a_record_that_ends_while_rocking_is_warned_of(small_campaign, free_vibr
 
 def test_spikes_are_bridged_before_the_filter_and_stay_suspect(small_campaign, free_vibration):
     recordings, _, _, _ = free_vibration
-    clean = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
+    clean = conditioned(small_campaign, "free-01", recordings)
     recordings["main"].channel("LVDT 1").values[1500] += 5.0
-    spiked = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
+    spiked = conditioned(small_campaign, "free-01", recordings)
     np.testing.assert_allclose(spiked["top"], clean["top"], atol=1e-4)
     assert spiked["top_quality"][1500] == Flag.SUSPECT
 
 
 def test_the_noise_that_is_left_is_told(small_campaign, free_vibration):
     recordings, _, _, _ = free_vibration
-    result = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
+    result = conditioned(small_campaign, "free-01", recordings)
     assert float(result["top"][-400:].std()) == pytest.approx(result["top"].attrs["noise"], rel=0.5)
     assert 1e-6 < result["top"].attrs["noise"] < 1e-5
-
-
-def test_a_delay_is_taken_off(small_campaign, shaken):
-    test = small_campaign.tests["shake-01"]
-    delayed = _delayed(conditioning.ConditionInputs.of(small_campaign, test), {"table_acceleration": 0.01})
-    late = _conditioned(small_campaign, test, shaken[0], channels=delayed.channels)
-    whole = _conditioned(small_campaign, test, shaken[0])
-    onto = late["elapsed"].to_numpy()[100:-100]
-    expected = np.interp(onto + 0.01, whole["elapsed"], whole["table_acceleration"])
-    np.testing.assert_allclose(np.interp(onto, late["elapsed"], late["table_acceleration"]), expected, atol=5e-3)
 
 
 def test_a_cut_off_above_half_the_sampling_rate_is_refused_by_its_key(small_campaign, free_vibration):
     test, settings = small_campaign.tests["free-01"], small_campaign.processing
     with pytest.raises(StageError, match=r"processing\.lowpass is 300 Hz; below 250 Hz.*channel top"):
-        _conditioned(small_campaign, test, free_vibration[0], settings=settings.model_copy(update={"lowpass": 300.0}))
-
-
-def test_a_channel_without_a_value_is_left_out_and_said(small_campaign, free_vibration):
-    recordings, _, _, _ = free_vibration
-    recordings["main"].channel("LVDT 2").values[:] = np.nan
-    result = _conditioned(small_campaign, small_campaign.tests["free-01"], recordings)
-    assert "bottom" not in result
-    assert any(
-        "channel bottom is left out: it has no usable sample" in warning.text for warning in result.attrs["warnings"]
-    )
+        conditioned(small_campaign, test, free_vibration[0], settings=settings.model_copy(update={"lowpass": 300.0}))

@@ -7,13 +7,10 @@ from functools import partial
 import numpy as np
 import pytest
 
+import chain
 from colonnade.dynamics.ensembles.uncertainty import INPUTS
-from colonnade.identification.response.rank import FEWEST, is_within, rank
-from colonnade.stages import compare as comparing
+from colonnade.identification.response.rank import is_within, rank
 from colonnade.stages import ensemble as running
-from colonnade.stages import predict as predicting
-from colonnade.stages import restitution as identifying
-from colonnade.stages import specimen as pooling
 from prism import PRISM
 
 MEMBERS = 60
@@ -25,10 +22,8 @@ def results(small_campaign, conditioned_and_measured):
     found = {
         name: tuple(result.copy(deep=True) for result in results) for name, results in conditioned_and_measured.items()
     }
-    read = identifying.RestitutionInputs.of(small_campaign, small_campaign.tests["free-01"])
-    identified = identifying.restitution(found["free-01"][1], read)
-    pooled = pooling.specimen({"free-01": identified}, pooling.SpecimenInputs.of(small_campaign, "prism"))
-    return found, pooled
+    identified = chain.identified(small_campaign, found["free-01"][1])
+    return found, chain.pooled(small_campaign, {"free-01": identified})
 
 
 @pytest.fixture
@@ -51,8 +46,7 @@ def ensemble(small_campaign, results):
 
 def test_the_bands_lie_about_the_prediction_on_its_clock(small_campaign, results, ensemble):
     (_, rocking), pooled = results[0]["shake-01"], results[1]
-    read = predicting.PredictInputs.of(small_campaign, small_campaign.tests["shake-01"], "linear")
-    predicted = predicting.predict(rocking, pooled, read)
+    predicted = chain.predicted(small_campaign, "shake-01", rocking, pooled)
     bands = ensemble("shake-01")
     np.testing.assert_array_equal(bands["elapsed"], predicted["elapsed"])
     np.testing.assert_array_equal(bands["rocking_angle"], predicted["rocking_angle"])
@@ -124,13 +118,6 @@ def test_the_horizon_is_where_the_band_gets_wider_than_the_setting(small_campaig
     assert float(never["horizon"]) == float(never["elapsed"][-1])
 
 
-def test_too_few_runs_give_a_horizon_and_no_rank(small_campaign, results, ensemble):
-    bands = ensemble("shake-01", members=FEWEST - 1)
-    compared = compare(small_campaign, results, bands)
-    assert np.isfinite(float(compared["horizon"]))
-    assert np.isnan(float(compared["within_spread"]))
-
-
 def test_runs_of_a_free_vibration_are_measured_to_start_where_it_was_measured(results, ensemble):
     """A wrong calibration of the angle moves the start too: every run that starts higher is read as lower."""
     bands = ensemble("free-01", model="nonlinear")
@@ -143,25 +130,6 @@ def test_runs_of_a_free_vibration_are_measured_to_start_where_it_was_measured(re
     assert is_within(rank(float(bands["measured_distance"]), bands["member_distance"].values))
 
 
-def test_a_specimen_that_fell_is_held_against_those_that_fall(small_campaign, results, ensemble):
-    fallen = results[0]["shake-01"][1].assign_attrs(outcome="overturned")
-    standing = ensemble("shake-01")
-    assert float(compare(small_campaign, results, standing, fallen)["peak_rank"]) == 1.0
-    peaks = standing["judged_peak_ratio"].copy(data=np.full(MEMBERS, np.nan))
-    falling = standing.assign(judged_peak_ratio=peaks, overturning_probability=1.0)
-    compared = compare(small_campaign, results, falling, fallen)
-    assert (float(compared["peak_rank"]), float(compared["overturning_probability"])) == (0.5, 1.0)
-
-
-def test_without_a_measured_angle_the_probability_alone_is_told(small_campaign, results, ensemble):
-    table_only = results[0]["shake-01"][1].drop_vars(["rocking_angle", "peak_ratio"])
-    compared = compare(small_campaign, results, ensemble("shake-01", rocking=table_only), table_only)
-    assert np.isnan(float(compared["within_spread"]))
-    assert np.isnan(float(compared["peak_rank"]))
-    assert np.isfinite(float(compared["horizon"]))
-    assert float(compared["overturning_probability"]) == 0.0
-
-
 def test_without_ensembles_nothing_is_said_of_spread(small_campaign, results):
     assert "within_spread" not in compare(small_campaign, results, None)
 
@@ -169,8 +137,6 @@ def test_without_ensembles_nothing_is_said_of_spread(small_campaign, results):
 def compare(campaign, results, ensemble, rocking=None):
     found, pooled = results
     rocking = found["shake-01"][1] if rocking is None else rocking
-    test = campaign.tests["shake-01"]
-    predicted = predicting.predict(rocking, pooled, predicting.PredictInputs.of(campaign, test, "linear"))
+    predicted = chain.predicted(campaign, "shake-01", rocking, pooled)
     ensembles = {} if ensemble is None else {"linear": ensemble}
-    inputs = comparing.CompareInputs.of(campaign, test)
-    return comparing.compare(rocking, {"linear": predicted}, inputs, ensembles).isel(model=0)
+    return chain.compared(campaign, "shake-01", rocking, {"linear": predicted}, ensembles).isel(model=0)

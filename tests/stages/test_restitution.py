@@ -1,45 +1,69 @@
-"""The stage gives the identification what is known: the low-pass, and the motion of the table."""
+"""e of a free vibration by the stage, with what it is given: the low-pass, and the motion of the table."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
+import xarray as xr
 
-from colonnade.stages import condition as conditioning
-from colonnade.stages import ingest as ingesting
-from colonnade.stages import restitution as stage
-from colonnade.stages import rocking as rocking_stage
+import chain
+from colonnade.errors import StageError
+from prism import PRISM
 
 
 @pytest.fixture
-def passed(small_campaign, free_vibration, monkeypatch):
-    """What the identification is called with, of a free vibration, and the result of `rocking` that it is from."""
-    test = small_campaign.tests["free-01"]
-    recorded = ingesting.ingest(free_vibration[0], ingesting.IngestInputs.of(small_campaign, test))
-    ready = conditioning.condition(recorded, conditioning.ConditionInputs.of(small_campaign, test))
-    rocking = rocking_stage.rocking(ready, rocking_stage.RockingInputs.of(small_campaign, test))
-    calls, identify = [], stage.identify_restitution
-
-    def recorded_call(*arguments, **known):
-        calls.append(known)
-        return identify(*arguments, **known)
-
-    monkeypatch.setattr(stage, "identify_restitution", recorded_call)
-
-    def call(**changed):
-        read = stage.RestitutionInputs.of(small_campaign, test).model_copy(update=changed)
-        stage.restitution(rocking, read)
-        return calls[-1], ready, rocking
-
-    return call
+def rocking(small_campaign, free_vibration):
+    return chain.measured(small_campaign, "free-01", free_vibration[0])[1]
 
 
-def test_the_low_pass_that_the_angle_went_through_is_passed_on(passed):
-    known, ready, rocking = passed()
-    assert known["lowpass"] == ready["top"].attrs["cutoff_hz"] == rocking["rocking_angle"].attrs["cutoff_hz"]
-    np.testing.assert_array_equal(known["base_acceleration"], rocking["base_acceleration"])
+@pytest.fixture
+def identified(small_campaign, rocking):
+    return chain.identified(small_campaign, rocking)
 
 
-def test_a_filter_of_another_order_is_not_taken_for_the_one_that_the_fit_knows(passed):
-    known, _, _ = passed(filter_order=2)
-    assert known["lowpass"] is None
+def test_restitution_of_a_free_vibration_is_the_true_one(identified):
+    assert float(identified["restitution"]) == pytest.approx(0.93, abs=5e-4)
+    assert identified.attrs["reason"] == ""
+    used = identified["peak_used"].to_numpy() == 1
+    fitted, seen = identified["fitted_angle"].to_numpy()[used], identified["peak_angle"].to_numpy()[used]
+    np.testing.assert_allclose(fitted, seen, atol=2e-4)
+
+
+def test_the_whole_history_agrees_with_the_peaks_and_stands_beside_them(identified):
+    assert identified["model"].to_numpy().tolist() == ["linear", "nonlinear"]
+    nonlinear = identified.sel(model="nonlinear")  # the truth's own model
+    assert float(nonlinear["restitution_history"]) == pytest.approx(0.93, abs=3e-4)
+    assert float(nonlinear["restitution_history_low"]) < float(nonlinear["restitution_history"])
+    assert float(nonlinear["restitution_history_residual"]) < 1e-3 * 0.186
+    assert float(identified.sel(model="linear")["restitution_history"]) == pytest.approx(0.93, abs=2e-3)
+    assert identified.attrs["history_reason"] == ""
+    assert identified.attrs["warnings"] == []
+
+
+def test_a_whole_history_that_disagrees_with_the_peaks_is_warned_of(small_campaign, rocking):
+    block = PRISM.override(inertia=1.05 * PRISM.inertia)
+    result = chain.identified(small_campaign, rocking, block=block)
+    assert float(result["restitution"]) == pytest.approx(0.93, abs=1e-3)
+    assert any("standard errors apart" in warning.text for warning in result.attrs["warnings"])
+
+
+def test_a_record_without_peaks_gives_a_reason_and_no_number(small_campaign, rocking):
+    result = chain.identified(small_campaign, rocking.assign(rocking_angle=0 * rocking["rocking_angle"]))
+    assert np.isnan(float(result["restitution"]))
+    assert "the record has 0" in result.attrs["reason"]
+    assert result.attrs["warnings"]
+    assert np.isnan(result["restitution_history"]).all()
+    assert "No value to start from" in result.attrs["history_reason"]
+
+
+def test_a_free_vibration_without_transducers_is_refused(small_campaign, rocking):
+    with pytest.raises(StageError, match="no restitution"):
+        chain.identified(small_campaign, rocking.drop_vars("rocking_angle"))
+
+
+def test_the_fit_takes_a_low_pass_into_account_unless_it_is_of_another_order(small_campaign, rocking, identified):
+    other = chain.identified(small_campaign, rocking, filter_order=2)
+    assert float(other["restitution_history"][1]) != float(identified["restitution_history"][1])
+    unfiltered = rocking.copy()
+    del unfiltered["rocking_angle"].attrs["cutoff_hz"]
+    xr.testing.assert_identical(other, chain.identified(small_campaign, unfiltered))

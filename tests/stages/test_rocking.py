@@ -4,17 +4,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from chain import conditioned
 from colonnade.campaign import load
 from colonnade.errors import StageError
-from colonnade.stages import condition as conditioning
-from colonnade.stages import ingest as ingesting
 from colonnade.stages import rocking as rocking_stage
 from colonnade.stages.rocking import rocking
-
-
-def conditioned(campaign, test, recordings):
-    recorded = ingesting.ingest(recordings, ingesting.IngestInputs.of(campaign, test))
-    return conditioning.condition(recorded, conditioning.ConditionInputs.of(campaign, test))
 
 
 def _rocking(campaign, name, recordings, **changes):
@@ -144,19 +138,6 @@ def test_a_single_shock_in_the_base_motion_is_told_with_its_time_and_size(small_
     (told,) = [found for found in result.attrs["warnings"] if found.kind == "single shock"]
     assert "at 6.00" in told.text
     assert "[[flag]]" in told.text
-
-
-def test_several_table_accelerometers_are_named_and_held_against_each_other(small_campaign, shaken):
-    ready = conditioned(small_campaign, small_campaign.tests["shake-01"], shaken[0])
-    other = ready["table_acceleration"]
-    read = rocking_stage.RockingInputs.of(small_campaign, small_campaign.tests["shake-01"])
-    both = _with_channels(read, accelerations=dict.fromkeys(("table_acceleration", "second"), (1.0, 0.0, 0.0)))
-    for factor, severity, said in ((1.0, "note", "they agree to 0.0\u00a0%"), (0.5, "warning", "differ: ")):
-        two = ready.assign(second=other.copy(data=factor * other.to_numpy()).assign_attrs(channel="second"))
-        (told,) = [each for each in rocking(two, both).attrs["warnings"] if each.kind == "several table channels"]
-        assert told.severity == severity
-        assert "The base acceleration along x is the mean of table_acceleration and second" in told.text
-        assert said in told.text
 
 
 @pytest.mark.parametrize("share", [0.06, 0.12, 0.4])

@@ -5,17 +5,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import chain
 from colonnade import campaign as campaigns
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.readers.recording import RecordedChannel, Recording
-from colonnade.stages import condition as conditioning
-from colonnade.stages import ingest as ingesting
-from colonnade.stages import rocking as rocking_stage
 from colonnade.store.description import describe
 from prism import PRISM
 
 HALF_WIDTH = 0.043
-RATE = 500.0
 
 HEAD = """
 schema = 1
@@ -118,10 +115,7 @@ def measure(tmp_path):
             values[np.isin(np.arange(time.size), lost) & (name in CHANNELS)] = np.nan
             columns.append(RecordedChannel(name, None, (spoilt or {}).get(name, 1.0) * values, time))
         recordings = {"main": Recording(Path("kinds.csv"), "delimited", tuple(columns))}
-        chosen = campaign.tests[test]
-        recorded = ingesting.ingest(recordings, ingesting.IngestInputs.of(campaign, chosen))
-        conditioned = conditioning.condition(recorded, conditioning.ConditionInputs.of(campaign, chosen))
-        return rocking_stage.rocking(conditioned, rocking_stage.RockingInputs.of(campaign, chosen))
+        return chain.measured(campaign, test, recordings)[1]
 
     return measured
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import xarray as xr
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy import stats
 
 from colonnade.dynamics.block import Block
@@ -32,21 +30,6 @@ def inputs(given=None, level=0.95, block=PRISM):
     return SpecimenInputs(block=block, given=given, level=level)
 
 
-def test_two_tests_that_agree_have_the_error_of_their_mean():
-    found = specimen({"a": identified(0.93, 0.002), "b": identified(0.93, 0.002)}, inputs())
-    half = stats.t.ppf(0.975, 1) * 0.002 / np.sqrt(2)
-    assert float(found["restitution"]) == pytest.approx(0.93)
-    assert float(found["restitution_high"]) == pytest.approx(0.93 + half)
-    assert float(found["restitution_low"]) == pytest.approx(0.93 - half)
-    assert float(found["between_test_scatter"]) == 0.0
-
-
-def test_two_exact_tests_differ_by_the_scatter_between_tests():
-    found = specimen({"a": identified(0.92, 1e-6), "b": identified(0.94, 1e-6)}, inputs())
-    assert float(found["restitution"]) == pytest.approx(0.93)
-    assert float(found["between_test_scatter"]) == pytest.approx(np.std([0.92, 0.94], ddof=1), rel=1e-6)
-
-
 @pytest.mark.parametrize("level", [0.5, 0.9, 0.95])
 def test_one_test_keeps_its_normal_interval_at_the_level(level):
     found = specimen({"a": identified(0.93, 0.002)}, inputs(level=level))
@@ -54,16 +37,6 @@ def test_one_test_keeps_its_normal_interval_at_the_level(level):
     assert float(found["restitution_high"] - found["restitution"]) == pytest.approx(half)
     assert float(found["restitution"] - found["restitution_low"]) == pytest.approx(half)
     assert float(found["level"]) == level
-
-
-@settings(max_examples=30)
-@given(st.lists(st.floats(0.5, 0.99), min_size=1, max_size=6), st.floats(1e-4, 0.05))
-def test_the_e_lies_among_those_of_the_tests_and_within_its_interval(values, error):
-    found = specimen({f"free-{number}": identified(e, error) for number, e in enumerate(values)}, inputs())
-    e = float(found["restitution"])
-    assert min(values) - 1e-12 <= e <= max(values) + 1e-12
-    assert float(found["restitution_low"]) < e < float(found["restitution_high"])
-    assert found["side_restitution"].to_numpy().tolist() == [e, e]
 
 
 @pytest.mark.parametrize(

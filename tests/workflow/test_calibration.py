@@ -1,4 +1,4 @@
-"""Laws of contact on request: those for the campaign's own settings are stored, others are shown alone."""
+"""e and laws of contact on request: one rule for e, whoever asks."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ import pytest
 from colonnade.errors import CampaignError
 from colonnade.store import files
 from colonnade.workflow.calibration import calibrate
+from colonnade.workflow.maps.plans import Wanted
+from colonnade.workflow.maps.stability import make_maps
 
 CONTACT = 'contact = {step = "100 us", penetration = 1e-6, damping_fraction = 0.3}'
 COARSE = f"[processing.predict]\n{CONTACT}\n\n[setups.frame.channels]"
@@ -36,16 +38,6 @@ def test_an_unknown_specimen_is_refused_with_the_nearest(untouched):
     assert not untouched.layout.processed.exists()
 
 
-def test_the_target_is_the_restitution_of_the_campaign_file_as_it_is(small):
-    small.edit("[setups.frame.channels]", COARSE)
-    small.edit(BODY, GIVEN)
-    (made,) = calibrate(small.folder, workers=1)
-    assert made.target == 0.93
-    small.edit(GIVEN, BODY)
-    (made,) = calibrate(small.folder, workers=1)
-    assert made.target == pytest.approx(small.summary()["specimens"]["prism"]["restitution"]["value"], abs=1e-12)
-
-
 def test_a_given_restitution_is_known_without_any_run_and_a_stored_law_is_not_found_again(untouched, monkeypatch):
     untouched.edit("[setups.frame.channels]", COARSE)
     untouched.edit(BODY, GIVEN)
@@ -63,3 +55,35 @@ def test_a_law_that_cannot_be_found_says_why_and_leaves_the_others(untouched):
     assert "Use a shorter step or a softer contact" in refused.reason
     assert (refused.restitution, refused.source, refused.step, refused.path) == (None, "", 1e-3, None)
     assert (found.reason, found.target) == ("", 0.93)
+
+
+MAP = Wanted(frequency_ratio=(3.0, 4.0), amplitude_ratio=(0.5, 1.5), points=(2, 3), cycles=2.0)
+
+
+def summarised(small):
+    restitution = small.summary()["specimens"]["prism"]["restitution"]
+    return restitution["value"], restitution["source"]
+
+
+def mapped(small):
+    (made,) = make_maps(small.folder, MAP, workers=1)
+    return made.restitution_source
+
+
+def test_a_given_restitution_that_is_taken_out_again_is_nowhere_used(small):
+    identified = summarised(small)
+    small.edit(BODY, GIVEN)
+    small.run()
+    assert summarised(small) == (0.93, "given")
+    small.edit(GIVEN, BODY)
+    assert mapped(small) == "identified"
+    small.run(until="ingest")
+    assert summarised(small) == identified
+    assert identified[1] == "identified"
+
+
+def test_a_restitution_that_was_identified_for_another_block_is_not_used(small):
+    small.edit('height = "456 mm"', 'height = "400 mm"')
+    small.run(until="ingest")
+    assert summarised(small)[1] == "rigid-body"
+    assert mapped(small) == "rigid-body"

@@ -67,17 +67,6 @@ def test_every_test_is_looked_at_counted_and_nothing_is_written(untouched):
     assert untouched.files() == before
 
 
-def test_all_files_and_columns_that_are_missing_are_found_at_once(untouched):
-    untouched.raw("free-01").unlink()
-    path = untouched.raw("pulse-01")
-    path.write_text(path.read_text(encoding="utf-8").replace("time,top,table", "time,tip,tables"), encoding="utf-8")
-    found = checked(untouched)
-    (missing,) = found.tests["free-01"].problems
-    assert "free-01.csv: there is no such file" in missing
-    assert [problem.split(":")[0] for problem in found.tests["pulse-01"].problems] == ["channel top", "channel table"]
-    assert found.tests["pulse-02"].status == "good"
-
-
 def test_a_test_that_people_excluded_is_not_read(untouched):
     (untouched.folder / "review.toml").write_text(EXCLUDE, encoding="utf-8")
     untouched.raw("pulse-01").unlink()
@@ -104,16 +93,6 @@ def test_a_file_that_tests_share_is_read_once(untouched, monkeypatch):
     )
     checked(untouched)
     assert seen.count("pulse-01") == 1
-
-
-def test_a_wrong_gain_is_found_as_a_run_finds_it(untouched):
-    untouched.edit('unit = "mm", on = "specimen"', 'unit = "mm", gain = "10 mm/mm", on = "specimen"')
-    found = checked(untouched)
-    assert {name: each.status for name, each in found.tests.items() if name.startswith("free")} == {
-        "free-01": "doubtful",
-        "free-02": "doubtful",
-    }
-    assert "gain" in {each.kind for each in found.tests["free-01"].findings}
 
 
 def test_ground_motions_and_hazard_of_assessments_are_read(assessed_copy):

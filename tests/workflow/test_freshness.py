@@ -144,18 +144,6 @@ def test_a_damaged_result_is_made_anew(small):
     assert small.contents() == before
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        '{"raw/pulse',
-        "[]",
-    ],
-)
-def test_a_damaged_catalogue_costs_hashes_and_nothing_else(small, text):
-    small.layout.catalogue.write_text(text)
-    assert small.redone() == {}
-
-
 def alter(path):
     """Change one number of a result, as another program would: its time and its attributes stay."""
     times = (path.stat().st_atime_ns, path.stat().st_mtime_ns)

@@ -1,16 +1,21 @@
-"""Raw files: hashed once, and asked again whether they are still the same when they have been read."""
+"""Raw files: hashed once, copies of each other, and in two parts."""
 
 from __future__ import annotations
 
 import os
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 from colonnade.campaign import load
-from colonnade.errors import StoreError
+from colonnade.store import files
+from colonnade.workflow import copies
 from colonnade.workflow import raw_files as module
 from colonnade.workflow.catalogue import Catalogue
-from colonnade.workflow.raw_files import expect_unchanged, raw_files
+from colonnade.workflow.copies import digests_of_equal_sizes, with_copies
+from colonnade.workflow.raw_files import raw_files
+from every import every
 
 
 @pytest.fixture
@@ -43,10 +48,178 @@ def test_a_file_that_is_not_there_has_no_hash(untouched, seen):
     assert found.is_empty
 
 
-@pytest.mark.parametrize("change", [lambda path: path.write_text("1"), lambda path: path.unlink()])
-def test_a_file_that_changes_while_it_is_read_is_told(untouched, seen, change):
-    found = seen[0](Catalogue(untouched.layout))
-    expect_unchanged(untouched.folder, found)
-    change(untouched.raw("pulse-01"))
-    with pytest.raises(StoreError, match=r"raw/pulse-01\.csv: this file changed while it was being read"):
-        expect_unchanged(untouched.folder, found)
+@pytest.fixture
+def told(small):
+    """Give the findings for some digests."""
+    campaign = load(small.folder)
+    return lambda digests: [found.text for found in with_copies(campaign, digests).warnings]
+
+
+@every(
+    "digests",
+    [
+        {"a": {"raw/a.csv": "1"}, "b": {"raw/b.csv": "2"}},
+        {"a": {"raw/a.csv": "1"}, "b": {"raw/a.csv": "1"}},
+        {"a": {"raw/a.csv": "1", "raw/b.csv": "1"}},
+        {"a": {"raw/a.csv": None}, "b": {"raw/b.csv": None}},
+    ],
+)
+def test_files_that_differ_or_are_shared_or_of_one_test_or_empty_are_no_copies(told, digests):
+    assert told(digests) == []
+
+
+@pytest.fixture
+def shared(small):
+    """Give the findings with free-02 naming the file of free-01, with lines added to both entries."""
+
+    def give(first="", second=""):
+        small.edit('file = "raw/free-01.csv"', f'file = "raw/free-01.csv"{first}')
+        small.edit('file = "raw/free-02.csv"', f'file = "raw/free-01.csv"{second}')
+        return [found.text for found in with_copies(load(small.folder), {}).warnings]
+
+    return give
+
+
+def test_two_tests_of_one_file_are_one_recording(shared):
+    (text,) = shared()
+    assert text.startswith("free-01, free-02 are one recording: all name raw/free-01.csv, and no `window` keeps them")
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "is_told"),
+    [
+        (("0 s", "10 s"), ("10 s", "20 s"), False),
+        (("0 s", "11 s"), ("9 s", "20 s"), False),
+        (("0 s", "10 s"), ("4 s", "14 s"), True),
+        (None, ("4 s", "14 s"), True),
+    ],
+    ids=["apart", "rest in both", "mostly the same", "one has no window"],
+)
+def test_windows_keep_two_tests_of_one_file_apart(first, second, is_told, shared):
+    first, second = ("" if each is None else f'\nwindow = ["{each[0]}", "{each[1]}"]' for each in (first, second))
+    assert bool(shared(first, second)) == is_told
+
+
+def test_a_copy_names_both_files_and_the_test_to_look_at(told):
+    (text,) = told({"a": {"raw/a.csv": "1"}, "b": {"raw/b.csv": "1"}})
+    assert text.startswith("A raw file holds the same bytes as that of another test: raw/b.csv is a copy of raw/a.csv")
+    assert text.endswith("or delete the entries of b.")
+
+
+def test_of_many_copies_three_are_named(told):
+    (text,) = told({f"test-{number}": {f"raw/{number}.csv": "1"} for number in range(6)})
+    assert text.startswith("5 raw files hold")
+    assert text.count("is a copy of") == 3
+    assert "; and 2 more. " in text
+    assert "test-1, test-2, test-3 and 2 more tests" in text
+
+
+def test_only_files_of_the_same_size_are_hashed(small, monkeypatch):
+    hashed = []
+    monkeypatch.setattr(copies, "sha256_of", lambda path: hashed.append(path.name) or "1")
+    sizes = {path.name: path.stat().st_size for path in (small.folder / "raw").iterdir()}
+    digests_of_equal_sizes(load(small.folder))
+    assert sorted(hashed) == sorted(name for name in sizes if list(sizes.values()).count(sizes[name]) > 1)
+    small.raw("free-02").write_bytes(small.raw("free-01").read_bytes())
+    hashed.clear()
+    found = digests_of_equal_sizes(load(small.folder))
+    assert {"free-01.csv", "free-02.csv"} <= set(hashed)
+    assert found["free-02"] == {"raw/free-02.csv": "1"}
+
+
+CHANNELS = (("time", "s"), ("top", "mm"), ("table", "m/s^2"))
+
+
+def as_diadem(raw: Path) -> Path:
+    """Write a raw file of text anew as a DIAdem header with its values beside it; these are returned."""
+    rows = np.loadtxt(raw, delimiter=",", skiprows=1)
+    values = raw.with_suffix(".tdx")
+    blocks, data = "", ""
+    for number, (name, unit) in enumerate(CHANNELS):
+        blocks += f'<block byteOffset="{4 * number * len(rows)}" id="i{number}" length="{len(rows)}" '
+        blocks += 'valueType="eFloat32Usi"/>'
+        data += f'<tdm_channel id="c{number}"><name>{name}</name><unit_string>{unit}</unit_string>'
+        data += f'<local_columns>id("l{number}")</local_columns></tdm_channel>'
+        data += f'<localcolumn id="l{number}"><values>id("s{number}")</values></localcolumn>'
+        data += f'<float_sequence id="s{number}"><values external="i{number}"/></float_sequence>'
+    raw.write_text(
+        '<?xml version="1.0"?><usi:tdm xmlns:usi="x"><usi:include>'
+        f'<file byteOrder="littleEndian" url="{values.name}">{blocks}</file></usi:include>'
+        f"<usi:data>{data}</usi:data></usi:tdm>",
+        encoding="utf-8",
+    )
+    values.write_bytes(rows.T.astype("<f4").tobytes())
+    return values
+
+
+@pytest.fixture
+def in_two_parts(untouched):
+    """The small campaign with one test whose raw file is in two parts, once run up to ingest."""
+    as_diadem(untouched.raw("pulse-01"))
+    assert not untouched.run(only="pulse-01", until="ingest").failed
+    return untouched
+
+
+def values_of(campaign) -> Path:
+    return campaign.raw("pulse-01").with_suffix(".tdx")
+
+
+def alter(path: Path, *, keep_time: bool = False) -> None:
+    status = path.stat()
+    content = bytearray(path.read_bytes())
+    content[-2] ^= 0x20
+    path.write_bytes(content)
+    if keep_time:
+        os.utime(path, ns=(status.st_atime_ns, status.st_mtime_ns))
+
+
+def test_both_parts_are_in_the_provenance(in_two_parts):
+    attributes = files.read_attributes(in_two_parts.layout.stage("pulse-01", "ingest"))
+    assert list(attributes["raw_files"]) == ["raw/pulse-01.csv", "raw/pulse-01.tdx"]
+    assert all(len(digest) == 64 for digest in attributes["raw_sha256"])
+
+
+def test_altered_values_are_ingested_again(in_two_parts):
+    assert in_two_parts.redone(only="pulse-01", until="ingest") == {}
+    alter(values_of(in_two_parts))
+    assert in_two_parts.redone(only="pulse-01", until="ingest") == {("pulse-01", "ingest"): "raw file changed"}
+    assert in_two_parts.redone(only="pulse-01", until="ingest") == {}
+
+
+def test_values_that_change_or_go_while_they_are_read_are_told(in_two_parts, monkeypatch):
+    from colonnade.workflow import steps
+
+    ingest = steps._ingest
+    for change in (alter, Path.unlink):
+        with monkeypatch.context() as still:
+
+            def still_copying(*arguments, change=change):
+                result = ingest(*arguments)
+                change(values_of(in_two_parts))
+                return result
+
+            still.setattr(steps, "_ingest", still_copying)
+            result = in_two_parts.run(only="pulse-01", until="ingest", start_from="ingest")
+        assert "raw/pulse-01.tdx: this file changed while it was being read" in result.stages[0].reason
+
+
+def test_missing_values_are_named_and_taken_up_once_they_are_there(in_two_parts):
+    values = values_of(in_two_parts)
+    away = values.rename(values.with_name("away"))
+    (failed,) = in_two_parts.run(only="pulse-01", until="ingest").stages
+    assert 'its values are in the file "pulse-01.tdx", which is not in its folder' in failed.reason
+    away.rename(values)
+    assert not in_two_parts.run(only="pulse-01", until="ingest").failed
+
+
+def test_values_that_are_a_link_out_of_the_campaign_are_refused_and_not_hashed(in_two_parts, tmp_path):
+    values = values_of(in_two_parts)
+    outside = values.rename(tmp_path / "outside")
+    values.symlink_to(outside)
+    (failed,) = in_two_parts.run(only="pulse-01", until="ingest").stages
+    assert "its values are in pulse-01.tdx, which is a link to" in failed.reason
+    attributes = files.read_attributes(in_two_parts.layout.stage("pulse-01", "ingest"))
+    assert not attributes["raw_sha256"][1]
+    values.unlink()
+    outside.rename(values)
+    assert not in_two_parts.run(only="pulse-01", until="ingest").failed

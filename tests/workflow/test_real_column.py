@@ -53,14 +53,6 @@ def test_what_the_campaign_says_of_the_real_column_holds_for_it_alone(campaign):
     assert found(said)[0].restitution != 0.8
 
 
-def test_a_column_is_smaller_in_p_by_the_root_of_its_scale(campaign):
-    model, real = campaign.block("prism"), found(campaign, scale=4.0, restitution=0.9)[0].block
-    assert real.p == pytest.approx(model.p / 2)
-    assert real.critical_angle == pytest.approx(model.critical_angle)
-    other = found(campaign, critical_angle="0.15 rad", p="3 rad/s", specimen="prism", restitution=0.9)[0].block
-    assert (other.critical_angle, other.p) == pytest.approx((0.15, 3.0))
-
-
 def test_an_assessment_takes_the_scale_of_the_campaign_file(campaign):
     assert campaign.specimens["prism"].scale == 20.0
     real = found(campaign, is_real=True, restitution=0.9)[0].block

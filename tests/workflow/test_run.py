@@ -1,10 +1,14 @@
-"""What a run does of what is asked for: until, start_from and only; what a slip of the pen is answered with."""
+"""What a run does of what is asked for, what it takes, and what a slip of the pen is answered with."""
 
 from __future__ import annotations
+
+from pathlib import Path
 
 import pytest
 
 from colonnade.errors import CampaignError
+from colonnade.workflow.arguments import check_run
+from every import every
 
 
 def test_until_stops_after_a_stage_and_the_rest_is_pending(untouched):
@@ -14,8 +18,9 @@ def test_until_stops_after_a_stage_and_the_rest_is_pending(untouched):
     assert result.report is None
 
 
-def test_only_runs_the_tests_that_are_named_and_the_rest_is_pending(untouched):
-    result = untouched.run(only=["pulse-01"], until="rocking")
+@pytest.mark.parametrize("only", [["pulse-01"], "pulse-01"], ids=["a list", "one alone"])
+def test_only_runs_the_tests_that_are_named_and_the_rest_is_pending(untouched, only):
+    result = untouched.run(only=only, until="rocking")
     assert {stage.subject for stage in result.stages} == {"pulse-01"}
     assert not untouched.layout.test("pulse-02").exists()
     assert untouched.summary()["tests"]["pulse-02"]["status"] == "pending"
@@ -37,15 +42,15 @@ def test_a_slip_is_refused_with_the_nearest_name_and_nothing_is_written(untouche
     assert not untouched.layout.processed.exists()
 
 
-def test_progress_tells_each_stage_that_ended(untouched):
+def test_progress_tells_each_stage_that_ended_and_counts_the_tests(untouched):
     told = []
-    result = untouched.run(progress=lambda stage, done, total: told.append((stage, done, total)))
-    assert {stage for stage, _, _ in told} >= {stage for stage in result.stages if stage.subject != "prism"}
-    assert all(0 < done <= total for _, done, total in told)
+    result = untouched.run(until="ingest", progress=lambda *step: told.append(step))
+    assert told == [(stage, done, 4) for done, stage in enumerate(result.stages, 1)]
 
 
 def test_only_an_earthquake_takes_the_restitution_of_its_specimens_free_vibrations(untouched, undisturbed):
-    untouched.run(only=["pulse-01"])
+    stages = untouched.run(only=["pulse-01"]).stages
+    assert ("free-01", "predict") not in {(stage.subject, stage.stage) for stage in stages}
     predicted = [small.summary()["tests"]["pulse-01"]["predicted"]["linear"] for small in (untouched, undisturbed)]
     assert predicted[0] == predicted[1]
 
@@ -54,9 +59,62 @@ def test_only_an_earthquake_takes_the_restitution_of_its_specimens_free_vibratio
 def test_a_test_whose_results_are_out_of_date_is_pending(small, options):
     small.edit("456 mm", "400 mm")
     small.run(**options)
-    assert small.summary()["tests"]["pulse-02"]["status"] == "pending"
+    told = small.summary()["tests"]["pulse-02"]
+    assert told["status"] == "pending"
+    assert told["reason"] == "its results are out of date (settings changed); run again"
 
 
-def test_one_test_may_be_named_without_a_list(untouched):
-    result = untouched.run(only="pulse-01", until="ingest")
-    assert {stage.subject for stage in result.stages} == {"pulse-01"}
+def test_a_test_that_was_not_run_to_the_end_says_how_far(untouched):
+    untouched.run(until="ingest", only="pulse-02")
+    untouched.run(until="restitution", only="free-01")
+    tests = untouched.summary()["tests"]
+    assert {name: test["reason"] for name, test in tests.items()} == {
+        "free-01": "run only as far as restitution; `colonnade run` does the rest",
+        "free-02": None,
+        "pulse-01": None,
+        "pulse-02": "run only as far as ingest; `colonnade run` does the rest",
+    }
+
+
+SOUND = {
+    "campaign": "campaign.toml",
+    "stages": {"until": "compare", "start_from": None},
+    "only": (),
+    "workers": None,
+    "scheduler": None,
+    "verify": False,
+    "awaiting": False,
+    "results": None,
+    "progress": None,
+}
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {},
+        {"campaign": Path("a"), "results": Path("b"), "workers": 2, "only": "free-01", "verify": True},
+        {"only": {"free-01"}, "scheduler": "tcp://localhost:8786", "progress": print},
+    ],
+)
+def test_what_a_run_takes_passes(given):
+    check_run(**SOUND | given)
+
+
+@every(
+    ("given", "message"),
+    [
+        ({"campaign": None}, "campaign is None; a path was expected"),
+        ({"results": 3}, "results is 3; a path was expected"),
+        ({"stages": {"until": 3}}, "until is 3; the name of a stage was expected"),
+        ({"scheduler": 8786}, "scheduler is 8786; an address was expected"),
+        ({"only": [1]}, "only is an array of shape .*; the id of a test, or a list of ids"),
+        ({"workers": 0}, "workers is 0; a whole number from 1 to 10000"),
+        ({"verify": 1}, "verify is 1; True or False"),
+        ({"awaiting": "yes"}, "awaiting is the text 'yes'; True or False"),
+        ({"progress": "bar"}, "progress is the text 'bar'; a function"),
+    ],
+)
+def test_what_it_does_not_take_is_named(given, message):
+    with pytest.raises(ValueError, match=message):
+        check_run(**SOUND | given)

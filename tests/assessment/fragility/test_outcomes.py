@@ -1,9 +1,15 @@
-"""Outcomes on their axes, and those that cannot be."""
+"""Outcomes on their axes, in stripes, at rest or surviving more; and those that cannot be."""
+
+from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from colonnade.assessment.fragility.outcomes import gather
+from colonnade.assessment.fragility.outcomes import Cells, gather
+from colonnade.assessment.fragility.resurrection import resurrection
+from colonnade.assessment.fragility.stripes import MOST_STRIPES, striped
+from colonnade.assessment.fragility.uplift import uplift
+from virtual_capacities import lognormal, names
 
 PEAK = np.array([[0.0, 0.4, 2.0], [0.2, np.nan, 0.9]])
 INTENSITY = np.array([[1.0, 2.0, 3.0], [1.0, 2.0, 4.0]])
@@ -59,3 +65,54 @@ def test_outcomes_that_cannot_be_are_refused(records, intensity, peak, overturne
 
 def test_an_intensity_may_be_missing_where_nothing_was_run():
     assert gather(["a", "b"], np.where(np.isnan(PEAK), np.nan, INTENSITY), PEAK).cells().histories.sum() == 5
+
+
+def test_levels_are_stripes_and_every_history_is_in_one():
+    cells = lognormal(1).cells()
+    found = striped(cells)
+    np.testing.assert_allclose(found.log_intensity, cells.log_intensity[0])
+    np.testing.assert_array_equal(found.events, cells.events)
+
+
+def test_bins_between_which_there_is_nothing_are_left_out():
+    y = np.concatenate((np.zeros(30), np.linspace(5, 5.1, 30), np.linspace(9, 9.1, 4)))[None].repeat(2, axis=0)
+    found = striped(Cells(y, np.zeros_like(y), np.ones_like(y)))
+    assert found.log_intensity.size <= MOST_STRIPES
+    assert (np.diff(found.log_intensity) > 0).all()
+    assert (found.histories.sum(axis=0) > 0).all()
+    assert found.histories.sum() == y.size
+
+
+def test_cells_that_were_not_run_make_no_stripe():
+    y = np.log([[1.0, 2.0, 50.0], [1.0, 2.0, 50.0]])
+    found = striped(Cells(y, np.zeros((2, 3)), np.array([[1.0, 1.0, 0.0]] * 2)))
+    np.testing.assert_allclose(np.exp(found.log_intensity), [1.0, 2.0])
+
+
+def test_with_peak_acceleration_and_no_vertical_motion_it_is_a_threshold():
+    outcomes = gather(names(2), [[1.0, 2.0]] * 2, [[0.0, 0.1], [0.0, 0.2]])
+    found = uplift(outcomes, threshold=(1.7, 1.9))
+    assert (found.threshold, found.curve) == ((1.7, 1.9), None)
+
+
+def test_otherwise_it_is_a_curve_of_the_histories_that_rocked():
+    peak = np.where(np.random.default_rng(1).normal(2.0, 0.5, (40, 1)) < np.linspace(1, 3, 8), 0.3, 0.0)
+    found = uplift(gather(names(40), np.tile(np.linspace(1, 3, 8), (40, 1)), peak), resamples=100)
+    assert found.threshold is None
+    assert found.curve.median.low < 2.0 < found.curve.median.high
+
+
+def test_a_threshold_that_falls_is_refused():
+    with pytest.raises(ValueError, match="rising pair"):
+        uplift(gather(names(2), [[1.0]] * 2, [[0.0]] * 2), threshold=(2.0, 1.0))
+
+
+def test_a_pair_that_survives_more_than_overturned_it_is_counted_once_and_its_histories_each():
+    peak = [[[0.5, 0.5], [2, 0.5], [0.5, 0.5], [0.5, 2]], [[0.5, 0.5], [2, 2], [2, 2], [2, 2]]]
+    found = resurrection(gather(["one", "two"], [[1, 2, 3, 4.0]] * 2, peak))
+    assert (found.pairs, found.records, found.lost) == (pytest.approx(1 / 4), ("one",), pytest.approx(2 / 16))
+
+
+def test_levels_are_compared_by_intensity_and_not_by_their_order():
+    assert resurrection(gather(["a", "b"], [[2.0, 1.0]] * 2, [[2.0, 0.5]] * 2)).pairs == 0.0
+    assert resurrection(gather(["a", "b"], [[1.0, 2.0]] * 2, [[2.0, 0.5]] * 2)).pairs == 1.0

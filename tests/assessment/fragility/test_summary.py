@@ -1,10 +1,18 @@
-"""One call gives all of it, and what the outcomes do not give is None."""
+"""All of it in one call; scatter of records and of parameters, records that decide, and resampling."""
+
+from __future__ import annotations
 
 import numpy as np
 import pytest
+import scipy
 
-from colonnade.assessment.fragility.curves.hazard import hazard_curve
+from colonnade.assessment.fragility.betas import separate_betas
+from colonnade.assessment.fragility.curves.hazard import hazard_curve, lognormal_rate
+from colonnade.assessment.fragility.curves.lognormal import fit_lognormal
+from colonnade.assessment.fragility.influence import influence
+from colonnade.assessment.fragility.resampling import record_weights, studentised
 from colonnade.assessment.fragility.summary import summarise
+from fragilities.population import Population
 from virtual_capacities import MEDIAN, lognormal, outcomes_of
 
 
@@ -39,3 +47,74 @@ def test_answers_are_read_from_the_lognormal_curve_if_it_fits():
     assert found.taken == "lognormal"
     assert found.reaches(0.5) == pytest.approx(found.lognormal.median, rel=1e-6)
     assert found.digest()["median"].endswith("m/s")
+
+
+FINE = MEDIAN * np.exp(np.linspace(-2.5, 2.5, 121))
+
+
+def test_both_are_near_the_truth_and_inside_their_intervals():
+    found = separate_betas(lognormal(3, records=150), resamples=500)
+    assert found.reason == ""
+    assert found.records.low < Population.of_records < found.records.high
+    assert found.parameters.low < Population.of_parameters < found.parameters.high
+    truth = (Population.of_records, Population.of_parameters)
+    assert (found.records.value, found.parameters.value) == pytest.approx(truth, rel=0.12)
+
+
+def test_with_fine_levels_they_are_those_of_an_analysis_of_variance():
+    random = np.random.default_rng(5)
+    logs = random.normal(0, 0.5, (30, 1)) + random.normal(0, 0.2, (30, 8))
+    found = separate_betas(outcomes_of(MEDIAN * np.exp(logs), FINE), resamples=50)
+    within = logs.var(axis=1, ddof=1).mean()
+    between = logs.mean(axis=1).var() - within / 8  # maximum likelihood of a balanced design
+    assert found.parameters.value == pytest.approx(np.sqrt(within), rel=0.01)
+    assert found.records.value == pytest.approx(np.sqrt(between), rel=0.01)
+
+
+def test_what_cannot_be_separated_is_said():
+    random = np.random.default_rng(6)
+    records = MEDIAN * np.exp(random.normal(0, 0.4, (20, 1)))
+    assert separate_betas(outcomes_of(records), resamples=20).reason == "one draw"
+    assert separate_betas(outcomes_of(np.tile(records, 5)), resamples=20).reason == "parameters alike"
+    assert separate_betas(outcomes_of(np.tile(records, 5) * 1e6), resamples=20).reason == "no overlap"
+
+
+def test_a_record_unlike_the_others_comes_first():
+    capacity = MEDIAN * np.exp(np.random.default_rng(1).normal(0, 0.1, (20, 4)))
+    capacity[7] /= 2.5
+    assert influence(outcomes_of(capacity)).records[0] == "record 7"
+
+
+def test_it_is_the_curve_of_all_other_records():
+    outcomes = lognormal(2)
+    found = influence(outcomes, hazard_curve([0.1, 1.0], [1e-2, 1e-5]))
+    place = found.records.index("record 3")
+    without = fit_lognormal(outcomes.only(np.arange(30) != 3), resamples=2)
+    assert (found.median[place], found.beta[place]) == pytest.approx((without.median.value, without.beta.value))
+    expected = lognormal_rate(hazard_curve([0.1, 1.0], [1e-2, 1e-5]), without.median.value, without.beta.value)
+    assert found.rate[place] == pytest.approx(expected[0])
+
+
+def test_a_record_without_which_there_is_no_curve_comes_first():
+    capacity = np.full((6, 2), MEDIAN)
+    capacity[4] *= 3
+    found = influence(outcomes_of(capacity))
+    assert (found.records[0], np.isnan(found.median[0])) == ("record 4", True)
+
+
+def test_each_resample_has_as_many_records_and_draws_them_alike():
+    weights = record_weights(7, 5000, 1)
+    assert (weights.sum(axis=1) == 7).all()
+    assert weights.mean(axis=0) == pytest.approx(np.ones(7), abs=0.05)
+    assert weights.var(axis=0) == pytest.approx(np.full(7, 6 / 7), abs=0.1)
+
+
+def test_of_a_mean_of_normal_values_it_is_about_students_interval():
+    values = np.random.default_rng(3).normal(0, 1, 40)
+    weights = record_weights(40, 20000, 2)
+    means = weights @ values / 40
+    errors = np.sqrt((weights @ values**2 / 40 - means**2) / 40)
+    mean, error = values.mean(), values.std() / np.sqrt(40)
+    band = studentised(np.array([mean]), np.array([error]), means[:, None], errors[:, None], 0.95, 40)
+    reach = scipy.stats.t.ppf(0.975, 39) * error
+    assert (band.low[0], band.high[0]) == pytest.approx((mean - reach, mean + reach), abs=0.25 * reach)

@@ -1,10 +1,11 @@
-"""Peak velocity and displacement of tables against closed forms; what drifts is refused, in one place for all."""
+"""Velocity and displacement of tables and of the ground against closed forms; corrections of known errors."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
+from colonnade.assessment.intensity.baselines import BASELINES, baseline_of, corrected
 from colonnade.assessment.intensity.ground import Ground
 from colonnade.assessment.intensity.measured import intensity_measures, table_measures
 from colonnade.dynamics.motion import Motion
@@ -69,3 +70,44 @@ def test_a_motion_has_one_pgv_whoever_asks(error):
 def test_the_line_of_a_constant_error_leaves_the_velocity():
     clean, off = (Ground(values, INTERVAL, at_rest=True).velocity for values in (PULSE, PULSE + 0.05))
     np.testing.assert_allclose(off, clean, atol=1e-9)
+
+
+STEP = 0.01
+HALF_MINUTE = np.arange(3001) * STEP
+TRUE = 2.0 * np.sin(2 * np.pi * 1.5 * HALF_MINUTE) * np.sin(np.pi * HALF_MINUTE / HALF_MINUTE[-1]) ** 2
+ERRORS = {
+    "linear": np.full_like(HALF_MINUTE, 0.02),
+    "quadratic": 0.02 + 0.003 * HALF_MINUTE,
+    "highpass": 0.03 * np.sin(np.pi * HALF_MINUTE / HALF_MINUTE[-1]) ** 2,
+}
+
+
+@pytest.mark.parametrize("name", ERRORS)
+def test_a_correction_takes_off_the_error_that_it_is_made_for(name):
+    drifting = Ground(TRUE + ERRORS[name], STEP)
+    found = corrected(drifting, name)
+    assert drifting.drift > 0.3
+    assert found.drift < 0.05
+    assert np.abs(found.velocity).max() == pytest.approx(np.abs(Ground(TRUE, STEP).velocity).max(), rel=0.05)
+
+
+@pytest.mark.parametrize("name", ["linear", "quadratic"])
+def test_a_fit_leaves_nothing_of_what_it_fits(name):
+    assert np.abs(corrected(Ground(ERRORS[name], STEP), name).acceleration).max() < 1e-9
+
+
+def test_no_correction_changes_nothing():
+    assert corrected(Ground(TRUE, STEP), "none").acceleration is TRUE
+
+
+def test_the_highpass_passes_what_is_faster_than_its_corner():
+    rapid = np.sin(2 * np.pi * 2.0 * HALF_MINUTE) * np.hanning(HALF_MINUTE.size)
+    passed = corrected(Ground(rapid, STEP), "highpass(0.2 Hz)").acceleration
+    assert np.abs(passed - rapid).max() < 2e-3
+    slow = np.sin(2 * np.pi * 0.05 * HALF_MINUTE) * np.hanning(HALF_MINUTE.size)
+    assert np.abs(corrected(Ground(slow, STEP), "highpass(0.5 Hz)").acceleration).max() < 2e-3
+
+
+def test_each_correction_says_what_it_does():
+    assert "0.05 Hz" in baseline_of("highpass(0.05 Hz)").definition
+    assert all(each.definition and (each.source or name == "none") for name, each in BASELINES.items())

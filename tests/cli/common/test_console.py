@@ -1,13 +1,15 @@
-"""How results are written: numbers, tables, JSON, and a reader that goes away."""
+"""How results are written, and progress where there is no terminal."""
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
-from colonnade.cli.common import console
+from colonnade.cli.common import console, progress
+from colonnade.workflow import StageRun
 
 
 @dataclass
@@ -59,3 +61,44 @@ def test_fields_are_under_each_other(capsys):
 def test_what_went_wrong_is_no_result(capsys):
     console.complain("No.")
     assert (capsys.readouterr()) == ("", "No.\n")
+
+
+@pytest.fixture
+def lines(monkeypatch, capsys):
+    """Wait until some lines of progress were written; return them."""
+    monkeypatch.setattr(progress, "EVERY", 0.05)
+
+    def wait_for(count):
+        written, end = "", time.monotonic() + 20.0
+        while written.count("\n") < count and time.monotonic() < end:
+            time.sleep(0.01)
+            written += capsys.readouterr().err
+        return written.splitlines()
+
+    return wait_for
+
+
+def test_a_line_comes_every_few_seconds_also_while_nothing_ends(lines):
+    with progress.work_progress("Reading raw files") as advance:
+        assert lines(2)[:2] == ["Reading raw files, after 0 s"] * 2
+        advance(2, 3)
+        assert "Reading raw files: 2 of 3, after 0 s" in lines(3)
+        advance(3, 3)
+        assert "3 of 3 done, finishing, after 0 s" in lines(3)
+
+
+def test_a_run_names_the_test_and_the_stage(lines):
+    with progress.run_progress() as show:
+        show(StageRun("free-01", "rocking", "done"), 4, 20)
+        assert any(line.startswith("free-01 rocking: 4 of 20, after ") for line in lines(3))
+
+
+def test_quick_work_writes_nothing_and_nothing_is_written_after_the_end(monkeypatch, capsys):
+    with progress.work_progress("Reading raw files") as advance:
+        advance(1, 3)
+    monkeypatch.setattr(progress, "EVERY", 0.01)
+    with progress.work_progress("Reading raw files"):
+        pass
+    capsys.readouterr()
+    time.sleep(0.1)
+    assert capsys.readouterr() == ("", "")

@@ -1,4 +1,6 @@
-"""The law of contact beside the closed forms of one mass on a spring and damper."""
+"""The law of contact: its numbers, the step that follows it, and the modes of a body on it."""
+
+from __future__ import annotations
 
 import math
 
@@ -6,12 +8,19 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
+from colonnade.dynamics.contact import simulate as simulation
+from colonnade.dynamics.contact.elastic.assembly import assemble
+from colonnade.dynamics.contact.elastic.mesh import prism_mesh
+from colonnade.dynamics.contact.elastic.reduction import reduce_body, rigid_on_nodes
 from colonnade.dynamics.contact.law import STATIC_PENETRATION, ContactLaw
+from colonnade.dynamics.contact.modes import FOLLOWED, keep_modes, keep_modes_for_step
 from colonnade.dynamics.contact.nodes import rigid_body
 from colonnade.dynamics.contact.simulate import simulate
+from colonnade.dynamics.contact.stability import highest_frequency, longest_step
 from colonnade.dynamics.contact.start import Start
 from colonnade.dynamics.motion import Motion
 from every import every
+from prism import PRISM
 
 SQUARE = Block.prism(width=0.5, depth=0.5, height=1.0, mass=2.0)
 
@@ -63,3 +72,70 @@ def test_the_stiff_law_lets_bodies_of_all_sizes_sink_alike():
 def test_a_law_that_cannot_be_is_refused(wrong, message):
     with pytest.raises(ValueError, match=message):
         ContactLaw(**{"stiffness": 1e9, **wrong})
+
+
+BODY = rigid_body(PRISM)
+
+
+def test_the_highest_frequency_is_that_of_rocking_on_springs_where_sliding_is_soft():
+    law = ContactLaw(1e10, tangential_ratio=1e-9)
+    stiffness = law.node_stiffness(BODY)
+    bounce = math.sqrt(stiffness.sum() / BODY.mass)
+    rock = math.sqrt((stiffness @ BODY.nodes[:, 0] ** 2) / BODY.inertia[1])
+    assert highest_frequency(BODY, law) == pytest.approx(max(bounce, rock), rel=1e-6)
+
+
+def test_without_damping_the_longest_step_is_two_over_the_frequency():
+    law = ContactLaw(1e10, damping_fraction=0.0)
+    assert longest_step(BODY, law) == pytest.approx(2.0 / highest_frequency(BODY, law), rel=1e-4)
+
+
+@pytest.mark.parametrize("fraction", [0.0, 0.4, 2.0])
+def test_a_loaded_block_is_quiet_below_the_longest_step_and_not_above(fraction, monkeypatch):
+    law = ContactLaw(1e10, damping_fraction=fraction, friction=math.inf)
+    limit = longest_step(BODY, law)
+
+    def ringing(step):
+        # Under a gravity that keeps all nodes on the table.
+        motion = Motion(np.zeros(61), 10 * step)
+        history = simulation.simulate(BODY, motion, law=law, gravity=1e3, theta0=1e-9, step=step)
+        return np.abs(history.angle[-10:]).max()
+
+    assert ringing(0.9 * limit) < 1e-8
+    monkeypatch.setattr(simulation, "longest_step", lambda *_: math.inf)
+    assert ringing(1.1 * limit) > 1e-6
+
+
+ELASTIC = assemble(prism_mesh(0.086, 0.086, 0.456, (2, 2, 6)), 26.10)
+
+
+def test_dropping_modes_keeps_the_low_ones_and_ends_at_the_rigid_body() -> None:
+    reduced = reduce_body(ELASTIC)
+    limit = 2 / 1e-5
+    low = keep_modes(reduced, limit)
+    assert 0 < low.frequencies.size < reduced.frequencies.size
+    assert low.frequencies.max() <= limit
+    assert low.modes == pytest.approx(reduced.modes[:, :, : low.frequencies.size])
+    assert keep_modes(reduced, np.inf) is reduced
+    rigid = keep_modes(reduced, 1.0)
+    assert rigid.frequencies.size == 0
+    assert rigid.nodes == pytest.approx(rigid_on_nodes(ELASTIC).nodes)
+
+
+def test_a_step_of_ten_microseconds_keeps_modes_that_the_engine_advances_with_closed_energy() -> None:
+    reduced = reduce_body(ELASTIC)
+    law = ContactLaw.stiff(reduced, 9.81, penetration=1e-6)
+    kept = keep_modes_for_step(reduced, law, 1e-5)
+    count = kept.frequencies.size
+    assert count >= 4
+    assert longest_step(kept, law) >= 1e-5 / FOLLOWED
+    assert longest_step(keep_modes(reduced, reduced.frequencies[count + 1]), law) < 1e-5 / FOLLOWED
+    history = simulate(kept, law=law, theta0=0.05, duration=0.3, step=1e-5)
+    assert history.impact_times.size == 1
+    assert history.energies.closes
+
+
+def test_a_step_that_not_even_the_rigid_body_allows_is_refused() -> None:
+    reduced = reduce_body(ELASTIC, vibration_modes=6, attachment=False)
+    with pytest.raises(ValueError, match="even the rigid body on this contact needs one of at most"):
+        keep_modes_for_step(reduced, ContactLaw.stiff(reduced, 9.81), 1e-2)

@@ -1,12 +1,19 @@
-"""Counted quantiles are those of numpy to a fraction of a bin, and parts add up exactly."""
+"""Bands of an ensemble, what its runs end in, and how its inputs count."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy import stats
+from scipy.stats import spearmanr
 
 from colonnade.dynamics.ensembles.bands import BINS, band, count, empty_counts
+from colonnade.dynamics.ensembles.ensemble import ensemble
+from colonnade.dynamics.ensembles.rank_correlation import correlation, ranks_of
+from colonnade.dynamics.ensembles.uncertainty import INPUTS, Uncertainty
+from colonnade.dynamics.motion import Motion
 from every import every
+from prism import PRISM
 
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 
@@ -72,3 +79,42 @@ def test_levels_that_do_not_increase_from_0_to_1_are_refused(levels):
 def test_a_band_of_nothing_is_refused():
     with pytest.raises(ValueError, match="no history"):
         band(empty_counts(3), (0.5,))
+
+
+PULSE = Motion(np.concatenate((2.0 * np.sin(2 * np.pi * np.arange(100) / 100), np.zeros(600))), 0.004)
+
+
+def test_sensitivity_names_what_the_peak_follows_from():
+    """One pulse, peak before the first impact: e has no part in it, a larger motion rises higher, a larger α less."""
+    uncertainty = Uncertainty(restitution=0.01, critical_angle=0.003, gain=0.02)
+    half = Motion(np.concatenate((1.9 * np.sin(np.pi * np.arange(50) / 50), np.zeros(60))), 0.004)
+    result = ensemble(PRISM, half, restitution=0.95, uncertainty=uncertainty, count=800)
+    found = result.sensitivity()
+    assert set(found) == {"restitution", "critical_angle", "gain"}
+    assert found["gain"] > 0.9
+    assert -0.6 < found["critical_angle"] < -0.1
+    assert abs(found["restitution"]) < 0.1
+    for name in found:
+        expected = spearmanr(result.peak_ratio, result.inputs[:, INPUTS.index(name)]).statistic
+        assert found[name] == pytest.approx(expected, abs=1e-12)
+
+
+def test_no_certainty_follows_from_few_members():
+    result = ensemble(PRISM, PULSE, restitution=0.95, uncertainty=Uncertainty(gain=0.01), count=20)
+    assert result.overturning_probability == 0.0
+    assert result.overturning_interval() == pytest.approx((0.0, 0.16113), abs=1e-4)  # Wilson, 0 of 20
+
+
+def test_ranks_of_equal_values_are_shared_and_nan_is_highest():
+    assert ranks_of(np.array([3.0, 1.0, 1.0, np.nan, np.nan])).tolist() == [2.0, 0.5, 0.5, 3.5, 3.5]
+
+
+def test_it_is_spearmans_correlation():
+    rng = np.random.default_rng(1)
+    first, second = rng.normal(size=50).round(1), rng.normal(size=50).round(1)
+    expected = stats.spearmanr(first, second).statistic
+    assert correlation(ranks_of(first), ranks_of(second)) == pytest.approx(expected)
+
+
+def test_values_that_do_not_vary_have_none():
+    assert np.isnan(correlation(ranks_of(np.ones(4)), ranks_of(np.arange(4.0))))

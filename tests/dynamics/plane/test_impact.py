@@ -1,10 +1,14 @@
-"""Restitution over speed and side, the rest rule, and who stands again when left alone."""
+"""Uplift, landing and impact of a block on its two sides."""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 import pytest
 
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.plane.harmonic.envelope import level_at, piece_between
 from colonnade.dynamics.plane.impact import (
     comes_to_rest,
     holding_moment,
@@ -12,7 +16,10 @@ from colonnade.dynamics.plane.impact import (
     restitution_of,
     survives_free_rocking,
 )
+from colonnade.dynamics.plane.landing import verdict
 from colonnade.dynamics.plane.sides import Sides, sides_of
+from colonnade.dynamics.plane.uplift import harmonic_uplift, level_uplift, sampled_uplift
+from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import rock
 from every import every
 from prism import PRISM
@@ -51,3 +58,66 @@ def test_what_is_told_of_free_rocking_is_what_a_run_gives(model, height, rate):
     stands = survives_free_rocking(height * alpha, rate * alpha, 1, sides, model == "linear")
     run = rock(PRISM, restitution=0.9, theta0=height * alpha, omega0=rate * alpha * PRISM.p, duration=3.0, model=model)
     assert stands == (run.outcome != "overturned")
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "told"),
+    [
+        ((1.0, 0.1, -0.2, 0.0), (0.9, -0.3, -0.2, 0.0), 1),
+        ((0.1, -0.5, -0.1, 0.0), (-0.4, -0.6, -0.1, 0.0), -1),
+        ((0.01, -0.5, 5.0, 0.0), (0.02, 0.5, 5.0, 0.0), 0),
+    ],
+    ids=["high above", "falls through", "close to the base"],
+)
+def test_a_verdict_on_a_piece(start, end, told):
+    assert verdict(1.0, start, end, 0.1, 0.1) == told
+
+
+LOPSIDED = Block.measured(mass=80.0, pole_distance=(0.61, 0.60), critical_angle=(0.21, 0.15), inertia=(41.2, 40.0))
+
+
+def test_each_side_has_its_own_angle_frequency_and_restitution():
+    sides = sides_of(LOPSIDED, (0.9, 0.8), 1e-6)
+    np.testing.assert_allclose(sides.critical, [0.21, 0.15])
+    np.testing.assert_allclose(sides.p, np.sqrt([80 * 9.81 * 0.61 / 41.2, 80 * 9.81 * 0.60 / 40.0]))
+    assert sides.restitution.ravel().tolist() == [0.9, 0.8]
+    assert sides.rest_angle == 1e-6
+
+
+def test_a_law_comes_with_its_speeds():
+    sides = sides_of(LOPSIDED, RestitutionLaw.table([0.0, 2.0], [1.0, 0.8]), 0.0)
+    assert sides.speeds.tolist() == pytest.approx([0.0, 2.0])
+    assert set(sides.restitution.ravel()) == {1.0, 0.8}
+
+
+TIME = np.linspace(0.0, 4.0, 400_001)
+
+
+@every("smooth", [None, True])
+@every("levels", [(0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (0.1, 0.25)])
+@every("phase", [0.0, 2.0, 4.0])
+def test_uplift_is_where_a_scan_first_passes_a_threshold(smooth, levels, phase):
+    piece = piece_between(*levels, 4.0, smooth)
+    level = np.array([level_at(piece, since)[0] for since in TIME[::100]])
+    base = np.interp(TIME, TIME[::100], level) * np.sin(7.0 * TIME + phase)
+    first = int(np.argmax((base > 0.2) | (-base > 0.22)))
+    instant, side = harmonic_uplift(0.0, 4.0, 0.0, 7.0, phase, piece, 0.2, 0.22)
+    assert instant == pytest.approx(TIME[first], abs=2e-5)
+    assert side == -np.sign(base[first])
+
+
+def test_a_weak_motion_leaves_the_block_at_rest():
+    assert harmonic_uplift(0.0, 4.0, 0.0, 7.0, 0.0, piece_between(0.0, 0.1, 4.0, None), 0.2, 0.2) == (math.inf, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("base", "expected"),
+    [((0.1, 0.3), (0.5, 0)), ((-0.1, -0.4), (0.5, 1)), ((0.25, 0.0), (0.0, 0)), ((0.2, -0.25), (math.inf, 0))],
+    ids=["rises past one threshold", "falls past the other", "begins beyond", "stays within"],
+)
+def test_sampled_uplift_is_where_the_moment_or_the_base_acceleration_passes_its_threshold(base, expected):
+    thresholds = np.array([0.2, 0.25])
+    first, last = ((level - thresholds[0], -level - thresholds[1]) for level in base)
+    level = level_uplift(0.0, 1.0, base[0], base[1] - base[0], thresholds)
+    assert level == pytest.approx(expected)
+    assert sampled_uplift(0.0, 1.0, first, last) == pytest.approx(expected)

@@ -1,4 +1,4 @@
-"""One run of a plane model: what it refuses, and the law of restitution that reaches as far as the run."""
+"""A run in the plane, and the outcome that it ends in."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ from colonnade.dynamics.models.linear import LINEAR
 from colonnade.dynamics.models.model import Case
 from colonnade.dynamics.models.nonlinear import NONLINEAR
 from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.plane.harmonic.motion import OUTCOMES
+from colonnade.dynamics.plane.outcomes import ends_of, prepared
 from colonnade.dynamics.plane.run import LARGEST_ACCELERATION, LONGEST_SAMPLE, run
+from colonnade.dynamics.rock import rock
 from prism import PRISM
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
@@ -68,3 +71,32 @@ def test_a_law_reaches_as_far_as_the_fastest_impact():
 def test_what_the_plane_does_not_have_is_refused(case, message):
     with pytest.raises(ValueError, match=message):
         run(LINEAR, case)
+
+
+LEANING = replace(PRISM, positive=replace(PRISM.positive, critical_angle=1.3 * PRISM.critical_angle))
+TIME = np.arange(0.0, 4.0, 0.005)
+SHAKEN = np.sin(2 * np.pi * 2.0 * TIME) * np.sin(np.pi * TIME / 4.0) * PRISM.gravity
+LIFTED = 0.4 * np.cos(2 * np.pi * 5.0 * TIME) * PRISM.gravity
+
+
+@pytest.mark.parametrize("model", ["linear", "nonlinear"])
+@pytest.mark.parametrize("vertical", [None, LIFTED, 0.0 * LIFTED], ids=["level", "lifted", "lifted by nothing"])
+def test_ends_are_those_of_the_histories(model, vertical):
+    blocks = [(PRISM, (0.95, 0.95)), (LEANING, (0.9, 0.96)), (PRISM, (0.8, 0.8))]
+    drawn, seen = [prepared(*each) for each in blocks], set()
+    for level in (0.1, 0.15, 0.22, 0.3, 0.6, 1.2):
+        motion = Motion(level * SHAKEN, 0.005, vertical)
+        ends = ends_of(motion, drawn, gravity=PRISM.gravity, model=model)
+        for number, (block, e) in enumerate(blocks):
+            history = rock(block, motion, restitution=e, model=model)
+            assert OUTCOMES[ends.outcome[number]] == history.outcome
+            overturns = history.outcome == "overturned"
+            expected = (np.nan, history.overturning_time) if overturns else (history.peak_ratio, history.peak_time)
+            np.testing.assert_array_equal((ends.peak_ratio[number], ends.instant[number]), expected)
+            seen.add(history.outcome)
+    assert seen == set(OUTCOMES)
+
+
+def test_a_block_is_refused_whose_e_is_none():
+    with pytest.raises(ValueError, match=r"restitution is 1\.1; a number between 0 and 1"):
+        prepared(PRISM, 1.1)

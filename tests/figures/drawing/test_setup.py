@@ -67,38 +67,6 @@ def test_poles_centre_of_mass_and_dimensions_are_to_scale():
     assert across / (bounds.width * width) == pytest.approx(up / (bounds.height * height))
 
 
-def test_every_transducer_has_its_name_and_what_it_is_relative_to():
-    elevation, side, _ = views(TOP, TOP._replace(name="low", at=(0.043, 0.0, 0.05), relative_to="ground"))
-    written = [text.get_text() for text in elevation.texts]
-    for text in ("1 top", "2 low", "displacement, to table", "displacement, to ground"):
-        assert text in written
-    assert {"1", "2"} <= {text.get_text() for text in side.texts}
-
-
-def test_accelerometers_are_on_the_table_and_what_has_no_place_is_hollow():
-    elevation, *_ = views(
-        Transducer("acc", "acceleration", "table", (1.0, 0.0, 0.0)),
-        Transducer("gyro", "angular_velocity", "specimen", (1.0, 0.0, 0.0)),
-        Transducer("floor", "acceleration", "ground", (1.0, 0.0, 0.0)),
-    )
-    squares = sorted((z, x) for mark, x, z in marks(elevation) if mark == "s")
-    assert squares[0][0] < 0 < squares[1][0] < 0.02
-    assert squares[1][1] < -0.043
-    (gyro,) = [line for line in elevation.lines if line.get_marker() == "d"]
-    assert gyro.get_markerfacecolor() == "white"
-    assert (float(gyro.get_xdata()[0]), float(gyro.get_ydata()[0])) == pytest.approx((0.043, 0.228))
-
-
-def test_a_wire_leads_to_its_anchor_and_a_laser_has_its_face():
-    wire = TOP._replace(anchor=(0.3, 0.0, 0.42))
-    elevation, *_ = views(wire)
-    assert [0.043, 0.3] in [list(line.get_xdata()) for line in elevation.lines]
-    laser = TOP._replace(is_laser=True, normal=(1.0, 0.0, 0.0))
-    elevation, *_ = views(laser)
-    faces = [line for line in elevation.lines if line.get_linewidth() == 2.0]
-    assert [list(line.get_xdata()) for line in faces] == [[pytest.approx(0.043)] * 2]
-
-
 def test_sides_with_different_angles_have_one_each():
     block = Block.measured(mass=80, pole_distance=(0.61, 0.60), critical_angle=(0.21, 0.24), inertia=41.2)
     body = Body("rectangle", (0.27, 0.27), (0.27, 0.27), 1.18, False, Rocking.of(block))

@@ -64,8 +64,3 @@ def test_amplitudes_far_apart_are_drawn_on_a_logarithmic_axis(largest, scale):
     assert axes.get_yscale() == scale
     assert axes.get_ylim()[0] < 0.9
     assert axes.get_ylim()[1] > largest
-
-
-def test_a_map_without_tests_is_an_error():
-    with pytest.raises(ValueError, match="no sine test"):
-        measured_map([])

@@ -65,8 +65,3 @@ def test_a_sub_harmonic_point_carries_its_order(charts):
 def test_measured_points_beyond_the_map_widen_it(charts):
     axes = stability_map(charts[0], [MapPoint("z", 5.0, 11.0, "rocking")]).axes[0]
     assert axes.get_ylim()[1] >= 11.0
-
-
-def test_a_figure_without_a_map_is_an_error():
-    with pytest.raises(ValueError, match="no map"):
-        stability_map([])

@@ -94,11 +94,3 @@ def test_estimates_of_many_records_are_a_row_an_estimator():
     assert "fit (21)" in written
     assert not any("peaks" in text for text in written)
     assert "pooled" in written
-
-
-@pytest.mark.parametrize(
-    "draw", [lambda: peaks_of_many([], PRISM), lambda: impacts_of_many([], level=None, rigid=None)]
-)
-def test_nothing_is_refused(draw):
-    with pytest.raises(ValueError, match="no free vibration was given"):
-        draw()

@@ -1,9 +1,18 @@
+"""Sensors: derivatives of their readings, what a set-up separates, and their noise."""
+
+from __future__ import annotations
+
 import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import Outline, Pose
+from colonnade.identification.fusion.readings import Readings
 from colonnade.identification.fusion.sensors import UNKNOWNS, Transducer, predict
+from colonnade.identification.fusion.separation import UnseenRotationError, separate
+from colonnade.signals.filters import lowpass
+from every import every
+from prism import PRISM
 
 HALF_WIDTH = 0.0485
 BLOCK = Block.cylinder(diameter=2 * HALF_WIDTH, height=0.455, mass=26.3)
@@ -61,3 +70,73 @@ def test_a_line_of_sight_that_passes_beside_a_round_specimen_reads_nothing(acros
 def test_a_wire_without_its_anchor_is_refused():
     with pytest.raises(ValueError, match="needs its anchor"):
         Transducer("wire", (1.0, 0.0, 0.0), (0.0, 0.0, 0.4))
+
+
+OUTLINE = Outline(0.043, 0.043)
+X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+TOP = Transducer("point", X, (0.043, 0.0, 0.44))
+BOTTOM = Transducer("surface", X, (0.043, 0.0, 0.02), normal=X)
+LEFT_EDGE, RIGHT_EDGE = Transducer("point", Z, (-0.043, 0.0, 0.0)), Transducer("point", Z, (0.043, 0.0, 0.0))
+ACROSS_TOP, ACROSS_BOTTOM = Transducer("point", Y, (0.0, 0.043, 0.44)), Transducer("point", Y, (0.0, 0.043, 0.02))
+ACROSS_SIDE = Transducer("point", Y, (0.04, 0.043, 0.44))
+BESIDE = Transducer("point", X, (0.043, 0.04, 0.44))
+INCLINOMETER = Transducer("angle", Y)
+
+
+@every(
+    ("transducers", "unknowns", "words"),
+    [
+        ([TOP], ["rocking_angle"], "angle only, from one displacement transducer; slide cannot be separated from it"),
+        ([TOP, BOTTOM], ["rocking_angle", "slide"], "angle and slide, from 2 displacement transducers"),
+        ([TOP, INCLINOMETER], ["rocking_angle", "slide"], "angle and slide, from 2 transducers"),
+        ([TOP, LEFT_EDGE], ["rocking_angle"], "slide and uplift cannot be separated from it and are taken as zero"),
+        ([LEFT_EDGE, RIGHT_EDGE], ["rocking_angle", "uplift"], "no transducer measures slide, out-of-plane angle"),
+        ([TOP, LEFT_EDGE, RIGHT_EDGE], ["rocking_angle", "slide", "uplift"], "angle, slide and uplift, from 3"),
+        ([TOP, ACROSS_TOP], ["rocking_angle", "out_of_plane_angle"], "slide and transverse slide cannot be separated"),
+        (
+            [TOP, ACROSS_TOP, ACROSS_BOTTOM],
+            ["rocking_angle", "out_of_plane_angle", "transverse_slide"],
+            "slide cannot be separated from these",
+        ),
+        ([TOP, ACROSS_TOP, ACROSS_SIDE], ["rocking_angle", "out_of_plane_angle", "yaw"], "transverse slide cannot"),
+        ([TOP, BESIDE, BOTTOM], ["rocking_angle", "slide", "yaw"], "angle, slide and yaw"),
+    ],
+)
+def test_what_a_set_up_separates_is_fitted_and_the_rest_is_said(transducers, unknowns, words):
+    found = separate(transducers, np.full(len(transducers), 1e-5), PRISM, OUTLINE)
+    assert list(found.unknowns) == unknowns
+    assert words in found.text
+
+
+def test_two_heights_that_are_too_close_do_not_separate_slide():
+    near = Transducer("point", X, (0.043, 0.0, 0.42))
+    found = separate([TOP, near], np.full(2, 1e-5), PRISM, OUTLINE)
+    assert found.unknowns == ("rocking_angle",)
+
+
+@pytest.mark.parametrize(
+    ("transducers", "words"),
+    [
+        ([ACROSS_TOP], "No transducer measures the rotation: each is at the height of the base"),
+        ([Transducer("point", X, (0.043, 0.0, 0.0))], "each is at the height of the base"),
+        ([LEFT_EDGE], "No transducer measures the rotation at θ < 0"),
+        ([RIGHT_EDGE], "No transducer measures the rotation at θ > 0"),
+    ],
+    ids=["across the plane", "at the base", "left edge alone", "right edge alone"],
+)
+def test_a_set_up_that_does_not_see_the_rotation_is_refused(transducers, words):
+    with pytest.raises(UnseenRotationError, match=words):
+        separate(transducers, np.ones(len(transducers)), PRISM, OUTLINE)
+
+
+@pytest.mark.parametrize(("cutoff", "factor"), [(250.0, 1.0), (np.inf, 1.0), (62.5, 2.0), (10.0, 5.0)])
+def test_white_noise_is_larger_by_the_root_of_the_band_that_is_left(cutoff, factor):
+    readings = Readings(np.zeros((1, 4)), np.array([0.3]), np.array([cutoff]))
+    assert readings.white(1 / 500)[0] == pytest.approx(0.3 * factor)
+
+
+def test_it_is_the_noise_before_a_real_low_pass():
+    noise = np.random.default_rng(4).standard_normal(100_000)
+    left = lowpass(noise, 1 / 500, 25.0)
+    readings = Readings(left[None], np.array([left.std()]), np.array([25.0]))
+    assert readings.white(1 / 500)[0] == pytest.approx(1.0, rel=0.1)

@@ -1,15 +1,53 @@
-"""A transducer's scale by the equation of motion: what it is multiplied by is found again."""
+"""Factors with their causes, scales that rocking tells, and what changed since the last test."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
+from colonnade.findings import Severity
+from colonnade.identification.plausibility.factors import UNKNOWN, as_expected, cause
 from colonnade.identification.plausibility.scale import scale_of
+from colonnade.identification.plausibility.since_last import ChannelState, changes
 from colonnade.signals.filters import lowpass
+from every import every
 from prism import PRISM
+
+
+@pytest.mark.parametrize("scale", [1.0, -1.0, 1.4, 1 / 1.4, -0.7])
+def test_a_scale_near_one_of_either_sign_is_as_expected(scale):
+    assert as_expected(scale)
+
+
+@pytest.mark.parametrize("scale", [1.6, 0.6, 10.0, 0.0, np.nan, np.inf])
+def test_any_other_is_not(scale):
+    assert not as_expected(scale)
+
+
+@every(
+    ("scale", "quantity", "said"),
+    [
+        (9.81, "acceleration", "g read as"),
+        (1 / 9.81, "acceleration", "g read as"),
+        (-25.4, "displacement", "inches read as mm"),
+        (2.5, "displacement", "inches read as cm"),
+        (57.3, "angle", "degrees read as radians"),
+        (1000.0, "displacement", "mm read as m"),
+        (0.01, "acceleration", "by a factor of 100"),
+        (10.3, "angle", "by a factor of 10"),
+    ],
+)
+def test_a_known_factor_and_its_inverse_have_a_cause(scale, quantity, said):
+    assert said in cause(scale, quantity)
+
+
+def test_an_odd_factor_has_none():
+    assert cause(3.3, "displacement") == UNKNOWN
+
 
 INTERVAL = 1 / 500
 TIME = np.arange(0, 12, INTERVAL)
@@ -61,3 +99,32 @@ def test_missing_samples_do_not_matter(shaken):
     broken[2000:2050] = np.nan
     whole, found = (scale_of(INTERVAL, each, 1e-6, base, PRISM) for each in (angle, broken))
     assert found.value == pytest.approx(whole.value, rel=0.02)
+
+
+GOOD = ChannelState(zero=1e-3, noise=1e-5, motion=1e-2)
+
+
+def kinds(now: dict[str, ChannelState], before: dict[str, ChannelState]) -> list[tuple[str, Severity]]:
+    return [(each.kind, each.severity) for each in changes(now, before, "span-2.0")]
+
+
+def test_a_channel_that_died_is_serious_while_others_move() -> None:
+    dead = ChannelState(zero=1e-3, noise=1e-5, motion=2e-5)
+    assert kinds({"top": dead, "bottom": GOOD}, {"top": GOOD, "bottom": GOOD}) == [("dead channel", Severity.SERIOUS)]
+    assert not kinds({"top": dead, "bottom": dead}, {"top": GOOD, "bottom": GOOD})  # the specimen did not rock
+
+
+def test_another_gain_shows_in_the_noise() -> None:
+    louder = ChannelState(zero=1e-2, noise=1e-4, motion=1e-1)
+    assert kinds({"top": louder}, {"top": GOOD}) == [("gain", Severity.WARNING)]
+
+
+def test_a_zero_that_wandered() -> None:
+    moved = ChannelState(zero=6e-3, noise=1e-5, motion=1e-2)
+    assert kinds({"top": moved}, {"top": GOOD}) == [("zero", Severity.WARNING)]
+
+
+@given(st.floats(0.5, 2.0), st.floats(-0.1, 0.1), st.floats(0.6, 1.6))
+def test_tests_of_the_same_instruments_are_silent(motion: float, shift: float, noise: float) -> None:
+    now = ChannelState(GOOD.zero + shift * GOOD.motion, noise * GOOD.noise, motion * GOOD.motion)
+    assert not kinds({"top": now, "new": GOOD}, {"top": GOOD, "old": GOOD})

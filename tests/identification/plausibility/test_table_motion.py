@@ -8,7 +8,6 @@ from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.findings import Severity
-from colonnade.identification.plausibility.factors import as_expected, cause
 from colonnade.identification.plausibility.table_motion import (
     TableChannel,
     by_rocking,
@@ -200,18 +199,3 @@ def test_two_motions_are_not_one():
     message = str(unlike(INTERVAL, acceleration, other))
     assert "not like one table" in message
     assert "did not start with the other (`clock`)" in message
-
-
-@pytest.mark.parametrize(
-    ("scale", "words"), [(9.81, "g read as"), (1 / 9.81, "g read as"), (100.0, "Gal"), (2.0, "look at")]
-)
-def test_a_scale_of_an_acceleration_has_its_cause(scale, words):
-    assert words in cause(scale, "acceleration")
-    assert not as_expected(scale)
-
-
-def test_a_scale_near_one_is_as_expected_whatever_its_sign():
-    assert as_expected(1.2)
-    assert as_expected(-0.9)
-    assert not as_expected(float("nan"))
-    assert not as_expected(0.0)

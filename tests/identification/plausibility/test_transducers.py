@@ -11,7 +11,6 @@ from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.plausibility.rotation import Rotation
-from colonnade.identification.plausibility.scale import scale_of
 from colonnade.identification.plausibility.transducers import base_scale, suspicions
 from prism import PRISM
 
@@ -73,14 +72,6 @@ def _said(sound, change=lambda rotation: rotation):
 
 def test_a_sound_set_up_is_not_doubted(sound):
     assert _said(sound) == []
-
-
-def test_each_transducer_tells_the_scale_of_its_angle_by_itself(sound):
-    rotation, base, block = sound
-    for factor in (0.1, 1.0, 25.4):
-        angle = factor * rotation.readings[0] / rotation.levers[0]
-        found = scale_of(1 / RATE, angle, factor * NOISE, base, block)
-        assert found.value == pytest.approx(factor, rel=0.05)
 
 
 @pytest.mark.parametrize(

@@ -6,17 +6,16 @@ import numpy as np
 import pytest
 import scipy
 
-from colonnade.dynamics.block import Block
 from colonnade.dynamics.kinematics import point_displacement
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.plausibility.rotation import Rotation
 from colonnade.identification.plausibility.transducers import base_scale
 from colonnade.identification.plausibility.undone import undone
+from prism import PRISM
 
 INTERVAL = 1 / 500
 TIME = np.arange(0, 12, INTERVAL)
-PRISM = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
 POINTS = [[0.043, 0.0, 0.44], [0.043, 0.0, 0.04]]
 ANGLES = np.linspace(-0.4, 0.4, 161)
 NOISE = 2e-5

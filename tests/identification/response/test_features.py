@@ -1,11 +1,15 @@
-"""A measured angle as a whole: noise, outcome, impacts, peak."""
+"""Features, end and outcome of a record."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
+from colonnade.identification.response.ending import ending
 from colonnade.identification.response.features import DRIFT_FACTOR, NOISE_FACTOR, angle_features
+from colonnade.identification.response.outcome import judge
 from prism import PRISM
 
 ALPHA = PRISM.critical_angle
@@ -66,3 +70,132 @@ def test_missing_samples_are_passed_over():
     broken = ROCKING + noise()
     broken[1200:1210] = np.nan
     assert features(broken).peak_ratio == pytest.approx(0.4, abs=0.01)
+
+
+FALL_TIME = np.arange(0, 6, 0.002)
+CATCH = 0.28
+
+
+def _falls(start=2.0, catch=CATCH):
+    """Angle that passes α within a fraction of a second and then lies on the frame."""
+    return np.minimum(1e-3 * np.expm1(PRISM.p * np.clip(FALL_TIME - start, 0, None)), catch)
+
+
+def test_a_quiet_record_has_not_rocked():
+    noise = np.random.default_rng(0).normal(0, 1e-5, FALL_TIME.size)
+    assert judge(FALL_TIME, noise, PRISM, threshold=1e-4).outcome == "no-rocking"
+
+
+def test_a_specimen_caught_by_its_frame_has_overturned_when_it_passed_the_critical_angle():
+    verdict = judge(FALL_TIME, _falls(), PRISM, threshold=1e-4, catch=CATCH)
+    assert verdict.outcome == "overturned"
+    assert verdict.overturning_time == pytest.approx(2.0 + np.log1p(ALPHA / 1e-3) / PRISM.p, abs=0.005)
+
+
+def test_a_frame_that_bounces_a_little_still_catches():
+    angle = _falls()
+    angle = np.where(angle == CATCH, CATCH * (1 + 0.03 * np.sin(40 * FALL_TIME)), angle)
+    assert judge(FALL_TIME, -angle, PRISM, threshold=1e-4, catch=CATCH).outcome == "overturned"
+
+
+def test_a_specimen_that_was_righted_after_its_fall_has_overturned():
+    angle = np.where(FALL_TIME > 5, 0.0, _falls())
+    assert judge(FALL_TIME, angle, PRISM, threshold=1e-4, catch=CATCH).outcome == "overturned"
+    assert judge(FALL_TIME, angle, PRISM, threshold=1e-4).outcome == "overturned"
+
+
+def test_a_frame_inside_the_critical_angle_is_told_by_its_plateau():
+    angle = _falls(catch=0.8 * ALPHA)
+    assert judge(FALL_TIME, angle, PRISM, threshold=1e-4, catch=0.8 * ALPHA).outcome == "overturned"
+    assert judge(FALL_TIME, angle, PRISM, threshold=1e-4).outcome == "rocking"
+
+
+def test_a_return_from_beyond_the_critical_angle_is_rocking():
+    history = rock(
+        PRISM, Motion(np.zeros(3000), 0.002), theta0=1.05 * ALPHA, omega0=-0.06 * ALPHA * PRISM.p, restitution=0.95
+    )
+    assert judge(history.time, history.angle, PRISM, threshold=1e-4).outcome == "rocking"
+
+
+def test_a_record_that_ends_beyond_the_critical_angle_moving_outwards_has_overturned():
+    falling = _falls(catch=np.inf)
+    end = int(np.argmax(falling > 1.2 * ALPHA))
+    assert judge(FALL_TIME[:end], falling[:end], PRISM, threshold=1e-4).outcome == "overturned"
+
+
+def test_samples_that_are_missing_are_passed_over():
+    angle = _falls()
+    angle[100:200] = np.nan
+    assert judge(FALL_TIME, angle, PRISM, threshold=1e-4, catch=CATCH).outcome == "overturned"
+    assert judge(FALL_TIME, np.full(FALL_TIME.size, np.nan), PRISM, threshold=1e-4).outcome == "no-rocking"
+
+
+@pytest.mark.parametrize("share", [0.5, 0.7, 0.9])
+@pytest.mark.parametrize("excess", [-0.05, 0.05])
+def test_a_record_that_ends_in_motion_is_continued_on_a_table_at_rest(share, excess):
+    # The model continues it: outwards it passes α if ω > p (α − θ).
+    velocity = (1 + excess) * PRISM.p * (1 - share) * ALPHA
+    time = np.arange(-0.1, 0.0005, 0.001)
+    back = (share - 1) * ALPHA
+    angle = ALPHA + back * np.cosh(PRISM.p * time) + velocity / PRISM.p * np.sinh(PRISM.p * time)
+    on = rock(
+        PRISM, Motion(np.zeros(4000), 0.002), theta0=share * ALPHA, omega0=velocity, restitution=0.5, model="linear"
+    )
+    assert on.outcome == ("overturned" if excess > 0 else "rocking")
+    assert judge(time, angle, PRISM, threshold=1e-4).outcome == on.outcome
+
+
+DECAY_TIME = np.arange(0, 9, 0.002)
+NOISE = 1e-4
+
+
+@pytest.fixture(scope="module")
+def decay():
+    history = rock(PRISM, restitution=0.92, theta0=0.5 * ALPHA, duration=9.0)
+    return np.interp(DECAY_TIME, history.time, history.angle)
+
+
+def _ending(angle, *, base=None, lever=None):
+    noisy = angle + np.random.default_rng(0).normal(0, NOISE, angle.size)
+    time = DECAY_TIME[: angle.size]
+    verdict = judge(time, noisy, PRISM, threshold=6 * NOISE, catch=0.28)
+    return ending(time, noisy, base, verdict, PRISM, error=NOISE, duration=0.5, lever=lever)
+
+
+def test_a_block_that_comes_to_rest_upright_has_nothing_to_say(decay):
+    assert _ending(decay) is None
+
+
+@pytest.mark.parametrize(("share", "severity"), [(0.03, "warning"), (0.06, "serious"), (0.3, "serious")])
+def test_one_that_rocks_about_a_leaning_zero_says_so_and_that_it_may_have_walked(share, severity, decay):
+    found = _ending(decay + share * ALPHA, lever=0.44)
+    assert found.severity == severity
+    assert "its zero was taken while it leaned" in found.text
+    assert "walked by" in found.text
+    assert "walked" not in _ending(decay + share * ALPHA).text
+
+
+@pytest.mark.parametrize("share", [0.3, 0.66, 0.8])
+def test_one_at_rest_where_no_block_rests_may_have_overturned(share):
+    found = _ending(np.minimum(1e-3 * np.expm1(PRISM.p * np.clip(DECAY_TIME - 2, 0, None)), share * ALPHA))
+    assert found.severity == "serious"
+    assert "saturates" in found.text
+    assert "may have overturned" in found.text
+
+
+def test_one_that_lies_on_its_frame_has_nothing_to_say():
+    assert _ending(np.minimum(1e-3 * np.expm1(PRISM.p * np.clip(DECAY_TIME - 2, 0, None)), 0.28)) is None
+
+
+def test_a_record_that_ends_while_the_table_shakes_is_told_and_free_decay_is_not(decay):
+    cut = decay[:1000]
+    found = _ending(cut, base=np.sin(20 * DECAY_TIME[:1000]))
+    assert found.kind == "record ends in motion"
+    assert _ending(cut, base=np.sin(20 * DECAY_TIME[:1000]) * (DECAY_TIME[:1000] < 1)) is None
+
+
+@pytest.mark.parametrize("factor", [57.3, 4.0])
+def test_an_angle_that_no_block_comes_back_from_is_refused_as_such(factor, decay):
+    found = _ending(factor * decay)
+    assert found.kind == "impossible angle"
+    assert "degrees read as radians" in found.text

@@ -7,7 +7,6 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from colonnade.dynamics.rock import rock
-from colonnade.identification.restitution.arcs.energy import angle_of_energy, released_energy
 from colonnade.identification.restitution.identify import identify_restitution
 from prism import PRISM
 
@@ -111,25 +110,6 @@ def test_what_is_no_free_rocking_is_refused_with_its_reason(angle, words):
     assert words in _refusal(angle)
 
 
-def test_growing_motion_is_refused():
-    time, angle = _nonlinear_decay(0.976)
-    backwards = angle[time < 9][::-1]
-    assert "does not decay" in _refusal(backwards)
-
-
-def test_released_energy_is_housners_for_a_slender_block_and_has_its_inverse():
-    amplitude = np.linspace(0.01, 0.99, 50)
-    np.testing.assert_allclose(released_energy(1e-4 * amplitude, 1e-4), 1 - (1 - amplitude) ** 2, rtol=1e-6)
-    np.testing.assert_allclose(angle_of_energy(released_energy(0.3 * amplitude, 0.3), 0.3), 0.3 * amplitude, rtol=1e-9)
-
-
 def test_time_that_does_not_increase_is_an_error():
     with pytest.raises(ValueError, match="does not increase"):
         identify_restitution([0.0, 1.0, 1.0], [0.0, 0.0, 0.0], PRISM)
-
-
-def test_times_in_milliseconds_are_refused_with_a_reason():
-    history = rock(PRISM, theta0=0.5 * PRISM.critical_angle, restitution=0.9, duration=6.0)
-    result = identify_restitution(1e3 * history.time, history.angle, PRISM)
-    assert result.value is None
-    assert "peaks" in result.reason or "Times between impacts" in result.reason

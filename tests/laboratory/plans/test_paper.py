@@ -33,11 +33,6 @@ def test_every_specimen_has_three_free_vibrations_three_spans_and_sines(plan: Pl
     assert frequencies == {f"{hertz} Hz" for hertz in range(1, 8)}
 
 
-def test_each_specimen_has_a_restitution_of_its_own(plan: Plan) -> None:
-    assert len({specimen.restitution for specimen in plan.specimens.values()}) == 3
-    assert plan.specimens["prism"].restitution == 0.976
-
-
 @pytest.mark.parametrize("frequency", [1.0, 7.0])
 def test_a_sine_is_steady_while_it_says_so(plan: Plan, frequency: float) -> None:
     trial = next(each for each in plan.trials if each.entry.get("frequency") == f"{frequency:g} Hz")
@@ -76,9 +71,3 @@ def test_the_files_of_both_recorders_read_back(
                 assert column.unit in (channel.unit, None)
                 np.testing.assert_allclose(np.diff(column.time), 1 / (500 if recorder == "main" else 400), atol=1e-9)
                 assert np.abs(column.values).max() < 9.99
-
-
-def test_a_plan_of_several_specimens_wants_one_for_every_trial(plan: Plan) -> None:
-    nameless = replace(plan.trials[0], specimen=None)
-    with pytest.raises(ValueError, match="prism, cylinder, cone was expected"):
-        plan.specimen_of(nameless)

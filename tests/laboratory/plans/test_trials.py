@@ -1,4 +1,4 @@
-"""Kinds of tests: what they ask of the table and of the specimen."""
+"""Kinds of tests: what they ask of the table and of the specimen, on working days."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.motion import Motion
+from colonnade.laboratory.plans.schedule import TESTS_A_DAY, begun
 from colonnade.laboratory.plans.trials import QUIET, RELEASES, SPANS, Placed, earthquakes, free_vibrations, sine
 from prism import PRISM
 
@@ -65,9 +66,9 @@ def test_an_earthquake_is_played_at_three_spans_and_in_the_models_time() -> None
         assert trial.spikes == 3
 
 
-def test_spans_are_multiples_of_one_another() -> None:
-    first, _, third = earthquakes(PLACED, "a wave", RECORD)
-    time = np.linspace(QUIET, first.table.stop, 300)
-    np.testing.assert_allclose(
-        third.table.acceleration(time), 1.5 * first.table.acceleration(time), rtol=1e-9, atol=1e-12
-    )
+def test_tests_follow_each_other_on_working_days_between_nine_and_four() -> None:
+    moments = [begun(position) for position in range(10 * TESTS_A_DAY)]
+    assert moments == sorted(set(moments))
+    assert len({moment.date() for moment in moments}) == 10
+    assert np.is_busday([moment.date() for moment in moments]).all()
+    assert {moment.hour for moment in moments} == set(range(9, 16))

@@ -1,4 +1,4 @@
-"""Clocks and curves of a page's data."""
+"""Clocks, curves, tables and the outline of a page's data."""
 
 from __future__ import annotations
 
@@ -6,8 +6,16 @@ import json
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
+from pydantic import TypeAdapter
 
+from colonnade.campaign.specimen import AnySpecimen
+from colonnade.figures.drawing.described import body_of
+from colonnade.figures.files.output import Picture
+from colonnade.report.interactive import panels
+from colonnade.report.interactive.moving import outline
 from colonnade.report.interactive.panels import Samples, script
+from colonnade.report.interactive.tables import LONG, tables_of
 
 
 def test_even_times_are_a_start_and_an_interval():
@@ -54,3 +62,68 @@ def test_the_data_is_one_call_with_what_was_given_and_no_text_ends_it():
         {"name": "a</script>\u2028b", "clock": 0, "values": 0, "colour": "ink"}
     ]
     assert (given["page"], given["more"], given["clocks"][0]["count"]) == ("t", 1, 3)
+
+
+def picture(count: int) -> Picture:
+    figure = Figure()
+    axes = figure.subplots()
+    time = 0.01 * np.arange(count)
+    axes.plot(time, np.sin(time), label="measured")
+    axes.set_xlabel("time (s)")
+    axes.set_ylabel("slide (mm)")
+    return Picture(figure, f"p-{count}", "", "")
+
+
+def test_a_short_table_is_text():
+    _, tables = tables_of([picture(2)], Samples())
+    assert tables == {"p-2": 'time (s),"slide (mm), measured"\n0,0\n0.01,0.00999983333\n'}
+
+
+def test_a_long_table_names_series_that_the_page_has_already():
+    samples = Samples()
+    time = 0.01 * np.arange(LONG)
+    curve = samples.curve("measured", time, np.sin(time))
+    samples, tables = tables_of([picture(LONG)], samples)
+    table = tables[f"p-{LONG}"]
+    assert table["heads"] == ["time (s)", "slide (mm), measured"]
+    assert table["columns"] == [{"clock": curve["clock"]}, {"series": curve["values"]}]
+    assert len(samples.series) == 1
+
+
+def test_a_page_without_pictures_has_no_table():
+    assert tables_of([], Samples())[1] == {}
+
+
+def test_a_table_that_is_too_long_for_a_page_is_left_out(monkeypatch):
+    monkeypatch.setattr(panels, "MOST", LONG - 1)
+    samples, tables = tables_of([picture(LONG), picture(2)], Samples())
+    assert (list(tables), samples.series) == (["p-2"], [])
+
+
+def corners(**given):
+    specimen = TypeAdapter(AnySpecimen).validate_python({"mass": "26 kg", **given})
+    return np.array(outline(body_of(specimen, specimen.block(9.81))))
+
+
+def test_a_prism_is_a_rectangle_of_its_width_and_height():
+    found = corners(shape="prism", width="86 mm", depth="50 mm", height="456 mm")
+    np.testing.assert_allclose(found, [(-0.043, 0), (-0.043, 0.456), (0.043, 0.456), (0.043, 0)])
+
+
+def test_a_cylinder_is_as_wide_as_its_diameter():
+    found = corners(shape="cylinder", diameter="97 mm", height="455 mm")
+    np.testing.assert_allclose(np.ptp(found, axis=0), [0.097, 0.455])
+
+
+def test_a_cone_is_narrower_at_its_top():
+    found = corners(shape="cone", base_diameter="97 mm", top_diameter="75.5 mm", height="480 mm")
+    np.testing.assert_allclose(found[:, 0], [-0.0485, -0.03775, 0.03775, 0.0485])
+
+
+def test_a_measured_specimen_reaches_from_pole_to_pole_with_its_centre_of_mass_in_the_middle():
+    found = corners(
+        shape="measured", pole_distance="610 mm", critical_angle=["0.21 rad", "0.23 rad"], inertia="41.2 kg m^2"
+    )
+    poles, heights = 0.61 * np.sin([0.21, 0.23]), 0.61 * np.cos([0.21, 0.23])
+    np.testing.assert_allclose(np.ptp(found[:, 0]), poles.sum())
+    np.testing.assert_allclose(found[1, 1] / 2, heights.mean())

@@ -1,6 +1,8 @@
-"""Scripts of the report: the library's from its wheel, and ours."""
+"""Scripts of the report: the library's from its wheel, ours, and the state that a watch writes."""
 
 from __future__ import annotations
+
+import json
 
 import pytest
 
@@ -8,6 +10,7 @@ from colonnade.errors import StoreError
 from colonnade.report import addresses
 from colonnade.report.interactive import scripts as module
 from colonnade.report.interactive.scripts import FOLDER, PARTS, scripts
+from colonnade.report.interactive.state import UNWATCHED, state_script
 
 
 def test_a_page_of_a_test_loads_every_script_and_then_the_state_and_its_data():
@@ -32,3 +35,30 @@ def test_a_library_without_its_scripts_is_said_plainly(monkeypatch, tmp_path):
     monkeypatch.setattr(module, "find_spec", lambda name: Found())
     with pytest.raises(StoreError, match="pip install --force-reinstall bokeh"):
         scripts()
+
+
+def test_data_of_pages_of_one_name_are_apart():
+    pages = ["index.html", "tests/index.html", "specimens/index.html"]
+    assert [addresses.of_data(page) for page in pages] == [
+        "data/pages/index.js",
+        "data/index.js",
+        "data/pages/specimens/index.js",
+    ]
+
+
+def test_the_state_calls_the_page_with_one_value_that_no_text_can_leave():
+    line = 'free-01: </script><script>alert("1")\u2028\n\\'
+    text = state_script(is_watched=True, written=1.7e9, shown="a-1", line=line, line_written=1.6e9)
+    assert text.isascii()
+    assert "<" not in text
+    assert text.count("\n") == 1
+    given = json.loads(text.removeprefix("colonnadeState(").removesuffix(");\n"))
+    assert given == {
+        **{"watched": True, "written": 1.7e9, "every": 5.0},
+        **{"shown": "a-1", "line": line, "line_written": 1.6e9},
+    }
+
+
+def test_without_a_watch_the_state_has_no_time_and_no_line():
+    given = json.loads(UNWATCHED.removeprefix("colonnadeState(").removesuffix(");\n"))
+    assert (given["watched"], given["written"], given["line"]) == (False, 0, "")

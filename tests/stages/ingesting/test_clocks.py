@@ -93,26 +93,8 @@ def recorded(values, flags=None, name="top"):
     )
 
 
-@pytest.mark.parametrize("delay", [0.0, 0.004, -0.1])
-def test_the_delay_of_a_channel_is_taken_off_its_times(delay):
-    values = np.sin(np.arange(50.0))
-    warnings = []
-    found = own_records(recorded(values), {"top": on_clock(delay=delay)}, warnings)["top"]
-    np.testing.assert_allclose(found.time, 5.0 - delay + 0.01 * np.arange(50), atol=1e-9)
-    np.testing.assert_allclose(found.values, values, atol=1e-9)
-    assert warnings == []
-
-
 def test_a_channel_is_found_by_the_name_of_its_variable():
     assert list(own_records(recorded(np.arange(9.0), name="top_left"), {"top-left": on_clock()}, [])) == ["top-left"]
-
-
-def test_a_failed_sample_is_bridged_and_not_believed():
-    values, flags = np.arange(20.0), np.full(20, Flag.GOOD)
-    values[7], flags[7] = 1e6, Flag.FAIL
-    found = own_records(recorded(values, flags), {"top": on_clock()}, [])["top"]
-    np.testing.assert_allclose(found.values, np.arange(20.0), atol=1e-6)
-    assert np.flatnonzero(found.bad).tolist() == [7]
 
 
 @pytest.mark.parametrize(

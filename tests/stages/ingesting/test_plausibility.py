@@ -6,11 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from chain import conditioned
 from colonnade.campaign import load
 from colonnade.readers.recording import RecordedChannel
-from colonnade.stages import condition as conditioning
-from colonnade.stages.condition import condition
-from colonnade.stages.ingest import IngestInputs, ingest
+from colonnade.stages.condition import ConditionInputs
 
 ACCELEROMETER = """
 [setups.frame.channels.head]
@@ -23,15 +22,8 @@ direction = [0, 0, 1]
 """
 
 
-def _conditioned(campaign, name, recordings):
-    test = campaign.tests[name]
-    return condition(
-        ingest(recordings, IngestInputs.of(campaign, test)), conditioning.ConditionInputs.of(campaign, test)
-    )
-
-
 def _doubts(campaign, name, recordings):
-    return list(map(str, _conditioned(campaign, name, recordings).attrs["warnings"]))
+    return list(map(str, conditioned(campaign, name, recordings).attrs["warnings"]))
 
 
 def _changed(campaign, *changes):
@@ -141,7 +133,7 @@ def test_a_changed_reference_makes_another_result(small_campaign):
     keys = []
     for text in ("time (s),a (g)\n0,0\n0.1,1\n", "time (s),a (g)\n0,0\n0.1,2\n\n"):
         path.write_text(text)
-        keys.append(conditioning.ConditionInputs.of(campaign, campaign.tests["shake-01"]).model_dump_json())
+        keys.append(ConditionInputs.of(campaign, campaign.tests["shake-01"]).model_dump_json())
     assert keys[0] != keys[1]
     assert str(small_campaign.folder) not in keys[0]
 
@@ -162,12 +154,12 @@ def test_an_accelerometer_on_the_specimen_shows_gravity_at_rest(at_rest, said, s
     main = recordings["main"]
     recordings["main"] = replace(main, channels=(*main.channels, RecordedChannel("HEAD", "g", head, time)))
     campaign = _changed(small_campaign, ("[[tests]]", ACCELEROMETER + "\n[[tests]]"))
-    conditioned = _conditioned(campaign, "free-01", recordings)
-    told = " ".join(map(str, conditioned.attrs["warnings"]))
+    ready = conditioned(campaign, "free-01", recordings)
+    told = " ".join(map(str, ready.attrs["warnings"]))
     assert said in told
     assert bool(told) == bool(said)
-    assert float(conditioned["head"][-200:].mean()) == pytest.approx(9.81, abs=1e-3)
-    assert conditioned["head"].attrs["zero"] == pytest.approx(at_rest * 9.80665 - 9.81, abs=5e-3)
+    assert float(ready["head"][-200:].mean()) == pytest.approx(9.81, abs=1e-3)
+    assert ready["head"].attrs["zero"] == pytest.approx(at_rest * 9.80665 - 9.81, abs=5e-3)
 
 
 def test_a_gyroscopes_value_at_rest_is_its_bias(small_campaign, free_vibration):
@@ -178,6 +170,6 @@ def test_a_gyroscopes_value_at_rest_is_its_bias(small_campaign, free_vibration):
     gyro = (
         ACCELEROMETER.replace("HEAD", "GYRO").replace('"acceleration"', '"angular_velocity"').replace('"g"', '"rad/s"')
     )
-    conditioned = _conditioned(_changed(small_campaign, ("[[tests]]", gyro + "\n[[tests]]")), "free-01", recordings)
-    assert conditioned["head"].attrs["zero"] == pytest.approx(0.03, abs=1e-4)
-    assert float(np.abs(conditioned["head"][-200:]).max()) < 1e-3
+    ready = conditioned(_changed(small_campaign, ("[[tests]]", gyro + "\n[[tests]]")), "free-01", recordings)
+    assert ready["head"].attrs["zero"] == pytest.approx(0.03, abs=1e-4)
+    assert float(np.abs(ready["head"][-200:]).max()) < 1e-3

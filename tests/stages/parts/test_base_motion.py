@@ -1,4 +1,4 @@
-"""What drives a prediction, and what is said of a base motion that cannot be used whole."""
+"""What drives a prediction: base motions from their channels, and reference motions."""
 
 from __future__ import annotations
 
@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from colonnade.campaign import load
 from colonnade.errors import StageError
+from colonnade.identification.fusion.inertial import Accelerometer
+from colonnade.stages.parts import reference_motions
 from colonnade.stages.parts.base_motion import (
     base_acceleration,
     left_out,
@@ -14,6 +17,8 @@ from colonnade.stages.parts.base_motion import (
     vertical_acceleration,
     weakened,
 )
+from colonnade.stages.parts.conditioned import axes, base_motion, group
+from colonnade.stages.parts.transducers import Transducers
 from colonnade.units import format_percent
 
 TIME = np.arange(0.0, 2.0, 0.01)
@@ -45,31 +50,9 @@ def test_missing_samples_are_refused_with_the_first():
         base_acceleration(_rocking(base_acceleration=_gap(WAVE)))
 
 
-@pytest.mark.parametrize(
-    ("vertical", "severity", "said"),
-    [
-        (_gap(WAVE), "warning", "missing 3 of 200 samples"),
-        (np.zeros(TIME.size), "warning", "is dead"),
-        (12.0 * WAVE, "serious", "the specimen would leave the table"),
-    ],
-    ids=["with a gap", "dead", "beyond gravity"],
-)
-def test_a_vertical_motion_that_cannot_be_used_is_left_out_with_the_reason(vertical, severity, said):
-    rocking = _rocking(vertical_base_acceleration=vertical)
-    used, (finding,) = vertical_acceleration(rocking, gravity=9.81, expected=True)
-    assert (used, finding.severity) == (None, severity)
-    assert said in finding.text
-
-
 def test_a_vertical_motion_is_only_missed_if_the_set_up_has_its_channel():
     assert vertical_acceleration(_rocking(), gravity=9.81, expected=False) == (None, [])
     assert len(vertical_acceleration(_rocking(), gravity=9.81, expected=True)[1]) == 1
-
-
-def test_a_sound_vertical_motion_is_used():
-    used, findings = vertical_acceleration(_rocking(vertical_base_acceleration=WAVE), gravity=9.81, expected=True)
-    np.testing.assert_array_equal(used, WAVE)
-    assert findings == []
 
 
 def test_motion_across_is_reported_above_a_tenth_of_that_along_x():
@@ -100,3 +83,92 @@ def test_the_loss_is_that_of_a_sine_drawn_with_straight_lines():
 
 def test_a_table_at_rest_loses_nothing():
     assert weakened(np.zeros(100)) == []
+
+
+LONGER = np.arange(0.0, 4.0, 0.005)
+OMEGA = 2 * np.pi * 1.5
+SWELL = np.sin(OMEGA * LONGER)
+
+
+def _conditioned(**channels):
+    named = {name: ("elapsed", values, {"cutoff_hz": 40.0, "channel": name}) for name, values in channels.items()}
+    return xr.Dataset(named, coords={"elapsed": ("elapsed", LONGER)})
+
+
+def _table(accelerations=(), displacements=()):
+    x = (1.0, 0.0, 0.0)
+    return Transducers(
+        positions={},
+        gyroscopes={},
+        accelerometers={},
+        accelerations=dict.fromkeys(accelerations, x),
+        displacements=dict.fromkeys(displacements, x),
+    )
+
+
+@pytest.mark.parametrize(
+    ("factor", "severity", "said"),
+    [(1.02, "note", "they agree to 1.0\u00a0%"), (2.0, "warning", "but they differ")],
+    ids=["alike", "different"],
+)
+def test_several_accelerometers_are_averaged_and_compared(factor, severity, said):
+    warnings = []
+    base = base_motion(_conditioned(a=SWELL, b=factor * SWELL), _table(("a", "b")), warnings)
+    np.testing.assert_allclose(base["base_acceleration"], (1 + factor) / 2 * SWELL)
+    assert (warnings[0].severity, said in warnings[0].text) == (severity, True)
+
+
+@pytest.mark.parametrize(("accelerometers", "severity"), [((), "note"), (("dead",), "warning")], ids=["meant", "not"])
+def test_without_a_usable_accelerometer_the_displacement_is_differentiated(accelerometers, severity):
+    warnings = []
+    base = base_motion(_conditioned(stroke=SWELL), _table(accelerometers, ("stroke",)), warnings)
+    middle = slice(100, -100)
+    np.testing.assert_allclose(base["base_acceleration"][middle], -(OMEGA**2) * SWELL[middle], atol=0.02 * OMEGA**2)
+    assert [(warning.kind, warning.severity) for warning in warnings] == [("derived base motion", severity)]
+
+
+def test_an_axis_that_was_not_recorded_does_not_move():
+    moved = axes({"vertical_base_acceleration": SWELL}, "acceleration", LONGER)
+    np.testing.assert_array_equal(moved, [0 * LONGER, 0 * LONGER, SWELL])
+
+
+def test_gravity_is_subtracted_unless_the_zero_was():
+    upright = {"block": Accelerometer((0.0, 0.0, 1.0), (0.0, 0.0, 0.4))}
+    whole = _conditioned(block=SWELL + 9.81)
+    _, readings = group(whole, upright, 9.81)
+    np.testing.assert_allclose(readings.values[0], SWELL, atol=1e-12)
+    whole["block"].attrs |= {"zero": 0.1, "rest_value": 9.81}
+    np.testing.assert_allclose(group(whole, upright, 9.81)[1].values[0], SWELL, atol=1e-12)
+
+
+SERIES = np.round(np.cumsum(np.random.default_rng(5).standard_normal(800)) / 40, 5)
+
+
+def rows(table, form):
+    return "\n".join("".join(form % number for number in row) for row in table) + "\n"
+
+
+@pytest.fixture
+def with_motions(small_campaign):
+    def written(motions):
+        text = small_campaign.path.read_text(encoding="utf-8")
+        small_campaign.path.write_text(text.replace("[setups.frame]", f"[motions]\n{motions}\n\n[setups.frame]", 1))
+        return reference_motions.reference_files(load(small_campaign.path))
+
+    return written
+
+
+def test_one_of_three_components_has_to_be_named(small_campaign, with_motions):
+    (small_campaign.folder / "valley.dat").write_text(
+        "3F10.4\n        NS        EW        UD\n" + rows(SERIES[:798].reshape(3, -1).T, "%10.4f")
+    )
+    warnings = []
+    known = with_motions(
+        'Valley = {file = "valley.dat", interval = "0.02 s"}\n'
+        'North = {file = "valley.dat", interval = "0.02 s", column = "NS"}'
+    )
+    loaded = reference_motions.load(known, warnings)
+    (told,) = [str(warning) for warning in warnings]
+    assert '"Valley" cannot be used' in told
+    assert "3 columns may be the acceleration" in told
+    assert loaded["North"].acceleration.size == 266

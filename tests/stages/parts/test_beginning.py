@@ -5,17 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import chain
+from chain import measured
 from colonnade.dynamics.block import Block
 from colonnade.identification.response.rank import is_within, rank
 from colonnade.identification.restitution.arcs.arcs import find_impacts
-from colonnade.stages import compare as comparing
-from colonnade.stages import condition as conditioning
 from colonnade.stages import ensemble as running
-from colonnade.stages import ingest as ingesting
-from colonnade.stages import predict as predicting
-from colonnade.stages import restitution as identifying
-from colonnade.stages import rocking as rocking_stage
-from colonnade.stages import specimen as pooling
 from colonnade.stages.parts.beginning import AT_REST, NOT_RECORDED, RECORDED
 
 RELEASE = 1.0
@@ -25,27 +20,17 @@ E = 0.976
 ALPHA = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10).critical_angle
 
 
-def measured(campaign, recordings):
-    test = campaign.tests["free-01"]
-    found = ingesting.ingest(recordings, ingesting.IngestInputs.of(campaign, test))
-    ready = conditioning.condition(found, conditioning.ConditionInputs.of(campaign, test))
-    return ready, rocking_stage.rocking(ready, rocking_stage.RockingInputs.of(campaign, test))
-
-
 @pytest.fixture
 def specimen(small_campaign):
-    read = pooling.SpecimenInputs.of(small_campaign, "prism").model_copy(update={"given": E})
-    return pooling.specimen({}, read)
+    return chain.pooled(small_campaign, {}, given=E)
 
 
-def predicted(campaign, rocking, specimen, identified=None):
-    read = predicting.PredictInputs.of(campaign, campaign.tests["free-01"], "nonlinear")
-    return predicting.predict(rocking, specimen, read, None, identified)
+def predicted(campaign, rocking, specimen, free=None):
+    return chain.predicted(campaign, "free-01", rocking, specimen, "nonlinear", free)
 
 
 def compared(campaign, rocking, prediction):
-    read = comparing.CompareInputs.of(campaign, campaign.tests["free-01"])
-    return comparing.compare(rocking, {"nonlinear": prediction}, read)
+    return chain.compared(campaign, "free-01", rocking, {"nonlinear": prediction})
 
 
 def late(prediction, time, angle):
@@ -59,10 +44,9 @@ def late(prediction, time, angle):
 @pytest.mark.parametrize("offset", [0.002, -0.002], ids=["too high", "too low"])
 def test_a_prediction_from_the_true_zero_keeps_time_better(small_campaign, released, specimen, offset):
     recordings, time, angle = released(E)
-    _, rocking = measured(small_campaign, recordings)
+    _, rocking = measured(small_campaign, "free-01", recordings)
     shifted = rocking.assign(rocking_angle=rocking["rocking_angle"] + offset * ALPHA)
-    read = identifying.RestitutionInputs.of(small_campaign, small_campaign.tests["free-01"])
-    identified = identifying.restitution(shifted, read)
+    identified = chain.identified(small_campaign, shifted)
     assert float(identified["zero_offset"]) == pytest.approx(offset * ALPHA, abs=1e-4 * ALPHA)
 
     without = predicted(small_campaign, shifted, specimen)
@@ -82,7 +66,7 @@ def test_a_prediction_from_the_true_zero_keeps_time_better(small_campaign, relea
 def test_a_prediction_from_a_peak_between_two_samples_is_not_late(small_campaign, released, specimen, every):
     """Started at rest at the next sample, it would be late by up to a sampling interval, here 10 and 16 ms."""
     recordings, time, angle = released(E)
-    _, rocking = measured(small_campaign, recordings)
+    _, rocking = measured(small_campaign, "free-01", recordings)
     lateness = []
     for shift in range(0, every, 2):
         prediction = predicted(small_campaign, rocking.isel(elapsed=slice(shift, None, every)), specimen)
@@ -93,11 +77,9 @@ def test_a_prediction_from_a_peak_between_two_samples_is_not_late(small_campaign
 
 
 def test_a_wrong_zero_that_is_identified_leaves_a_true_model_within_its_spread(small_campaign, released, specimen):
-    ready, rocking = measured(small_campaign, released(E)[0])
+    ready, rocking = measured(small_campaign, "free-01", released(E)[0])
     shifted = rocking.assign(rocking_angle=rocking["rocking_angle"] + 0.02 * ALPHA)
-    identified = identifying.restitution(
-        shifted, identifying.RestitutionInputs.of(small_campaign, small_campaign.tests["free-01"])
-    )
+    identified = chain.identified(small_campaign, shifted)
     read = running.EnsembleInputs.of(small_campaign, small_campaign.tests["free-01"], "nonlinear")
     read = read.model_copy(update={"settings": read.settings.model_copy(update={"members": 40})})
     ranks = [
@@ -108,14 +90,13 @@ def test_a_wrong_zero_that_is_identified_leaves_a_true_model_within_its_spread(s
 
 
 def test_a_zero_offset_of_a_restitution_that_was_refused_is_not_used(small_campaign, released, specimen):
-    _, rocking = measured(small_campaign, released(E)[0])
-    read = identifying.RestitutionInputs.of(small_campaign, small_campaign.tests["free-01"])
-    refused = identifying.restitution(rocking, read).assign(restitution=((), np.nan), zero_offset=((), 0.01))
+    _, rocking = measured(small_campaign, "free-01", released(E)[0])
+    refused = chain.identified(small_campaign, rocking).assign(restitution=((), np.nan), zero_offset=((), 0.01))
     assert float(predicted(small_campaign, rocking, specimen, refused)["zero_offset"]) == 0.0
 
 
 def test_a_measured_peak_is_that_of_the_time_that_is_predicted(small_campaign, released, specimen):
-    _, rocking = measured(small_campaign, released(E, overshoot=0.05)[0])
+    _, rocking = measured(small_campaign, "free-01", released(E, overshoot=0.05)[0])
     prediction = predicted(small_campaign, rocking, specimen)
     result = compared(small_campaign, rocking, prediction)
     after_the_first_impact = float(prediction["peak_ratio"])
@@ -128,7 +109,7 @@ def test_a_measured_peak_is_that_of_the_time_that_is_predicted(small_campaign, r
 
 
 def test_a_table_that_moves_drives_the_prediction_of_a_free_vibration(small_campaign, released, specimen):
-    _, rocking = measured(small_campaign, released(E, 0.05)[0])
+    _, rocking = measured(small_campaign, "free-01", released(E, 0.05)[0])
     prediction = predicted(small_campaign, rocking, specimen)
     assert prediction.attrs["driven_by"] == RECORDED
     np.testing.assert_array_equal(prediction["base_acceleration"], rocking["base_acceleration"])
@@ -140,7 +121,7 @@ def test_a_table_that_moves_drives_the_prediction_of_a_free_vibration(small_camp
 
 
 def test_the_noise_of_an_accelerometer_moves_no_table(small_campaign, released, specimen):
-    _, rocking = measured(small_campaign, released(E)[0])
+    _, rocking = measured(small_campaign, "free-01", released(E)[0])
     assert float(rocking["base_acceleration"].std()) > 0.0
     prediction = predicted(small_campaign, rocking, specimen)
     assert prediction.attrs["driven_by"] == AT_REST
@@ -150,12 +131,10 @@ def test_the_noise_of_an_accelerometer_moves_no_table(small_campaign, released, 
 
 
 def test_it_is_driven_as_its_restitution_is(small_campaign, released, specimen):
-    _, rocking = measured(small_campaign, released(E)[0])
+    _, rocking = measured(small_campaign, "free-01", released(E)[0])
     base = rocking["base_acceleration"]
     noisy = rocking.assign(base_acceleration=base.copy(data=np.random.default_rng(1).normal(0.0, 0.2, base.size)))
-    identified = identifying.restitution(
-        noisy, identifying.RestitutionInputs.of(small_campaign, small_campaign.tests["free-01"])
-    )
+    identified = chain.identified(small_campaign, noisy)
     assert np.isfinite(float(identified["restitution"]))
     assert predicted(small_campaign, noisy, specimen, identified).attrs["driven_by"] == AT_REST
     assert predicted(small_campaign, noisy, specimen).attrs["driven_by"] == RECORDED
@@ -163,7 +142,7 @@ def test_it_is_driven_as_its_restitution_is(small_campaign, released, specimen):
 
 @pytest.mark.parametrize(("share", "varied"), [(0.0, False), (0.05, True)], ids=["at rest", "moving"])
 def test_an_ensemble_varies_the_base_motion_only_if_it_drives(small_campaign, released, specimen, share, varied):
-    ready, rocking = measured(small_campaign, released(E, share)[0])
+    ready, rocking = measured(small_campaign, "free-01", released(E, share)[0])
     read = running.EnsembleInputs.of(small_campaign, small_campaign.tests["free-01"], "linear")
     read = read.model_copy(update={"settings": read.settings.model_copy(update={"members": 4})})
     bands = running.ensemble(ready, rocking, specimen, read)

@@ -6,12 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from colonnade.stages import compare as comparing
-from colonnade.stages import condition as conditioning
-from colonnade.stages import ingest as ingesting
-from colonnade.stages import predict as predicting
-from colonnade.stages import rocking as rocking_stage
-from colonnade.stages import specimen as pooling
+import chain
+from chain import compared
 
 FREQUENCY, AMPLITUDE = 4.0, 1.7  # of the base motion that `shaken` makes
 
@@ -23,23 +19,15 @@ def sine_test(small_campaign):
 
 @pytest.fixture
 def measured(small_campaign, shaken, sine_test):
-    recorded = ingesting.ingest(shaken[0], ingesting.IngestInputs.of(small_campaign, sine_test))
-    ready = conditioning.condition(recorded, conditioning.ConditionInputs.of(small_campaign, sine_test))
-    return rocking_stage.rocking(ready, rocking_stage.RockingInputs.of(small_campaign, sine_test))
+    return chain.measured(small_campaign, sine_test, shaken[0])[1]
 
 
 @pytest.fixture
 def predicted(small_campaign, measured, sine_test):
-    read = pooling.SpecimenInputs.of(small_campaign, "prism").model_copy(update={"given": 0.93})
-    pooled = pooling.specimen({}, read)
+    pooled = chain.pooled(small_campaign, {}, given=0.93)
     return {
-        model: predicting.predict(measured, pooled, predicting.PredictInputs.of(small_campaign, sine_test, model))
-        for model in ("linear", "nonlinear")
+        model: chain.predicted(small_campaign, sine_test, measured, pooled, model) for model in ("linear", "nonlinear")
     }
-
-
-def compared(campaign, test, measured, predicted):
-    return comparing.compare(measured, predicted, comparing.CompareInputs.of(campaign, test))
 
 
 def test_frequency_and_amplitude_ratio_are_those_of_the_recorded_motion(small_campaign, sine_test, measured, predicted):
@@ -112,9 +100,3 @@ def test_a_specimen_without_transducers_has_forcing_and_predicted_orders(
     assert result.attrs["response_order"] == ""
     assert "No rocking angle" in result.attrs["response_order_reason"]
     assert result["predicted_response_order"].to_numpy()[0] == "1"
-
-
-def test_other_kinds_of_test_have_nothing_of_a_sine(small_campaign, measured, predicted):
-    result = compared(small_campaign, small_campaign.tests["shake-01"], measured, predicted)
-    assert "response_order" not in result.attrs
-    assert "frequency_ratio" not in result

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import pi, tan
 from pathlib import Path
 from typing import Any
@@ -43,23 +42,6 @@ def test_the_advised_amplitude_is_between_the_outcomes(campaign: Campaign) -> No
         advice.values["amplitude_ratio"] * block.gravity * tan(block.critical_angle)
     )
     assert advice.values["frequency"] == pytest.approx(OMEGA * block.p / (2 * pi))
-
-
-def test_a_smaller_risk_gives_a_smaller_amplitude(campaign: Campaign) -> None:
-    careful = replace(campaign, next=campaign.next.model_copy(update={"largest_risk": 0.1}))
-    (usual,) = advise_sines(campaign, "prism", known((1.5, "rocking")))
-    (advice,) = advise_sines(careful, "prism", known((1.5, "rocking")))
-    assert advice.risk <= 0.1
-    assert advice.values["amplitude_ratio"] < usual.values["amplitude_ratio"]
-
-
-def test_a_narrow_bracket_is_enough(campaign: Campaign) -> None:
-    (first,) = advise_sines(campaign, "prism", known((1.5, "rocking")))
-    at = first.values["predicted_boundary"]
-    near = [(at * (1 + step), "overturned" if step > 0 else "rocking") for step in (-0.012, -0.008, 0.008, 0.012)]
-    (advice,) = advise_sines(campaign, "prism", known(*near, *near, *near))
-    assert advice.is_enough
-    assert advice.left == 0
 
 
 def test_without_sine_tests_nothing_is_advised(campaign: Campaign) -> None:

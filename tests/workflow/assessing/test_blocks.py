@@ -41,20 +41,6 @@ def test_blocks_give_what_the_whole_gives(tmp_path):
         np.testing.assert_array_equal(getattr(outcomes, name), getattr(whole, name))
 
 
-def test_finished_blocks_are_not_run_again(tmp_path, monkeypatch):
-    def told(done, total):
-        if done == 3:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        outcomes_of(CASES, partial(in_blocks, workers=1, progress=told), tmp_path, "key")
-    steps = []
-    again = partial(in_blocks, workers=1, progress=lambda *step: steps.append(step))
-    outcomes = outcomes_of(CASES, again, tmp_path, "key")
-    assert steps[0][0] == 3
-    np.testing.assert_array_equal(outcomes.peak_ratio, run_cases(CASES).peak_ratio)
-
-
 @pytest.mark.parametrize(
     ("changed", "what"),
     [

@@ -7,21 +7,27 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.maps.chart import stability_map
+from colonnade.dynamics.maps.plan import plan_map
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError, StoreError
+from colonnade.identification.response.boundaries import MapPoint
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId
 from colonnade.workflow import run
 from colonnade.workflow.maps.plans import Wanted, measured_points
+from colonnade.workflow.maps.results import given
 from colonnade.workflow.maps.stability import as_map, make_maps
 from prism import PRISM
 
+PLAN = plan_map(PRISM, frequency_ratio=[2.0, 3.0], amplitude_ratio=[1.0, 2.0])
 FEW = Wanted(("linear",), frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(6, 10), cycles=5.0)
 
 
@@ -109,13 +115,6 @@ def test_several_models_have_a_map_each_and_a_picture_together(small):
     assert made(small).together is None
 
 
-def test_the_shape_of_a_ramp_makes_another_map(small):
-    assert made(small, asking(ramp=1.0)).action == "done"
-    smooth = made(small, asking(ramp=1.0, ramp_shape="cosine"))
-    assert smooth.action == "done"
-    assert as_map(files.read(smooth.path)).options["ramp_shape"] == "cosine"
-
-
 def test_the_table_motion_of_a_sine_test_is_stretched_over_a_map(sine_test):
     (result,) = make_maps(sine_test, asking(motion="sine-01", frequency_ratio=(2.0, 6.0), points=(5, 13)), workers=1)
     stored = as_map(files.read(result.path))
@@ -143,6 +142,26 @@ def test_a_map_that_is_there_is_not_made_again_until_something_changes(small):
     assert made(small, Wanted(**(vars(FEW) | {"ramp": 1.0}))).because == "upstream changed"
 
 
+@pytest.mark.parametrize(
+    ("change", "name"),
+    [
+        ({"block": Block.prism(width=0.086, depth=0.086, height=0.457, mass=26.10)}, "block"),
+        ({"frequency_ratio": np.array([2.0, 3.1])}, "axes"),
+        ({"amplitude_ratio": np.array([1.0, 2.1])}, "axes"),
+        ({"motion": Motion(np.array([0.0, 1.0, 0.0]), 0.01)}, "motion"),
+    ],
+    ids=["a block", "other Ω", "other A", "a recorded motion"],
+)
+def test_each_thing_that_a_map_is_made_from_has_its_hash(change, name):
+    before, after = given(PLAN), given(replace(PLAN, **change))
+    assert {key for key in before if before[key] != after[key]} == {name}
+
+
+def test_a_motion_is_known_by_its_step_too():
+    fast, slow = (given(replace(PLAN, motion=Motion(np.array([0.0, 1.0, 0.0]), dt))) for dt in (0.01, 0.02))
+    assert fast["motion"] != slow["motion"]
+
+
 def test_a_campaign_that_was_never_run_takes_the_rigid_body_and_has_no_points(untouched):
     result = made(untouched)
     assert (result.restitution_source, result.measured) == ("rigid-body", 0)
@@ -153,13 +172,7 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
     summary["tests"]["pulse-01"] |= {"frequency_ratio": 6.0, "amplitude_ratio": 4.0, "outcome": "overturned"}
     summary["tests"]["pulse-02"] |= {"frequency_ratio": 3.0, "amplitude_ratio": None, "outcome": "rocking"}
     small.layout.summary_json.write_text(json.dumps(summary), encoding="utf-8")
-    (point,) = measured_points(small.layout, "prism")
-    assert (point.test, point.frequency_ratio, point.amplitude_ratio, point.outcome) == (
-        "pulse-01",
-        6.0,
-        4.0,
-        "overturned",
-    )
+    assert measured_points(small.layout, "prism") == [MapPoint("pulse-01", 6.0, 4.0, "overturned")]
     assert measured_points(small.layout, "another") == []
     result = made(small, Wanted(("linear",), points=(3, 4), cycles=2.0))
     chart = as_map(files.read(result.path))

@@ -31,38 +31,11 @@ def test_a_figure_is_of_what_its_subject_is(campaign, name, subject, of):
     assert (entry.name, entry.of, found) == (name, of, subject or "")
 
 
-@pytest.mark.parametrize(
-    ("name", "subject", "said"),
-    [
-        ("angel", "span-2.0", 'Unknown figure "angel". Did you mean "angle"?'),
-        ("angle", None, '"angle" is a figure of a test. Name one.'),
-        ("impacts", None, '"impacts" is a figure of a'),
-        ("agreement", "prism", '"agreement" is a figure of the whole campaign. Leave out "prism".'),
-        ("angle", "span-2", 'The campaign has no test "span-2" that "angle" could show. Did you mean "span-2.'),
-    ],
-)
-def test_a_slip_is_refused_with_what_to_do(campaign, name, subject, said):
-    with pytest.raises(CampaignError) as caught:
-        chosen(campaign, name, subject)
-    assert said in str(caught.value)
-
-
 def test_with_one_specimen_alone_nobody_has_to_name_it(empty_campaign):
     campaign = empty_campaign[0]
     alone = replace(campaign, specimens={"prism": campaign.specimens["prism"]})
     entry, subject = chosen(alone, "estimators", None)
     assert (entry.of, subject) == ("specimen", "prism")
-
-
-@pytest.mark.parametrize(
-    ("name", "subject", "title"),
-    [
-        ("angle", "span-2.0", "span-2.0: rocking angle over time"),
-        ("agreement", None, "Predicted over measured largest rocking angle"),
-    ],
-)
-def test_it_is_drawn_from_the_last_run(campaign, name, subject, title):
-    assert draw(campaign, *chosen(campaign, name, subject), None).title == title
 
 
 def test_a_figure_of_a_specimen_and_of_a_test_under_one_name_differ(campaign):

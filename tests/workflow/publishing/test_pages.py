@@ -35,17 +35,6 @@ def test_of_one_changed_test_alone_the_results_are_read(small, read_again):
     assert pages(small) == by_parts
 
 
-def test_a_page_that_is_gone_or_altered_is_drawn_again(small, read_again):
-    folder = small.layout.report.parent / "tests"
-    before = pages(small)
-    (folder / "pulse-01.html").unlink()
-    page = folder / "pulse-02.html"
-    page.write_text(page.read_text().replace("rocking", "rolling", 1))
-    small.run(until="report")
-    assert sorted(read_again) == ["pulse-01", "pulse-02"]
-    assert pages(small) == before
-
-
 def test_a_state_that_is_gone_comes_back_and_that_of_a_watch_stays(small, read_again):
     state = small.layout.state
     text = state.read_text(encoding="utf-8")
@@ -58,14 +47,6 @@ def test_a_state_that_is_gone_comes_back_and_that_of_a_watch_stays(small, read_a
     small.change_a_sample("pulse-01")
     small.run(until="report")
     assert state.read_text(encoding="utf-8") == watched
-
-
-def test_what_is_kept_outlasts_a_run_without_any_change(small, read_again):
-    small.run(until="report")
-    assert read_again == []
-    small.change_a_sample("pulse-02")
-    small.run(until="report")
-    assert read_again == ["pulse-02"]
 
 
 def test_what_is_kept_outlasts_a_run_that_stops_before_the_report(small, read_again):

@@ -13,42 +13,24 @@ from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.publishing import photos
 from colonnade.workflow.publishing.photos import unshown_photos, with_photos
 
-CAMPAIGN = """
-schema = 1
-campaign = "one"
-title = "One"
-
-[specimens]
-prism = {shape = "prism", width = "86 mm", depth = "86 mm", height = "456 mm", mass = "26.10 kg"}
-
-[setups.frame.channels]
-top = {column = 1, quantity = "other"}
-
-[[tests]]
-id = "free-01"
-kind = "other"
-specimen = "prism"
-setup = "frame"
-file = "free-01.csv"
-photos = PHOTOS
-"""
 PLACE = b"48.8584 N 2.2945 E"
 
 
 @pytest.fixture
-def folder(tmp_path):
-    (tmp_path / "photos").mkdir()
+def folder(untouched):
+    folder = untouched.folder.resolve()
+    (folder / "photos").mkdir()
     exif = Image.Exif()
     exif[0x010E] = PLACE.decode()
-    Image.new("RGB", (40, 30), "navy").save(tmp_path / "photos" / "a.jpg", exif=exif)
-    Image.new("RGB", (30, 40), "green").save(tmp_path / "photos" / "b.png")
-    return tmp_path.resolve()
+    Image.new("RGB", (40, 30), "navy").save(folder / "photos" / "a.jpg", exif=exif)
+    Image.new("RGB", (30, 40), "green").save(folder / "photos" / "b.png")
+    return folder
 
 
 def campaign_with(folder, *written):
-    listed = ", ".join(f'"{path}"' for path in written)
-    (folder / "campaign.toml").write_text(CAMPAIGN.replace("PHOTOS", f"[{listed}]"), encoding="utf-8")
-    return load(folder)
+    campaign = load(folder)
+    test = campaign.tests["free-01"].model_copy(update={"photos": written})
+    return replace(campaign, tests=campaign.tests | {"free-01": test})
 
 
 def brought(folder, *written):

@@ -1,12 +1,20 @@
-"""Finished files of a share are copied, checked by their hash, and never over another file."""
+"""A watched folder: its bell, files copied from a share, and the command that is told of each."""
 
 from __future__ import annotations
 
+import json
+import sys
+import time
 from pathlib import Path
 
 import pytest
 
+from colonnade.errors import CampaignError
+from colonnade.workflow.watching import folders
+from colonnade.workflow.watching import notify as module
 from colonnade.workflow.watching.arrivals import Arrivals
+from colonnade.workflow.watching.folders import Bell, listening
+from colonnade.workflow.watching.notify import command_of, notify
 from colonnade.workflow.watching.share import Share
 
 
@@ -56,3 +64,62 @@ def test_a_share_that_is_gone_is_said_once_and_may_come_back(share: Share) -> No
     (share.source / "a.csv").write_bytes(b"1\n")
     assert not twice(share, 5.0)
     assert (share.target / "a.csv").exists()
+
+
+def test_a_file_that_is_written_rings(tmp_path: Path) -> None:
+    with listening(tmp_path) as bell:
+        if not bell.has_events:
+            pytest.skip("this system gives no events")
+        (tmp_path / "a.csv").write_text("1\n")
+        began = time.monotonic()
+        bell.wait()
+        assert time.monotonic() - began < folders.REST / 2
+
+
+def test_a_folder_that_is_not_there_is_polled(tmp_path: Path) -> None:
+    with listening(tmp_path / "none") as bell:
+        assert not bell.has_events
+
+
+def test_a_remote_folder_is_polled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(folders, "_is_remote", lambda folder: True)
+    with listening(tmp_path) as bell:
+        assert not bell.has_events
+
+
+def test_a_wait_ends_when_it_is_due() -> None:
+    began = time.monotonic()
+    Bell(has_events=False).wait(0.05)
+    assert 0.04 < time.monotonic() - began < 1.0
+
+
+LINE = {"test": "säule-01", "outcome": "rocking"}
+
+
+def test_the_line_arrives_as_json(tmp_path: Path) -> None:
+    script = "import sys, pathlib; pathlib.Path(sys.argv[1]).write_bytes(sys.stdin.buffer.read())"
+    assert notify([sys.executable, "-c", script, str(tmp_path / "said")], LINE) == ""
+    assert json.loads((tmp_path / "said").read_text(encoding="utf-8")) == LINE
+
+
+def test_no_shell_reads_the_command(tmp_path: Path) -> None:
+    script = "import sys, pathlib; pathlib.Path(sys.argv[1]).write_text(sys.argv[2])"
+    notify([sys.executable, "-c", script, str(tmp_path / "said"), "$(touch x); *"], LINE)
+    assert (tmp_path / "said").read_text() == "$(touch x); *"
+
+
+def test_a_failure_is_a_sentence() -> None:
+    script = "import sys; sys.exit('no connection')"
+    assert notify([sys.executable, "-c", script], LINE) == f"{sys.executable} ended with 1: no connection."
+    assert "could not be started" in notify(["/nowhere/at-all"], LINE)
+
+
+def test_a_command_that_hangs_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "PATIENCE", 0.2)
+    assert "longer than 0.2 s" in notify([sys.executable, "-c", "import time; time.sleep(60)"], LINE)
+
+
+@pytest.mark.parametrize("text", ["", "  ", "say 'unfinished"])
+def test_what_is_no_command_is_refused(text: str) -> None:
+    with pytest.raises(CampaignError, match="--notify"):
+        command_of(text)

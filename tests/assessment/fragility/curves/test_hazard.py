@@ -1,4 +1,6 @@
-"""Rates: the closed form of a power law, and quadrature of any hazard curve."""
+"""Rates: the closed form of a power law, quadrature of any hazard curve, and how much is extrapolated."""
+
+from __future__ import annotations
 
 from itertools import pairwise
 
@@ -9,7 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from colonnade.assessment.fragility.curves.hazard import hazard_curve, isotonic_rate, lognormal_rate
+from colonnade.assessment.fragility.curves.isotonic import fit_isotonic
+from colonnade.assessment.fragility.curves.lognormal import fit_lognormal
+from colonnade.assessment.fragility.curves.rate import annual_rate
 from every import every
+from virtual_capacities import BETA, MEDIAN, lognormal, outcomes_of
 
 X = np.geomspace(0.01, 10, 30)
 
@@ -72,3 +78,50 @@ def test_a_step_takes_the_rate_where_it_is():
 def test_curves_that_are_no_hazard_are_refused(intensity, rate, said):
     with pytest.raises(ValueError, match=said):
         hazard_curve(intensity, rate)
+
+
+LEVELS_OF_RATE = np.geomspace(0.02, 5, 12)
+
+
+def rate_of(outcomes, hazard):
+    return annual_rate(hazard, fit_lognormal(outcomes, resamples=300), fit_isotonic(outcomes, resamples=50))
+
+
+@pytest.fixture(scope="module")
+def found():
+    return rate_of(lognormal(4, records=100), hazard_curve(LEVELS_OF_RATE, 1e-4 * LEVELS_OF_RATE**-2))
+
+
+def test_the_interval_holds_the_true_rate(found):
+    truth = 1e-4 * MEDIAN**-2 * np.exp(2 * BETA**2)
+    assert found.rate.low < truth < found.rate.high
+    assert found.in_50_years.value == pytest.approx(1 - np.exp(-50 * found.rate.value))
+    assert found.in_50_years.low == pytest.approx(1 - np.exp(-50 * found.rate.low))
+
+
+def test_its_contributions_and_what_is_outside_add_up(found):
+    inside = 1 - found.below_hazard - found.above_hazard
+    assert found.contributions.sum() == pytest.approx(inside)
+    assert (found.edges[0], found.edges[-1]) == pytest.approx((LEVELS_OF_RATE[0], LEVELS_OF_RATE[-1]))
+    peak = found.edges[np.argmax(found.contributions)]
+    assert MEDIAN * np.exp(-3 * BETA) < peak < MEDIAN
+
+
+def test_without_a_distribution_it_is_about_the_same(found):
+    assert found.isotonic == pytest.approx(found.rate.value, rel=0.1)
+
+
+def test_a_hazard_curve_that_ends_too_early_is_seen():
+    x = np.array([0.05, 0.3])
+    found = rate_of(lognormal(4), hazard_curve(x, 1e-4 * x**-2))
+    assert (found.above_hazard > 0.3, found.is_extrapolated) == (True, True)
+
+
+def test_a_steep_hazard_far_below_the_levels_is_seen():
+    found = rate_of(lognormal(4), hazard_curve(LEVELS_OF_RATE, 1e-4 * LEVELS_OF_RATE**-6))
+    assert (found.below_levels > 0.5, found.below_hazard < 0.05, found.is_extrapolated) == (True, True, True)
+
+
+def test_without_a_curve_there_is_no_rate():
+    with pytest.raises(ValueError, match="no curve"):
+        rate_of(outcomes_of(np.full((4, 2), MEDIAN)), hazard_curve(LEVELS_OF_RATE, LEVELS_OF_RATE**-2))

@@ -1,4 +1,6 @@
-"""Lognormal curves: near the truth, with intervals over records; and no curve if outcomes do not give one."""
+"""Lognormal curves: near the truth, with intervals over records; no curve without one, and a misfit that is found."""
+
+from __future__ import annotations
 
 import numpy as np
 import pytest
@@ -6,10 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from colonnade.assessment.fragility.curves.lognormal import fit_lognormal
+from colonnade.assessment.fragility.curves.misfit import lognormal_misfit
 from colonnade.assessment.fragility.outcomes import gather
 from colonnade.assessment.fragility.resampling import FEWEST_RECORDS
 from fragilities.population import Population
-from virtual_capacities import BETA, MEDIAN, lognormal, names, outcomes_of
+from virtual_capacities import BETA, MEDIAN, lognormal, names, outcomes_of, two_kinds
 
 
 def single(peaks, intensity=(1.0, 2.0, 3.0)):
@@ -121,3 +124,27 @@ def test_thousand_resamples_take_well_below_a_second():
     start = perf_counter()
     fit_lognormal(outcomes, resamples=1000)
     assert perf_counter() - start < 2.0
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_two_kinds_of_records_are_not_lognormal(seed):
+    assert lognormal_misfit(two_kinds(seed), resamples=300).p_value < 0.05
+
+
+def test_lognormal_outcomes_pass_although_their_deviance_is_large():
+    """χ² of 8 degrees of freedom would call many of them misfits: its 95 % limit is 15.5."""
+    found = [lognormal_misfit(lognormal(seed), resamples=300) for seed in range(12)]
+    assert sum(each.p_value < 0.05 for each in found) <= 2
+    assert sum(each.deviance > 15.5 for each in found) >= 4
+
+
+def test_the_departure_shows_where():
+    found = lognormal_misfit(two_kinds(1), resamples=50)
+    steep = np.argmax(np.abs(found.departure))
+    assert 0 < steep < found.intensity.size - 1
+    assert np.abs(found.departure).max() > 0.05
+
+
+def test_without_a_curve_there_is_no_p():
+    separated = outcomes_of(np.full((4, 2), 0.4))
+    assert np.isnan(lognormal_misfit(separated, resamples=20).p_value)

@@ -1,3 +1,5 @@
+"""Elastic bodies reduced to their modes: the model and its viscosity."""
+
 from __future__ import annotations
 
 from itertools import pairwise
@@ -7,10 +9,13 @@ import pytest
 from scipy.linalg import eigh
 
 from colonnade.arrays import Array
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.contact.body import ContactBody
 from colonnade.dynamics.contact.elastic.assembly import ElasticBody, assemble, rigid_modes
 from colonnade.dynamics.contact.elastic.mesh import prism_mesh, round_mesh
+from colonnade.dynamics.contact.elastic.model import elastic_body, mesh_of
 from colonnade.dynamics.contact.elastic.reduction import reduce_body
+from colonnade.dynamics.contact.elastic.viscosity import linear_coefficients, modal_damping
 
 PRISM = assemble(prism_mesh(0.086, 0.086, 0.456, (2, 2, 6)), 26.10)
 CONE = assemble(round_mesh(0.097, 0.0755, 0.480, (2, 1, 4)), 21.94)
@@ -83,3 +88,69 @@ def test_the_same_mesh_gives_the_same_modes() -> None:
 def test_an_impossible_number_of_modes_is_refused(count: int) -> None:
     with pytest.raises(ValueError, match="a number from 0 to"):
         reduce_body(CONE, vibration_modes=count)
+
+
+SIZES = {"width": 0.086, "depth": 0.086, "height": 0.456}
+
+
+@pytest.mark.parametrize(
+    ("sizes", "block"),
+    [
+        (SIZES, Block.prism(**SIZES, mass=26.1)),
+        ({"diameter": 0.097, "height": 0.455}, Block.cylinder(diameter=0.097, height=0.455, mass=26.3)),
+        (
+            {"base_diameter": 0.097, "top_diameter": 0.0755, "height": 0.48},
+            Block.cone(base_diameter=0.097, top_diameter=0.0755, height=0.48, mass=21.94),
+        ),
+    ],
+    ids=["prism", "cylinder", "cone"],
+)
+def test_the_coarse_body_has_the_blocks_mass_and_inertia(sizes, block):
+    body = elastic_body(sizes, block.mass, mesh="coarse")
+    assert body.mass == pytest.approx(block.mass)
+    about_pole = body.inertia[1] + body.mass * (body.half_width**2 + body.height**2)
+    # The polygon of a coarse round mesh has its matter nearer to the axis than the disc.
+    assert about_pole == pytest.approx(block.inertia, rel=0.01)
+    assert body.frequencies.size > 0
+
+
+def test_the_papers_coarse_mesh_is_met():
+    assert mesh_of(SIZES, "coarse").degrees_of_freedom == 1224
+
+
+@pytest.mark.parametrize(
+    ("sizes", "mesh", "told"),
+    [(SIZES, "corse", 'Did you mean "coarse"'), ({"height": 1.0}, "coarse", "dimensions")],
+)
+def test_what_cannot_be_meshed_is_refused(sizes, mesh, told):
+    with pytest.raises(ValueError, match=told):
+        mesh_of(sizes, mesh)
+
+
+BAR = assemble(prism_mesh(0.1, 0.1, 1.0, (1, 1, 10)), 78.0, poisson_ratio=0.0)
+
+
+def test_coefficients_are_those_of_the_formula() -> None:
+    speed = np.sqrt(200e9 / 7800)
+    assert linear_coefficients(BAR) == pytest.approx(np.full(10, 0.06 * 7800 * speed * 0.1))
+    assert not linear_coefficients(BAR, 0.0).any()
+
+
+def test_a_bar_that_stretches_is_damped_by_b1_l_omega_over_2c() -> None:
+    # With lumped masses and ν = 0 the modes of ten elements are cos(nπj/10), at 2c/L sin(nπ/20).
+    number, level = np.arange(1, 11), np.rint((BAR.points[:, 2] + 0.5) * 10)
+    shapes = np.zeros((len(BAR.points), 3, 10))
+    shapes[:, 2] = np.cos(np.pi / 10 * np.outer(level, number))
+    modes = shapes.reshape(-1, 10)
+    modes /= np.sqrt(np.repeat(BAR.node_mass, 3) @ modes**2)
+    speed = np.sqrt(200e9 / 7800)
+    frequencies = 2 * speed / 0.1 * np.sin(np.pi * number / 20)
+    assert np.einsum("im,im->m", modes, BAR.stiffness @ modes) == pytest.approx(frequencies**2)
+    damping = modal_damping(BAR, modes, frequencies, 0.06)
+    assert damping == pytest.approx(0.06 * 0.1 * frequencies / (2 * speed), rel=1e-9)
+
+
+def test_a_bar_that_twists_is_not_damped() -> None:
+    x, y, z = BAR.points.T
+    twist = np.column_stack((-y * z, x * z, 0 * z)).reshape(-1, 1)
+    assert modal_damping(BAR, twist, np.ones(1)) == pytest.approx([0.0], abs=1e-12)

@@ -1,4 +1,4 @@
-"""One arc of the full equation under a sine, by its series, against SciPy's DOP853."""
+"""The nonlinear march through a sine, and its envelope."""
 
 from __future__ import annotations
 
@@ -8,10 +8,15 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane import landing
 from colonnade.dynamics.plane.harmonic import envelope
 from colonnade.dynamics.plane.harmonic import nonlinear as harmonic_nonlinear
+from colonnade.dynamics.plane.harmonic.envelope import level_at, piece_between
+from colonnade.dynamics.plane.harmonic.motion import Harmonic, harmonic_outcomes, harmonic_run
 from colonnade.dynamics.plane.harmonic.nonlinear import empty_series
+from colonnade.dynamics.rock import rock
+from prism import PRISM
 
 ALPHA, P, OMEGA = 0.2, 4.0, 11.0
 STEADY = 0.3, 0.0, 0.0, 0.0
@@ -87,3 +92,34 @@ def test_the_ramp_of_half_a_cosine_adds_its_two_sines():
     later = 0.4 * cos(3.0 * (since + step / P)) * sin(phase + OMEGA / P * step)
     assert work.forcing[0] == pytest.approx(0.4 * cos(3.0 * since) * sin(phase))
     assert series == pytest.approx(later, rel=1e-13)
+
+
+@pytest.mark.parametrize(("smooth", "middle", "slope"), [(None, 1.0, 0.5), (True, 1.0, 0.785398)])
+def test_a_ramp_goes_from_level_to_level(smooth, middle, slope):
+    ramp = piece_between(0.0, 2.0, 4.0, smooth)
+    assert [level_at(ramp, since)[0] for since in (0.0, 2.0, 4.0)] == pytest.approx([0.0, middle, 2.0])
+    assert level_at(ramp, 2.0)[1] == pytest.approx(slope, rel=1e-6)
+
+
+def test_a_constant_level_has_no_slope():
+    assert level_at(piece_between(2.0, 2.0, 4.0, True), 1.0) == (2.0, 0.0)
+
+
+@pytest.mark.parametrize("model", ["linear", "nonlinear"])
+def test_a_harmonic_run_is_that_of_the_sampled_motion(model):
+    motion = Harmonic.cycles(4.0 * PRISM.p, 5.0)
+    time = np.linspace(0.0, motion.edges[2], 20_001)
+    base = 1.3 * PRISM.uplift_acceleration * np.sin(motion.omega * time)
+    sampled = rock(PRISM, Motion(base, time[1]), restitution=0.9, model=model)
+    run = harmonic_run(PRISM, motion, 1.3, 0.9, model=model, samples=200, interval=100 * time[1])
+    np.testing.assert_allclose(run.angle, sampled.angle[:20_000:100], atol=1e-6 * PRISM.critical_angle)
+    np.testing.assert_allclose(run.impact_times, sampled.impact_times[: run.impact_times.size], atol=1e-6)
+
+
+@pytest.mark.parametrize("model", ["linear", "nonlinear"])
+def test_outcomes_of_many_amplitudes_are_those_of_single_runs(model):
+    motion = Harmonic.cycles(3.0 * PRISM.p, 4.0, ramp=1.0, ramp_shape="cosine")
+    amplitudes = np.linspace(0.5, 6.0, 12)
+    codes = harmonic_outcomes(PRISM, motion, amplitudes, (0.9, 0.9), model)
+    single = [harmonic_run(PRISM, motion, float(a), 0.9, model=model).outcome for a in amplitudes]
+    assert [("no-rocking", "rocking", "overturned")[code] for code in codes] == single

@@ -1,0 +1,287 @@
+"""Panels: stacked or side by side, with lean axes, curves thinned to what can be seen and long ones whole."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from colonnade.figures import Curve, envelope
+from colonnade.figures.files.output import to_png, to_svg
+from colonnade.figures.panels.curve import between
+from colonnade.figures.panels.layout import COLUMNS, legend_above, side_by_side, stacked_panels
+from colonnade.figures.panels.lean import LeanAxes, add_panel
+from colonnade.figures.panels.long import draw_band, draw_curve
+from colonnade.figures.style import styled
+
+
+def test_stacked_panels_share_their_time_and_only_the_lowest_has_its_numbers():
+    figure, axes = stacked_panels([2.0, 0.8, 0.8])
+    axes[0].set_xlim(0, 7)
+    assert [one.get_xlim() for one in axes] == [(0, 7)] * 3
+    assert [one.xaxis.get_visible() for one in axes] == [False, False, True]
+    heights = [one.get_position().height * figure.get_size_inches()[1] for one in axes]
+    assert heights == pytest.approx([2.0, 0.8, 0.8])
+
+
+def test_panels_do_not_overlap():
+    _, axes = stacked_panels([1.0, 1.0])
+    assert axes[0].get_position().y0 > axes[1].get_position().y1
+
+
+def test_more_columns_than_fit_are_continued_below():
+    _, grid = side_by_side(COLUMNS + 1, [1.0, 0.5])
+    assert len(grid) == COLUMNS + 1
+    assert grid[COLUMNS][0].get_position().x0 == pytest.approx(grid[0][0].get_position().x0)
+    assert grid[COLUMNS][0].get_position().y1 < grid[0][1].get_position().y0
+    grid[0][0].set_ylim(-3, 3)
+    assert grid[COLUMNS][0].get_ylim() == (-3, 3)
+
+
+def test_a_legend_names_each_line_once():
+    figure, axes = stacked_panels([1.0, 1.0])
+    for one in axes:
+        one.plot([0, 1], [0, 1], label="measured")
+    legend_above(figure, axes)
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["measured"]
+
+
+def test_without_a_name_there_is_no_legend():
+    figure, axes = stacked_panels([1.0])
+    legend_above(figure, axes)
+    assert figure.legends == []
+
+
+def test_an_upper_panel_borrows_the_upright_grid_of_the_lowest_one():
+    figure, (upper, lower) = stacked_panels([1.0, 1.0])
+    lower.set_xlim(0, 7)
+    [grid] = upper.artists
+    assert grid.lines().tolist() == [0, 1, 2, 3, 4, 5, 6, 7]
+    drawn = to_svg(figure, identity="panels", title="", description="")
+    assert any(path.count("M") == 8 for path in re.findall(r'd="([^"]*)"', drawn))
+    assert not upper.xaxis.get_visible()
+
+
+WRITTEN = re.compile(r"<text[^>]*?(?:x=\"([-\d.]+)\" y=\"([-\d.]+)\"|translate\(([-\d.]+) ([-\d.]+)\))[^>]*>([^<]*)")
+
+
+def drawn(lean: bool, shape) -> dict[str, tuple[float, float]]:
+    """Where each text of a figure is, points."""
+    with styled():
+        figure = Figure(figsize=(4.0, 3.0))
+        panel = add_panel(figure, 1.0, 0.5, 2.5, 2.0) if lean else figure.add_axes((1 / 4, 0.5 / 3, 2.5 / 4, 2 / 3))
+        shape(panel)
+        text = to_svg(figure, identity="one", title="", description="")
+    return {said: (float(a or c), float(b or d)) for a, b, c, d, said in WRITTEN.findall(text)}
+
+
+def linear(panel):
+    panel.set_xlim(0.0, 7.3)
+    panel.set_ylim(-0.52, 0.47)
+
+
+def logarithmic(panel):
+    panel.set_xscale("log")
+    panel.set_xlim(0.02, 30)
+    panel.set_ylim(0.0, 3.0)
+
+
+def tiny(panel):
+    panel.set_xlim(0, 1)
+    panel.set_ylim(-3e-7, 5e-7)
+
+
+@pytest.mark.parametrize("shape", [linear, tiny], ids=["linear", "with a power of ten"])
+def test_the_same_numbers_are_at_the_same_places(shape):
+    lean, usual = drawn(True, shape), drawn(False, shape)
+    assert lean.keys() == usual.keys()
+    assert len(lean) > 8
+    for said, place in lean.items():
+        assert place == pytest.approx(usual[said], abs=3.0), said
+
+
+def test_no_tick_is_made_for_drawing():
+    with styled():
+        figure = Figure()
+        panel = add_panel(figure, 1.0, 0.5, 2.5, 2.0)
+        panel.plot([0, 1], [0, 1])
+        to_svg(figure, identity="one", title="", description="")
+    assert isinstance(panel, LeanAxes)
+    assert (panel.xaxis.majorTicks, panel.yaxis.majorTicks) == ([], [])
+
+
+def test_ticks_beyond_the_view_are_not_drawn():
+    with styled():
+        panel = add_panel(Figure(), 1.0, 0.5, 2.5, 2.0)
+        logarithmic(panel)
+        assert panel.xaxis.shown_ticks() == pytest.approx([0.1, 1.0, 10.0])
+
+
+def test_labels_that_are_turned_off_are_not_drawn():
+    def unlabelled(panel):
+        linear(panel)
+        panel.tick_params(labelleft=False)
+
+    assert drawn(True, unlabelled).keys() == drawn(True, linear).keys() - {"−0.4", "−0.2", "0.0", "0.2", "0.4"}
+
+
+def test_a_panel_is_where_it_was_asked_for():
+    figure = Figure(figsize=(4.0, 3.0))
+    box = add_panel(figure, 1.0, 0.5, 2.5, 2.0).get_position()
+    assert np.array(box.bounds) == pytest.approx([1 / 4, 0.5 / 3, 2.5 / 4, 2 / 3])
+
+
+def noisy(samples: int = 60_000) -> Curve:
+    return Curve(np.arange(samples) / 1000, np.random.default_rng(3).normal(size=samples))
+
+
+def test_a_long_curve_is_thinned_and_keeps_its_ends_and_extremes():
+    curve = noisy()
+    thinned = envelope(curve, intervals=300)
+    assert thinned.time.size <= 602
+    assert thinned.values.max() == curve.values.max()
+    assert thinned.values.min() == curve.values.min()
+    assert (thinned.time[0], thinned.time[-1]) == (curve.time[0], curve.time[-1])
+    assert (np.diff(thinned.time) > 0).all()
+
+
+def test_every_interval_of_time_keeps_its_lowest_and_highest_value():
+    curve = noisy(10_000)
+    thinned = envelope(curve, intervals=10)
+    for start, end in zip(range(0, 10_000, 1000), range(1000, 10_001, 1000), strict=True):
+        part = curve.values[start:end]
+        kept = thinned.values[(thinned.time >= curve.time[start]) & (thinned.time <= curve.time[end - 1])]
+        assert kept.max() == pytest.approx(part.max(), abs=0.05)
+        assert kept.min() == pytest.approx(part.min(), abs=0.05)
+
+
+def test_a_short_curve_is_left_as_it_is():
+    curve = noisy(500)
+    assert envelope(curve) is curve
+
+
+def test_a_spike_of_one_sample_is_not_lost():
+    curve = Curve(np.arange(100_000) / 1000, np.zeros(100_000))
+    curve.values[43_217] = 1.0
+    thinned = envelope(curve)
+    assert thinned.time[thinned.values == 1.0].tolist() == [43.217]
+
+
+def test_a_gap_stays_a_gap():
+    curve = noisy()
+    curve.values[20_000:30_000] = np.nan
+    thinned = envelope(curve)
+    inside = (thinned.time > 20.2) & (thinned.time < 29.8)
+    assert inside.sum() > 50
+    assert np.isnan(thinned.values[inside]).all()
+    assert np.isfinite(thinned.values[~inside]).sum() > 800
+
+
+def test_arrays_of_different_length_are_refused():
+    with pytest.raises(ValueError, match=r"time has shape \(3,\) and values \(2,\)"):
+        envelope(Curve(np.zeros(3), np.zeros(2)))
+
+
+def a_band(samples: int = 5001) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    time = np.linspace(0.0, 10.0, samples)
+    centre = 0.4 * np.sin(4 * time)
+    return time, centre - 0.01 * time, centre + 0.01 * time
+
+
+def test_thinning_keeps_the_extremes_of_a_band():
+    given, lowest, highest = a_band()
+    time, below, above = between(given, lowest, highest, intervals=50)
+    assert time.size <= 51
+    assert (below.min(), above.max()) == (lowest.min(), highest.max())
+    inside = np.searchsorted(np.linspace(0, 10, 51)[1:-1], given, side="right")
+    assert (below[inside] <= lowest).all()
+    assert (above[inside] >= highest).all()
+
+
+def test_a_short_band_is_drawn_as_it_is():
+    time, below, above = a_band(10)
+    assert between(time, below, above)[0].tolist() == time.tolist()
+
+
+TIME = np.arange(50_000) / 1000
+NOISE = np.random.default_rng(1).normal(size=TIME.size)
+
+
+def panel():
+    figure = Figure(figsize=(4.0, 2.0))
+    return figure, figure.subplots()
+
+
+def svg_size(figure: Figure) -> int:
+    return len(to_svg(figure, identity="one", title="", description=""))
+
+
+def test_a_long_curve_keeps_every_sample_and_gives_a_short_file():
+    figure, axes = panel()
+    line = draw_curve(axes, Curve(TIME, NOISE), label="noise")
+    assert svg_size(figure) < 60_000
+    time, values = line.get_data()
+    np.testing.assert_array_equal(time, TIME)
+    np.testing.assert_array_equal(values, NOISE)
+    assert not line.stale
+
+
+def test_a_part_of_a_long_curve_is_drawn_with_its_own_samples():
+    """Of 50 s in 4 inches a spike of one sample has neighbours in one pixel; zoomed in it stands alone."""
+    figure, axes = panel()
+    values = np.zeros(TIME.size)
+    values[20_000] = 1.0
+    draw_curve(axes, Curve(TIME, values))
+    axes.set_xlim(19.99, 20.01)
+    zoomed = to_png(figure)
+    figure, axes = panel()
+    axes.plot(TIME[19_980:20_021], values[19_980:20_021])
+    axes.set_xlim(19.99, 20.01)
+    axes.set_ylim(-0.05, 1.05)
+    assert zoomed == to_png(figure)
+
+
+def test_a_fall_far_beyond_the_axis_lengthens_no_file():
+    sizes = []
+    for height in (1.0, 1e9):
+        figure, axes = panel()
+        draw_curve(axes, Curve(TIME, height * NOISE))
+        axes.set_ylim(-1.0, 1.0)
+        sizes.append(svg_size(figure))
+    assert sizes[1] < 1.5 * sizes[0]
+
+
+def test_a_band_keeps_every_sample_and_breaks_where_nothing_is_known():
+    figure, axes = panel()
+    above = np.where((TIME > 20) & (TIME < 30), np.nan, NOISE + 1.0)
+    band = draw_band(axes, TIME, NOISE - 1.0, above, label="95 %")
+    assert svg_size(figure) < 80_000
+    np.testing.assert_array_equal(band.time, TIME)
+    np.testing.assert_array_equal(band.above, above)
+    outlines = [path.vertices for path in band.get_paths()]
+    assert len(outlines) == 2
+    assert max(map(len, outlines)) < 1500
+    assert outlines[0][:, 1].max() == pytest.approx(np.nanmax(above[TIME <= 20]))
+    assert outlines[0][:, 0].max() == pytest.approx(20.0, abs=0.1)
+
+
+def test_a_band_scales_its_axis():
+    _, axes = panel()
+    draw_band(axes, TIME, np.full(TIME.size, -3.0), np.full(TIME.size, 7.0))
+    low, high = axes.get_ylim()
+    assert low <= -3.0
+    assert high >= 7.0
+
+
+@pytest.mark.parametrize(
+    "values",
+    [NOISE[:100], np.where(np.arange(100) % 99 < 10, np.nan, NOISE[:100]), np.full(100, np.nan)],
+    ids=["whole", "with gaps at both ends", "without a value"],
+)
+def test_axes_scale_themselves_to_a_curve_as_to_a_line_of_matplotlib(values):
+    (_, ours), (_, theirs) = panel(), panel()
+    draw_curve(ours, Curve(TIME[:100], values))
+    theirs.plot(TIME[:100], values)
+    assert (ours.get_xlim(), ours.get_ylim()) == (theirs.get_xlim(), theirs.get_ylim())

@@ -1,0 +1,263 @@
+"""Figures of e: estimates, impacts, peaks, the fitted history and the joint region, with marks of what was used."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_hex
+from matplotlib.container import ErrorbarContainer
+from matplotlib.figure import Figure
+from scipy import stats
+
+from colonnade.dynamics.block import Block
+from colonnade.figures import (
+    Curve,
+    EstimateGroup,
+    EstimateRow,
+    ImpactSeries,
+    Level,
+    PeakSeries,
+    Region,
+    estimators_side_by_side,
+    fitted_history,
+    impact_restitution,
+    joint_region,
+    peak_decay,
+)
+from colonnade.figures.restitution.marks import draw_marks
+from colonnade.figures.style import MEASURED, model_style
+from colonnade.identification.restitution.arcs.energy import angle_of_energy
+from prism import PRISM
+
+NOTHING = EstimateRow("half-periods", np.nan, np.nan, np.nan, remark="too few impacts")
+
+
+def test_estimates_stand_side_by_side_with_their_intervals():
+    rows = [EstimateRow("peaks", 0.95, 0.949, 0.951), EstimateRow("whole history", 0.9505, 0.9503, 0.9507, True)]
+    axes = estimators_side_by_side([EstimateGroup("free-01", [*rows, NOTHING])], rigid=0.9496).axes[0]
+    ends = [path.vertices[:, 0].tolist() for bar in axes.collections for path in bar.get_paths()]
+    assert ends == [pytest.approx([0.949, 0.951]), pytest.approx([0.9503, 0.9507])]
+    told = {text.get_text(): text.get_fontweight() for text in axes.texts}
+    colours = {text.get_text(): text.get_color() for text in axes.texts}
+    assert colours["whole history"] != colours["peaks"]
+    assert told["0.9505 ± 0.0002"] == "bold"
+    assert "too few impacts" in told
+    assert " rigid body 0.9496 " in told
+
+
+@pytest.mark.parametrize(("rigid", "told"), [(0.5, "← rigid body 0.5000"), (0.9999, "rigid body 0.9999 →")])
+def test_a_rigid_body_value_far_away_does_not_squeeze_the_estimates(rigid, told):
+    axes = estimators_side_by_side([EstimateGroup("", [EstimateRow("peaks", 0.95, 0.949, 0.951)])], rigid=rigid).axes[0]
+    assert np.ptp(axes.get_xlim()) < 0.01
+    assert told in [text.get_text() for text in axes.texts]
+
+
+def test_one_estimate_far_off_is_an_arrow_at_the_edge():
+    rows = [EstimateRow(str(n), 0.95, 0.949, 0.951) for n in range(4)] + [EstimateRow("off", 0.7, 0.699, 0.701)]
+    axes = estimators_side_by_side([EstimateGroup("", rows)]).axes[0]
+    mark = next(line for line in axes.lines if line.get_marker() == "<")
+    assert mark.get_transform() == axes.get_yaxis_transform()
+    assert mark.get_xdata()[0] == 0.0
+    assert axes.get_xlim()[0] > 0.9
+
+
+def test_a_refusal_by_all_estimators_has_no_scale():
+    axes = estimators_side_by_side([EstimateGroup("", [NOTHING])], rigid=0.95).axes[0]
+    assert axes.get_xticks().size == 0
+    assert [text.get_text() for text in axes.texts] == ["half-periods", "too few impacts"]
+
+
+def impacts(title="free-01", *, count=20, error=1e-3, used=True):
+    velocity = np.linspace(2.0, 0.2, count)
+    e = 0.95 + 0.002 * np.sin(np.arange(count))
+    return ImpactSeries(title, velocity, e, np.full(count, error), np.full(count, used))
+
+
+def named(axes):
+    return axes.get_legend_handles_labels()[1]
+
+
+def test_each_impact_has_its_bar_and_the_constant_its_band():
+    level = Level(0.95, 0.949, 0.951, "e = 0.9500 ± 0.0010")
+    axes = impact_restitution([impacts()], level=level, rigid=0.9505).axes[0]
+    assert set(named(axes)) == {"impact used", "e = 0.9500 ± 0.0010", "rigid body"}
+    segments = axes.containers[0].lines[2][0].get_segments()
+    assert [np.ptp(segment[:, 1]) for segment in segments] == pytest.approx([4e-3] * 20)
+
+
+def test_a_rigid_body_value_off_the_axis_is_told_at_its_edge():
+    axes = impact_restitution([impacts()], rigid=0.8).axes[0]
+    assert axes.get_ylim()[0] > 0.8
+    assert [text.get_text() for text in axes.texts] == ["rigid body 0.8000 ↓"]
+
+
+def test_impacts_left_out_are_hollow_and_several_tests_have_marks_of_their_own():
+    figure = impact_restitution([impacts(), impacts("free-02", used=False)])
+    first, second = figure.axes[0].containers
+    assert first.lines[0].get_markerfacecolor() != second.lines[0].get_markerfacecolor()
+    assert first.lines[0].get_marker() != second.lines[0].get_marker()
+    assert named(figure.axes[0]) == ["free-01", "impact left out"]
+
+
+@pytest.mark.parametrize("count", [2, 60])
+def test_the_axis_of_e_shows_the_bars_of_the_surest_impacts_and_not_what_scatters_at_the_end(count):
+    series = impacts(count=count)
+    series.restitution[-1], series.standard_error[-1] = (0.2, 0.5) if count > 2 else (0.95, 1e-3)
+    low, high = impact_restitution([series]).axes[0].get_ylim()
+    assert low < 0.948
+    assert high > 0.952
+    assert high - low < 0.1
+
+
+def test_impacts_without_a_value_are_said():
+    series = impacts()._replace(restitution=np.full(20, np.nan))
+    assert impact_restitution([series]).axes[0].texts[-1].get_text() == "no impacts"
+
+
+def decay(title: str = "free-01", *, count: int = 20, restitution: float = 0.95, used: int | None = None) -> PeakSeries:
+    number = np.arange(1, count + 1)
+    angle = np.asarray(angle_of_energy(0.8 * restitution ** (2 * number), PRISM.critical_angle)) * (-1.0) ** number
+    chosen = number <= (count if used is None else used)
+    return PeakSeries(title, angle, np.full(count, 1e-4), np.where(chosen, angle, np.nan), chosen)
+
+
+def test_a_constant_restitution_is_a_straight_line_of_slope_two_ln_e():
+    axes = peak_decay([decay()], PRISM).axes[0]
+    fit = next(line for line in axes.lines if line.get_label() == "fit")
+    slopes = np.diff(np.log(fit.get_ydata()))
+    assert slopes == pytest.approx(2 * np.log(0.95), rel=1e-9)
+    assert axes.get_yscale() == "log"
+
+
+def test_peaks_left_out_are_told_from_peaks_used():
+    axes = peak_decay([decay(used=15)], PRISM).axes[0]
+    drawn = {box.get_label(): box.lines[0] for box in axes.containers}
+    assert drawn["peak used"].get_xdata().size == 15
+    assert drawn["peak left out"].get_xdata().tolist() == [16, 17, 18, 19, 20]
+    assert drawn["peak used"].get_markerfacecolor() != drawn["peak left out"].get_markerfacecolor()
+
+
+def test_a_refused_identification_has_peaks_and_no_line():
+    axes = peak_decay([decay(used=0)], PRISM).axes[0]
+    assert "fit" not in axes.get_legend_handles_labels()[1]
+    assert axes.get_legend_handles_labels()[1] == ["peak left out"]
+
+
+def test_tests_side_by_side_have_the_same_scales():
+    figure = peak_decay([decay(f"free-{k}", count=10 + 10 * k) for k in range(4)], PRISM)
+    assert len({(axes.get_xlim(), axes.get_ylim()) for axes in figure.axes}) == 1
+    assert len(figure.axes) == 4
+    assert figure.axes[0].get_xlim()[1] >= 40
+
+
+def test_an_asymmetric_block_scales_each_side_by_its_own_angle():
+    block = Block.measured(mass=80, pole_distance=0.61, critical_angle=(0.1, 0.2), inertia=41.2)
+    angle = np.array([0.05, -0.05, 0.15, -0.15])
+    peaks = PeakSeries("statue", angle, np.zeros(4), np.full(4, np.nan), np.ones(4, dtype=bool))
+    shown = peak_decay([peaks], block).axes[0].containers[0].lines[0].get_ydata()
+    assert shown == pytest.approx([0.4375, 0.75, 0.9375], abs=2e-3)  # 1 − (1 − |θ|/α)², and −0.15 is beyond α
+
+
+def test_no_peak_at_all_is_said():
+    empty = np.empty(0)
+    figure = peak_decay([PeakSeries("free-01", empty, empty, empty, empty.astype(bool))], PRISM)
+    assert figure.axes[0].texts[0].get_text() == "no peaks"
+
+
+def test_housners_line_has_its_band_and_peaks_at_the_noise_do_not_stretch_the_scale():
+    block = Block.prism(width=0.086, depth=0.086, height=0.456, mass=26.10)
+    number = np.arange(30)
+    angle = np.asarray(angle_of_energy(0.8 * 0.9 ** (2 * number), block.critical_angle)) * (-1.0) ** number
+    angle[-3:] = [1e-9, -1e-9, 1e-9]
+    used = number < 20
+    band = np.full(30, 0.1)
+    peaks = PeakSeries("free-01", angle, np.full(30, 1e-4), np.where(used, angle, np.nan), used, band)
+    axes = peak_decay([peaks], block).axes[0]
+    line = next(line for line in axes.lines if line.get_label() == "fit").get_ydata()
+    outline = axes.collections[-1].get_paths()[0].vertices[:, 1]
+    assert outline.min() == pytest.approx(line.min() * np.exp(-0.1))
+    assert outline.max() == pytest.approx(line.max() * np.exp(0.1))
+    assert axes.get_ylim()[0] > 1e-4
+
+
+TIME = np.linspace(0, 6, 601)
+MEASURED_ANGLE = Curve(TIME, 0.5 * np.exp(-TIME / 3) * np.cos(4 * TIME))
+PART = slice(100, 500)
+
+
+def test_a_fitted_history_shows_measured_fit_and_what_is_left_over():
+    fitted = Curve(TIME[PART], MEASURED_ANGLE.values[PART] + 1e-3)
+    residual = Curve(TIME[PART], np.full(400, -1e-3))
+    figure = fitted_history(MEASURED_ANGLE, fitted, residual, model="nonlinear")
+    above, below = figure.axes
+    assert named(above) == ["measured", "fitted, nonlinear model"]
+    assert above.lines[0].get_color() == MEASURED["color"]
+    assert above.lines[1].get_color() == model_style("nonlinear")["color"]
+    assert below.lines[0].get_ydata() == pytest.approx(np.full(400, -1.0))  # 10⁻³ α
+    assert below.texts[0].get_text() == "RMS 1·10⁻³ α"
+    assert above.get_xlim() == (0, 6)
+
+
+def test_the_joint_region_holds_its_share_of_a_normal_distribution():
+    centre = np.array([0.95, 1.01])
+    covariance = np.array([[4e-6, 3e-6], [3e-6, 9e-6]])
+    axes = joint_region([Region("free-01", centre, covariance)], fixed=(0.949, 0.948, 0.95)).axes[0]
+    for line, level in zip(axes.lines[:2], (0.5, 0.95), strict=True):
+        away = np.column_stack(line.get_data()) - centre
+        distance = np.einsum("ij,jk,ik->i", away, np.linalg.inv(covariance), away)
+        assert distance == pytest.approx(np.full(away.shape[0], stats.chi2.ppf(level, 2)))
+    assert "e with α as given" in axes.get_legend_handles_labels()[1]
+
+
+@pytest.mark.parametrize(
+    ("regions", "said"),
+    [([], "no fit"), ([Region("one", np.ones(2), np.zeros((2, 2)))], "one: .* not positive definite")],
+    ids=["none", "a covariance of nothing"],
+)
+def test_a_region_that_cannot_be_drawn_is_refused(regions, said):
+    with pytest.raises(ValueError, match=said):
+        joint_region(regions)
+
+
+X, Y = np.arange(4.0), np.arange(4.0) + 10.0
+ALL = np.ones(4, dtype=bool)
+LABELS = ("used", "left out")
+
+
+def drawn(bars, shown=ALL, used=ALL):
+    axes = Figure().subplots()
+    draw_marks(axes, X, Y, bars, shown, used, LABELS, mark="s")
+    return [each for each in axes.containers if isinstance(each, ErrorbarContainer)]
+
+
+def ends(container):
+    (bars,) = container.lines[2]
+    return [tuple(segment[:, 1]) for segment in bars.get_segments()]
+
+
+def test_bars_go_as_far_down_and_up_as_they_say():
+    (both,) = drawn(np.array([[1.0, 2.0, 3.0, 4.0], [0.1, 0.2, 0.3, 0.4]]))
+    assert ends(both) == [(9.0, 10.1), (9.0, 11.2), (9.0, 12.3), (9.0, 13.4)]
+    (even,) = drawn(np.full(4, 0.5))
+    assert ends(even)[0] == (9.5, 10.5)
+
+
+def test_an_unknown_error_has_no_bar():
+    (container,) = drawn(np.array([np.nan, 1.0, 1.0, 1.0]))
+    assert ends(container)[0] == (10.0, 10.0)
+
+
+def test_the_two_kinds_have_their_own_face_and_label():
+    used = np.array([True, True, False, False])
+    first, second = drawn(np.zeros(4), used=used)
+    assert [first.get_label(), second.get_label()] == list(LABELS)
+    assert list(first.lines[0].get_xdata()) == [0.0, 1.0]
+    assert to_hex(second.lines[0].get_markerfacecolor()) == "#ffffff"
+    assert first.lines[0].get_markerfacecolor() != "white"
+    assert {each.lines[0].get_marker() for each in (first, second)} == {"s"}
+
+
+def test_what_is_not_shown_is_not_there():
+    assert drawn(np.zeros(4), shown=~ALL) == []
+    (container,) = drawn(np.zeros(4), shown=X > 2)
+    assert list(container.lines[0].get_xdata()) == [3.0]

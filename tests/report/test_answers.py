@@ -1,0 +1,88 @@
+"""Pages of real columns and of forecasts: the answer, what it rests on, what was left out."""
+
+from __future__ import annotations
+
+import json
+from html import unescape
+
+from colonnade.campaign import load
+from colonnade.campaign.forms.summary import Summary
+from colonnade.report.assessments_page.page import assessments_page
+from colonnade.report.build import build
+from colonnade.report.forecasts_page.page import forecasts_page
+from colonnade.report.paper.document import document_of
+from colonnade.store.forecasts import read_forecasts
+from colonnade.store.layout import Layout
+from colonnade.store.records.assessment import NOT_COVERED
+from colonnade.store.records.summary import read_summary
+from colonnade.workflow.forecasting.choosing import choose
+from colonnade.workflow.forecasting.records import foreseen_of
+from foreseeing import LATER
+from read_pages import Page
+
+
+def test_the_page_says_the_answer_and_shows_its_pictures(assessed):
+    campaign, layout = load(assessed), Layout(assessed)
+    [shown] = assessments_page(campaign, layout, read_summary(layout))
+    text = (layout.report.parent / "assessments.html").read_text(encoding="utf-8")
+    words = " ".join(Page(text).words.split())
+    for sentence in (*shown.answer, NOT_COVERED):
+        assert " ".join(sentence.split()) in words
+    assert text.count("<svg") == 4
+    assert "broken.csv" in words
+    assert "West" in words
+    assert "ASCE 43" in words
+    assert unescape(shown.columns.description).count("m/s") >= 3
+
+
+def test_it_is_on_the_way_of_the_pages_and_on_paper(assessed):
+    campaign, layout = load(assessed), Layout(assessed)
+    folder = layout.report.parent
+    assert 'href="assessments.html"' in layout.report.read_text(encoding="utf-8")
+    assert 'href="../assessments.html"' in (folder / "tests" / "free-01.html").read_text(encoding="utf-8")
+    titles = [chapter["title"] for chapter in document_of(campaign, folder).data["chapters"]]
+    assert titles[-2:] == ["The real column", "Methods"]
+
+
+def with_summary(folder):
+    """Write what a run says of forecasts into the summary."""
+    campaign, layout = load(folder), Layout(folder)
+    forecasts = read_forecasts(layout)
+    chosen = choose(campaign, forecasts, {name: {} for name in campaign.tests})
+    foreseen = foreseen_of(layout, forecasts, chosen, set())
+    summary = json.loads(layout.summary_json.read_text(encoding="utf-8"))
+    record = foreseen.tests[LATER].model_dump(mode="json")
+    summary["tests"][LATER] = {"status": "pending", "kind": "earthquake", "specimen": "prism", "forecast": record}
+    summary["forecasts"] = foreseen.together.model_dump(mode="json")
+    layout.summary_json.write_text(json.dumps(summary), encoding="utf-8")
+    return campaign, layout
+
+
+def test_each_forecast_is_listed_with_what_happened(foreseen_copy):
+    (foreseen_copy / "forecasts" / "<b>.json").write_text("{}", encoding="utf-8")
+    campaign, layout = with_summary(foreseen_copy)
+    page = forecasts_page(layout, read_summary(layout))
+    assert [(row.forecast.level, row.entry.blind, row.happened) for row in page.rows] == [
+        ("0.01 g", True, "not yet"),
+        ("9x", True, "not yet"),
+    ]
+    shares = [tuple(text.replace("\xa0", " ") for text in row.models[0].foreseen[:3]) for row in page.rows]
+    assert shares == [("100 %", "0 %", "0 %"), ("0 %", "0 %", "100 %")]
+    assert [entry.file for entry in page.refused] == ["<b>.json"]
+    assert page.calibration is None
+    build(campaign, layout)
+    folder = layout.report.parent
+    text = (folder / "forecasts.html").read_text(encoding="utf-8")
+    assert "0.01 g" in text
+    assert "&lt;b&gt;.json" in text
+    assert "<b>.json" not in text
+    assert 'href="forecasts.html"' in layout.report.read_text(encoding="utf-8")
+    chapters = [chapter["title"] for chapter in document_of(campaign, folder).data["chapters"]]
+    assert chapters[-2:] == ["Forecasts", "Methods"]
+
+
+def test_without_a_forecast_there_is_no_page(foreseen_copy):
+    layout = Layout(foreseen_copy)
+    summary = Summary.model_validate_json(layout.summary_json.read_text(encoding="utf-8"))
+    assert forecasts_page(layout, summary) is None
+    assert forecasts_page(layout, None) is None

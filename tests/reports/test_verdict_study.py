@@ -1,0 +1,93 @@
+"""The study of the verdict: its numbers keep what they promise, and its tests give the same ranks again."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from colonnade.dynamics.ensembles.uncertainty import Uncertainty
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.rock import rock
+from spread_verdicts.design import HEIGHTS, RATE, draw
+from spread_verdicts.judging import WITHIN
+from spread_verdicts.page import page
+from spread_verdicts.trial import run
+
+STILL_ROCKING = 175
+"""Number of a free vibration that rocks until its record ends."""
+
+REPORTS = Path(__file__).resolve().parents[2] / "reports"
+
+
+@pytest.fixture(scope="module")
+def found():
+    return json.loads((REPORTS / "verdict-study.json").read_text(encoding="utf-8"))
+
+
+def test_a_true_model_is_within_its_spread_at_the_nominal_rate(found):
+    whole = found["all"]
+    assert (found["tests"], whole["judged"]) == (1000, 1000)
+    low, high = stats.binom.interval(0.95, whole["judged"], whole["nominal"])
+    assert low <= round(whole["within"] * whole["judged"]) <= high
+    assert whole["nominal"] == pytest.approx(96 / 101, abs=1e-4)
+
+
+def test_a_free_vibration_is_within_its_spread_at_the_nominal_rate(found):
+    (free,) = (each for each in found["kinds"] if each["kind"] == "free-vibration")
+    low, high = stats.binom.interval(0.95, free["judged"], free["nominal"])
+    assert low <= round(free["within"] * free["judged"]) <= high
+
+
+def test_a_free_vibration_that_still_rocks_as_its_record_ends_has_the_zero_that_was_identified(found):
+    """The zero that its end gives is wrong by 0.066 α."""
+    assert found["ranks"]["true"][STILL_ROCKING] <= WITHIN
+    rank = run(found["seed"], STILL_ROCKING, 0.0, found["members"]).rank
+    assert rank == pytest.approx(found["ranks"]["true"][STILL_ROCKING], abs=0.02)
+
+
+def test_kinds_of_motion_whose_rate_is_not_the_nominal_one_are_named_on_the_page(found):
+    text = page(found, "verdict-study.svg")
+    told = text[text.index("Outside the interval of its share") :].splitlines()[0] if "Outside the" in text else ""
+    for each in found["kinds"]:
+        low, high = stats.binom.interval(0.95, each["judged"], each["nominal"])
+        assert (each["kind"] in told) == (not low <= round(each["within"] * each["judged"]) <= high)
+
+
+def test_a_wrong_e_is_found_more_often_than_a_true_one_is_called_wrong(found):
+    for row in (found["all"], *found["counts"]):
+        assert row["found"] > 3 * (1 - row["nominal"])
+
+
+def test_the_numbers_are_those_of_the_ranks(found):
+    ranks = {name: np.array(values) for name, values in found["ranks"].items()}
+    assert found["all"]["within"] == pytest.approx(np.mean(ranks["true"] <= 0.95), abs=1e-4)
+    assert found["all"]["found"] == pytest.approx(np.mean(ranks["wrong"] > 0.95), abs=1e-4)
+
+
+def test_the_page_is_made_from_the_numbers(found):
+    assert (REPORTS / "verdict-study.md").read_text(encoding="utf-8") == page(found, "verdict-study.svg")
+    assert (REPORTS / "verdict-study.svg").read_text(encoding="utf-8").startswith("<svg")
+
+
+@pytest.mark.parametrize("name", ["true", "wrong"])
+def test_the_first_tests_have_the_same_ranks_again(found, name):
+    wrong = {"true": 0.0, "wrong": found["wrong"]}[name]
+    ranks = [run(found["seed"], number, wrong, found["members"]).rank for number in range(8)]
+    np.testing.assert_allclose(ranks, found["ranks"][name][:8], atol=0.02)
+
+
+def test_the_record_of_a_test_shows_what_truly_happened():
+    """Without any error, the recorded base motion gives the recorded angle."""
+    exact = draw(1, 1, Uncertainty(), angle_gain=0.0, angle_zero=0.0)
+    top, bottom, table = (channel.values for channel in exact.recording.channels)
+    assert exact.kind == "sine"
+    height = HEIGHTS[exact.specimen]
+    seen = np.arcsin((top - bottom) / (0.85 * height))
+    motion = Motion(table, 1 / RATE)
+    predicted = rock(exact.block, motion, restitution=exact.restitution, model="nonlinear").angle
+    early = slice(0, 1000)
+    np.testing.assert_allclose(seen[early], predicted[early], atol=0.01 * exact.block.critical_angle)
