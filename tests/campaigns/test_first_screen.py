@@ -167,7 +167,7 @@ MISTAKES = {
         _in_campaign((r'height = "456 mm"', 'height = "456 m"')),
         r"serious \(specimen\): campaign file: .* give 7.7 kg/m³; .* one of the lengths in mm read as m",
     ),
-    "wrapped rows": (_wrap, r"quake[\s\S]*quake.csv: .*run on from row to row"),
+    "wrapped rows": (_wrap, r"quake[\s\S]*quake.csv: .*runs on from row to row"),
     "wrong component": (
         _in_campaign(('motion = "Valley NS"', 'motion = "Valley EW"')),
         r'\(another motion\): quake: .* did not move as "Valley EW" .*: it moved as "Valley NS" .*another component',

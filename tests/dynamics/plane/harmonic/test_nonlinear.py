@@ -24,7 +24,7 @@ RISING = 0.1, 0.8, 0.0, 0.0
 """Level of a/g at the start of a piece and its slope, 1/s."""
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture
 def as_python(interpreted):
     interpreted(envelope, harmonic_nonlinear, landing)
 
@@ -48,6 +48,7 @@ def integrated(height, rate, x, *, side=1.0, angle=0.4, piece=STEADY, since=0.05
     return found.y if times is not None else found.y[:, -1]
 
 
+@pytest.mark.usefixtures("as_python")
 @pytest.mark.parametrize("piece", [STEADY, RISING], ids=["steady", "rising"])
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 @pytest.mark.parametrize(("height", "rate"), [(0.15, 0.0), (0.1, 0.05), (0.0, 0.1)])
@@ -58,6 +59,7 @@ def test_an_arc_is_that_of_another_integrator(piece, side, height, rate):
     assert 0.0 < x <= 0.5
 
 
+@pytest.mark.usefixtures("as_python")
 def test_an_impact_is_where_the_height_first_comes_to_nothing():
     landed, x, _, last, speed = arc(0.05, -0.2, angle=0.5 * pi)
     assert landed
@@ -68,11 +70,13 @@ def test_an_impact_is_where_the_height_first_comes_to_nothing():
     assert speed < 0.0
 
 
+@pytest.mark.usefixtures("as_python")
 def test_a_block_on_the_table_that_moves_down_has_landed_at_once():
     landed, x, _, _, speed = arc(0.0, -0.1)
     assert (landed, x, speed) == (True, 0.0, -0.1)
 
 
+@pytest.mark.usefixtures("as_python")
 def test_the_top_inside_an_arc_is_given_where_it_is_asked_for():
     given = {"angle": 0.5 * pi, "remaining": 0.4}
     _, x, top, last, speed = arc(0.1, 0.05, top=True, **given)
@@ -82,6 +86,7 @@ def test_the_top_inside_an_arc_is_given_where_it_is_asked_for():
     assert arc(0.1, 0.05, **given)[2] == last < top
 
 
+@pytest.mark.usefixtures("as_python")
 def test_the_ramp_of_half_a_cosine_adds_its_two_sines():
     """level(t) = c + b cos(r t): its product with sin φ is two more sines; against the same by differences."""
     work, step = empty_series(), 1e-3
@@ -94,6 +99,7 @@ def test_the_ramp_of_half_a_cosine_adds_its_two_sines():
     assert series == pytest.approx(later, rel=1e-13)
 
 
+@pytest.mark.usefixtures("as_python")
 @pytest.mark.parametrize(("smooth", "middle", "slope"), [(None, 1.0, 0.5), (True, 1.0, 0.785398)])
 def test_a_ramp_goes_from_level_to_level(smooth, middle, slope):
     ramp = piece_between(0.0, 2.0, 4.0, smooth)
@@ -101,6 +107,7 @@ def test_a_ramp_goes_from_level_to_level(smooth, middle, slope):
     assert level_at(ramp, 2.0)[1] == pytest.approx(slope, rel=1e-6)
 
 
+@pytest.mark.usefixtures("as_python")
 def test_a_constant_level_has_no_slope():
     assert level_at(piece_between(2.0, 2.0, 4.0, True), 1.0) == (2.0, 0.0)
 
