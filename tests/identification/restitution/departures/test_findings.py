@@ -107,6 +107,23 @@ def test_a_tilted_table_is_named_with_its_angle(tilt):
     assert Record(block=tilted).departures() == {}  # known of the block, it is no departure
 
 
+def stepping(first, later, speed):
+    """e of the impacts above a speed, and of those below it."""
+    return RestitutionLaw.table([0.0, speed, speed + 1e-6], [later, later, first])
+
+
+@pytest.mark.parametrize("count", [3, 5])
+def test_first_cycles_that_lose_more_are_three_dimensional(count):
+    speeds = np.abs(rock(PRISM, restitution=0.93, theta0=0.8 * ALPHA, duration=8, model="nonlinear").impact_velocities)
+    law = stepping(0.93, 0.96, (speeds[count] + speeds[count + 1]) / 2)
+    for seed in range(6):
+        departure = Record(restitution=law, release=0.8, seed=seed).departures()["three-dimensional rocking"]
+        assert beyond(departure, 0.03) < 4
+        assert departure.left_out == count
+        assert not departure.refuses
+        assert f"the first {count} of" in departure.sentence
+
+
 def test_a_measured_rotation_out_of_the_plane_leaves_out_the_cycles_it_spoils():
     record = Record()
     decay = np.where(record.time < record.impacts[5], 0.2, 0.03)
