@@ -91,6 +91,19 @@ def test_an_e_that_depends_on_the_speed_of_impact_is_no_three_dimensional_rockin
         assert "three-dimensional rocking" not in record.departures()
 
 
+@pytest.mark.parametrize("pair", [(0.94, 0.96), (0.975, 0.96), (0.85, 0.88)])
+def test_unequal_restitution_is_named_with_its_size(pair):
+    errors = []
+    for seed in range(8):
+        found = Record(restitution=pair, seed=seed).departures()
+        assert list(found) == ["unequal restitution"]
+        errors.append(beyond(found["unequal restitution"], pair[1] - pair[0]))
+        assert "e: " in found["unequal restitution"].sentence
+        assert found["unequal restitution"].left_out == 0
+    assert max(errors) < 4
+    assert np.median(errors) < 1.6
+
+
 @pytest.mark.parametrize("tilt", [-0.05, 0.03])
 def test_a_tilted_table_is_named_with_its_angle(tilt):
     sides = (ALPHA * (1 - tilt), ALPHA * (1 + tilt))
@@ -140,6 +153,13 @@ def test_a_scale_of_the_angle_that_differs_a_little_between_the_sides_is_no_depa
     assert record.departures() == {}
 
 
+def test_rocking_out_of_the_plane_to_the_end_refuses():
+    record = Record()
+    departure = record.departures(out_of_plane=0.5 * record.truth)["three-dimensional rocking"]
+    assert departure.refuses
+    assert "too few" in departure.sentence
+
+
 @pytest.mark.parametrize(("jump", "refuses"), [(8e-5, False), (4e-4, True)], ids=["a little", "much"])
 def test_sliding_at_impacts_is_summed(jump, refuses):
     record = Record()
@@ -156,6 +176,24 @@ def test_a_transducer_that_shows_rocking_as_slide_is_no_sliding():
     record = Record()
     slide = np.where(record.truth > 0, 0.01, -0.004) * record.truth + 2e-6 * record.random.normal(size=record.time.size)
     assert record.departures(slide=slide) == {}
+
+
+def test_a_pause_after_an_impact_is_a_bounce():
+    record = Record()
+    pause = 0.08
+    late = record.time > record.impacts[3]
+    for name in ("time", "impacts"):
+        values = getattr(record, name)
+        setattr(record, name, np.where(values > record.impacts[3], values + pause, values))
+    filling = np.arange(1, int(pause / STEP)) * STEP + record.time[~late][-1]
+    record.angle = np.insert(record.angle, (~late).sum(), NOISE * record.random.normal(size=filling.size))
+    record.time = np.insert(record.time, (~late).sum(), filling)
+    given = record.arguments["impact_time"]
+    record.arguments["impact_time"] = given + np.where(np.arange(given.size) > 3, pause, 0.0)
+    departure = record.departures()["bouncing"]
+    assert departure.unit == "s"
+    assert beyond(departure, pause) < 4
+    assert "1 of" in departure.sentence
 
 
 def test_a_base_in_the_air_after_an_impact_is_a_bounce():
