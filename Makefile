@@ -6,7 +6,7 @@
 # make docs     builds the documentation: open docs/build/html/index.html
 # make study NAME=restitution  repeats one study with known truth, into reports/restitution-study.md; see STUDIES
 # make reports  rebuilds the reference reports in reports/ and the pictures of README and tutorial
-# make reproduce  repeats the paper on the virtual shake table, statement by statement: reports/manos, half an hour
+# make reproduce  repeats the paper on the virtual shake table, statement by statement: reports/manos, a quarter of an hour
 # make format   rewrites the sources in the project's style
 # make release VERSION=1.2.3  checks and builds a release, commits and tags it here; uploads nothing
 # make clean    removes what the other targets made
