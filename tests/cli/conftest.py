@@ -64,7 +64,7 @@ def colonnade(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Ca
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
     for pause in ("FIRST", "EVERY"):
-        monkeypatch.setattr(progress, pause, float("inf"))  # a slow machine is told of by lines of progress
+        monkeypatch.setattr(progress, pause, float("inf"))  # a slow machine prints lines of progress
 
     def run(*arguments: str) -> Told:
         capsys.readouterr()

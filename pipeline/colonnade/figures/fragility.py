@@ -46,7 +46,7 @@ def fragility(
     Parameters
     ----------
     lognormal : Curve or None
-        None if there is none.
+        None if missing.
     isotonic : Curve
         At the levels.
     label : str

@@ -66,7 +66,7 @@ class Head:
 
     @property
     def first_line(self) -> str:
-        """The first line; empty if there is none."""
+        """The first line; empty if the file is empty."""
         return next(iter(self.lines), "")
 
     def look(self) -> str:

@@ -92,7 +92,7 @@ def find_hum(values: Array, interval: float) -> tuple[float, float] | None:
     Returns
     -------
     frequency, amplitude : float, or None
-        Hz, and in the unit of the values; None if there is none.
+        Hz, and in the unit of the values; None if not found.
 
     Notes
     -----

@@ -1,4 +1,4 @@
-"""MATLAB 5 to 7: what would have to be executed is left out; what is cut or damaged is told."""
+"""MATLAB 5 to 7: what would have to be executed is left out; cut or damaged files are refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Encodings are found, what is no text is told, and lines keep their numbers in pieces."""
+"""Encodings are found, what is not text is refused, and lines keep their numbers in pieces."""
 
 from __future__ import annotations
 
