@@ -66,7 +66,7 @@ class Head:
 
     @property
     def first_line(self) -> str:
-        """The first line; empty if the file is empty."""
+        """The first line, or an empty string."""
         return next(iter(self.lines), "")
 
     def look(self) -> str:
