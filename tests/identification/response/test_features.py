@@ -191,7 +191,15 @@ def test_a_record_that_ends_while_the_table_shakes_is_told_and_free_decay_is_not
     cut = decay[:1000]
     found = _ending(cut, base=np.sin(20 * DECAY_TIME[:1000]))
     assert found.kind == "record ends in motion"
-    assert _ending(cut, base=np.sin(20 * DECAY_TIME[:1000]) * (DECAY_TIME[:1000] < 1)) is None
+    stopped = np.sin(20 * DECAY_TIME[:1000]) * (DECAY_TIME[:1000] < 1)
+    assert _ending(cut, base=stopped) is None
+    # As of a base derived from displacement: too fast to rock the block.
+    derived = np.diff(np.random.default_rng(1).normal(size=1002), 2)
+    assert _ending(cut, base=stopped + 0.1 * derived) is None
+
+
+def test_the_last_cycles_of_a_decay_that_is_not_over_are_about_their_zero(decay):
+    assert [end for end in range(700, 2000, 25) if _ending(decay[:end]) is not None] == []
 
 
 @pytest.mark.parametrize("factor", [57.3, 4.0])

@@ -53,7 +53,11 @@ def stuck(
         angle = filled_in(rotation.angle(index, of_angle))
         noise = float(rotation.noise[index] / abs(rotation.levers[index] * of_angle))
         known = np.zeros(angle.size, dtype=bool) if rotation.flagged is None else rotation.flagged[index]
-        where = [place for place in _flat(interval, angle, noise, felt, block) if not known[place].any()]
+        where = [
+            place
+            for place in _flat(interval, angle, noise, felt, block)
+            if not known[place].any() and np.isfinite(rotation.readings[index][place]).any()
+        ]
         if where:
             found.append(_saturated(interval, rotation, index, where))
         elif torn := _torn(interval, angle, noise, block):

@@ -10,6 +10,7 @@ from colonnade.dynamics.history import amplitude
 from colonnade.findings import Finding, serious, warning
 from colonnade.identification.response.outcome import Verdict
 from colonnade.identification.restitution.arcs.arcs import find_impacts
+from colonnade.signals.filters import lowpass
 from colonnade.signals.rest import find_rest
 
 RETURNING, FURTHEST = 1.6, 2.0
@@ -23,6 +24,9 @@ LASTING = 0.05
 
 SHAKEN = 0.1
 """Of its peak acceleration, above which the table has not come to rest."""
+
+ROCKS_AT_MOST = 10.0
+"""Over p: angular frequency up to which a table rocks a block; above it a base derived from displacement is noise."""
 
 CYCLES = 3.0
 """Over p: length of the end of a record on which small rocking shows its middle."""
@@ -70,14 +74,14 @@ def ending(
     tail = angle[(time >= rest.start) & np.isfinite(angle)]
     if not tail.size:
         return None
-    shaken = base is not None and np.nanmax(np.abs(base[time >= rest.start])) > SHAKEN * np.nanmax(np.abs(base))
+    shaken = base is not None and _share_at_end(time, base, block, rest.start) > SHAKEN
     lasting = float(amplitude(tail, block).max())
     if not rest.quiet and (shaken or lasting > SMALL):
         # On a table at rest the motion only dies.
         return _in_motion(lasting, float(time[-1]), verdict) if shaken and lasting > LASTING else None
     level = float(tail.max() + tail.min()) / 2
     share = float(amplitude(np.array([level]), block)[0])
-    if share < UPRIGHT:
+    if share < UPRIGHT or (not rest.quiet and tail.min() < 0.0 < tail.max()):
         return None
     before = time < rest.start
     passes = find_impacts(time[before], angle[before] - level, lowest=max(10 * error, 0.1 * abs(level))).size
@@ -96,6 +100,14 @@ def ending(
         "taken while it leaned (`zero`). It may have overturned; the peak and the outcome are not to be used.",
         follows=("end of the range", "dead channel"),
     )
+
+
+def _share_at_end(time: Array, base: Array, block: Block, start: float) -> float:
+    """Largest acceleration that can rock the block from `start` on, over the largest of the record."""
+    interval = float(np.median(np.diff(time)))
+    cutoff = min(ROCKS_AT_MOST * block.p / (2 * np.pi), 0.4 / interval)
+    felt = np.abs(lowpass(np.nan_to_num(base), interval, cutoff))
+    return float(felt[time >= start].max() / felt.max(initial=np.finfo(float).tiny))
 
 
 def _elsewhere(level: float, share: float, lever: float | None) -> Finding:
