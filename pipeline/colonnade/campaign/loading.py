@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from colonnade.campaign.campaign import Campaign, CampaignFile, resolved
+from colonnade.campaign.campaign import Campaign, CampaignFile
 from colonnade.campaign.found import find_tests
 from colonnade.campaign.notices import notices
 from colonnade.campaign.references import dangling
@@ -58,8 +58,8 @@ def load(path: Path | str) -> Campaign:
     paragraphs = [*log.problems, *source.paragraphs(problems, document)]
     if paragraphs or written is None:
         raise refusal(paragraphs)
-    campaign = resolved(written, path, (*log.warnings, *findings, *notices(written)))
-    return replace(campaign, reviews=read_review(path.parent, campaign.tests, campaign.setups))
+    campaign = Campaign.of(written, path, (*log.warnings, *findings, *notices(written)))
+    return campaign.but(reviews=read_review(path.parent, campaign.tests, campaign.setups))
 
 
 def _found(path: Path) -> Path:
