@@ -15,7 +15,7 @@ from colonnade.campaign.syntax.document import parse, read_text, refusal, valida
 from colonnade.campaign.syntax.names import inside
 from colonnade.campaign.syntax.places import Place, Source, key_lines
 from colonnade.campaign.testlog import Log, read_log
-from colonnade.errors import CampaignError
+from colonnade.errors import CampaignError, ReadError
 from colonnade.findings import Finding
 from colonnade.readers.files import irregular
 
@@ -81,8 +81,8 @@ def _found(path: Path) -> Path:
 def _log(written: str, folder: Path, source: Source) -> Log:
     try:
         return read_log(inside(folder, written))
-    except ValueError as error:
-        return Log(problems=(source.paragraph(("tests",), str(error), {}),))
+    except (ReadError, ValueError) as error:
+        return Log(problems=tuple(source.paragraph(("tests",), line, {}) for line in str(error).splitlines()))
 
 
 def _place(place: Place) -> Place:
