@@ -16,7 +16,7 @@ from colonnade.figures.drawing.body import words_of_angle
 from colonnade.figures.drawing.parts import Body, Point, Rocking, Transducer
 from colonnade.figures.drawing.setup import Drawn, setup_drawings
 from colonnade.figures.files.output import Picture
-from colonnade.store.records.wording import listed, quantity
+from colonnade.units.text import listed, quantity
 
 SIGNS = (
     "● displacement  ■ acceleration",
