@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from colonnade.units import format_percent
-from colonnade.units.writing import with_minus
+from colonnade.units.text import with_minus
 from faults.registry import FAULTS
 from faults.unseen import UNSEEN
 from monte_carlo.page import FACTORS

@@ -28,9 +28,21 @@ def test_a_test_has_the_channels_of_its_recorders(contract, load_text):
     assert both.keys() - main.keys() == {"table_acceleration_2"}
 
 
+def test_a_channel_on_one_specimen_by_its_id_is_only_in_the_tests_of_that_one(contract, load_text):
+    text = contract.replace('on = "specimen"', 'on = "prism"', 1)
+    text = text.replace(
+        'specimen = "prism"\nsetup = "frame"\nfile = "raw', 'specimen = "cone"\nsetup = "frame"\nfile = "raw'
+    )
+    campaign = load_text(text)
+    own, others = (campaign.channels(campaign.tests[name]) for name in ("free-01", "span-2.0"))
+    assert own["top"].on == "specimen"
+    assert "top" not in others
+    assert "bottom" in others
+
+
 def test_findings_about_its_specimen_and_set_up_concern_a_test(contract, load_text):
     tables = ("specimens.prism", "setups.frame", "specimens.cone", "")
     findings = tuple(replace(note("x", f"{table}."), about=table) for table in tables)
-    campaign = replace(load_text(contract), warnings=findings)
+    campaign = load_text(contract).but(warnings=findings)
     assert campaign.tests["span-2.0"].specimen == "prism"
     assert [found.about for found in campaign.concerning("span-2.0")] == ["specimens.prism", "setups.frame"]

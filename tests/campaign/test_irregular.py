@@ -48,7 +48,7 @@ def test_a_campaign_file_a_review_and_a_test_log_that_are_pipes_are_told(tmp_pat
     (tmp_path / "campaign.toml").unlink()
     for log in ("log.csv", "log.xlsx"):
         os.mkfifo(tmp_path / log)
-        with pytest.raises(CampaignError, match=rf"{log} is a named pipe\. A test log was expected"):
+        with pytest.raises(CampaignError, match=rf"{log}: this is a named pipe; a test log was expected"):
             load(write(tmp_path, tests=f'tests = "{log}"', rest=""))
     os.mkfifo(tmp_path / "review.toml")
     with pytest.raises(CampaignError, match=r"review\.toml: this is a named pipe"):

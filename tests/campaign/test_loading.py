@@ -20,7 +20,7 @@ CONTRACT = Path(__file__).with_name("contract.toml").read_text(encoding="utf-8")
 
 def test_every_key_of_the_contract_becomes_si(contract, load_text, tmp_path):
     campaign = load_text(contract)
-    assert (campaign.schema, campaign.campaign, campaign.gravity) == (1, "prism-2013", 9.80)
+    assert (campaign.version, campaign.campaign, campaign.gravity) == (1, "prism-2013", 9.80)
     assert campaign.facility == "Earthquake Simulator, Aristotle University"
     assert campaign.folder == tmp_path.resolve()
     assert campaign.path == tmp_path.resolve() / "campaign.toml"

@@ -53,6 +53,11 @@ ALIGN = ("setups", "frame", "recorders", "daq2", "clock", "align")
             ("tests", 0, "specimen"),
             'Unknown specimen "zzz". Choose one of: "prism".',
         ),
+        (
+            document(channels={"top": OTHER | {"on": "prizm"}}),
+            ("setups", "frame", "channels", "top", "on"),
+            'Unknown body "prizm". Did you mean "prism"?',
+        ),
         (document(test={"setup": "zzz"}), ("tests", 0, "setup"), 'Unknown setup "zzz". Choose one of: "frame".'),
         (
             document(test={"file": {"main": "a.csv", "daq2": "b.csv"}}),
@@ -94,6 +99,7 @@ ALIGN = ("setups", "frame", "recorders", "daq2", "clock", "align")
     ],
     ids=[
         "specimen",
+        "body of a channel",
         "setup",
         "recorder of a test",
         "recorder of a channel",

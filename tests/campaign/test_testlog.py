@@ -124,6 +124,13 @@ def test_a_log_says_who_and_when_and_names_photos(tmp_path):
     assert [test.photos for test in tests.values()] == [("photos/a.jpg", "photos/b.png")] * 2 + [()]
 
 
+def test_heads_may_have_units_and_capitals_and_a_cell_several_lines(tmp_path):
+    heads = [{"frequency": "Frequency [Hz]", "kind": "Kind"}.get(head, head) for head in HEADS]
+    rows = [[*row[:-1], row[-1].removesuffix(" Hz"), said] for row, said in zip(ROWS, ("", '"a\nb"', ""), strict=True)]
+    tests = with_log(tmp_path, "log.csv", table(";", [[*heads, "notes"], *rows]).encode()).tests
+    assert (tests["3"].kind, tests["3"].frequency, tests["2"].notes) == ("sine", 3.5, "a\nb")
+
+
 def test_a_date_of_excel_is_a_date(tmp_path):
     book, written = xlwt.Workbook(), io.BytesIO()
     sheet, style = book.add_sheet("log"), xlwt.easyxf(num_format_str="DD.MM.YYYY")
@@ -166,16 +173,16 @@ def test_a_column_of_the_laboratorys_own_is_warned_of_and_a_mistyped_key_refused
     rows = [[*row, "sunny"] for row in ROWS]
     campaign = with_log(tmp_path, "log.csv", table(";", [[*HEADS, "Weather"], *rows]).encode())
     assert 'log.csv: column "Weather" is not a key of a test; it is ignored.' in map(str, campaign.warnings)
-    with pytest.raises(CampaignError, match=r'log\.csv, row 1: unknown key "windw"\. Did you mean "window"\?'):
+    with pytest.raises(CampaignError, match=r'log\.csv: unknown column "windw"\. Did you mean "window"\?'):
         with_log(tmp_path, "log.csv", table(";", [[*HEADS, "windw"], *rows]).encode())
 
 
 @pytest.mark.parametrize(
     ("content", "told"),
     [
-        (b"", "log.csv is empty. A row of column heads was expected: id, kind"),
+        (b"", "log.csv: the file is empty. A test log with a row of column heads was expected."),
         (b"id;id;kind\n1;2;sine\n", 'duplicate column head "id"'),
-        (b"id;kind\n1;sine;more\n", "more cells than the 2 column heads"),
+        (b"id;kind\n1;sine;more\n", "log.csv, row 2: 3 cells are below 2 heads"),
         (b'id;kind\n"1;sine\n', "row 2"),
         (bytes(range(256)), "log.csv"),
     ],
@@ -218,7 +225,7 @@ def test_a_missing_log_names_the_nearest_file(tmp_path):
     text = (tmp_path / "campaign.toml").read_text(encoding="utf-8")
     (tmp_path / "campaign.toml").write_text(text.replace("log.csv", "logg.csv"), encoding="utf-8")
     with pytest.raises(
-        CampaignError, match=r'line 7: tests: Test log "logg\.csv" not found in .*Did you mean "log\.csv"'
+        CampaignError, match=r'line 7: tests: logg\.csv: there is no such file in .*Did you mean "log\.csv"'
     ):
         load(tmp_path)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-from dataclasses import replace
 
 import pytest
 from jinja2 import UndefinedError
@@ -64,7 +63,7 @@ def test_the_page_of_a_specimen_is_drawn_again_only_if_what_it_shows_changed(two
     assert drawn_now() == both[:1]
     (layout.report.parent / addresses.of_data(both[1])).unlink()
     assert drawn_now() == both[1:]
-    assert drawn_now(replace(campaign, title="Another")) == both
+    assert drawn_now(campaign.but(title="Another")) == both
     assert drawn_now(code="two") == both
 
 
@@ -140,6 +139,6 @@ def test_a_drawing_is_kept_until_it_changes(empty_campaign, tmp_path):
         path.parent.mkdir(exist_ok=True)
         path.write_text(stamps.stamped(text, made_from), encoding="utf-8")
     assert {text for _, text, _ in drawings.files(campaign, tmp_path, "code")} == {None}
-    heavier = replace(campaign, gravity=9.8)
+    heavier = campaign.but(gravity=9.8)
     assert None not in {text for _, text, _ in drawings.files(heavier, tmp_path, "code")}
     assert None not in {text for _, text, _ in drawings.files(campaign, tmp_path, "other")}

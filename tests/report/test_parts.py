@@ -134,9 +134,9 @@ def test_a_page_is_known_by_all_that_it_shows(started):
         part_of(campaign, layout, "later", code=CODE, before=SHAKEN),
         part_of(campaign, layout, "later", code=CODE, after=None),
         part_of(campaign, layout, "later", code=CODE, record=record.model_copy(update={"outcome": "overturned"})),
-        part_of(replace(campaign, title="Another"), layout, "later", code=CODE),
-        part_of(replace(campaign, gravity=9.8), layout, "later", code=CODE),
-        part_of(replace(campaign, processing=processing), layout, "later", code=CODE),
+        part_of(campaign.but(title="Another"), layout, "later", code=CODE),
+        part_of(campaign.but(gravity=9.8), layout, "later", code=CODE),
+        part_of(campaign.but(processing=processing), layout, "later", code=CODE),
         part_of(campaign, layout, code=CODE),
         part_of(campaign, layout, code=CODE, is_outdated=True),
     ]

@@ -19,7 +19,7 @@ def with_photos(empty_campaign, *written):
     test = test.model_copy(update={"photos": written})
     told = replace(warning("photo", f"{written[-1]} is <damaged>"), about=f"tests.{name}")
     other = replace(warning("geometry", "off the specimen"), about=f"setups.{test.setup}")
-    return replace(campaign, tests={**campaign.tests, name: test}, warnings=(told, other)), test
+    return campaign.but(tests={**campaign.tests, name: test}, warnings=(told, other)), test
 
 
 def test_only_copies_that_are_there_are_shown_and_the_others_are_told(empty_campaign, tmp_path):
@@ -48,7 +48,7 @@ def test_the_section_shows_paths_and_reasons_as_text(empty_campaign):
 def test_photos_are_those_in_the_folder_of_the_report(filled_campaign, tmp_path):
     campaign = filled_campaign[0]
     test = campaign.tests["span-2.0"].model_copy(update={"photos": ("a.jpg", "b.jpg")})
-    campaign = replace(campaign, tests=campaign.tests | {"span-2.0": test})
+    campaign = campaign.but(tests=campaign.tests | {"span-2.0": test})
     second = Layout(tmp_path).report.parent / address_of("span-2.0", 2)
     second.parent.mkdir(parents=True)
     second.write_bytes(b"")

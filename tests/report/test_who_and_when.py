@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from datetime import date
 
 import pytest
@@ -14,7 +13,7 @@ from colonnade.report import who_and_when
 
 @pytest.fixture
 def campaign(empty_campaign):
-    return replace(empty_campaign[0], facility="Simulator <1>")
+    return empty_campaign[0].but(facility="Simulator <1>")
 
 
 def dated(campaign, *said):
@@ -22,7 +21,7 @@ def dated(campaign, *said):
     tests = {name: test.model_copy(update={"date": None, "operator": None}) for name, test in campaign.tests.items()}
     for name, (day, who) in zip(tests, said, strict=False):
         tests[name] = tests[name].model_copy(update={"date": day, "operator": who})
-    return replace(campaign, tests=tests)
+    return campaign.but(tests=tests)
 
 
 def test_a_campaign_says_from_when_to_when_and_names_each_operator_once(campaign):
@@ -41,7 +40,7 @@ def test_one_day_and_one_operator_are_one(campaign):
 
 
 def test_what_is_not_known_is_not_shown(campaign):
-    assert who_and_when.of_campaign(replace(dated(campaign), facility=None)) == []
+    assert who_and_when.of_campaign(dated(campaign).but(facility=None)) == []
     unknown = dated(campaign)
     assert who_and_when.of_test(unknown, next(iter(unknown.tests.values()))) == [("facility", "Simulator <1>")]
 

@@ -109,7 +109,7 @@ def test_channels_of_a_recorder_that_was_not_running_are_absent(small_campaign):
     test = small_campaign.tests["free-01"]
     setup = small_campaign.setups["frame"]
     channels = setup.channels | {"extra": setup.channels["bottom"].model_copy(update={"recorder": "daq2"})}
-    changed = replace(small_campaign, setups={"frame": setup.model_copy(update={"channels": channels})})
+    changed = small_campaign.but(setups={"frame": setup.model_copy(update={"channels": channels})})
     assert "extra" not in IngestInputs.of(changed, test).channels
 
 

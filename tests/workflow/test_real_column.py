@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import atan, hypot
 
 import pytest
@@ -18,7 +17,7 @@ from colonnade.workflow.real_column import AskedColumn, find_column
 @pytest.fixture
 def campaign(assessed):
     """Campaign of one specimen, of which nothing is assumed about the real column."""
-    return replace(load(assessed), prototype={})
+    return load(assessed).but(prototype={})
 
 
 def found(campaign, is_real=False, **options):
@@ -46,7 +45,7 @@ def test_of_another_column_e_is_not_that_of_the_model_unless_it_is_said(campaign
 
 
 def test_what_the_campaign_says_of_the_real_column_holds_for_it_alone(campaign):
-    said = replace(campaign, prototype={"prism": Prototype.model_validate({"restitution": 0.8, "p": "1 rad/s"})})
+    said = campaign.but(prototype={"prism": Prototype.model_validate({"restitution": 0.8, "p": "1 rad/s"})})
     real = found(said, scale=20.0)[0]
     assert real.restitution == 0.8
     assert real.block.p == pytest.approx(1.0)
@@ -134,6 +133,6 @@ def test_an_option_that_cannot_be_is_named(campaign, options, words):
 
 
 def test_one_of_several_specimens_is_named(campaign):
-    two = replace(campaign, specimens={**campaign.specimens, "second": campaign.specimens["prism"]})
+    two = campaign.but(specimens={**campaign.specimens, "second": campaign.specimens["prism"]})
     with pytest.raises(CampaignError, match="several specimens"):
         found(two)

@@ -1,8 +1,7 @@
-"""The campaign: the file as written, and the values parsed from it."""
+"""The campaign: its keys, as the file writes them, and with what is around the file: reviews, findings, raw files."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -14,7 +13,7 @@ from colonnade.campaign.channel import Channel
 from colonnade.campaign.review import Review
 from colonnade.campaign.settings import NextSettings, Processing
 from colonnade.campaign.setup import Setup, ShakeTable
-from colonnade.campaign.specimen import AnySpecimen, Specimen
+from colonnade.campaign.specimen import AnySpecimen
 from colonnade.campaign.syntax.fields import Gravity, Text, schema_version
 from colonnade.campaign.syntax.names import Identifier
 from colonnade.campaign.syntax.table import Table
@@ -27,8 +26,8 @@ SCHEMA = 1
 """Version of the contract of campaign.toml."""
 
 
-class CampaignFile(Table):
-    """A campaign file as written; `tests` may also be the path of a test log, which is read before this."""
+class CampaignKeys(Table):
+    """The keys of a campaign file but its tests; all numbers in SI."""
 
     version: Annotated[int, schema_version(SCHEMA, "campaign files")] = Field(alias="schema")
     """Version of the campaign file's form: 1."""
@@ -58,64 +57,44 @@ class CampaignFile(Table):
     """The real columns, by the specimen that is a model of each."""
     assessments: dict[Identifier, Assessment] = Field(default={})
     """What is asked about the real columns, by name."""
+
+
+class CampaignFile(CampaignKeys):
+    """A campaign file as written; `tests` may also be the path of a test log, which is read before this."""
+
     tests: tuple[Test, ...] = ()
     """The tests, or the path of the test log (CSV or Excel)."""
 
 
-@dataclass(frozen=True)
-class Campaign:
-    """
-    A campaign, read and found valid; all numbers in SI.
+class Campaign(CampaignKeys):
+    """A campaign, read and found valid: its keys, and what was found with them."""
 
-    Attributes
-    ----------
-    schema : int
-    campaign, title : str
-    facility : str or None
-    gravity : float
-        m/s².
-    specimens, setups, tests : dict
-        By id, in the order of the file.
-    motions : dict
-        Reference motions by name.
-    processing : Processing
-    watch : Watched
-    table : ShakeTable
-    next : NextSettings
-    prototype : dict of str to Prototype
-        By specimen.
-    assessments : dict of str to Assessment
-        By name.
-    path, folder : Path
-        The campaign file and its folder, absolute and resolved.
-    warnings : tuple of Finding
-        Findings on entries that are not used yet or look odd.
-    reviews : dict of str to Review
-        Decisions in review.toml, for the tests that it names.
-    awaited : dict of str to str
-        The raw file that each planned test still has to get, by test.
-    """
-
-    schema: int
-    campaign: str
-    title: str
-    facility: str | None
-    gravity: float
-    specimens: dict[str, Specimen]
-    setups: dict[str, Setup]
-    motions: dict[str, ReferenceMotion]
-    processing: Processing
-    watch: Watched
-    table: ShakeTable
-    next: NextSettings
-    prototype: dict[str, Prototype]
-    assessments: dict[str, Assessment]
     tests: dict[str, Test]
+    """By id, in the order of the file."""
     path: Path
+    """The campaign file, absolute and resolved."""
     folder: Path
+    """Its folder."""
     warnings: tuple[Finding, ...] = ()
-    reviews: dict[str, Review] = field(default_factory=dict)
-    awaited: dict[str, str] = field(default_factory=dict)
+    """Findings on entries that are not used yet or look odd."""
+    reviews: dict[str, Review] = Field(default={})
+    """Decisions in review.toml, for the tests that it names."""
+    awaited: dict[str, str] = Field(default={})
+    """The raw file that each planned test still has to get, by test."""
+
+    @classmethod
+    def of(cls, written: CampaignFile, path: Path, warnings: tuple[Finding, ...]) -> Campaign:
+        """Make the campaign of a valid file."""
+        tests = {test.id: test for test in written.tests}
+        missing = {name: missing_file(test, path.parent) for name, test in tests.items() if test.planned}
+        awaited = {name: file for name, file in missing.items() if file}
+        keys: dict[str, Any] = {name: getattr(written, name) for name in CampaignKeys.model_fields}
+        keys |= {"tests": tests, "path": path, "folder": path.parent, "warnings": warnings, "awaited": awaited}
+        return cls.model_construct(**keys)
+
+    def but(self, **changed: Any) -> Campaign:
+        """Return the campaign with some attributes changed."""
+        return self.model_copy(update=changed)
 
     def with_relative_paths(self) -> Campaign:
         """Return the campaign with paths relative to its folder, so that a copy elsewhere gives the same."""
@@ -136,9 +115,7 @@ class Campaign:
             )
             for name, each in self.assessments.items()
         }
-        return replace(
-            self, path=within(self.path), folder=Path(), tests=tests, motions=motions, assessments=assessments
-        )
+        return self.but(path=within(self.path), folder=Path(), tests=tests, motions=motions, assessments=assessments)
 
     def review(self, test: str) -> Review:
         """Decisions of the manual review about a test; empty ones if it has none."""
@@ -147,7 +124,7 @@ class Campaign:
     def awaiting(self) -> Campaign:
         """Return the campaign with every test that lacks a raw file planned."""
         missing = {name: missing_file(test, self.folder) for name, test in self.tests.items()}
-        return replace(self, awaited={name: file for name, file in missing.items() if file})
+        return self.but(awaited={name: file for name, file in missing.items() if file})
 
     def left_out(self, test: str) -> str:
         """Why a test is not run: people excluded it, or it is planned and has no raw file; empty if it is run."""
@@ -167,8 +144,8 @@ class Campaign:
         return found
 
     def channels(self, test: Test) -> dict[str, Channel]:
-        """Channels for which a test has a raw file, by id."""
-        channels = self.setups[test.setup].channels
+        """Channels of a test's specimen, table and ground for which it has a raw file, by id."""
+        channels = self.setups[test.setup].channels_of(test.specimen)
         return {name: channel for name, channel in channels.items() if channel.recorder in test.files}
 
     def concerning(self, test: str) -> tuple[Finding, ...]:
@@ -180,13 +157,3 @@ class Campaign:
 def missing_file(test: Test, folder: Path) -> str:
     """Give the first raw file of a test that is not there, as a path from the campaign's folder; empty if all are."""
     return next((path.relative_to(folder).as_posix() for path in test.files.values() if not path.exists()), "")
-
-
-def resolved(written: CampaignFile, path: Path, warnings: tuple[Finding, ...]) -> Campaign:
-    """Make the campaign of a valid file."""
-    fields: dict[str, Any] = {name: getattr(written, name) for name in CampaignFile.model_fields}
-    fields["schema"] = fields.pop("version")
-    fields["tests"] = {test.id: test for test in written.tests}
-    planned = {test.id: missing_file(test, path.parent) for test in written.tests if test.planned}
-    awaited = {name: file for name, file in planned.items() if file}
-    return Campaign(**fields, path=path, folder=path.parent, warnings=warnings, awaited=awaited)

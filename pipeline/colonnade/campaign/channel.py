@@ -19,6 +19,9 @@ from colonnade.errors import UnitError
 MAIN = "main"
 """The recorder that a setup has without saying so."""
 
+SURROUNDINGS = ("table", "ground")
+"""What a channel may be on that is not a specimen."""
+
 _NEEDS_DIRECTION = {"displacement", "velocity", "acceleration", "angle", "angular_velocity"}
 
 
@@ -94,8 +97,8 @@ class Channel(Table):
     """Physical value of a recorded zero, such as "-0.13 mm"."""
     written_range: QuantityText | None = Field(default=None, alias="range")
     """Largest magnitude: of the recorded value if it has the recorded unit, else of the physical value."""
-    on: Annotated[str, fields.one_of("specimen", "table", "ground")] | None = None
-    """What it is fixed to or looks at: "specimen", "table" or "ground"."""
+    on: Identifier | None = None
+    """What it is fixed to or looks at: "specimen", "table", "ground", or the id of one specimen among several."""
     at: fields.Position | None = None
     """Its material point [x, y, z] from the centre of the specimen's base."""
     direction: fields.Direction | None = None
@@ -141,7 +144,7 @@ class Channel(Table):
         if self.quantity in _NEEDS_DIRECTION:
             needed["on"] = '"specimen", "table" or "ground" was expected.'
             needed["direction"] = "The direction of a positive reading was expected, such as [1, 0, 0]."
-        if self.quantity == "displacement" and self.on == "specimen":
+        if self.quantity == "displacement" and self.is_on_body:
             needed["at"] = (
                 "The point that the transducer follows was expected, "
                 'such as ["43 mm", "0 mm", "440 mm"] from the centre of the base.'
@@ -153,7 +156,7 @@ class Channel(Table):
     def _wrong_sight(self) -> dict[str, str]:
         """Say what is wrong with the line of sight or the wire."""
         wrong: dict[str, str] = {}
-        if self.sensing != "point" and not (self.quantity == "displacement" and self.on == "specimen"):
+        if self.sensing != "point" and not (self.quantity == "displacement" and self.is_on_body):
             wrong["sensing"] = f'"{self.sensing}" is for a displacement of the specimen. Leave it out here.'
         for key, sensing in (("normal", "surface"), ("anchor", "wire")):
             if getattr(self, key) is not None and self.sensing != sensing:
@@ -176,6 +179,11 @@ class Channel(Table):
         if abs(_cosine(wire, self.direction)) < LEAST_COSINE:
             return {"anchor": "The wire is at right angles to `direction`. Give an anchor ahead of or behind `at`."}
         return {}
+
+    @property
+    def is_on_body(self) -> bool:
+        """Whether it is on a specimen, that of the test or the one whose id it gives."""
+        return self.on is not None and self.on not in SURROUNDINGS
 
     @property
     def dimension(self) -> str | None:

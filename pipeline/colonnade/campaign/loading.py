@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from colonnade.campaign.campaign import Campaign, CampaignFile, resolved
+from colonnade.campaign.campaign import Campaign, CampaignFile
 from colonnade.campaign.found import find_tests
 from colonnade.campaign.notices import notices
 from colonnade.campaign.references import dangling
@@ -15,7 +15,7 @@ from colonnade.campaign.syntax.document import parse, read_text, refusal, valida
 from colonnade.campaign.syntax.names import inside
 from colonnade.campaign.syntax.places import Place, Source, key_lines
 from colonnade.campaign.testlog import Log, read_log
-from colonnade.errors import CampaignError
+from colonnade.errors import CampaignError, ReadError
 from colonnade.findings import Finding
 from colonnade.readers.files import irregular
 
@@ -58,8 +58,8 @@ def load(path: Path | str) -> Campaign:
     paragraphs = [*log.problems, *source.paragraphs(problems, document)]
     if paragraphs or written is None:
         raise refusal(paragraphs)
-    campaign = resolved(written, path, (*log.warnings, *findings, *notices(written)))
-    return replace(campaign, reviews=read_review(path.parent, campaign.tests, campaign.setups))
+    campaign = Campaign.of(written, path, (*log.warnings, *findings, *notices(written)))
+    return campaign.but(reviews=read_review(path.parent, campaign.tests, campaign.setups))
 
 
 def _found(path: Path) -> Path:
@@ -81,8 +81,8 @@ def _found(path: Path) -> Path:
 def _log(written: str, folder: Path, source: Source) -> Log:
     try:
         return read_log(inside(folder, written))
-    except ValueError as error:
-        return Log(problems=(source.paragraph(("tests",), str(error), {}),))
+    except (ReadError, ValueError) as error:
+        return Log(problems=tuple(source.paragraph(("tests",), line, {}) for line in str(error).splitlines()))
 
 
 def _place(place: Place) -> Place:

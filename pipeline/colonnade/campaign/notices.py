@@ -73,9 +73,9 @@ def _unused(campaign: CampaignFile) -> Iterator[tuple[str, str]]:
 def _unused_of_channel(channel: Channel) -> Iterator[str]:
     if channel.quantity == "other":
         return
-    if channel.quantity not in _USED.get(channel.on or "", ()):
+    if channel.quantity not in _USED.get("specimen" if channel.is_on_body else channel.on or "", ()):
         yield f'quantity = "{channel.quantity}" on the {channel.on or "set-up"}'
-    elif channel.on == "specimen" and channel.quantity == "acceleration" and channel.at is None:
+    elif channel.is_on_body and channel.quantity == "acceleration" and channel.at is None:
         yield "an accelerometer on the specimen without `at`"
     elif channel.on == "table" and channel.direction is not None and max(map(abs, channel.direction)) < ALONG:
         yield "a motion of the table that is not along x, y or z"
@@ -122,8 +122,8 @@ def _implausible(campaign: CampaignFile) -> Iterator[Finding]:
     pairs = dict.fromkeys((test.setup, test.specimen) for test in campaign.tests)
     for setup, specimen_name in pairs:
         specimen = campaign.specimens[specimen_name]
-        for name, channel in campaign.setups[setup].channels.items():
-            if channel.on == "specimen" and channel.at is not None:
+        for name, channel in campaign.setups[setup].channels_of(specimen_name).items():
+            if channel.is_on_body and channel.at is not None:
                 about = (f"setups.{setup}.channels.{name}", channel, specimen_name, specimen)
                 yield from (replace(found, about=f"setups.{setup}") for found in (*_place(*about), *_range(*about)))
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from colonnade.campaign.campaign import CampaignFile
-from colonnade.campaign.channel import MAIN
+from colonnade.campaign.channel import MAIN, SURROUNDINGS
 from colonnade.campaign.setup import Align, Setup
 from colonnade.campaign.syntax.fields import shown
 from colonnade.campaign.syntax.names import clashes
@@ -21,7 +21,7 @@ def dangling(campaign: CampaignFile) -> Iterator[Problem]:
     yield from _clashing(("setups",), campaign.setups)
     yield from _clashing(("assessments",), campaign.assessments)
     for name, setup in campaign.setups.items():
-        yield from _setup(("setups", name), setup)
+        yield from _setup(("setups", name), setup, ("specimen", *SURROUNDINGS, *campaign.specimens))
     for name in campaign.prototype:
         yield from unknown(("prototype", name), "specimen", name, campaign.specimens)
     for name, assessment in campaign.assessments.items():
@@ -54,12 +54,14 @@ def _clashing(place: Place, names: Iterable[str], *, as_variables: bool = False)
         yield (*place, name), f'This id differs from "{earlier}" only in {same}. Choose another.'
 
 
-def _setup(place: Place, setup: Setup) -> Iterator[Problem]:
+def _setup(place: Place, setup: Setup, bodies: Collection[str]) -> Iterator[Problem]:
     yield from _clashing((*place, "channels"), setup.channels, as_variables=True)
     yield from _clashing((*place, "recorders"), setup.further_recorders)
     for name, channel in setup.channels.items():
-        where = (*place, "channels", name, "recorder")
-        yield from unknown(where, "recorder", channel.recorder, setup.recorders, " in this set-up")
+        where = (*place, "channels", name)
+        yield from unknown((*where, "recorder"), "recorder", channel.recorder, setup.recorders, " in this set-up")
+        if channel.on is not None:
+            yield from unknown((*where, "on"), "body", channel.on, bodies)
     for name, recorder in setup.further_recorders.items():
         if not isinstance(recorder.clock, Align):
             continue

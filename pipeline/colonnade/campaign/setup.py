@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic_core import InitErrorDetails
 
-from colonnade.campaign.channel import MAIN, Channel
+from colonnade.campaign.channel import MAIN, SURROUNDINGS, Channel
 from colonnade.campaign.syntax.fields import (
     Acceleration,
     Angle,
@@ -160,6 +160,15 @@ class Setup(Table):
     """Tilt of the table at rest, such as "0.1 deg": rotation about +y, positive where its +x side is the lower one."""
     channels: dict[Identifier, Channel] = Field(min_length=1)
     """The channels, by id."""
+
+    def channels_of(self, specimen: str) -> dict[str, Channel]:
+        """Give the channels in a test of a specimen: on it, its table or the ground, and not on another body."""
+        always = (None, "specimen", *SURROUNDINGS)
+        return {
+            name: each if each.on in always else each.model_copy(update={"on": "specimen"})
+            for name, each in self.channels.items()
+            if each.on in (*always, specimen)
+        }
 
     @cached_property
     def recorders(self) -> dict[str, Recorder]:

@@ -68,7 +68,7 @@ def demo(
 def _show(comparison: dict[str, Any]) -> None:
     from colonnade.laboratory.plans.ladder import KEPT_AWAY
     from colonnade.report.overview_page.agreement import agreement
-    from colonnade.store.records.wording import interval, ratio
+    from colonnade.units.text import interval, ratio
 
     for specimen, restitution in comparison["restitution"].items():
         true, value, low, high = (restitution[key] for key in ("true", "value", "low", "high"))

@@ -133,8 +133,8 @@ def _drawn(assessed: Assessed, out: Path | None, data: Path | None) -> list[Path
 def _show(assessed: Assessed) -> None:
     from colonnade.report.assessments_page.page import symbol
     from colonnade.store.records.assessment import NOT_COVERED, level, sentences
-    from colonnade.store.records.wording import number
     from colonnade.units import format_percent
+    from colonnade.units.text import number
 
     record = assessed.record
     verdict, *others = sentences(record)

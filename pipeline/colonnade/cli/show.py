@@ -179,7 +179,7 @@ def _show_records(
 
 
 def _specimen_cells(record: Record) -> tuple[str, ...]:
-    from colonnade.store.records.wording import interval
+    from colonnade.units.text import interval
 
     restitution = record["restitution"]
     value, low, high = (restitution[name] for name in ("value", "low", "high"))

@@ -7,9 +7,9 @@ import hashlib
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
-from colonnade.errors import ReadError, nearest
+from colonnade.errors import ReadError, nearest, quoted
 
 _KINDS = {
     stat.S_IFDIR: "a folder",
@@ -34,6 +34,39 @@ def irregular(path: Path) -> str:
     except (OSError, ValueError):
         return ""
     return "" if stat.S_ISREG(mode) else _KINDS.get(stat.S_IFMT(mode), "not a file")
+
+
+def inside(folder: Path, text: str, place: str) -> Path:
+    """
+    Resolve a path that is written in a file.
+
+    Parameters
+    ----------
+    folder : Path
+        From which it is written, absolute and resolved.
+    text : str
+    place : str
+        That folder for messages: "the campaign's folder".
+
+    Returns
+    -------
+    path : Path
+        Absolute; the file itself need not exist.
+
+    Raises
+    ------
+    ValueError
+        If it is not a relative path, or leaves the folder, be it through a link; the message is a sentence.
+    """
+    if text.startswith("/") or PureWindowsPath(text).drive:
+        raise ValueError(f"{quoted(text)} is an absolute path.")
+    try:
+        path = (folder / text).resolve()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise ValueError(f"{quoted(text)} is an invalid path ({error}).") from None
+    if not path.is_relative_to(folder) or path == folder:
+        raise ValueError(f"{quoted(text)} is outside {place}: {path}.")
+    return path
 
 
 def sha256_of(path: Path) -> str | None:

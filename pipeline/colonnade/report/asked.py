@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from colonnade.campaign import Campaign
 from colonnade.campaign.forms.summary import TestSummary
@@ -41,7 +41,7 @@ def asked_of(campaign: Campaign, layout: Layout, outdated: Collection[str] = ())
 
 def shows(campaign: Campaign, asked: Asked) -> str:
     """Write all of the campaign that the page of a test shows; paths are those from the campaign's folder."""
-    campaign = replace(campaign, tests={asked.test: campaign.tests[asked.test]}).with_relative_paths()
+    campaign = campaign.but(tests={asked.test: campaign.tests[asked.test]}).with_relative_paths()
     test = campaign.tests[asked.test]
     place = (campaign.title, campaign.facility, campaign.gravity)
     around = (place, tuple(campaign.specimens), campaign.processing.predict.models)

@@ -292,7 +292,7 @@ def _warnings(
 
 def _with(campaign: Campaign, block: Iterable[Asked]) -> Campaign:
     """Give the campaign with the tests of a block alone, which is light to send to another process."""
-    return replace(campaign, tests={asked.test: campaign.tests[asked.test] for asked in block})
+    return campaign.but(tests={asked.test: campaign.tests[asked.test] for asked in block})
 
 
 def _drawn(layout: Layout, code: str, block: Block) -> list[Part]:

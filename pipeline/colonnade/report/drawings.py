@@ -11,7 +11,7 @@ from colonnade.figures.drawing import described
 from colonnade.report import addresses
 from colonnade.store import stamps
 from colonnade.store.freshness import Recipe
-from colonnade.store.records.wording import listed
+from colonnade.units.text import listed
 
 
 class Drawing(NamedTuple):

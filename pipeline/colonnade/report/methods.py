@@ -11,9 +11,8 @@ from typing import Any
 
 from colonnade import __version__
 from colonnade.dynamics.models.registry import MODELS
-from colonnade.store.records import wording
 from colonnade.store.records.stored import Stored
-from colonnade.units import format_percent
+from colonnade.units import format_percent, text
 
 LIBRARIES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "pandas", "matplotlib")
 """Libraries whose versions are shown."""
@@ -47,7 +46,7 @@ _STORED: dict[str, tuple[str, str, str | Callable[[float], str]]] = {
     "level": ("restitution", "settings.level", format_percent),
     "rest angle": ("predict", "rest_angle", "{:g} α"),
     "mesh": ("predict", "space.settings.mesh", "{}"),
-    "contact step": ("predict", "space.settings.step", lambda step: wording.quantity(step, "µs")),
+    "contact step": ("predict", "space.settings.step", lambda step: text.quantity(step, "µs")),
     "friction": ("predict", "space.settings.friction", "{:g}"),
     "damping fraction": ("predict", "space.settings.damping_fraction", "{:g}"),
     "initial rotation": ("predict", "space.settings.out_of_plane", "{:g} rad"),
@@ -91,7 +90,7 @@ class Used:
         for given in stored.channels.values():
             place = "specimen" if given.get("channel") in on_specimen else "table"
             cutoff = float(given.get("cutoff_hz", nan))
-            self._note(f"cut-off on the {place}", wording.quantity(cutoff, "Hz") if isfinite(cutoff) else "", test)
+            self._note(f"cut-off on the {place}", text.quantity(cutoff, "Hz") if isfinite(cutoff) else "", test)
         for stage, model in stored.datasets:
             self._note("source of e", stored.text(stage, "restitution_source", model), test)
         if isfinite(stored.value("restitution", "restitution")):
@@ -122,8 +121,8 @@ class Used:
         """
         values = self.values.get(name, {})
         if len({tuple(tests) for tests in values.values()}) < 2:
-            return " and ".join(values) or wording.NOTHING
-        return " or ".join(f"{value} ({wording.listed(list(tests), _LONGEST)})" for value, tests in values.items())
+            return " and ".join(values) or text.NOTHING
+        return " or ".join(f"{value} ({text.listed(list(tests), _LONGEST)})" for value, tests in values.items())
 
     def differing(self) -> dict[str, Mapping[str, Iterable[str]]]:
         """Settings in which tests differ: each value with its tests."""

@@ -18,7 +18,7 @@ from colonnade.figures.files.output import Picture, link_to
 from colonnade.report import who_and_when
 from colonnade.report.addresses import of_specimen, of_test, scripts_of
 from colonnade.store.records import wording
-from colonnade.units import format_percent
+from colonnade.units import format_percent, text
 
 KINDS = {
     "free-vibration": "Free vibrations",
@@ -85,7 +85,7 @@ class Renderer:
             **common,
             "kinds": KINDS,
             "count": count,
-            "listed": wording.listed,
+            "listed": text.listed,
             "test_page": of_test,
             "scripts_of": scripts_of,
             "specimen_page": of_specimen,
@@ -93,12 +93,12 @@ class Renderer:
         }
         self._environment.filters |= {
             "setting": _setting,
-            "number": wording.number,
-            "quantity": wording.quantity,
-            "acceleration": wording.acceleration,
+            "number": text.number,
+            "quantity": text.quantity,
+            "acceleration": text.acceleration,
             "order": wording.order,
-            "ratio": wording.ratio,
-            "signed_ratio": wording.signed_ratio,
+            "ratio": text.ratio,
+            "signed_ratio": text.signed_ratio,
             "percent": format_percent,
             "drawn": self._drawn,
         }
@@ -138,6 +138,6 @@ def renderer_of(campaign: Campaign) -> Renderer:
         who_and_when=who_and_when.of_campaign(campaign),
         models=campaign.processing.predict.models,
         registry=MODELS,
-        gravity=wording.quantity(campaign.gravity, "m/s²", 5),
+        gravity=text.quantity(campaign.gravity, "m/s²", 5),
         version=__version__,
     )

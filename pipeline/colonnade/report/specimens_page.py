@@ -24,8 +24,8 @@ from colonnade.report.pictures.subjects import Decaying, OfSpecimen, OfTest
 from colonnade.report.test_page import restitution
 from colonnade.report.test_page.restitution import EstimateText
 from colonnade.store.records.stored import Failure, Stored
-from colonnade.store.records.wording import NOTHING, interval, number, quantity
 from colonnade.units import PERCENT
+from colonnade.units.text import NOTHING, interval, number, quantity
 
 BOUNDS = ("restitution_low", "restitution_high", "level")
 

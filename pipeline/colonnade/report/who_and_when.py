@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from colonnade.campaign import Campaign, Test
 from colonnade.report.test_page.facts import Fact, known
-from colonnade.store.records.wording import listed
+from colonnade.units.text import listed
 
 MOST_NAMED = 12
 """Operators that are named."""

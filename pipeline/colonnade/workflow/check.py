@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
@@ -110,7 +110,7 @@ def check(campaign: Campaign, progress: Callable[[int, int], None] = lambda done
         return read(path, file.format, file.options, within=campaign.folder)
 
     campaign = with_copies(campaign, digests_of_equal_sizes(campaign))
-    campaign = replace(campaign, warnings=(*campaign.warnings, *unshown_photos(campaign)))
+    campaign = campaign.but(warnings=(*campaign.warnings, *unshown_photos(campaign)))
     found: dict[str, Checked] = {}
     for name, test in campaign.tests.items():
         progress(len(found), len(campaign.tests))

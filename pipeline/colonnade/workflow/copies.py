@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from math import inf
 from pathlib import Path
 
@@ -20,7 +19,7 @@ Digests = Mapping[str, Mapping[str, str | None]]
 
 def with_copies(campaign: Campaign, digests: Digests) -> Campaign:
     """Return the campaign, with a warning if different tests are of one recording or of copies of it."""
-    return replace(campaign, warnings=(*campaign.warnings, *_copies(digests), *_shared(campaign)))
+    return campaign.but(warnings=(*campaign.warnings, *_copies(digests), *_shared(campaign)))
 
 
 def _shared(campaign: Campaign) -> Iterator[Finding]:

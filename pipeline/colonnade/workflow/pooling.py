@@ -31,7 +31,7 @@ def with_contradictions(campaign: Campaign, found: Mapping[str, Iterable[Finding
     found : mapping of str to iterable of Finding
         What the stage `condition` found, by test.
     """
-    return replace(campaign, warnings=(*campaign.warnings, *_contradictions(campaign, found)))
+    return campaign.but(warnings=(*campaign.warnings, *_contradictions(campaign, found)))
 
 
 def _contradictions(campaign: Campaign, found: Mapping[str, Iterable[Finding]]) -> Iterator[Finding]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from colonnade.campaign import Campaign, load
@@ -134,7 +133,7 @@ def _summed_up(walk: Walk, *, awaiting: bool) -> tuple[Campaign, dict[str, str],
     stale = {name: why for name, why in walk.stale().items() if name not in walk.failed_tests}
     outdated = stale | dict.fromkeys(campaign.tests.keys() - set(walk.included), "")
     forecasts = read_forecasts(layout)
-    campaign = replace(campaign, warnings=(*campaign.warnings, *map(finding_of, forecasts.refused)))
+    campaign = campaign.but(warnings=(*campaign.warnings, *map(finding_of, forecasts.refused)))
     campaign = with_contradictions(
         campaign, {stage.subject: stage.findings for stage in walk.stages if stage.stage == "condition"}
     )

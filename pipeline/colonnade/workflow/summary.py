@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import colonnade
@@ -139,7 +139,7 @@ def _records(
     """Return the record of each test: the last one if nothing that it is made from changed, else a new one."""
     recipes, found, waiting = {}, {}, []
     for name, test in campaign.with_relative_paths().tests.items():
-        asked = _Asked(replace(campaign, tests={name: test}), test, outdated.get(name), failures.get(name))
+        asked = _Asked(campaign.but(tests={name: test}), test, outdated.get(name), failures.get(name))
         recipes[name] = _recipe(asked, layout, catalogue)
         known = catalogue.record(name, recipes[name])
         if known is None:

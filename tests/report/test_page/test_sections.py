@@ -11,7 +11,7 @@ from colonnade.report.test_page import channels, decay, done, found, page, resti
 from colonnade.report.test_page.facts import known
 from colonnade.report.test_page.spread import verdict_sentence
 from colonnade.store.records.stored import Stored, read_test
-from colonnade.store.records.wording import NOTHING
+from colonnade.units.text import NOTHING
 
 SHOWN = Photos((Photo("photos/span-2.0-1.jpg", "Photo 1 of test span-2.0", "a.jpg"),))
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import tomllib
-from dataclasses import replace
 
 import pytest
 
@@ -70,8 +69,7 @@ def _inputs(campaign):
 @pytest.mark.parametrize(("setting", "stages"), READ_BY.items(), ids=[setting.split(" =")[0] for setting in READ_BY])
 def test_a_setting_changes_the_inputs_of_the_stages_that_read_it(small_campaign, setting, stages):
     before, changed = (
-        _inputs(replace(small_campaign, processing=Processing.model_validate(tomllib.loads(text))))
-        for text in ("", setting)
+        _inputs(small_campaign.but(processing=Processing.model_validate(tomllib.loads(text)))) for text in ("", setting)
     )
     assert {name for name in before if before[name] != changed[name]} == stages
 
@@ -80,7 +78,7 @@ def test_a_part_that_a_stage_does_not_read_does_not_change_its_inputs(small_camp
     setup = small_campaign.setups["frame"]
     moved = setup.channels["top"].model_copy(update={"at": (0.043, 0.0, 0.3)})
     channels = setup.channels | {"top": moved}
-    other = replace(small_campaign, setups={"frame": setup.model_copy(update={"channels": channels})})
+    other = small_campaign.but(setups={"frame": setup.model_copy(update={"channels": channels})})
     before, changed = _inputs(small_campaign), _inputs(other)
     assert {name for name in before if before[name] != changed[name]} == {"condition", "rocking"}
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
 from colonnade.campaign import load
@@ -95,7 +93,7 @@ def test_assessments_of_the_campaign_are_brought_up_to_date(assessed_copy):
 
 
 def test_limits_of_another_value_do_not_hold_for_the_one_that_is_asked(assessed):
-    campaign = replace(load(assessed), prototype={"prism": RANGED})
+    campaign = load(assessed).but(prototype={"prism": RANGED})
     levels = {"levels": ["1 m/s", "2 m/s"], "draws": 2}
     column = AskedColumn.of({"critical_angle": "0.25 rad"})
     found = assess_own(campaign, Layout(assessed), "site", column, levels, HERE)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-from dataclasses import replace
 
 import pytest
 
@@ -33,7 +32,7 @@ def test_a_figure_is_of_what_its_subject_is(campaign, name, subject, of):
 
 def test_with_one_specimen_alone_nobody_has_to_name_it(empty_campaign):
     campaign = empty_campaign[0]
-    alone = replace(campaign, specimens={"prism": campaign.specimens["prism"]})
+    alone = campaign.but(specimens={"prism": campaign.specimens["prism"]})
     entry, subject = chosen(alone, "estimators", None)
     assert (entry.of, subject) == ("specimen", "prism")
 

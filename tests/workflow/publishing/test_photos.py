@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 from PIL import Image
 
@@ -30,7 +28,7 @@ def folder(untouched):
 def campaign_with(folder, *written):
     campaign = load(folder)
     test = campaign.tests["free-01"].model_copy(update={"photos": written})
-    return replace(campaign, tests=campaign.tests | {"free-01": test})
+    return campaign.but(tests=campaign.tests | {"free-01": test})
 
 
 def brought(folder, *written):
@@ -123,5 +121,5 @@ def test_the_fault_of_the_machine_is_not_remembered(folder, monkeypatch):
 def test_a_campaign_without_photos_is_as_it_was(folder):
     campaign = campaign_with(folder)
     layout = Layout(folder)
-    assert with_photos(campaign, layout, Catalogue(layout)) == replace(campaign)
+    assert with_photos(campaign, layout, Catalogue(layout)) == campaign.but()
     assert not layout.report.parent.exists()

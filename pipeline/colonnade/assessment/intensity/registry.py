@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from colonnade import units
 from colonnade.assessment.intensity.ground import Ground
 from colonnade.assessment.intensity.naming import quantity_of, split_name
 from colonnade.dynamics.block import Block
@@ -89,8 +88,8 @@ def measure_of(name: str) -> Measure:
 def _spectral(period: float) -> Measure:
     return replace(
         SPECTRAL,
-        id=f"sa({units.format_quantity(period, 's', 6)})",
-        symbol=f"Sa({units.format_quantity(period, 's', 6)})",
+        id=f"sa({period:.6g} s)",
+        symbol=f"Sa({period:.6g} s)",
         period=period,
     )
 

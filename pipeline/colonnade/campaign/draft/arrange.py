@@ -63,23 +63,23 @@ def arrange(files: Sequence[RawFile]) -> tuple[list[DraftSetup], list[tuple[str,
         Files left out as a second copy of the same recording, with the one that is used.
     """
     copies: list[tuple[str, str]] = []
-    known = _Known()
     tests: dict[str, dict[str, RawFile]] = {}
+    known: defaultdict[tuple[str, ...], list[RawFile]] = defaultdict(list)
     for file in files:
-        twin = next((other for other in known.of_stem[file.stem] if _columns(other) == _columns(file)), None)
-        if twin is not None:
+        if twin := next((other for other in known["stem", file.stem] if _columns(other) == _columns(file)), None):
             copies.append((file.relative, twin.relative))
-        else:
-            known.add(file)
-            tests[file.relative] = {MAIN: file}
-    for file in [recorded[MAIN] for recorded in tests.values()]:
-        for other, tag in known.mains_of(file):
+            continue
+        mains = ((other, tag) for key, tag in _shared(file) if tag for other in known[key] if other.relative in tests)
+        for main, tag in mains:
             certain = re.fullmatch(_RECORDER, tag, re.IGNORECASE) is not None
-            if other.relative in tests and (certain or not set(_columns(file)) & set(_columns(other))):
-                recorders = tests[other.relative]
+            if certain or not set(_columns(file)) & set(_columns(main)):
+                recorders = tests[main.relative]
                 recorders[unique([*recorders, as_id(tag, "recorder")], "recorder")[-1]] = file
-                del tests[file.relative]
                 break
+        else:
+            tests[file.relative] = {MAIN: file}
+        for key, _ in _own(file):
+            known[key].append(file)
     setups: dict[tuple[object, ...], DraftSetup] = {}
     for recorded in tests.values():
         layout = tuple((name, file.layout) for name, file in recorded.items())
@@ -87,34 +87,21 @@ def arrange(files: Sequence[RawFile]) -> tuple[list[DraftSetup], list[tuple[str,
     return list(setups.values()), copies
 
 
-class _Known:
-    """Files by the common part of their names, for speed; earlier files are preferred as main recorders."""
+def _own(file: RawFile) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Give the parts of a file's name that a file of another recorder has too, each with what is then its recorder."""
+    path = PurePosixPath(file.stem)
+    base, tag = _base(file.stem)
+    yield ("base", base), tag
+    yield ("stem", file.stem), PurePosixPath(file.relative).suffix.lstrip(".")
+    yield ("name", str(path.parent.parent), path.name), path.parent.name
 
-    def __init__(self) -> None:
-        self._order: dict[str, int] = {}
-        self.of_stem: defaultdict[str, list[RawFile]] = defaultdict(list)
-        self._of_base: defaultdict[str, list[RawFile]] = defaultdict(list)
-        self._of_name: defaultdict[tuple[str, str], list[RawFile]] = defaultdict(list)
 
-    def add(self, file: RawFile) -> None:
-        path = PurePosixPath(file.stem)
-        self._order[file.relative] = len(self._order)
-        self.of_stem[file.stem].append(file)
-        self._of_base[_base(file.stem)[0]].append(file)
-        self._of_name[str(path.parent.parent), path.name].append(file)
-
-    def mains_of(self, file: RawFile) -> Iterator[tuple[RawFile, str]]:
-        """Give files whose tests this file may belong to, each with the name of this file's recorder."""
-        path = PurePosixPath(file.stem)
-        for end in range(len(file.stem) - 1, len(file.stem) - len(path.name), -1):
-            if tag := _TAG.fullmatch(file.stem[end:]):
-                yield from ((other, tag[1]) for other in self.of_stem.get(file.stem[:end], []))
-        base, tag_of_base = _base(file.stem)
-        alike = [(other, tag_of_base) for other in self._of_base[base]]
-        alike += [(other, PurePosixPath(file.relative).suffix.lstrip(".")) for other in self.of_stem[file.stem]]
-        alike += [(other, path.parent.name) for other in self._of_name[str(path.parent.parent), path.name]]
-        place = self._order[file.relative]
-        yield from ((other, name) for other, name in alike if name and self._order[other.relative] < place)
+def _shared(file: RawFile) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Give the names of files whose tests this file may belong to: its own without a word at the end come first."""
+    for end in range(len(file.stem) - 1, len(file.stem) - len(PurePosixPath(file.stem).name), -1):
+        if tag := _TAG.fullmatch(file.stem[end:]):
+            yield ("stem", file.stem[:end]), tag[1]
+    yield from _own(file)
 
 
 def _base(stem: str) -> tuple[str, str]:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from pathlib import Path, PureWindowsPath
+from pathlib import Path
 from typing import Annotated
 
 from colonnade.campaign.syntax.fields import Kind, shown
+from colonnade.readers import files
 
 ID_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]*$"
 _DEVICES = {"con", "prn", "aux", "nul", "conin$", "conout$"} | {
@@ -103,15 +104,10 @@ def inside(folder: Path, value: object) -> Path:
         raise ValueError(f"{shown(value)} was found. {_EXAMPLE}.")
     if "\\" in value:
         raise ValueError(f"{shown(value)} has a backslash. {_EXAMPLE}, with / between folders on every system.")
-    if value.startswith("/") or PureWindowsPath(value).drive:
-        raise ValueError(f"{shown(value)} is an absolute path. {_EXAMPLE}, so that the campaign can be moved.")
     try:
-        path = (folder / value).resolve()
-    except (OSError, RuntimeError, ValueError) as error:
-        raise ValueError(f"{shown(value)} is an invalid path ({error}). {_EXAMPLE}.") from None
-    if not path.is_relative_to(folder) or path == folder:
-        raise ValueError(f"{shown(value)} is outside the campaign's folder: {path}. {_EXAMPLE}.")
-    return path
+        return files.inside(folder, value, "the campaign's folder")
+    except ValueError as error:
+        raise ValueError(f"{error} {_EXAMPLE}.") from None
 
 
 Identifier = Annotated[str, Kind(identifier, {"type": "string", "pattern": ID_PATTERN})]

@@ -16,7 +16,7 @@ from colonnade.figures.drawing.body import words_of_angle
 from colonnade.figures.drawing.parts import Body, Point, Rocking, Transducer
 from colonnade.figures.drawing.setup import Drawn, setup_drawings
 from colonnade.figures.files.output import Picture
-from colonnade.store.records.wording import listed, quantity
+from colonnade.units.text import listed, quantity
 
 SIGNS = (
     "● displacement  ■ acceleration",
@@ -37,7 +37,7 @@ STAND_IN = Body("rectangle", (0.1, 0.1), (0.1, 0.1), 0.5, is_known=False, rockin
 def drawn_of(campaign: Campaign, specimen: str, setup: str) -> Drawn:
     """Describe a specimen with the transducers of a setup."""
     body = body_of(campaign.specimens[specimen], campaign.block(specimen))
-    transducers = [transducer_of(name, each) for name, each in campaign.setups[setup].channels.items()]
+    transducers = [transducer_of(name, each) for name, each in campaign.setups[setup].channels_of(specimen).items()]
     shown = [each for each in transducers if each.on]
     others = [each.name for each in transducers if not each.on]
     words = [*body.words, "", *SIGNS]

@@ -17,8 +17,8 @@ from colonnade.figures.panels.curve import Curve
 from colonnade.signals.named_motion import Laid, Series, laid_on
 from colonnade.stages.parts.reference_motions import ReferenceMotionFile, load, reference_files
 from colonnade.store.records.stored import Stored
-from colonnade.store.records.wording import number, quantity
 from colonnade.units import format_percent
+from colonnade.units.text import number, quantity
 
 SHORTEST, LONGEST = 0.02, 4.0
 """Periods of the spectra, s; no shorter than `FEWEST` samples, no longer than a quarter of the record."""

@@ -17,8 +17,8 @@ from colonnade.figures.panels.curve import Curve
 from colonnade.signals.quality import Flag
 from colonnade.signals.spectra import Density, density
 from colonnade.store.records.stored import Stored
-from colonnade.store.records.wording import CHANNEL_UNITS
 from colonnade.units import from_si
+from colonnade.units.text import CHANNEL_UNITS
 
 MOST_CHANNELS = 12
 """Channels that are drawn."""

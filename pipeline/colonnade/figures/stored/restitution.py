@@ -23,7 +23,7 @@ from colonnade.figures.stored.curves import measured_ratio
 from colonnade.identification.restitution.estimators.registry import ESTIMATORS
 from colonnade.identification.restitution.fitting.confidence_band import confidence_band
 from colonnade.store.records.stored import Stored
-from colonnade.store.records.wording import number
+from colonnade.units.text import number
 
 STAGE = "restitution"
 

@@ -11,7 +11,7 @@ from colonnade import units
 from colonnade.assessment.fragility.curves.hazard import Hazard, hazard_curve
 from colonnade.assessment.intensity.registry import measure_of
 from colonnade.errors import ReadError, UnitError, quoted
-from colonnade.readers.ground_motions.table import Head, SmallTable, read_table
+from colonnade.readers.small_table import Head, SmallTable, read_table
 
 RATES = ("rate", "annual rate", "annual rate of exceedance")
 PER_YEAR = ("1/year", "1/yr", "1/a", "per year", "/year")
@@ -41,7 +41,7 @@ def read_hazard(path: Path, *, measure: str, unit: str) -> Hazard:
     if table.faults:
         line, fault = table.faults[0]
         raise ReadError(f"{table.name}, line {line}: {fault}")
-    values = np.array([_pair(table.name, line, cells) for line, cells in table.rows]).reshape(-1, 2)
+    values = np.array([_pair(table, line, cells) for line, cells in table.rows]).reshape(-1, 2)
     if len(values) < 2:
         raise ReadError(f"{table.name}: {len(values)} rows of numbers; at least two were expected.")
     lines = [line for line, _ in table.rows]
@@ -92,15 +92,15 @@ def _factor(table: SmallTable, measure: str, unit: str) -> float:
     return factor
 
 
-def _pair(name: str, line: int, cells: tuple[str, ...]) -> tuple[float, float]:
+def _pair(table: SmallTable, line: int, cells: tuple[str, ...]) -> tuple[float, float]:
     values = []
     for cell in cells:
         try:
-            value = float(cell)
+            value = float(cell.replace(",", ".") if table.has_decimal_comma else cell)
         except ValueError:
             value = float("nan")
         if not (isfinite(value) and value > 0.0):
-            raise ReadError(f"{name}, line {line}: {quoted(cell)} is not a positive number.")
+            raise ReadError(f"{table.name}, line {line}: {quoted(cell)} is not a positive number.")
         values.append(value)
     return values[0], values[1]
 

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from difflib import get_close_matches
 from math import isfinite
-from pathlib import Path, PureWindowsPath
+from pathlib import Path
 
 from colonnade import units
-from colonnade.errors import ReadError, UnitError, nearest, quoted
-from colonnade.readers.ground_motions.table import Head, SmallTable, read_table
+from colonnade.errors import ReadError, UnitError, quoted
+from colonnade.readers import files
+from colonnade.readers.small_table import SmallTable, read_table
 
 COLUMNS = ("file", "unit", "interval", "scale", "component", "record", "column", "magnitude", "distance")
 """Heads that a list may have; `file` is needed, and `record` with `component`."""
@@ -86,112 +85,66 @@ def read_list(path: Path) -> tuple[list[Entry], list[LeftOut], list[str]]:
         If it is no list of records.
     """
     table = read_table(path, "a list of records")
-    places, notes = _columns(table)
-    entries, left_out = [], [LeftOut(f"{path.name}, line {line}", fault) for line, fault in table.faults]
-    for line, cells in table.rows:
-        given = {name: cells[index] for name, index in places.items() if cells[index]}
-        try:
-            entries.append(_entry(path, line, given, {name: table.heads[index] for name, index in places.items()}))
-        except (ReadError, UnitError) as error:
-            left_out.append(LeftOut(f"{path.name}, line {line}", str(error)))
-    return entries, left_out, notes
-
-
-def _columns(table: SmallTable) -> tuple[dict[str, int], list[str]]:
-    """Index of each column that is known, and notes on those that are not."""
-    places: dict[str, int] = {}
-    notes = []
-    for index, head in enumerate(table.heads):
-        name = head.name.casefold()
-        if name in places:
-            raise ReadError(f"{table.name}: duplicate column head {quoted(name)}.")
-        if name in COLUMNS:
-            places[name] = index
-        elif get_close_matches(name, COLUMNS, n=1, cutoff=0.75):
-            raise ReadError(f"{table.name}: unknown column {quoted(head.name)}.{nearest(head.name, COLUMNS)}")
-        elif name:
-            notes.append(f"{table.name}: column {quoted(head.name)} says nothing of a record; it is ignored.")
+    places, notes = table.places(COLUMNS, "says nothing of a record")
     if "file" not in places:
         raise ReadError(
             f'{table.name}: no column "file". A list of records was expected, with the heads {", ".join(COLUMNS)}.'
         )
     if "component" in places and "record" not in places:
         raise ReadError(f'{table.name}: "component" without "record", the name that the components of a record share.')
-    return places, notes
+    entries, left_out = [], [LeftOut(f"{path.name}, line {line}", fault) for line, fault in table.faults]
+    for line, cells in table.rows:
+        try:
+            entries.append(_entry(path, line, cells, table, places))
+        except (ReadError, UnitError) as error:
+            left_out.append(LeftOut(f"{path.name}, line {line}", str(error)))
+    return entries, left_out, notes
 
 
-def _entry(path: Path, line: int, given: dict[str, str], heads: dict[str, Head]) -> Entry:
+def _entry(path: Path, line: int, cells: tuple[str, ...], table: SmallTable, places: dict[str, int]) -> Entry:
+    given = {name: cells[index] for name, index in places.items() if cells[index]}
     if "file" not in given:
         raise ReadError("the cell of the file is empty.")
+
+    def number(name: str, dimension: str = "dimensionless") -> float | None:
+        """Read a cell in SI; None if it is empty."""
+        if name not in given:
+            return None
+        text = table.quantity(places[name], given[name])
+        try:
+            value = units.to_si(text, dimension)
+        except UnitError as error:
+            raise ReadError(f"{name}: {error}") from None
+        if not isfinite(value):
+            raise ReadError(f"{name} is {quoted(text)}; a finite number was expected.")
+        return value
+
     component = given.get("component", "").casefold()
     if component and component not in COMPONENTS:
         raise ReadError(f"component is {quoted(component)}; x, y or z (vertical) was expected.")
-    scale = _number(given, heads, "scale", _plain)
+    scale, interval = number("scale"), number("interval", "time")
     if scale == 0.0:
         raise ReadError("scale is 0; a factor on the accelerations was expected.")
-    interval = _number(given, heads, "interval", lambda text: units.to_si(text, "time"))
     if interval is not None and not interval > 0.0:
         raise ReadError(f"interval is {interval:g} s; a positive time between samples was expected.")
-    head_of_files = heads["file"].unit
+    unit = table.heads[places["unit"]].unit if "unit" in places else None
     return Entry(
         inside(path.resolve().parent, given["file"]),
         f"{path.name}, line {line}, {given['file']}",
-        given.get("unit", heads["unit"].unit if "unit" in heads else None) or head_of_files,
+        given.get("unit", unit) or table.heads[places["file"]].unit,
         interval,
         1.0 if scale is None else scale,
         component,
         given.get("record", ""),
         given.get("column", ""),
-        _number(given, heads, "magnitude", _plain),
-        _number(given, heads, "distance", lambda text: units.to_si(text, "length")),
+        number("magnitude"),
+        number("distance", "length"),
     )
 
 
 def inside(folder: Path, text: str) -> Path:
-    """
-    Resolve a path of a list, from its folder.
-
-    Raises
-    ------
-    ReadError
-        If it is absolute or leaves the folder, be it through a link.
-    """
-    text = text.replace("\\", "/")
-    if text.startswith("/") or PureWindowsPath(text).drive:
-        raise ReadError(f"{quoted(text)} is an absolute path; one from the folder of the list was expected.")
+    """Resolve a path of a list, from its folder; ReadError if it is absolute or leaves the folder."""
     try:
-        path = (folder / text).resolve()
-    except (OSError, RuntimeError, ValueError) as error:
-        raise ReadError(f"{quoted(text)} is an invalid path ({error}).") from None
-    if not path.is_relative_to(folder) or path == folder:
-        raise ReadError(f"{quoted(text)} is outside the folder of the list. Put the file there.")
-    return path
-
-
-def _number(given: dict[str, str], heads: dict[str, Head], name: str, read: Callable[[str], float]) -> float | None:
-    """Read a cell as a number, in the unit of its head if it has none of its own; None if it is empty."""
-    if name not in given:
-        return None
-    text = given[name]
-    unit = heads[name].unit
-    if unit and _is_number(text):
-        text = f"{text} {unit}"
-    try:
-        value = read(text)
-    except UnitError as error:
-        raise ReadError(f"{name}: {error}") from None
-    if not isfinite(value):
-        raise ReadError(f"{name} is {quoted(text)}; a finite number was expected.")
-    return value
-
-
-def _plain(text: str) -> float:
-    return units.to_si(text, "dimensionless")
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+        return files.inside(folder, text.replace("\\", "/"), "the folder of the list")
+    except ValueError as error:
+        raise ReadError(f"{error} A path from there was expected.") from None

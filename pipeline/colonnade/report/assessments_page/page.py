@@ -21,8 +21,8 @@ from colonnade.findings import at_stage, warning
 from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.assessment import estimated, level, sentences, unit_of
-from colonnade.store.records.wording import listed, number
 from colonnade.units import from_si
+from colonnade.units.text import listed, number
 
 SHOWN = ("pga", "pgv", "arias", "d5_95", "pulse_period")
 """Measures of the table of records."""

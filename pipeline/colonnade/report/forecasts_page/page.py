@@ -19,7 +19,7 @@ from colonnade.store.forecasts import Known, read_forecasts
 from colonnade.store.layout import Layout
 from colonnade.store.records.forecast import shown_model, shown_table
 from colonnade.store.records.judged import FEWEST, scored_of
-from colonnade.store.records.wording import NOTHING, number
+from colonnade.units.text import NOTHING, number
 
 
 class ModelRow(NamedTuple):

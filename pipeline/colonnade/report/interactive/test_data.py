@@ -22,8 +22,8 @@ from colonnade.report.interactive import moving
 from colonnade.report.interactive.panels import Samples, script
 from colonnade.report.interactive.tables import tables_of
 from colonnade.store.records.stored import GOOD, Stored
-from colonnade.store.records.wording import CHANNEL_UNITS
 from colonnade.units import format_percent, from_si
+from colonnade.units.text import CHANNEL_UNITS
 
 PROPORTIONAL = 1e-6
 """A channel in SI is a straight line of what was recorded if no sample is further from it, over the largest."""

@@ -9,7 +9,8 @@ from typing import Any
 
 from colonnade.errors import count
 from colonnade.identification.response.rank import is_within
-from colonnade.store.records.wording import agree, ratio
+from colonnade.store.records.wording import agree
+from colonnade.units.text import ratio
 
 
 def agreement(tests: Mapping[str, Mapping[str, Any]]) -> list[str]:

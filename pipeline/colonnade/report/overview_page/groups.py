@@ -9,7 +9,7 @@ from typing import NamedTuple
 from colonnade.campaign import Campaign
 from colonnade.report.pages import KINDS
 from colonnade.report.rows import TestRow
-from colonnade.store.records.wording import quantity
+from colonnade.units.text import quantity
 
 
 class SineGroup(NamedTuple):

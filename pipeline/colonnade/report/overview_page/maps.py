@@ -24,7 +24,7 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.records.stability_map import as_map
 from colonnade.store.records.summary import map_points
-from colonnade.store.records.wording import NOTHING, number
+from colonnade.units.text import NOTHING, number
 
 
 class MeasuredMap(NamedTuple):

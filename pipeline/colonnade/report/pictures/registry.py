@@ -22,7 +22,7 @@ from colonnade.report.overview_page import peaks as agreement
 from colonnade.report.overview_page.spans import span_groups
 from colonnade.report.pictures.subjects import OfCampaign, OfSpecimen, OfTest, Subject
 from colonnade.store.records.judged import FEWEST
-from colonnade.store.records.wording import listed
+from colonnade.units.text import listed
 
 
 class Entry(NamedTuple):

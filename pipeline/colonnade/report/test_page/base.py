@@ -21,8 +21,8 @@ from colonnade.report.test_page.facts import Fact, known
 from colonnade.signals.filters import lowpass
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import largest_motion
-from colonnade.store.records.wording import NOTHING, number, quantity
 from colonnade.units import PERCENT
+from colonnade.units.text import NOTHING, number, quantity
 
 FASTEST = 25.0
 """Hz, below which a measured displacement is differentiated: above it its noise is larger than its motion."""

@@ -9,8 +9,8 @@ from typing import Any
 
 from colonnade.signals.quality import FEW_SPIKES
 from colonnade.store.records.stored import Samples, Stored
-from colonnade.store.records.wording import CHANNEL_UNITS, NOTHING, number, quantity, share
 from colonnade.units import PERCENT, with_minus
+from colonnade.units.text import CHANNEL_UNITS, NOTHING, number, quantity, share
 
 _NOTHING_LEFT = 1e-6
 """Residuals smaller than this, over the noise, mean that there are no more transducers than motions."""

@@ -10,7 +10,7 @@ from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import Stored
-from colonnade.store.records.wording import number, quantity
+from colonnade.units.text import number, quantity
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from colonnade.store.records.wording import NOTHING
+from colonnade.units.text import NOTHING
 
 Fact = tuple[str, str]
 """A label and its text."""

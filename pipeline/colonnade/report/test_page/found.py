@@ -14,7 +14,8 @@ from colonnade.report.rows import TestRow
 from colonnade.report.test_page.facts import Fact, known
 from colonnade.store.records.stored import Stored
 from colonnade.store.records.test import driven_by, largest_motion, predicted_peak_time
-from colonnade.store.records.wording import NOTHING, acceleration, order, quantity, ratio
+from colonnade.store.records.wording import order
+from colonnade.units.text import NOTHING, acceleration, quantity, ratio
 
 
 @dataclass(frozen=True)

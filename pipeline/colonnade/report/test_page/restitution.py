@@ -7,8 +7,8 @@ from typing import NamedTuple
 from colonnade.campaign.forms.summary import IdentifiedSummary
 from colonnade.figures.stored.restitution import STAGE, estimate_rows
 from colonnade.store.records.stored import Stored
-from colonnade.store.records.wording import NOTHING, interval, quantity
 from colonnade.units import format_uncertain
+from colonnade.units.text import NOTHING, interval, quantity
 
 
 class EstimateText(NamedTuple):

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from colonnade.campaign.setup import ShakeTable
 from colonnade.errors import count
-from colonnade.store.records.wording import probability, quantity
+from colonnade.units.text import probability, quantity
 
 HEADS = ("specimen", "next", "risk", "tests left", "why")
 """Of a table of advice, see `Advice.row`."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from colonnade.assessment.intensity.registry import measure_of
 from colonnade.campaign.assessing.assessed import UNCORRECTED, AssessmentSummary, Estimate, Variant
-from colonnade.store.records.wording import NOTHING, number, quantity
 from colonnade.units import PERCENT, with_minus
+from colonnade.units.text import NOTHING, number, quantity
 
 NOT_COVERED = (
     "Not covered: columns of several drums, a plinth or a capital that moves by itself, anchorage, rocking in two "

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from colonnade.campaign.forms.forecast import ForecastBand, ForecastTable, ModelForecast
-from colonnade.store.records.wording import number, quantity
 from colonnade.units import format_percent
+from colonnade.units.text import number, quantity
 
 FORESEEN = (
     *("no rocking", "rocking", "overturned"),

@@ -15,8 +15,8 @@ from colonnade.identification.advice.span import SpanAdvice, advise_span
 from colonnade.stages.parts.foreseen import felt, plan_of, run_forecast
 from colonnade.store.layout import Layout
 from colonnade.store.records.advice import Advice, beyond
-from colonnade.store.records.wording import number, probability
 from colonnade.units import format_percent
+from colonnade.units.text import number, probability
 from colonnade.workflow.forecasting.foresee import inputs_of
 from colonnade.workflow.forecasting.motions import recorded
 

@@ -11,8 +11,8 @@ from colonnade.campaign import Campaign
 from colonnade.campaign.forms.summary import TestSummary
 from colonnade.identification.advice.restitution import LAST_PEAK, advise_free_vibration
 from colonnade.store.records.advice import Advice
-from colonnade.store.records.wording import number
 from colonnade.units import format_uncertain
+from colonnade.units.text import number
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -17,8 +17,8 @@ from colonnade.identification.advice.prior import BoundaryPrior
 from colonnade.identification.advice.sine import SineAdvice, advise_sine_tests
 from colonnade.identification.response.boundaries import SAME_FREQUENCY, MapPoint
 from colonnade.store.records.advice import Advice, beyond, demand_of_sine
-from colonnade.store.records.wording import number, quantity
 from colonnade.units import format_percent
+from colonnade.units.text import number, quantity
 
 AMPLITUDES = np.linspace(0.5, 8.0, 151)
 """A that are scanned for a predicted limit."""

@@ -61,7 +61,7 @@ def with_photos(campaign: Campaign, layout: Layout, catalogue: Catalogue) -> Cam
             found.append(finding_of(test, error))
     for stale in set(folder.glob("photos/*.jpg")) - there:
         files.remove(stale)
-    return replace(campaign, warnings=(*campaign.warnings, *found))
+    return campaign.but(warnings=(*campaign.warnings, *found))
 
 
 def unshown_photos(campaign: Campaign) -> list[Finding]:

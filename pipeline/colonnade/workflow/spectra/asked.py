@@ -17,7 +17,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.errors import CampaignError, UnitError
 from colonnade.stages.assessing.column import real_column
 from colonnade.store.layout import Layout
-from colonnade.store.records.wording import number
+from colonnade.units.text import number
 from colonnade.workflow.real_column import AskedColumn, find_column
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.assessment.intensity.registry import measure_of
 from colonnade.dynamics.spectra.pulses import pulse_of
-from colonnade.store.records.wording import NOTHING, acceleration, number, quantity, ratio
+from colonnade.units.text import NOTHING, acceleration, number, quantity, ratio
 from colonnade.workflow.spectra.asked import Column
 from colonnade.workflow.spectra.spectrum import Overturning, Rocking
 

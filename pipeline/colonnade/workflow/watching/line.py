@@ -8,7 +8,7 @@ from typing import Any
 
 from colonnade.campaign.forms.summary import RestitutionSummary, TestSummary, Warned
 from colonnade.findings import Finding, Severity, as_record
-from colonnade.store.records.wording import interval, listed, number
+from colonnade.units.text import interval, listed, number
 
 
 @dataclass(frozen=True)

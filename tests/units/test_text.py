@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import math
 import re
+from math import inf, nan
 from pathlib import Path
 
 import pytest
@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from colonnade import units
+from colonnade.units import text as written
 from every import every
 
 
@@ -25,7 +26,7 @@ from every import every
         (0.23204, 0.0012, "mm", "232.0 ± 1.2 mm"),
         (0.9760003, 0.0000008, "", "0.9760003 ± 0.0000008"),
         (0.97608, 0.0, "", "0.9761"),
-        (0.97608, math.nan, "", "0.9761"),
+        (0.97608, nan, "", "0.9761"),
     ],
 )
 def test_half_width_sets_the_digits(value, half_width, unit, written):
@@ -39,13 +40,42 @@ def test_what_is_written_is_right_to_a_digit_of_the_half_width(value, half_width
     assert width == pytest.approx(half_width, rel=0.26)
 
 
-def test_quantity_is_written_in_its_unit():
-    assert units.format_quantity(0.086, "mm") == "86 mm"
-    assert units.format_quantity(9.80665, "g", digits=4) == "1 g"
-
-
 def test_percentages_are_written_in_one_form_that_no_line_breaks():
     package = Path(units.__file__).parents[1]
     sources, templates = ([path.read_text("utf-8") for path in package.rglob(f"*.{kind}")] for kind in ("py", "jinja"))
     assert not [found for text in sources for found in re.findall(r".*(?::[-+.,\w]*%\}|\} %[\w ]).*", text)]
     assert not [found for text in templates for found in re.findall(r".*\d %(?!\}).*", text)]
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(0.41234, "0.412"), (0.0, "0"), (123456.0, "123000"), (2e-6, "2·10⁻⁶"), (nan, "–"), (inf, "–"), (None, "–")],
+)
+def test_numbers_are_rounded_and_never_nan(value, text):
+    assert written.number(value) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"), [(0.23202, "mm", "232 mm"), (2.0, "mm", "2000 mm"), (nan, "s", "–"), (None, "s", "–")]
+)
+def test_quantities_carry_their_unit(value, unit, text):
+    assert written.quantity(value, unit) == text
+
+
+def test_an_acceleration_is_given_in_both_units():
+    assert written.acceleration(9.80665) == "9.81 m/s² (1 g)"
+    assert written.acceleration(nan) == "–"
+
+
+def test_an_interval_has_as_many_digits_as_its_half_width_allows():
+    assert written.interval(0.97608, 0.97528, 0.97688, 0.95) == "0.9761 ± 0.0008"
+    assert written.interval(0.97608, 0.97528, 0.97688, 0.9) == "0.9761 ± 0.0008 (90\u00a0% interval)"
+    assert written.interval(0.9760003, 0.9759995, 0.9760011, 0.95) == "0.9760003 ± 0.0000008"
+    assert written.interval(0.9, nan, nan, 0.95) == "0.9"
+    assert written.interval(nan, nan, nan, 0.95) == "–"
+
+
+def test_what_is_below_a_thousandth_of_the_critical_angle_is_written_as_that():
+    assert [written.ratio(value) for value in (9.99e-4, 1e-3, 0.0)] == ["< 0.001", "0.001", "0"]
+    assert [written.signed_ratio(value) for value in (-9.99e-4, -0.001, 0.25)] == ["< 0.001", "−0.001", "+0.25"]
+    assert written.signed_ratio(nan) == "–"

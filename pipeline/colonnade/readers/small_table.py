@@ -1,0 +1,181 @@
+"""Small tables that people write, as CSV or in a workbook: test logs, lists of records, hazard curves."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+
+from colonnade.errors import ReadError, nearest, quoted
+from colonnade.readers.files import irregular, unreachable
+from colonnade.readers.text.encoding import detect_encoding, looks_binary, open_text
+
+LARGEST_BYTES = 10_000_000
+MOST_ROWS = 10_000
+MOST_COLUMNS = 1000
+WORKBOOKS = (".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
+
+_HEAD = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*")
+
+
+@dataclass(frozen=True)
+class Head:
+    """Head of a column, `interval [ms]`: its name, and its unit or None."""
+
+    name: str
+    unit: str | None
+
+
+@dataclass(frozen=True)
+class SmallTable:
+    """
+    A table as people write it.
+
+    Attributes
+    ----------
+    name : str
+        Of its file.
+    heads : tuple of Head
+    rows : tuple of (int, tuple of str)
+        Number of each row in the file, and its cells, as many as there are heads.
+    faults : tuple of (int, str)
+        Number of each row that cannot be used, and why.
+    has_decimal_comma : bool
+        Whether a comma in a number is its decimal sign: it does not divide the cells.
+    """
+
+    name: str
+    heads: tuple[Head, ...]
+    rows: tuple[tuple[int, tuple[str, ...]], ...]
+    faults: tuple[tuple[int, str], ...]
+    has_decimal_comma: bool
+
+    def places(self, known: Collection[str], ignored: str) -> tuple[dict[str, int], list[str]]:
+        """
+        Find the columns that are known by their heads, in whatever case.
+
+        Parameters
+        ----------
+        known : collection of str
+        ignored : str
+            What is said of another column: "is not a key of a test".
+
+        Returns
+        -------
+        places : dict of str to int
+        notes : list of str
+            On columns that are ignored.
+
+        Raises
+        ------
+        ReadError
+            If a head is there twice, or nearly one that is known; with a line for each.
+        """
+        places: dict[str, int] = {}
+        notes, wrong = [], []
+        for index, head in enumerate(self.heads):
+            name = head.name.casefold()
+            if name in places:
+                wrong.append(f"{self.name}: duplicate column head {quoted(head.name)}.")
+            elif name in known:
+                places[name] = index
+            elif get_close_matches(name, known, n=1, cutoff=0.75):
+                wrong.append(f"{self.name}: unknown column {quoted(head.name)}.{nearest(head.name, known)}")
+            elif name:
+                notes.append(f"{self.name}: column {quoted(head.name)} {ignored}; it is ignored.")
+        if wrong:
+            raise ReadError("\n".join(wrong))
+        return places, notes
+
+    def quantity(self, index: int, cell: str) -> str:
+        """Write the number in a cell of a column with a decimal point, and with the unit of the head if it has none."""
+        text = re.sub(r"(?<=[0-9]),(?=[0-9])", ".", cell) if self.has_decimal_comma else cell
+        unit = self.heads[index].unit
+        return f"{text} {unit}" if unit and re.fullmatch(r"[-+0-9.eE]+", text) else text
+
+
+def read_table(path: Path, what: str) -> SmallTable:
+    """
+    Read a small table: comma, semicolon or tab, or the first sheet of a workbook.
+
+    It has one row of heads; empty rows and rows that begin with # are left out.
+
+    Parameters
+    ----------
+    path : Path
+    what : str
+        What it is, for messages: "a list of records".
+
+    Raises
+    ------
+    ReadError
+        If it cannot be opened, is no such table, or is too large for one.
+    """
+    try:
+        if kind := irregular(path):
+            raise ReadError(f"{path.name}: this is {kind}; {what} was expected.")
+        if (size := path.stat().st_size) > LARGEST_BYTES:
+            raise ReadError(f"{path.name}: {size} bytes are too many for {what}; is it a recording?")
+        faults: list[tuple[int, str]] = []
+        if path.suffix.lower() in WORKBOOKS:
+            from colonnade.readers.binary.excel import cells_of_first_sheet
+
+            delimiter, rows = "", list(enumerate(cells_of_first_sheet(path), 1))
+        else:
+            with open_text(path, detect_encoding(path).name) as stream:
+                text = stream.read(LARGEST_BYTES).removeprefix("\ufeff")
+            if said := looks_binary(text.splitlines()):
+                raise ReadError(f"{path.name}: it is no text ({said}). {what.capitalize()} as CSV was expected.")
+            first = next((line for line in text.splitlines() if line.strip() and line[0] != "#"), "")
+            delimiter = max(",;\t", key=first.count)
+            rows = list(_rows(text, delimiter, faults))
+    except OSError as error:
+        raise ReadError(unreachable(path, error)) from None
+    except ValueError as error:
+        raise ReadError(f"{path.name}: {error}.") from None
+    rows = [(number, [cell.strip() for cell in cells]) for number, cells in rows]
+    rows = [(number, cells) for number, cells in rows if any(cells) and not cells[0].startswith("#")]
+    if not rows:
+        said = f" ({faults[0][1]})" if faults else ""
+        expected = f"{what.capitalize()} with a row of column heads was expected."
+        raise ReadError(f"{path.name}: the file is empty{said}. {expected}")
+    heads = tuple(map(_head, rows[0][1]))
+    if len(rows) > MOST_ROWS or len(heads) > MOST_COLUMNS:
+        raise ReadError(
+            f"{path.name}: {len(rows)} rows of {len(heads)} columns are too many for {what}; at most {MOST_ROWS} of "
+            f"{MOST_COLUMNS} were expected. Delete stray cells."
+        )
+    fitting = []
+    for number, cells in rows[1:]:
+        if any(cells[len(heads) :]):
+            fault = f"{len(cells)} cells are below {len(heads)} heads, the last {quoted(cells[-1])}. "
+            faults.append((number, f"{fault}Put a cell that holds the separator in quotes."))
+        else:
+            fitting.append((number, (*cells[: len(heads)], *("",) * (len(heads) - len(cells)))))
+    return SmallTable(path.name, heads, tuple(fitting), tuple(sorted(faults)), delimiter != ",")
+
+
+def _rows(text: str, delimiter: str, faults: list[tuple[int, str]]) -> Iterator[tuple[int, list[str]]]:
+    """Give the rows of CSV by number; those that are none go into the faults."""
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True)
+    number = 0
+    while True:
+        number = reader.line_num + 1
+        try:
+            yield number, next(reader)
+        except StopIteration:
+            return
+        except csv.Error as error:
+            faults.append((number, f"this is no row of a table ({error})."))
+
+
+def _head(cell: str) -> Head:
+    found = _HEAD.fullmatch(cell)
+    if found is None:
+        return Head(cell.strip(), None)
+    unit = found["unit"]
+    return Head(found["name"].strip(), None if unit is None else unit.strip())
