@@ -86,6 +86,33 @@ def test_a_transducer_behind_a_high_pass_is_named_with_its_corner(corner, part, 
     assert f"{corner:.1g}" in found.text
 
 
+@pytest.mark.parametrize("corner", [0.2, 0.6, 2.0])
+def test_one_alone_behind_a_high_pass_is_named_where_the_table_shakes(corner, shaken):
+    rotation, base, _ = shaken
+    found = undone(INTERVAL, _coupled(rotation, corner).only([0]), base, PRISM)
+    assert f"a high-pass of {corner:.1g} Hz" in found.text
+
+
+@pytest.mark.parametrize("corner", [0.1, 0.3, 1.0])
+def test_one_alone_behind_a_high_pass_is_named_in_a_free_vibration(corner, shaken):
+    rotation, _, _ = shaken
+    history = rock(PRISM, restitution=0.93, theta0=0.09, duration=11.0, model="nonlinear")
+    held = np.interp(TIME - 1.0, history.time, history.angle)
+    readings = np.interp(held, ANGLES, rotation.responses[0]) + np.random.default_rng(1).normal(0, NOISE, TIME.size)
+    released = replace(rotation.only([0]), readings=readings[None], refixed=None)
+    assert undone(INTERVAL, released, None, PRISM) is None
+    coupled = _coupled(replace(released, readings=released.readings - readings[0]), corner).readings
+    found = undone(INTERVAL, replace(released, readings=coupled - coupled[:, -100:].mean()), None, PRISM)
+    assert f"a high-pass of {corner:.1g} Hz" in found.text
+
+
+def test_one_alone_that_is_sound_or_under_which_the_block_walks_is_not_behind_a_high_pass(shaken):
+    rotation, base, _ = shaken
+    for walked in (0.0, 0.0016, 0.005):
+        moved = _changed(rotation, [0], walked * np.clip((TIME - 2) / 5, 0, 1)).only([0])
+        assert undone(INTERVAL, moved, base, PRISM) is None
+
+
 def test_what_hardly_shows_is_not_told(shaken):
     rotation, base, _ = shaken
     angle = rotation.angle(0)

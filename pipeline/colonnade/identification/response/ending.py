@@ -98,7 +98,7 @@ def ending(
         "rest",
         f"At its end the specimen is at rest at {share:.2g} α, where no block stands by itself: {cause}; or a zero "
         "taken while it leaned (`zero`). It may have overturned; the peak and the outcome are not to be used.",
-        follows=("end of the range", "dead channel"),
+        follows=("end of the range", "dead channel", "AC coupling"),
     )
 
 
@@ -118,7 +118,7 @@ def _elsewhere(level: float, share: float, lever: float | None) -> Finding:
         "zero",
         f"The specimen rocks about, and comes to rest at, {share:.2g} α: its zero was taken while it leaned or was "
         f"held (`zero`){walked}. Angles and peaks of either side are wrong by up to as much.",
-        follows=("end of the range", "dead channel"),
+        follows=("end of the range", "dead channel", "AC coupling"),
     )
 
 
