@@ -93,122 +93,28 @@ WRONG = [
         'line 5: gravity: 9.8 has no unit. A quantity in quotes was expected, such as "9.81 m/s^2".',
     ),
     ('width = "86 mm"', 'width = "86"', 'line 8: specimens.prism.width: "86" has no unit. A length was expected'),
-    ('width = "86 mm"', 'width = "86,0 mm"', 'specimens.prism.width: "86,0 mm" has a decimal comma'),
     ('width = "86 mm"', 'widht = "86 mm"', 'specimens.prism.widht: Unknown key. Did you mean "width"?'),
-    (
-        'width = "86 mm"',
-        'width = "-86 mm"',
-        'prism.width: "-86 mm" was found. A value above zero was expected.',
-    ),
-    ('mass = "26.10 kg"', 'mass = "26.10 g"', 'specimens.prism.mass: "26.10 g": "g" is a unit of acceleration.'),
     ('shape = "cone"', 'shape = "kone"', 'specimens.cone: Unknown shape "kone". Did you mean "cone"?'),
     ('shape = "cone", ', "", 'specimens.cone: "shape" is missing.'),
-    ('["0.21 rad", "12 deg"]', '"100 deg"', "specimens.statue: No block has these numbers: critical_angle"),
-    ("restitution = 0.9}", "restitution = 1.2}", "specimens.statue.restitution: 1.2 was found."),
     ("cylinder =", "Prism =", 'specimens.Prism: This id differs from "prism" only in upper and lower case.'),
-    ("cylinder =", "con =", 'specimens.con: "con" is the name of a device on Windows.'),
-    ("cylinder =", '"a b" =', 'specimens.a b: "a b" cannot be an id.'),
-    (
-        'format = "delimited"',
-        'format = "delimitd"',
-        'setups.frame.file.format: Unknown format "delimitd". Did you mean',
-    ),
-    (
-        "decimal = ",
-        "decmal = ",
-        'setups.frame.file.decmal: Unknown option of format "delimited". Did you mean "decimal"?',
-    ),
-    ('catch = "0.3 rad"', 'catch = "0.3 m"', 'setups.frame.catch: "0.3 m": "m" is a unit of length. An angle'),
-    ("recorders.daq2", "recorders.Main", 'setups.frame.recorders.Main: "Main" is the recorder of the set-up\'s own'),
-    (
-        '"table_acceleration", ',
-        '"table_aceleration", ',
-        'clock.align: Unknown channel "table_aceleration" in this set-up. Did',
-    ),
-    ('"table_acceleration", ', '"table_acceleration_2", ', 'is not a channel of recorder "main".'),
-    (
-        "clock = {align",
-        "clock = {aling",
-        'setups.frame.recorders.daq2.clock: a table was found. Expected: "trigger" if',
-    ),
-    ('recorder = "daq2"', 'recorder = "daq3"', 'Unknown recorder "daq3" in this set-up. Did you mean "daq2"?'),
-    (
-        'gain = "10.02 mm/V"',
-        'gain = "10.02 mm"',
-        'channels.top.gain: "10.02 mm" times a recorded value in "V" is not a length.',
-    ),
-    ('unit = "V", gain = "10.02 mm/V"', 'unit = "V"', 'channels.top.unit: "V" is a unit of voltage.'),
-    ('offset = "-0.13 mm"', 'offset = "-0.13 V"', 'channels.top.offset: "-0.13 V": "V" is a unit of voltage.'),
-    ('range = "10 V"', 'range = "10 Hz"', 'channels.top.range: "10 Hz": "Hz" is a unit of frequency.'),
-    ('unit = "V"', 'unit = "Vlot"', 'channels.top.unit: Unknown unit "Vlot".'),
-    (
-        "direction = [1, 0, 0]",
-        "direction = [0, 0, 0]",
-        "channels.top.direction: [0, 0, 0] was found. A direction other than zero was expected",
-    ),
     ('on = "specimen", ', "", "channels.top.on: It is missing."),
     (', relative_to = "table"', "", 'channels.top.relative_to: It is missing. "table" or "ground" was expected'),
     ("bottom =", "TOP =", 'channels.TOP: This id differs from "top" only in case'),
-    ("table_displacement =", "table-acceleration =", "only in case or in '.', '-' and '_'"),
-    ("column = 3", "column = 0", "channels.bottom.column: 0 was found."),
     ('quantity = "acceleration"', 'quantity = "acceleraton"', '"acceleraton" was found. Did you mean "acceleration"?'),
-    ('lowpass = "25 Hz"', 'lowpass = "25 mm"', 'processing.lowpass: "25 mm": "mm" is a unit of length.'),
     ('lowpass = "25 Hz"', 'lowpas = "25 Hz"', 'processing.lowpas: Unknown key. Did you mean "lowpass"?'),
     (
         "level = 0.9",
         "level = 90",
         "processing.restitution.level: 90 was found. A number between 0.5 and 0.999999 was expected.",
     ),
-    (
-        'id = "span-2.0"',
-        'id = "Free-01"',
-        '"Free-01": It differs from "free-01" only in upper and lower case.',
-    ),
     ('id = "span-2.0"', 'id = "free-01"', "This id is used twice."),
     ('id = "span-2.0"', "", "tests[2].id: It is missing."),
     ('kind = "earthquake"', 'kind = "earthquakes"', 'tests[span-2.0].kind: "earthquakes" was found. Did you mean'),
-    (
-        'specimen = "prism"',
-        'specimen = "prsm"',
-        'tests[free-01].specimen: Unknown specimen "prsm". Did you mean',
-    ),
-    (
-        'setup = "frame"',
-        'setup = "fram"',
-        'tests[free-01].setup: Unknown setup "fram". Did you mean "frame"?',
-    ),
-    (
-        'daq2 = "raw/free',
-        'daq3 = "raw/free',
-        'tests[free-01].file.daq3: Unknown recorder "daq3" in set-up "frame". Did you',
-    ),
     ('main = "raw', 'daq2 = "raw', "this is not valid TOML"),
     (
         '{main = "raw/free-01.csv", ',
         "{",
         "tests[free-01].file: A file of each recorder was expected, among them `main`",
-    ),
-    (
-        '"raw/span20.csv"',
-        '"../span20.csv"',
-        'tests[span-2.0].file: "../span20.csv" is outside the campaign\'s folder',
-    ),
-    (
-        '["2 s", "14 s"]',
-        '["14 s", "2 s"]',
-        'tests[free-01].window: ["14 s", "2 s"] was found. The end has to come after',
-    ),
-    (
-        '["0 s", "0.5 s"]',
-        '"begin"',
-        'tests[free-01].zero: "begin" was found. A list of 2 was expected: start and end',
-    ),
-    ("span = 2.0", 'span = "2.0"', 'tests[span-2.0].span: "2.0" was found. A plain number was expected'),
-    ("span = 2.0", "span = nan", "tests[span-2.0].span: nan was found. A finite number was expected."),
-    (
-        '"overturned"',
-        '"fell"',
-        'tests[span-2.0].observed_outcome: "fell" was found. Choose one of: "overturned"',
     ),
     ("[processing]", "[processing", "this is not valid TOML: "),
 ]
@@ -228,7 +134,7 @@ def test_one_wrong_thing_is_told_with_its_place_and_what_to_do(right, wrong, tol
 
 def test_all_problems_are_told_at_once_in_the_order_of_the_file(load_text):
     text = CONTRACT
-    for right, wrong, _ in [WRONG[3], WRONG[6], WRONG[18], WRONG[24], WRONG[38], WRONG[44]]:
+    for right, wrong, _ in [each for each in WRONG if "Did you mean" in each[2]]:
         text = text.replace(right, wrong, 1)
     with pytest.raises(CampaignError) as caught:
         load_text(text)
@@ -326,16 +232,3 @@ def test_a_mutated_campaign_is_read_or_refused_with_a_place_never_a_traceback(tm
     except CampaignError as error:
         told = str(error)
     assert all(line.startswith("campaign.toml") for line in told.splitlines())
-
-
-@pytest.mark.parametrize(("specimen", "told"), [("prism", True), ("statue", True), ("cylinder", False)])
-def test_a_laser_needs_the_normal_of_its_face_unless_the_specimen_is_round(specimen, told, contract, load_text):
-    laser = """laser = {column = "L", quantity = "displacement", unit = "mm", on = "specimen", sensing = "surface",
-        at = ["48.5 mm", "0 mm", "400 mm"], direction = [1, 0, 0], relative_to = "table"}"""
-    text = contract.replace("[processing]", f"{' '.join(laser.split())}\n\n[processing]")
-    text = text.replace('specimen = "prism"', f'specimen = "{specimen}"')
-    if told:
-        with pytest.raises(CampaignError, match=r"channels\.laser\.normal.*outward normal of the face"):
-            load_text(text)
-    else:
-        assert load_text(text).setups["frame"].channels["laser"].normal is None

@@ -82,8 +82,6 @@ def test_several_corrections_multiply_and_several_trims_leave_what_they_share(re
     review = reviewed("schema = 1\n" + correct * 2 + trims).review("free-01")
     assert review.factors == {"table": 4.0}
     assert review.window == (3.0, 9.0)
-    assert review.within((0.0, 5.0)) == (3.0, 5.0)
-    assert review.within(None) == (3.0, 9.0)
 
 
 @pytest.mark.parametrize(
@@ -132,17 +130,6 @@ def test_nobody_decides_without_saying_who_when_and_why(reviewed, missing):
     signed = "".join(line for line in SIGNED.splitlines(keepends=True) if not line.startswith(missing))
     with pytest.raises(CampaignError, match=rf"exclude\[1\]\.{missing}: It is missing"):
         reviewed(f'schema = 1\n[[exclude]]\ntest = "free-01"\n{signed}')
-
-
-@pytest.mark.parametrize("when", ["2013-04-26", '"2013-04-26"', "2013-04-26T10:15:00"])
-def test_a_date_is_a_date_however_it_is_written(reviewed, when):
-    text = f'schema = 1\n[[exclude]]\ntest = "free-01"\nwho = "V. D."\nwhen = {when}\nwhy = "the video"\n'
-    assert "2013-04-26" in reviewed(text).review("free-01").excluded
-
-
-def test_a_day_that_is_none_is_refused(reviewed):
-    with pytest.raises(CampaignError, match=r"exclude\[1\]\.when: .*A date was expected"):
-        reviewed('schema = 1\n[[exclude]]\ntest = "free-01"\nwho = "V. D."\nwhen = "last week"\nwhy = "the video"\n')
 
 
 @pytest.mark.parametrize("text", ["schema = 2\n", "exclude = 3\nschema = 1", "this is no TOML", ""])

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import os
 import re
+from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.channel import MAIN
-from colonnade.campaign.syntax.document import natural, validated
+from colonnade.campaign.syntax.document import natural, unknown, validated
 from colonnade.campaign.syntax.names import folded
-from colonnade.campaign.syntax.places import unknown
 from colonnade.campaign.test import KINDS, Test
-from colonnade.campaign.watched import COUNTER, Watched
+from colonnade.campaign.watched import COUNTER
 from colonnade.errors import quoted
 from colonnade.findings import Finding, note, serious
+from colonnade.units.text import listed
 
 WITHOUT_TEST = "raw file without a test"
 """Kind of the findings about files of which no test was made."""
@@ -46,25 +47,44 @@ def find_tests(campaign: CampaignFile, folder: Path) -> tuple[tuple[Test, ...], 
     findings : tuple of Finding
         Files that fit a pattern and still make no test, and those that fit none.
     """
-    watched = campaign.watch
+    watched, names = campaign.watch, names_in(campaign)
     if not watched.pattern:
         return (), ()
-    listed = {path for test in campaign.tests for path in test.files.values()}
-    unlisted = [path for path in files_in(folder / watched.folder) if folder / watched.folder / path not in listed]
-    named, refused, strange = _sorted_by_name(watched, names_in(campaign), unlisted)
+    listed_files = {path for test in campaign.tests for path in test.files.values()}
+    there = [path for path in files_in(folder / watched.folder) if folder / watched.folder / path not in listed_files]
+    together: dict[str, tuple[dict[str, Any], dict[str, list[str]]]] = {}
+    refused: defaultdict[str, list[str]] = defaultdict(list)
+    strange = []
+    for path in sorted(there, key=natural):
+        whole = f"{watched.folder}/{path}"
+        matches = [(each, parts) for each in watched.pattern if (parts := each.match(path, names)) is not None]
+        if not matches:
+            strange.append(whole)
+        elif len(matches) > 1:
+            patterns = " and ".join(quoted(each.text) for each, _ in matches[:2])
+            refused[f"The name fits two patterns of [watch]: {patterns}."].append(whole)
+        else:  # files of the same parts are of one test, each of another recorder
+            pattern, parts = matches[0]
+            recorder = str(parts.pop("recorder", MAIN))
+            entry, files = together.setdefault(repr(sorted(parts.items())), ({}, {}))
+            if recorder == MAIN or not entry:
+                entry.update(pattern.entry(parts))
+            files.setdefault(recorder, []).append(whole)
     taken = {folded(test.id) for test in campaign.tests}
     tests: list[Test] = []
-    for entry, files in named:
+    for entry, files in together.values():
         try:
-            test = _test(campaign, entry, files, folder, taken)
+            tests.append(_test(campaign, entry, files, folder, taken))
         except ValueError as reason:
-            refused.setdefault(str(reason), []).append(next(iter(files.values()))[0])
+            refused[str(reason)].append(next(iter(files.values()))[0])
         else:
-            taken.add(folded(test.id))
-            tests.append(test)
-    findings = [_refused(reason, paths) for reason, paths in refused.items()]
+            taken.add(folded(tests[-1].id))
+    told = "no test was made of it. {} Rename it, give it an entry in [[tests]], or change `pattern` in [watch]."
+    findings = [
+        serious(WITHOUT_TEST, f"{listed(paths, 1)}: {told.format(reason)}") for reason, paths in refused.items()
+    ]
     if strange:
-        told = f"{_first(strange)}: no test names it, and its name fits no pattern of [watch]. It is not read."
+        told = f"{listed(strange, 1)}: no test names it, and its name fits no pattern of [watch]. It is not read."
         findings.append(note(WITHOUT_TEST, told))
     return tuple(tests), tuple(findings)
 
@@ -85,42 +105,6 @@ def files_in(folder: Path) -> Iterator[str]:
             elif entry.is_file(follow_symlinks=False) and count < MOST_FILES:
                 count += 1
                 yield Path(entry.path).relative_to(folder).as_posix()
-
-
-def _sorted_by_name(
-    watched: Watched, names: Mapping[str, Mapping[str, str]], unlisted: Iterable[str]
-) -> tuple[list[tuple[dict[str, Any], dict[str, list[str]]]], dict[str, list[str]], list[str]]:
-    """
-    Bring files of the same parts together, in the order of their names.
-
-    Returns
-    -------
-    named : list of (dict, dict of str to list)
-        Keys of each test by its name, and its files by recorder.
-    refused : dict of str to list
-        Files that fit several patterns, by the reason.
-    strange : list
-        Files that fit none.
-    """
-    together: dict[str, tuple[dict[str, Any], dict[str, list[str]]]] = {}
-    refused: dict[str, list[str]] = {}
-    strange = []
-    for path in sorted(unlisted, key=natural):
-        whole = f"{watched.folder}/{path}"
-        matches = [(each, match) for each in watched.pattern if (match := each.pattern.match(path, names)) is not None]
-        if not matches:
-            strange.append(whole)
-        elif len(matches) > 1:
-            patterns = " and ".join(quoted(each.pattern.text) for each, _ in matches[:2])
-            refused.setdefault(f"The name fits two patterns of [watch]: {patterns}.", []).append(whole)
-        else:
-            named, parts = matches[0]
-            recorder = str(parts.pop("recorder", MAIN))
-            entry, files = together.setdefault(repr(sorted(parts.items())), ({}, {}))
-            if recorder == MAIN or not entry:
-                entry.update(named.entry(parts))
-            files.setdefault(recorder, []).append(whole)
-    return list(together.values()), refused, strange
 
 
 def _test(
@@ -161,18 +145,6 @@ def _test(
         for _, message in unknown((key,), key, getattr(test, key), known):
             raise ValueError(message)
     return test
-
-
-def _refused(reason: str, paths: list[str]) -> Finding:
-    return serious(
-        WITHOUT_TEST,
-        f"{_first(paths)}: no test was made of it. {reason} Rename it, give it an entry in [[tests]], or change "
-        "`pattern` in [watch].",
-    )
-
-
-def _first(paths: list[str]) -> str:
-    return f"{paths[0]} and {len(paths) - 1} more" if len(paths) > 1 else paths[0]
 
 
 def names_in(campaign: CampaignFile) -> dict[str, dict[str, str]]:

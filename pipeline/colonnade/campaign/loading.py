@@ -11,9 +11,8 @@ from colonnade.campaign.notices import notices
 from colonnade.campaign.references import dangling
 from colonnade.campaign.review import read_review
 from colonnade.campaign.specimen import SHAPES
-from colonnade.campaign.syntax.document import parse, read_text, refusal, validated
+from colonnade.campaign.syntax.document import Place, Source, key_lines, parse, read_text, refusal, validated
 from colonnade.campaign.syntax.names import inside
-from colonnade.campaign.syntax.places import Place, Source, key_lines
 from colonnade.campaign.testlog import Log, read_log
 from colonnade.errors import CampaignError, ReadError
 from colonnade.findings import Finding

@@ -14,6 +14,7 @@ from colonnade.dynamics import density
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.findings import Finding, note, serious, warning
 from colonnade.units import format_percent
+from colonnade.units.text import listed
 
 OFF_SIDE = 0.02
 """Fraction of its radius by which the point of a line of sight may lie off the side of a round specimen."""
@@ -52,33 +53,28 @@ def notices(campaign: CampaignFile) -> tuple[Finding, ...]:
     for what, where in _unused(campaign):
         unused.setdefault(what, []).append(where)
     return (
-        *(_not_yet(what, places) for what, places in unused.items()),
+        *(warning("not used", f"{what} is valid but not used yet ({listed(at, 1)}).") for what, at in unused.items()),
         *dict.fromkeys(_implausible(campaign)),
         *dict.fromkeys(_odd(campaign)),
     )
 
 
-def _not_yet(what: str, places: list[str]) -> Finding:
-    more = f" and {len(places) - 1} more" if len(places) > 1 else ""
-    return warning("not used", f"{what} is valid but not used yet ({places[0]}{more}).")
-
-
 def _unused(campaign: CampaignFile) -> Iterator[tuple[str, str]]:
-    for name, setup in campaign.setups.items():
-        for channel_name, channel in setup.channels.items():
-            for what in _unused_of_channel(channel):
-                yield what, f"setups.{name}.channels.{channel_name}"
-
-
-def _unused_of_channel(channel: Channel) -> Iterator[str]:
-    if channel.quantity == "other":
-        return
-    if channel.quantity not in _USED.get("specimen" if channel.is_on_body else channel.on or "", ()):
-        yield f'quantity = "{channel.quantity}" on the {channel.on or "set-up"}'
-    elif channel.is_on_body and channel.quantity == "acceleration" and channel.at is None:
-        yield "an accelerometer on the specimen without `at`"
-    elif channel.on == "table" and channel.direction is not None and max(map(abs, channel.direction)) < ALONG:
-        yield "a motion of the table that is not along x, y or z"
+    """Give what no stage uses yet, and where it is."""
+    channels = [
+        (f"setups.{name}.channels.{each}", channel)
+        for name, setup in campaign.setups.items()
+        for each, channel in setup.channels.items()
+        if channel.quantity != "other"
+    ]
+    for place, channel in channels:
+        on = "specimen" if channel.is_on_body else channel.on or "set-up"
+        if channel.quantity not in _USED.get(on, ()):
+            yield f'quantity = "{channel.quantity}" on the {on}', place
+        elif channel.quantity == "acceleration" and on == "specimen" and channel.at is None:
+            yield "an accelerometer on the specimen without `at`", place
+        elif on == "table" and channel.direction is not None and max(map(abs, channel.direction)) < ALONG:
+            yield "a motion of the table that is not along x, y or z", place
 
 
 def _odd(campaign: CampaignFile) -> Iterator[Finding]:

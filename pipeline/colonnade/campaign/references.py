@@ -7,9 +7,9 @@ from collections.abc import Collection, Iterable, Iterator
 from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.channel import MAIN, SURROUNDINGS
 from colonnade.campaign.setup import Align, Setup
+from colonnade.campaign.syntax.document import Place, unknown
 from colonnade.campaign.syntax.fields import shown
 from colonnade.campaign.syntax.names import clashes
-from colonnade.campaign.syntax.places import Place, unknown
 from colonnade.errors import nearest
 
 Problem = tuple[Place, str]

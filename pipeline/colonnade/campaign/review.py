@@ -9,10 +9,10 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from colonnade.campaign.setup import Setup
-from colonnade.campaign.syntax.days import Day
-from colonnade.campaign.syntax.document import parse, read_text, refusal, validated
+from colonnade.campaign.syntax.document import Place, Source, key_lines, parse, read_text, refusal, unknown, validated
 from colonnade.campaign.syntax.fields import (
     FACTOR,
+    Day,
     Interval,
     Kind,
     Text,
@@ -23,7 +23,6 @@ from colonnade.campaign.syntax.fields import (
     shown,
 )
 from colonnade.campaign.syntax.names import inside
-from colonnade.campaign.syntax.places import Place, Source, key_lines, unknown
 from colonnade.campaign.syntax.table import Table
 from colonnade.campaign.test import Test
 from colonnade.errors import CampaignError

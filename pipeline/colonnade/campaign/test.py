@@ -10,8 +10,7 @@ from pydantic import Field, ValidationInfo, model_validator
 
 from colonnade.campaign.channel import MAIN
 from colonnade.campaign.syntax import fields
-from colonnade.campaign.syntax.days import Day
-from colonnade.campaign.syntax.fields import shown, text
+from colonnade.campaign.syntax.fields import Day, shown, text
 from colonnade.campaign.syntax.names import Identifier, inside
 from colonnade.campaign.syntax.table import Table, problem, refuse
 

@@ -37,12 +37,14 @@ def parts() -> tuple[str, ...]:
 @dataclass(frozen=True)
 class Pattern:
     """
-    A pattern of file names.
+    A pattern of names of raw files, and what is known of the tests that are named by it.
 
     Attributes
     ----------
     text : str
         As written: a path from the watched folder, with parts in braces.
+    given : dict
+        Keys of these tests as in [[tests]]; text in them may name parts, as in "{specimen}-table".
 
     Examples
     --------
@@ -52,6 +54,7 @@ class Pattern:
     """
 
     text: str
+    given: dict[str, Any] = field(default_factory=dict)
 
     @cached_property
     def units(self) -> dict[str, str]:
@@ -108,30 +111,6 @@ class Pattern:
         found = re.fullmatch("".join(pieces) + re.escape(self.text[end:].casefold()), path.casefold())
         return found and {part: self._value(part, found[part], names) for part in self.units}
 
-    def _value(self, part: str, written: str, names: Mapping[str, Mapping[str, str]]) -> str | float:
-        if part in WORDS:
-            return names[part][written]
-        if part == COUNTER:
-            return written
-        number = re.sub("[,p]", ".", written)
-        return f"{number} {self.units[part]}" if self.units[part] else float(number)
-
-
-@dataclass(frozen=True)
-class NamedTests:
-    """
-    Tests whose raw files are named by one pattern.
-
-    Attributes
-    ----------
-    pattern : Pattern
-    given : dict
-        Keys of these tests as in [[tests]]; text in them may name parts, as in "{specimen}-table".
-    """
-
-    pattern: Pattern
-    given: dict[str, Any] = field(default_factory=dict)
-
     def entry(self, parts: Mapping[str, str | float]) -> dict[str, Any]:
         """Give the keys of a test whose file's name has these parts; what the name says counts more."""
 
@@ -142,6 +121,14 @@ class NamedTests:
 
         return {key: filled(value) for key, value in self.given.items()} | dict(parts)
 
+    def _value(self, part: str, written: str, names: Mapping[str, Mapping[str, str]]) -> str | float:
+        if part in WORDS:
+            return names[part][written]
+        if part == COUNTER:
+            return written
+        number = re.sub("[,p]", ".", written)
+        return f"{number} {self.units[part]}" if self.units[part] else float(number)
+
 
 def _folder(value: object, info: ValidationInfo) -> str:
     if info.context:
@@ -149,11 +136,11 @@ def _folder(value: object, info: ValidationInfo) -> str:
     return text(value).strip("/")
 
 
-def _patterns(value: object) -> tuple[NamedTests, ...]:
+def _patterns(value: object) -> tuple[Pattern, ...]:
     return tuple(map(_named, value if isinstance(value, (list, tuple)) else [value]))
 
 
-def _named(value: object) -> NamedTests:
+def _named(value: object) -> Pattern:
     given = dict(value) if isinstance(value, Mapping) else {"file": value}
     written = given.pop("file", None)
     if not isinstance(written, str):
@@ -162,10 +149,10 @@ def _named(value: object) -> NamedTests:
     for key in given:
         if key not in allowed:
             raise ValueError(f"Unknown key {shown(key)} of a pattern.{nearest(str(key), ('file', *allowed))}")
-    pattern = Pattern(text(written).strip())
+    pattern = Pattern(text(written).strip(), given)
     if problems := list(pattern.problems()):
         raise ValueError(" ".join(problems))
-    return NamedTests(pattern, given)
+    return pattern
 
 
 def _words(value: object) -> dict[str, str]:
@@ -187,7 +174,7 @@ class Watched(Table):
     """Folder in which raw files appear, from the folder of the campaign file."""
     settle: Duration = 1.0
     """A file is finished when its size and time have not changed for this long."""
-    pattern: Annotated[tuple[NamedTests, ...], Kind(_patterns, _ENTRIES)] = ()
+    pattern: Annotated[tuple[Pattern, ...], Kind(_patterns, _ENTRIES)] = ()
     """Names of raw files, such as "{specimen}-{kind}-{number}.csv", each file a test; or a list of them, each with
     keys of its tests: {file = "{specimen}-free-{number}.csv", kind = "free-vibration", setup = "bench"}."""
     words: Annotated[dict[str, str], Kind(_words, _WORDS)] = Field(default={})

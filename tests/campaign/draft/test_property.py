@@ -36,8 +36,17 @@ WORDS = [
     "daq2",
     "prism",
     "con",
+    "El Centro",
+    "Kippversuch",
+    "noise_0",
+    "span999999999999999999",
+    "cone",
+    "0.0Hz",
+    "eq",
+    "a=b",
+    "x'y",
+    "é",
 ]
-WORDS += ["El Centro", "Kippversuch", "noise_0", "span999999999999999999", "cone", "0.0Hz", "eq", "a=b", "x'y", "é"]
 HEADS = [
     "LVDT 1",
     "Tischweg",

@@ -70,23 +70,13 @@ def test_a_voltage_asks_for_its_gain_and_a_file_without_clock_for_its_rate(folde
     assert channels(document)["acc"]["gain"].startswith("? g/")
 
 
-@pytest.mark.parametrize(
-    ("heading", "values", "reason"),
-    [
-        pytest.param("LED Light", SINE, "a synchronisation signal", id="sync"),
-        pytest.param("dead [mm]", np.full(TIME.size, 2.5), "it never changes", id="dead"),
-        pytest.param("Nr", np.arange(1.0, TIME.size + 1), "a running number", id="index"),
-        pytest.param("Output To Table [V]", SINE, "a command to the table", id="command"),
-        pytest.param("Voltage_27 [V]", SINE, "does not show what it measures", id="unknown"),
-    ],
-)
-def test_what_is_no_measurement_is_left_out_with_the_reason(folder, heading, values, reason):
-    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY, heading: values})
+def test_what_is_no_measurement_is_left_out_with_the_reason(folder):
+    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY, "LED Light": SINE})
     document, drafted = folder.draft()
     assert list(channels(document)) == ["lvdt_1"]
-    (told,) = (line for line in drafted.text.splitlines() if f'"{heading}"' in line)
+    (told,) = (line for line in drafted.text.splitlines() if '"LED Light"' in line)
     assert told.startswith("#")
-    assert reason in told
+    assert "a synchronisation signal" in told
 
 
 def test_a_channel_that_moves_in_one_file_is_not_dead_in_another(folder):
@@ -165,22 +155,6 @@ def test_what_is_no_recording_is_named_with_the_reason(folder):
     _, drafted = folder.draft()
     assert [name for name, _ in drafted.refused] == ["notes.csv", "tests.csv"]
     assert 'tests = "tests.csv"' in drafted.text
-
-
-def test_a_link_out_of_the_folder_is_not_followed(folder, tmp_path_factory):
-    outside = tmp_path_factory.mktemp("outside") / "free.csv"
-    folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
-    (folder.path / "free.csv").replace(outside)
-    (folder.path / "free.csv").symlink_to(outside)
-    with pytest.raises(CampaignError, match=r"no readable recording found.*(?s:.*)is outside"):
-        draft(folder.path)
-
-
-def test_results_of_an_earlier_run_are_not_taken_for_recordings(folder):
-    folder.write("raw/free.csv", {"LVDT 1 [mm]": DECAY})
-    folder.write("processed/summary.csv", {"LVDT 1 [mm]": DECAY})
-    document, _ = folder.draft()
-    assert [test["file"] for test in document["tests"]] == ["raw/free.csv"]
 
 
 def test_the_real_shake_table_recordings_of_others(shared_data, tmp_path):

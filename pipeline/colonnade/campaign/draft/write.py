@@ -8,8 +8,7 @@ from pathlib import Path
 
 from colonnade.campaign.campaign import SCHEMA
 from colonnade.campaign.channel import MAIN
-from colonnade.campaign.draft.arrange import DraftSetup, arrange, names_of
-from colonnade.campaign.draft.guess import DraftChannels, kind_lines
+from colonnade.campaign.draft.guess import DraftChannels, DraftSetup, arrange, kind_lines, names_of
 from colonnade.campaign.draft.survey import RawFile, survey
 from colonnade.campaign.draft.words import Line, as_id, comment, find, unique
 from colonnade.campaign.loading import FILE_NAME
