@@ -145,7 +145,20 @@ def _top_saturated(folder):
     path.write_text("\n".join([*head, *(",".join(f"{x:.6f}" for x in row) for row in rows), ""]), encoding="utf-8")
 
 
+def _alone_behind_a_high_pass(folder):
+    """One transducer is left, and it is AC-coupled."""
+    _in_campaign((r"bottom = \{.*\}\n", ""))(folder)
+    path = folder / "raw" / "free.csv"
+    head, rows = path.read_text(encoding="utf-8").splitlines()[:2], np.loadtxt(path, delimiter=",", skiprows=2)
+    rows[:, 1] = _high_pass(0.3)(rows[:, 0], rows[:, 1] - rows[0, 1])
+    path.write_text("\n".join([*head, *(",".join(f"{x:.6f}" for x in row) for row in rows), ""]), encoding="utf-8")
+
+
 MISTAKES = {
+    "AC-coupled alone": (
+        _alone_behind_a_high_pass,
+        r"serious \(AC coupling\): free: Channel top does not hold a constant value .*high-pass of 0.3 Hz",
+    ),
     "saturated under noise": (
         _top_saturated,
         r"serious \(end of the range\): quake: Channel top stands still .*: its transducer .* saturates",

@@ -117,9 +117,11 @@ def _coupled_alone(interval: float, rotation: Rotation, acceleration: Array | No
     if not coarse[best] < before:
         return None
     near = scipy.optimize.minimize_scalar(
-        lambda change: error(scale(CORNERS[best] * np.exp(change))), bounds=(-step if best else 0.0, step), method="bounded",
+        lambda change: error(scale(CORNERS[best] * np.exp(change))),
+        bounds=(-step if best else 0.0, step),
+        method="bounded",
         options={"xatol": 0.02},
-    )  # fmt: skip
+    )
     hertz = float(CORNERS[best] * np.exp(near.x))
     found, added = scale(hertz), 2 * np.pi * hertz * float(np.ptp(integral))
     is_seen = added > LEAST_LOST * float(np.nanmax(np.abs(rotation.readings[0])))
