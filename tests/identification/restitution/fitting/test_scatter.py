@@ -162,12 +162,11 @@ def test_a_column_that_is_there_is_not_chance():
     assert chance(replace(linear, values=linear.values + 3 * NOISE * column[:, 0]), column) < 1e-9
 
 
-def test_a_column_along_the_impacts_is_found_as_one_of_its_own():
+@pytest.mark.parametrize("interval", [None, INTERVAL], ids=["white noise", "noise of every knee"])
+def test_a_column_along_the_impacts_is_found_as_one_of_its_own(interval):
     """e that changes from impact to impact: as another column of X, wherever it is."""
-    linear, direction = (
-        scattered_model(9, scatter=1e-3, mean=1e-3),
-        np.linspace(-0.5, 0.5, IMPACTS),
-    )
+    linear = replace(scattered_model(9, scatter=1e-3, mean=1e-3), interval=interval)
+    direction = np.linspace(-0.5, 0.5, IMPACTS)
     within = reduced(SpectralModel(linear).all_products(), direction)
     along = (STEPS @ direction)[:, None]
     for order, fixed in (([2, 0, 1], np.hstack((along, FIXED))), ([0, 1, 2], np.hstack((FIXED, along)))):

@@ -72,7 +72,11 @@ def reduced(tried: Sequence[Products], direction: Array | None = None) -> Reduct
         Its product with Z becomes the last column of X.
     """
     unknowns = tried[0].lengths.size
-    all_columns = [products if direction is None else products.with_along(direction) for products in tried]
+    all_columns = tried
+    if direction is not None:
+        # One length for all knees, as of the other columns.
+        length = tried[0].length_along(direction)
+        all_columns = [products.with_along(direction, length) for products in tried]
     outer, side = np.array([each.outer for each in all_columns]), np.array([each.side for each in all_columns])
     spread, vectors = np.linalg.eigh(np.array([each.inner for each in tried]))
     spread = np.maximum(spread, 0.0)[:, :, None]

@@ -91,13 +91,16 @@ class Products:
     freedom: float
     least: float
 
-    def with_along(self, direction: Array) -> Products:
-        """Return the products with one more column of X, the last: Z times a direction, shape (m,)."""
-        along, across = self.inner @ direction, direction @ self.side
-        length = max(float(np.sqrt(direction @ along)), 1e-300)
-        last = np.append(across / length, 1.0)
+    def length_along(self, direction: Array) -> float:
+        """Length of Z times a direction, shape (m,)."""
+        return max(float(np.sqrt(direction @ self.inner @ direction)), 1e-300)
+
+    def with_along(self, direction: Array, length: float) -> Products:
+        """Return the products with one more column of X, the last: Z times a direction, shape (m,), over a length."""
+        along, across = self.inner @ direction / length, direction @ self.side / length
+        last = np.append(across, direction @ along / length)
         outer = np.vstack((np.column_stack((self.outer, last[:-1])), last))
-        side = np.column_stack((self.side, along / length))
+        side = np.column_stack((self.side, along))
         return replace(self, outer=outer, side=side, lengths=np.append(self.lengths, length))
 
 
