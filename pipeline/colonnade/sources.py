@@ -96,9 +96,5 @@ def _module(name: str) -> tuple[str, frozenset[str]]:
         if isinstance(node, (ast.Import, ast.ImportFrom)):
             start = f"{node.module}." if isinstance(node, ast.ImportFrom) else ""
             named |= {f"{start}{alias.name}" for alias in node.names}
-    around = {each[:end] for each in named for end in (*_dots(each), len(each))}
+    around = {each.rsplit(".", up)[0] for each in named for up in range(each.count(".") + 1)}
     return digest.hexdigest(), frozenset(around & _modules().keys() - {name})
-
-
-def _dots(name: str) -> list[int]:
-    return [place for place, sign in enumerate(name) if sign == "."]

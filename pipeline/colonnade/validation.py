@@ -12,15 +12,12 @@ from colonnade.arrays import Array
 
 Kind = TypeVar("Kind")
 
-_KINDS = {
+_KINDS = dict.fromkeys("SUT", "text") | {
     "b": "truth values",
     "c": "complex numbers",
     "M": "dates",
     "m": "time differences",
     "O": "Python objects",
-    "S": "text",
-    "U": "text",
-    "T": "text",
     "V": "records",
 }
 """What an array holds by the kind of its data type, where that is not real numbers."""
@@ -69,13 +66,11 @@ def number(
     26.1
     """
     plain = _plain(value)
-    if plain is None or plain != plain or (finite and not isfinite(plain)):
-        is_sound = False
-    else:
-        is_sound = low <= plain <= high and (above == -inf or plain > above) and (below == inf or plain < below)
-    if plain is None or not is_sound:
-        found = described(value) if plain is None else f"{described(value)} {unit}".rstrip()
-        raise ValueError(f"{name} is {found}; {expected} was expected")
+    if plain is None:
+        raise ValueError(f"{name} is {described(value)}; {expected} was expected")
+    is_inside = low <= plain <= high and (above == -inf or plain > above) and (below == inf or plain < below)
+    if not is_inside or (finite and not isfinite(plain)):  # NaN is inside of nothing
+        raise ValueError(f"{name} is {f'{described(value)} {unit}'.rstrip()}; {expected} was expected")
     return plain
 
 

@@ -20,8 +20,8 @@ from colonnade.stages import contact as calibrating
 from colonnade.stages import contact_ensemble as running
 from colonnade.stages import predict as predicting
 from colonnade.stages.contact import IDENTIFIED, law_variables
+from colonnade.store.description import VARIABLES
 from colonnade.store.records.stored import Stored
-from colonnade.store.variables import VARIABLES
 from prism import PRISM
 
 STEP = 3e-5

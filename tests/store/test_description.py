@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
@@ -11,8 +12,10 @@ from compliance_checker.cfunits import Unit
 from hypothesis import given
 from hypothesis import strategies as st
 
+from colonnade.dynamics.models.registry import MODELS
 from colonnade.errors import StoreError
-from colonnade.store.description import channel_attributes, describe, udunits, variable_name
+from colonnade.store.description import VARIABLES, channel_attributes, describe, udunits, variable_name
+from colonnade.store.results import STAGES
 
 CHANNEL_IDS = st.from_regex(r"[A-Za-z0-9][A-Za-z0-9._-]{0,8}((_channel)|(_quality)|(_recorded)){0,2}", fullmatch=True)
 
@@ -94,3 +97,42 @@ def test_a_variable_that_nobody_describes_is_refused_with_the_nearest_name():
 def test_an_unknown_quantity_is_refused():
     with pytest.raises(StoreError, match="channel top: 'displacment' is not a quantity"):
         channel_attributes("top", "displacment")
+
+
+def test_every_unit_of_the_table_is_one_that_udunits_reads():
+    for name, variable in VARIABLES.items():
+        if variable.units is not None:
+            assert Unit(variable.units) is not None, name
+
+
+def test_every_variable_is_of_some_stage_and_every_stage_has_some():
+    assert {stage for each in VARIABLES.values() for stage in each.stages} == set(STAGES)
+    assert [name for name, each in VARIABLES.items() if not each.stages] == []
+
+
+def stage_of(path, processed):
+    """Stage whose file this is."""
+    place = path.relative_to(processed).with_suffix("").as_posix()
+    patterns = {
+        stage: entry.file.format(subject=r".+", model=f"({'|'.join(MODELS)})") for stage, entry in STAGES.items()
+    }
+    [fitting] = [stage for stage, pattern in patterns.items() if re.fullmatch(pattern, place)]
+    return fitting
+
+
+@pytest.mark.parametrize("campaign", ["filled", "assessed", "foreseen"])
+def test_no_file_has_a_variable_that_its_stage_does_not_have(campaign, request):
+    if campaign == "filled":
+        processed = request.getfixturevalue("filled_campaign")[1].processed
+    elif campaign == "assessed":
+        processed = request.getfixturevalue("assessed") / "processed"
+    else:
+        processed = request.getfixturevalue("foreseen")[0] / "processed"
+    seen = set()
+    for path in processed.rglob("*.nc"):
+        stage = stage_of(path, processed)
+        seen.add(stage)
+        with netCDF4.Dataset(path) as stored:
+            known = set(stored.variables) & VARIABLES.keys()
+        assert {name for name in known if stage not in VARIABLES[name].stages} == set(), path
+    assert {"ingest", "condition", "rocking", "specimen"} <= seen

@@ -1,8 +1,7 @@
 """The NetCDF files: the result of each stage with its variables, from the tables that describe them when written."""
 
-from colonnade.store.description import FLAG_MEANINGS, FLAG_VALUES
+from colonnade.store.description import FLAG_MEANINGS, FLAG_VALUES, VARIABLES
 from colonnade.store.results import STAGES
-from colonnade.store.variables import VARIABLES
 from reference.markdown import code, table, target
 
 LEAD = """# Result files

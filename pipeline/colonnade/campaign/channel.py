@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 from math import hypot
 from typing import Annotated, Any, Self
 
@@ -59,19 +59,13 @@ def _gain(value: object) -> str:
     return gain
 
 
-def _unit(value: object) -> str:
-    return _readable(value, 'A unit in quotes, such as "V",', units.normalise_unit)
-
-
-def _quantity_text(value: object) -> str:
-    return _readable(value, 'A quantity with its unit in quotes, such as "10 V",', _number_and_unit)
-
-
 _QUANTITY_SCHEMA: dict[str, Any] = {"type": "string", "pattern": rf"^\s*{units.NUMBER_PATTERN}"}
 _GAIN_SCHEMA = {"anyOf": [_QUANTITY_SCHEMA | {"examples": ["10 mm/V"]}, {"type": "number"}]}
 Gain = Annotated[str, fields.Kind(_gain, _GAIN_SCHEMA)]
-Unit = Annotated[str, fields.Kind(_unit, {"type": "string", "examples": ["V", "mm", "g"]})]
-QuantityText = Annotated[str, fields.Kind(_quantity_text, _QUANTITY_SCHEMA)]
+_UNIT = partial(_readable, what='A unit in quotes, such as "V",', read=units.normalise_unit)
+_QUANTITY = partial(_readable, what='A quantity with its unit in quotes, such as "10 V",', read=_number_and_unit)
+Unit = Annotated[str, fields.Kind(_UNIT, {"type": "string", "examples": ["V", "mm", "g"]})]
+QuantityText = Annotated[str, fields.Kind(_QUANTITY, _QUANTITY_SCHEMA)]
 
 
 class Channel(Table):

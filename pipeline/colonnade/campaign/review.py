@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -65,10 +65,13 @@ class Entry(Table):
     why: Text
     """Why, for whoever reads the results."""
 
+    form: ClassVar[str] = ""
+    """What is done, in words, with the fields of the entry."""
+
     @property
     def what(self) -> str:
         """What is done, in words."""
-        raise NotImplementedError
+        return self.form.format(self)
 
     @property
     def said(self) -> str:
@@ -94,10 +97,7 @@ class Trim(Entry):
     window: Interval
     """The part that is used, in the file's own time, such as ["2 s", "14 s"]."""
 
-    @property
-    def what(self) -> str:
-        """What is done, in words."""
-        return f"only {self.window[0]:g} s to {self.window[1]:g} s used"
+    form = "only {0.window[0]:g} s to {0.window[1]:g} s used"
 
 
 class FlagStretch(Entry):
@@ -110,11 +110,7 @@ class FlagStretch(Entry):
     flag: Annotated[Literal["suspect", "fail"], one_of("suspect", "fail")] = Field(alias="as")
     """"suspect" (reported, still used) or "fail" (bridged)."""
 
-    @property
-    def what(self) -> str:
-        """What is done, in words."""
-        low, high = self.window
-        return f"channel {self.channel} from {low:g} s to {high:g} s flagged as {self.flag}"
+    form = "channel {0.channel} from {0.window[0]:g} s to {0.window[1]:g} s flagged as {0.flag}"
 
 
 class Correct(Entry):
@@ -125,10 +121,7 @@ class Correct(Entry):
     factor: Factor
     """What the gain has to be multiplied by: -1 turns the sign."""
 
-    @property
-    def what(self) -> str:
-        """What is done, in words."""
-        return f"gain of channel {self.channel} multiplied by {self.factor:g}"
+    form = "gain of channel {0.channel} multiplied by {0.factor:g}"
 
 
 class ReviewFile(Table):

@@ -19,7 +19,7 @@ from colonnade.laboratory.record import load_record
 from colonnade.laboratory.rig import prism_setups
 from colonnade.laboratory.runs import run_tests, write_truth
 from colonnade.laboratory.suite.site import add_site
-from colonnade.store.own_files import own_files
+from colonnade.store.files import own_files
 
 PRISM_RESTITUTION = 0.976
 """The paper's coefficient of restitution of the prism."""

@@ -212,14 +212,13 @@ def _beyond(
     best = int(np.argmax(correlation))
     if abs(best - middle) <= reach or correlation[best] < WEAKEST_CORRELATION:
         return None
-    better = _log_ratio(agreement, float(correlation[best]), independent) > RIVAL_EVIDENCE
-    return best - middle if at_border or better else None
+    near, far = (1 - max(each, 0.0) ** 2 for each in (agreement, float(correlation[best])))
+    return best - middle if at_border or _evidence(near, far, independent) > RIVAL_EVIDENCE else None
 
 
-def _log_ratio(agreement: float, other: float, independent: float) -> float:
-    """Log-likelihood by which the second correlation is better than the first."""
-    left, right = (max(1 - max(each, 0.0) ** 2, 1e-12) for each in (agreement, other))
-    return 0.5 * independent * float(np.log(left / right))
+def _evidence(misfit: float, other: float, independent: float) -> float:
+    """Log-likelihood by which what leaves the second misfit is better than what leaves the first."""
+    return 0.5 * independent * float(np.log(max(misfit, 1e-12) / max(other, 1e-12)))
 
 
 def _rival(first: Array, second: Array, correlation: Array, best: int, independent: float) -> int | None:
@@ -229,8 +228,7 @@ def _rival(first: Array, second: Array, correlation: Array, best: int, independe
     inner = correlation[1:-1]
     peaks = 1 + np.flatnonzero((inner > correlation[:-2]) & (inner >= correlation[2:]) & (inner > 0))
     for peak in sorted(peaks[peaks != best], key=lambda index: -float(correlation[index])):
-        ratio = _misfit(first, second, int(peak) - reach) / max(misfit, 1e-12)
-        if 0.5 * independent * np.log(max(ratio, 1e-12)) < RIVAL_EVIDENCE:
+        if _evidence(_misfit(first, second, int(peak) - reach), misfit, independent) < RIVAL_EVIDENCE:
             return int(peak) - reach
     return None
 
@@ -299,9 +297,9 @@ def _is_better(turned: Offset, offset: Offset, time: Array, first: Array, second
         shared = (time + shift >= time[0]) & (time + shift <= time[-1])
         return _misfit(first[shared], sign * spline(time[shared] + shift), 0)
 
-    ratio = unexplained(1.0, offset.seconds) / max(unexplained(-1.0, turned.seconds), 1e-12)
+    misfits = unexplained(1.0, offset.seconds), unexplained(-1.0, turned.seconds)
     independent = 2 * bandwidth_hz * float(time[-1] - time[0])
-    return ratio > OPPOSED and 0.5 * independent * float(np.log(ratio)) > RIVAL_EVIDENCE
+    return misfits[0] > OPPOSED * misfits[1] and _evidence(*misfits, independent) > RIVAL_EVIDENCE
 
 
 def find_rate(time: Array, reference: Array, values: Array, *, delay: float, bandwidth_hz: float) -> ClockRate | None:

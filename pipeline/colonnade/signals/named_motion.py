@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import scipy
@@ -75,8 +76,7 @@ class Series:
         return Series(self.acceleration[::step], self.interval * step)
 
 
-@dataclass(frozen=True)
-class Match:
+class Match(NamedTuple):
     """Largest correlation of a motion with a record, with its sign, and where in the record the motion begins, s."""
 
     correlation: float
@@ -162,28 +162,25 @@ def check_motion(
     if found.correlation >= AGREES:
         return _differences(record, name, named.stretched(scale), found, scale)
     if -found.correlation >= AGREES:
-        return [
-            warning(
-                "polarity",
-                f'the table moved as "{name}" with the other polarity (correlation {found.correlation:.2f}): reverse '
-                "the sign of the table's acceleration, or say so in the motion's name",
-                follows=("sign",),
-            )
-        ]
+        text = (
+            f'the table moved as "{name}" with the other polarity (correlation {found.correlation:.2f}): reverse '
+            "the sign of the table's acceleration, or say so in the motion's name"
+        )
+        return [warning("polarity", text, follows=("sign",))]
     begun = f'the table did not move as "{name}" at time scale {scale:.4g} (correlation {found.correlation:.2f}'
+    enough = max(AGREES, abs(found.correlation) + BETTER)
     other_scale = best_scale(record, named)
-    again = match(record, named.stretched(other_scale))
-    if abs(again.correlation) >= max(AGREES, abs(found.correlation) + BETTER):
-        turned = " and the other polarity" if again.correlation < 0 else ""
-        text = f"{begun}), but with time scale {other_scale:.4g}{turned} ({again.correlation:.2f}): check time_scale"
+    again = match(record, named.stretched(other_scale)).correlation
+    if abs(again) >= enough:
+        turned = " and the other polarity" if again < 0 else ""
+        text = f"{begun}), but with time scale {other_scale:.4g}{turned} ({again:.2f}): check time_scale"
         return [warning("time scale", text)]
     for other, series in others.items():
         likely = [value for value in (scale, best_scale(record, series)) if value > 0]
-        fit = max((match(record, series.stretched(value)) for value in likely), key=lambda each: abs(each.correlation))
-        if abs(fit.correlation) >= max(AGREES, abs(found.correlation) + BETTER):
+        fit = max((match(record, series.stretched(value)).correlation for value in likely), key=abs)
+        if abs(fit) >= enough:
             text = (
-                f'{begun}): it moved as "{other}" ({fit.correlation:.2f}): another component was read, or the '
-                "wrong motion is named"
+                f'{begun}): it moved as "{other}" ({fit:.2f}): another component was read, or the wrong motion is named'
             )
             return [warning("another motion", text)]
     text = f"{begun}; {AGREES:g} is needed): it is another motion, or the table did not follow"
@@ -192,8 +189,7 @@ def check_motion(
 
 def match(record: Series, motion: Series) -> Match:
     """Find where in a record a motion fits best, whatever its amplitude and sign."""
-    first, second = _below_one_cutoff(record, motion)
-    return _correlated(first, second)
+    return _correlated(*_below_one_cutoff(record, motion))
 
 
 def best_scale(record: Series, motion: Series) -> float:
@@ -205,10 +201,8 @@ def best_scale(record: Series, motion: Series) -> float:
     scales = about * np.exp(SCALE_STEP * np.arange(-steps, steps + 1))
     first, second = _below_one_cutoff(record, motion.stretched(about))
     coarse = first.every(max(int(1 / (OVERSAMPLING * _cutoff(motion.stretched(about)) * record.interval)), 1))
-    fits = [
-        abs(_correlated(coarse, second.stretched(scale / about).at(coarse.interval)).correlation) for scale in scales
-    ]
-    return float(scales[int(np.argmax(fits))])
+    tried = (second.stretched(scale / about).at(coarse.interval) for scale in scales)
+    return float(scales[int(np.argmax([abs(_correlated(coarse, each).correlation) for each in tried]))])
 
 
 def _correlated(first: Series, second: Series) -> Match:
@@ -240,11 +234,8 @@ def _cutoff(motion: Series) -> float:
     spectrum = np.abs(np.fft.rfft(motion.acceleration - motion.acceleration.mean())) ** 2
     frequency = np.fft.rfftfreq(motion.acceleration.size, motion.interval)
     share = np.cumsum(spectrum) / max(float(spectrum.sum()), 1e-300)
-    return float(
-        max(
-            frequency[np.searchsorted(share, MOST_POWER)], FEWEST_SAMPLES / (motion.acceleration.size * motion.interval)
-        )
-    )
+    least = FEWEST_SAMPLES / (motion.acceleration.size * motion.interval)
+    return float(max(frequency[np.searchsorted(share, MOST_POWER)], least))
 
 
 def _duration(series: Series) -> float:
@@ -262,14 +253,15 @@ def _differences(record: Series, name: str, motion: Series, found: Match, scale:
     begin = round(found.start / interval)
     inside = slice(max(-begin, 0), min(other.size, one.size - begin))
     energy = np.cumsum(other**2) / float(other @ other)
-    told = []
-    before, after = float(energy[inside.start]) if inside.start else 0.0, 1 - float(energy[inside.stop - 1])
-    if before > LEAST_ENERGY:
-        missing = f'the first {inside.start * interval:.3g} s of "{name}" are missing from the record'
-        told.append(warning("cut motion", missing))
-    if after > LEAST_ENERGY:
-        missing = f'the last {(other.size - inside.stop) * interval:.3g} s of "{name}" are missing from the record'
-        told.append(warning("cut motion", missing))
+    lost = {
+        f"the first {inside.start * interval:.3g} s": energy[inside.start] if inside.start else 0.0,
+        f"the last {(other.size - inside.stop) * interval:.3g} s": 1 - energy[inside.stop - 1],
+    }
+    told = [
+        warning("cut motion", f'{part} of "{name}" are missing from the record')
+        for part, share in lost.items()
+        if share > LEAST_ENERGY
+    ]
     given = other[inside]
     recorded = one[inside.start + begin : inside.stop + begin]
     size = max(int(STRETCH * scale / interval), 4)
@@ -286,8 +278,8 @@ def _differences(record: Series, name: str, motion: Series, found: Match, scale:
         told.append(
             warning(
                 "cut motion",
-                f'the table did not move as "{name}" from {low:.3g} to {high + STRETCH:.3g} s of its own '
-                "time: a part is missing or differs",
+                f'the table did not move as "{name}" from {low:.3g} to {high + STRETCH:.3g} s of its own time: a part '
+                "is missing or differs",
             )
         )
     return told

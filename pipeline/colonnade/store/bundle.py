@@ -9,7 +9,7 @@ from typing import IO
 
 from colonnade.errors import StoreError
 from colonnade.store import files
-from colonnade.store.own_files import own_files
+from colonnade.store.files import own_files
 
 SUFFIX = ".zip"
 FIRST_DAY = (1980, 1, 1, 0, 0, 0)

@@ -7,14 +7,16 @@ undescribed.
 
 from __future__ import annotations
 
+import csv
 import re
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from colonnade import units
 from colonnade.errors import StoreError, UnitError, nearest
-from colonnade.store.variables import COORDINATE, MEASURED, MODELLED, QUALITY, VARIABLES, Variable
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,14 +25,6 @@ FLAG_VALUES = (1, 2, 3, 4, 9)
 FLAG_MEANINGS = "good not_evaluated suspect fail missing"
 MODEL_STAGES = frozenset({"contact", "predict", "ensemble", "map"})
 
-_QUANTITY_UNITS = {
-    "displacement": "m",
-    "velocity": "m s-1",
-    "acceleration": "m s-2",
-    "angle": "rad",
-    "angular_velocity": "rad s-1",
-    "force": "N",
-}
 _UDUNITS = frozenset({"V", "mV", "A", "mA", "m", "cm", "mm", "um", "s", "ms", "Hz", "kHz", "N", "kN", "rad", "mrad"})
 """Units that are spelt alike here and in UDUNITS; there `g` is the gram, so that all others are written in SI."""
 
@@ -100,15 +94,13 @@ def channel_attributes(channel_id: str, quantity: str, recorded_unit: str | None
     StoreError
         If the quantity is none of these.
     """
-    if quantity == "other":
-        unit = udunits(recorded_unit)
-    elif quantity in _QUANTITY_UNITS:
-        unit = _QUANTITY_UNITS[quantity]
-    else:
+    if quantity not in units.QUANTITY_DIMENSIONS:
         raise StoreError(
             f"channel {channel_id}: '{quantity}' is not a quantity that can be stored."
-            + nearest(quantity, [*_QUANTITY_UNITS, "other"])
+            + nearest(quantity, units.QUANTITY_DIMENSIONS)
         )
+    dimension = units.QUANTITY_DIMENSIONS[quantity]
+    unit = "N" if dimension == "force" else units.DIMENSIONS[dimension][0] if dimension else udunits(recorded_unit)
     words = "" if quantity == "other" else f"{quantity.replace('_', ' ')}, "
     return Variable(f"{words}channel {channel_id}", unit, MEASURED).attributes()
 
@@ -181,3 +173,82 @@ def _flag_attributes(name: str) -> dict[str, Any]:
     if name == "outcome":
         return {"flag_values": np.array([0, 1, 2], dtype=np.int8), "flag_meanings": "no_rocking rocking overturned"}
     return {"flag_values": np.array(FLAG_VALUES, dtype=np.int8), "flag_meanings": FLAG_MEANINGS}
+
+
+MEASURED = "physicalMeasurement"
+MODELLED = "modelResult"
+AUXILIARY = "auxiliaryInformation"
+QUALITY = "qualityInformation"
+COORDINATE = "coordinate"
+
+
+@dataclass(frozen=True)
+class Variable:
+    """
+    How one variable is stored and described.
+
+    Attributes
+    ----------
+    long_name : str
+        In words.
+    units : str or None
+        UDUNITS spelling; "1" for a number, None for text and flags.
+    content : str
+        ACDD coverage_content_type.
+    standard_name : str or None
+        Where CF has one; rocking has almost none.
+    dtype : str
+        numpy's name; "str" for text.
+    comment : str or None
+        Sign, frame or definition, where the name does not say it.
+    stages : tuple of str
+        Whose results may have it.
+    """
+
+    long_name: str
+    units: str | None = "1"
+    content: str = AUXILIARY
+    standard_name: str | None = None
+    dtype: str = "float64"
+    comment: str | None = None
+    stages: tuple[str, ...] = ()
+
+    def attributes(self) -> dict[str, Any]:
+        """CF and ACDD attributes, those that are not given left out."""
+        given = {
+            "long_name": self.long_name,
+            "standard_name": self.standard_name,
+            "units": self.units,
+            "coverage_content_type": self.content,
+            "comment": self.comment,
+        }
+        return {name: value for name, value in given.items() if value is not None}
+
+
+_CONTENTS = {
+    "measured": MEASURED,
+    "modelled": MODELLED,
+    "auxiliary": AUXILIARY,
+    "quality": QUALITY,
+    "coordinate": COORDINATE,
+}
+"""ACDD's words for the column `content`."""
+
+
+def _table() -> dict[str, Variable]:
+    with Path(__file__).with_name("variables.csv").open(encoding="utf-8", newline="") as stream:
+        return {
+            row["name"]: Variable(
+                row["long_name"],
+                row["units"] or None,
+                _CONTENTS[row["content"]],
+                row["standard_name"] or None,
+                row["dtype"],
+                row["comment"] or None,
+                tuple(row["stages"].split()),
+            )
+            for row in csv.DictReader(stream)
+        }
+
+
+VARIABLES = _table()

@@ -27,7 +27,7 @@ COMPARED = {"predict": "predicted", "ensemble": "ensembles"}
 FORMATS = "colonnade.readers"
 """The readers: formats are loaded by name, so that no import of a stage shows that they are used."""
 
-_STORED_BY = ("colonnade.store.description", "colonnade.store.variables", __name__)
+_STORED_BY = ("colonnade.store.description", "colonnade.store.description", __name__)
 """Modules that take part in every result."""
 
 

@@ -14,10 +14,9 @@ from colonnade.campaign.forms.summary import SpecimenSummary, Summary, TestSumma
 from colonnade.store import files
 from colonnade.store.freshness import Recipe
 from colonnade.store.layout import Layout
-from colonnade.store.records.specimen import record_of_specimen
 from colonnade.store.records.stored import read_test
-from colonnade.store.records.table import as_csv
-from colonnade.store.records.test import record_of_test
+from colonnade.store.records.summary import as_csv
+from colonnade.store.records.test import record_of_specimen, record_of_test
 from colonnade.store.results import results_of
 from colonnade.workflow.catalogue import Catalogue, stored_attributes
 from colonnade.workflow.execution.spreading import spread

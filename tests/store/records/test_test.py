@@ -7,8 +7,9 @@ import pytest
 import xarray as xr
 
 from colonnade.findings import serious, warning
+from colonnade.stages.specimen import SpecimenInputs, taken
 from colonnade.store.records.stored import Failure, Stored
-from colonnade.store.records.test import record_of_test
+from colonnade.store.records.test import record_of_specimen, record_of_test
 
 SCALE = 20.0
 TIME = np.arange(0.0, 10.0, 0.01)
@@ -135,3 +136,24 @@ def test_the_record_says_who_and_when(written):
 def test_a_test_of_unknown_day_has_none(campaign):
     said = record(campaign, {})
     assert (said.date, said.operator) == (None, None)
+
+
+@pytest.fixture
+def of_specimen(written):
+    campaign = written()
+    return lambda name: record_of_specimen(campaign, name, taken(None, SpecimenInputs.of(campaign, name)))
+
+
+def test_prototype_sizes_stand_beside_those_of_the_model(of_specimen):
+    prototype = of_specimen("prism").prototype
+    assert prototype.sizes == pytest.approx({"width": 1.72, "depth": 1.72, "height": 9.12})
+    assert prototype.p == pytest.approx(of_specimen("prism").p / np.sqrt(20))
+    assert prototype.mass == pytest.approx(26.10 * 20**3)
+    assert of_specimen("statue").prototype is None
+
+
+def test_an_e_is_one_value_or_one_a_side_with_its_source(of_specimen):
+    given, rigid = of_specimen("statue").restitution, of_specimen("prism").restitution
+    assert (given.value, given.source, given.reason) == ((0.9, 0.8), "given", None)
+    assert (rigid.value, rigid.source) == (pytest.approx(0.9485, abs=5e-5), "rigid-body")
+    assert "have not been identified" in rigid.reason

@@ -359,6 +359,7 @@ class DraftSetup:
     """Tests that were recorded in the same way."""
 
     tests: list[DraftTest] = field(default_factory=list)
+    name: str = "setup"
 
     @property
     def recorders(self) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from colonnade.campaign.campaign import SCHEMA
 from colonnade.campaign.channel import MAIN
-from colonnade.campaign.draft.guess import DraftChannels, DraftSetup, arrange, kind_lines, names_of
+from colonnade.campaign.draft.guess import DraftSetup, arrange, kind_lines, names_of
 from colonnade.campaign.draft.survey import RawFile, survey
 from colonnade.campaign.draft.words import Line, as_id, comment, find, unique
 from colonnade.campaign.loading import FILE_NAME
@@ -206,10 +206,10 @@ def written(
     copies, refused : sequence of (str, str)
         Files that are left out, with the file that is used instead, or the reason.
     """
-    named = _named(setups)
+    _name(setups)
     tests = [test for setup in setups for test in setup.tests]
     shapes = [found[0] if (found := find(test.main.stem, "shapes")) else "" for test in tests]
-    of_setup = _tests(named, shapes)
+    of_setup = _tests(setups, shapes)
     specimens = [line for shape in dict.fromkeys(shapes) for line in _specimen(shape)]
     lines: Lines = [
         *_FIRST_LINES,
@@ -218,21 +218,22 @@ def written(
         Line("title", toml_value(f"Campaign {name}"), "title of the report; write a better one"),
         comment('facility = "…"         the laboratory and its table'),
     ]
-    if len(named) > MOST_SETUPS:
-        files, kinds = sum(len(test.files) for test in tests), len(named)
-        asked = f"{files} files of {kinds} kinds were found. The first question is: which are recordings of tests?"
+    if len(setups) > MOST_SETUPS:
+        files = sum(len(test.files) for test in tests)
+        asked = (
+            f"{files} files of {len(setups)} kinds were found. The first question is: which are recordings of tests?"
+        )
         lines += ["", comment(asked), *_GROUPED]
-        for number, (setup_name, (setup, drafted)) in enumerate(named.items(), start=1):
-            described = [*_described(setup_name, setup, drafted), *of_setup[setup_name]]
-            lines += _group(f"{number} of {kinds}: {_some(setup)}", setup, described)
+        for number, setup in enumerate(setups, start=1):
+            described = [*_described(setup), *of_setup[setup.name]]
+            lines += _group(f"{number} of {len(setups)}: {_some(setup)}", setup, described)
         lines += ["", comment("==== For all groups"), *specimens]
     else:
         lines += specimens
-        for setup_name, (setup, drafted) in named.items():
+        for setup in setups:
             how_many = "1 test" if len(setup.tests) == 1 else f"{len(setup.tests)} tests, all recorded in the same way"
-            lines += ["", comment(f"The set-up of {how_many}: {_some(setup)}")]
-            lines += _described(setup_name, setup, drafted)
-        lines += [line for name in named for line in of_setup[name]]
+            lines += ["", comment(f"The set-up of {how_many}: {_some(setup)}"), *_described(setup)]
+        lines += [line for setup in setups for line in of_setup[setup.name]]
     if copies or refused:
         lines += ["", comment("Files that are not used:")]
         lines += [comment(f"{file}: the same columns as {taken}, so it is treated as a copy") for file, taken in copies]
@@ -240,12 +241,11 @@ def written(
     return lines
 
 
-def _named(setups: Sequence[DraftSetup]) -> dict[str, tuple[DraftSetup, DraftChannels]]:
-    """Setups by name, with channels; a channel of an earlier setup too is asked about with a hint at that one."""
-    named: dict[str, tuple[DraftSetup, DraftChannels]] = {}
+def _name(setups: Sequence[DraftSetup]) -> None:
+    """Name the setups; a channel that an earlier one has too is asked about with a hint at that one."""
     first: dict[str, str] = {}
     for number, setup in enumerate(setups, start=1):
-        name = "setup" if len(setups) == 1 else f"setup-{number}"
+        setup.name = "setup" if len(setups) == 1 else f"setup-{number}"
         asked: set[str] = set()
         channels = []
         for channel in setup.drafted.channels:
@@ -253,9 +253,8 @@ def _named(setups: Sequence[DraftSetup]) -> dict[str, tuple[DraftSetup, DraftCha
             if channel.id in first and not channel.id.startswith("column_"):
                 lines = [_asked(line, f"perhaps as in {first[channel.id]}") for line in lines]
             channels.append(replace(channel, lines=tuple(lines)))
-            first.setdefault(channel.id, name)
-        named[name] = (setup, replace(setup.drafted, channels=tuple(channels)))
-    return named
+            first.setdefault(channel.id, setup.name)
+        setup.drafted = replace(setup.drafted, channels=tuple(channels))
 
 
 def _specimen(shape: str) -> Lines:
@@ -266,9 +265,10 @@ def _specimen(shape: str) -> Lines:
     return ["", f"[specimens.{shape or 'specimen'}]", first, *sizes, Line("mass", '"? kg"', question="weighed")]
 
 
-def _described(name: str, setup: DraftSetup, drafted: DraftChannels) -> Lines:
+def _described(setup: DraftSetup) -> Lines:
     """Lines of a set-up: its recorders, its channels, and what is left out."""
-    lines: Lines = [f"[setups.{toml_key(name)}]", *_recorder_lines(setup, MAIN)]
+    drafted, place = setup.drafted, f"setups.{toml_key(setup.name)}"
+    lines: Lines = [f"[{place}]", *_recorder_lines(setup, MAIN)]
     lines.append(comment('catch = "0.3 rad"      the rotation at which a safety frame catches the specimen'))
     table = {
         each.recorder: each.id
@@ -276,7 +276,7 @@ def _described(name: str, setup: DraftSetup, drafted: DraftChannels) -> Lines:
         if each.meaning.is_of_table and each.meaning.axis in (None, "x")
     }
     for recorder in setup.recorders[1:]:
-        lines += ["", f"[setups.{toml_key(name)}.recorders.{toml_key(recorder)}]", *_recorder_lines(setup, recorder)]
+        lines += ["", f"[{place}.recorders.{toml_key(recorder)}]", *_recorder_lines(setup, recorder)]
         if {MAIN, recorder} <= table.keys():
             reason = "both record the table's motion, which shows how late it started"
             align = toml_value({"align": [table[MAIN], table[recorder]]})
@@ -287,7 +287,7 @@ def _described(name: str, setup: DraftSetup, drafted: DraftChannels) -> Lines:
     note = "A channel may also have offset, range and delay; `colonnade schema campaign` lists all keys."
     lines += ["", comment(note)]
     for channel in drafted.channels:
-        lines += ["", f"[setups.{toml_key(name)}.channels.{toml_key(channel.id)}]", *channel.lines]
+        lines += ["", f"[{place}.channels.{toml_key(channel.id)}]", *channel.lines]
     if drafted.left_out:
         lines += ["", comment("Columns that are left out; to use one, add a table like those above:")]
     for reason in dict.fromkeys(reason for _, _, reason in drafted.left_out):
@@ -337,26 +337,25 @@ def _group(title: str, setup: DraftSetup, lines: Lines) -> Lines:
     return kept
 
 
-def _tests(named: dict[str, tuple[DraftSetup, DraftChannels]], shapes: Sequence[str]) -> dict[str, Lines]:
+def _tests(setups: Sequence[DraftSetup], shapes: Sequence[str]) -> dict[str, Lines]:
     """Lines of the tests of each set-up."""
-    tests = [(setup_name, test) for setup_name, (setup, _) in named.items() for test in setup.tests]
+    tests = [(setup, test) for setup in setups for test in setup.tests]
     ids = unique(names_of(test for _, test in tests), "test")
     asked: set[str] = set()
-    lines: dict[str, Lines] = {setup_name: [] for setup_name in named}
-    for name, shape, (setup_name, test) in zip(ids, shapes, tests, strict=True):
-        setup, drafted = named[setup_name]
+    lines: dict[str, Lines] = {setup.name: [] for setup in setups}
+    for name, shape, (setup, test) in zip(ids, shapes, tests, strict=True):
         paths = {recorder: file.relative for recorder, file in test.files.items()}
         file = test.main
         rate = f"{file.rate:.6g} Hz, {file.duration:.4g} s" if file.rate and file.duration else ""
-        lines[setup_name] += [
+        lines[setup.name] += [
             "",
             "[[tests]]",
             Line("id", toml_value(name)),
-            *(_briefly(line, asked) for line in kind_lines(test, drafted.channels, setup.tests)),
+            *(_briefly(line, asked) for line in kind_lines(test, setup.drafted.channels, setup.tests)),
             Line("specimen", toml_value(shape or "specimen")),
-            Line("setup", toml_value(setup_name)),
+            Line("setup", toml_value(setup.name)),
             Line("file", toml_value(paths[MAIN] if len(paths) == 1 else paths), rate),
-            *_who_and_when(file, is_first=not lines[setup_name]),
+            *_who_and_when(file, is_first=not lines[setup.name]),
             *(comment(f"the file: {warning}") for warning in file.warnings[:3]),
         ]
     return lines

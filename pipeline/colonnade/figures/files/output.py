@@ -24,7 +24,7 @@ from colonnade.figures.files.canvas import BACKEND
 from colonnade.figures.files.polyline import shorter
 from colonnade.figures.files.table import Columns, columns_of
 from colonnade.figures.style import styled
-from colonnade.store.records.table import harmless
+from colonnade.store.records.summary import harmless
 
 NAMESPACE = "http://www.w3.org/2000/svg"
 LINK = "{http://www.w3.org/1999/xlink}href"

@@ -17,8 +17,7 @@ from colonnade.identification.verification.reliability import reliability
 from colonnade.store import files
 from colonnade.store.forecasts import Known, read_forecasts
 from colonnade.store.layout import Layout
-from colonnade.store.records.forecast import shown_model, shown_table
-from colonnade.store.records.judged import FEWEST, scored_of
+from colonnade.store.records.forecast import FEWEST, scored_of, shown_model, shown_table
 from colonnade.units.text import NOTHING, number
 
 

@@ -21,7 +21,7 @@ from colonnade.report.forecasts_page import page as forecasts_page
 from colonnade.report.overview_page import peaks as agreement
 from colonnade.report.overview_page.spans import span_groups
 from colonnade.report.pictures.subjects import OfCampaign, OfSpecimen, OfTest, Subject
-from colonnade.store.records.judged import FEWEST
+from colonnade.store.records.forecast import FEWEST
 from colonnade.units.text import listed
 
 

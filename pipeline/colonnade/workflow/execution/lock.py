@@ -16,9 +16,8 @@ from filelock import FileLock, Timeout
 
 from colonnade.campaign import FILE_NAME
 from colonnade.errors import RunEndedError, StoreError
-from colonnade.store.files import remove, sweep, write_text
+from colonnade.store.files import own_files, remove, sweep, write_text
 from colonnade.store.layout import Layout
-from colonnade.store.own_files import own_files
 
 _RUNNING = "this campaign is already being run"
 

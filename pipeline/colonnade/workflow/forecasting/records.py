@@ -94,7 +94,7 @@ def _together(forecasts: Forecasts, chosen: Chosen, scored: Mapping[str, xr.Data
     """Return what is said of all forecasts, given the scores by test; None if there is no file."""
     if not (forecasts.known or forecasts.refused):
         return None
-    from colonnade.store.records.judged import judge
+    from colonnade.store.records.forecast import judge
 
     names = {chosen.counts[test].name for test in scored}
     return ForecastsSummary(

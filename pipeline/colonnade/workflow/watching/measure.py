@@ -15,10 +15,9 @@ from colonnade.findings import Finding
 from colonnade.identification.plausibility.since_last import ChannelState, changes
 from colonnade.store import files
 from colonnade.store.layout import Layout
-from colonnade.store.records.specimen import record_of_specimen
 from colonnade.store.records.stability_map import as_map
 from colonnade.store.records.stored import Failure, Stored
-from colonnade.store.records.test import record_of_test
+from colonnade.store.records.test import record_of_specimen, record_of_test
 from colonnade.store.results import ResultId
 from colonnade.workflow.catalogue import Catalogue
 from colonnade.workflow.execution.lock import only_run

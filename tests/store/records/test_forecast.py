@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from colonnade.store.records.judged import FEWEST, SCORES, judge
+from colonnade.store.records.forecast import FEWEST, SCORES, judge
 
 
 def campaign(tests, *, recorded=True):
