@@ -135,3 +135,12 @@ def test_a_block_that_walks_is_no_mistake(walked, shaken):
     rotation, base, _ = shaken
     walk = walked * np.clip((TIME - 2) / 5, 0, 1)
     assert undone(INTERVAL, _changed(rotation, [0, 1], walk), base, PRISM) is None
+
+
+@pytest.mark.parametrize("scale", [None, 2.0], ids=["moved by hand", "twice as far as a block"])
+def test_agreement_on_a_motion_that_is_not_this_blocks_proves_no_exchange(scale, shaken):
+    rotation, base, _ = shaken
+    angle = 0.05 * np.sin(1.9 * TIME) ** 3 if scale is None else scale * rotation.angle(0)
+    readings = np.array([np.interp(angle, ANGLES, each) for each in rotation.responses])
+    noisy = replace(rotation, readings=readings + np.random.default_rng(2).normal(0, NOISE, readings.shape))
+    assert undone(INTERVAL, noisy.exchanged(0, 1, with_gains=False), base, PRISM) is None

@@ -71,6 +71,13 @@ def test_a_sine_counts_by_the_velocity_that_it_gives(frequency):
     assert share == pytest.approx(expected, rel=0.02)
 
 
+def test_a_push_at_the_end_of_a_record_does_not_act_on_its_start():
+    within, at_end = (np.where(np.abs(TIME - when) < 0.1, 1.0, 0.0) for when in (10.0, 20.0))
+    # Half of the push, and of what it does.
+    ratio = base_velocity(at_end, STEP, PRISM) / base_velocity(within, STEP, PRISM)
+    assert ratio == pytest.approx(0.5, abs=0.02)
+
+
 @pytest.mark.parametrize("frequency", [0.5, 2.0, 5.0, 8.0])
 def test_a_twentieth_of_what_uplifts_moves_the_table(frequency):
     assert table_moves(0.05 * WEIGHT * np.sin(2 * np.pi * frequency * TIME), STEP, PRISM)
