@@ -120,7 +120,7 @@ def _torn(interval: float, angle: Array, noise: float, block: Block) -> tuple[in
     after = angle[fast[-1] + window :]
     if float(after.std()) > STANDING * noise:
         return None
-    return int(fast[-1]), abs(float(angle[max(fast[0] - window, 0)] - after.mean()))
+    return int(fast[-1]), abs(float(angle[max(fast[0] - 1, 0)] - after.mean()))
 
 
 def _jumps(interval: float, rotation: Rotation, index: int, sample: int, size: float) -> Finding:
