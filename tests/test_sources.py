@@ -23,6 +23,7 @@ def package(tmp_path, monkeypatch):
 
 
 def forget():
+    package_hash.cache_clear()
     sources._modules.cache_clear()
     sources._module.cache_clear()
 

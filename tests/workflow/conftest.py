@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from short_campaign import Small, write_campaign
+from short_campaign import Small, copied, write_campaign
 
 
 @pytest.fixture(scope="session")
@@ -19,8 +19,8 @@ def undisturbed(made_once: Callable[..., Path]) -> Small:
 
 @pytest.fixture
 def small(undisturbed: Small, tmp_path: Path) -> Small:
-    """Copy of it, with the files' times."""
-    return Small(Path(shutil.copytree(undisturbed.folder, tmp_path / "small")))
+    """Copy of it."""
+    return Small(copied(undisturbed.folder, tmp_path / "small"))
 
 
 @pytest.fixture
