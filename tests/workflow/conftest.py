@@ -31,7 +31,7 @@ def untouched(undisturbed: Small, tmp_path: Path) -> Small:
 
 
 @pytest.fixture
-def in_space(small: Small) -> Small:
+def in_space(small: Small, undrawn: None) -> Small:
     """Copy of it that is also predicted by the contact model, whose damping is given."""
     contact = 'contact = {step = "30 us", penetration = 1e-6, damping_fraction = 0.3}'
     models = f'models = ["nonlinear", "contact"]\n{contact}\n'
