@@ -137,6 +137,16 @@ def _made_by(fill: Callable[[Path], object], files: Iterable[Path]) -> str:
     return digest.hexdigest()[:16]
 
 
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures of pages are empty: for tests of what is made again and when, not of what it shows."""
+
+    def empty(figure: Any, *, identity: str, title: str, description: str) -> str:
+        return f'<svg xmlns="http://www.w3.org/2000/svg" id="{identity}"></svg>'
+
+    monkeypatch.setattr("colonnade.figures.files.output.to_svg", empty)
+
+
 @pytest.fixture(scope="session")
 def filled_campaign(made_once: Callable[..., Path]) -> tuple[Any, Any]:
     """A small virtual campaign and its layout after one real run; look only."""
@@ -149,14 +159,14 @@ def filled_campaign(made_once: Callable[..., Path]) -> tuple[Any, Any]:
 
 
 @pytest.fixture(scope="session")
-def empty_campaign(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, Any]:
+def empty_campaign(made_once: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, Any]:
     """The same campaign before anything was run."""
     from colonnade.campaign import load
     from colonnade.store.layout import Layout
     from small_campaign import write_small_campaign
 
-    folder = tmp_path_factory.mktemp("empty") / "campaign"
-    write_small_campaign(folder)
+    written = made_once("empty-campaign", write_small_campaign)
+    folder = Path(shutil.copytree(written, tmp_path_factory.mktemp("empty") / "campaign"))
     return load(folder), Layout(folder)
 
 
@@ -170,10 +180,9 @@ def foreseen(filled_campaign: tuple[Any, Any], tmp_path_factory: pytest.TempPath
 
 
 @pytest.fixture
-def foreseen_copy(foreseen: tuple[Path, Any], tmp_path: Path) -> Path:
+def foreseen_copy(foreseen: tuple[Path, Any], undrawn: None, tmp_path: Path) -> Path:
     """The same, to change."""
-    shutil.copytree(foreseen[0], tmp_path / "campaign")
-    return tmp_path / "campaign"
+    return Path(shutil.copytree(foreseen[0], tmp_path / "campaign"))
 
 
 @pytest.fixture(scope="session")
@@ -186,6 +195,8 @@ def assessed(made_once: Callable[..., Path]) -> Path:
 
 
 @pytest.fixture
-def assessed_copy(assessed: Path, tmp_path: Path) -> Path:
+def assessed_copy(assessed: Path, undrawn: None, tmp_path: Path) -> Path:
     """The same, to change."""
-    return Path(shutil.copytree(assessed, tmp_path / "assessed"))
+    from short_campaign import copied
+
+    return copied(assessed, tmp_path / "assessed")

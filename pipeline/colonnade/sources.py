@@ -16,8 +16,9 @@ _DATA = (".jinja", ".css", ".js", ".mplstyle", ".typ", ".csv", ".toml")
 """Suffixes of templates, scripts, styles and tables: what they say counts to the byte."""
 
 
+@cache
 def package_hash() -> str:
-    """Hash of every source and template of the package, to the byte."""
+    """Hash of every source and template of the package, to the byte, as they were when this process first asked."""
     digest = hashlib.sha256()
     for path in sorted(path for path in PACKAGE.rglob("*") if path.suffix in (".py", *_DATA)):
         text = path.read_bytes()

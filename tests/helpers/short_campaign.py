@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,9 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.store import files
 from colonnade.store.layout import Layout
+from colonnade.store.provenance import hash_of
 from colonnade.workflow import RunResult, run
+from colonnade.workflow.catalogue import mark_of
 from prism import PRISM, SPECIMEN
 
 CAMPAIGN = f"""\
@@ -62,6 +65,19 @@ def _write_raw(path: Path, kind: str, number: int) -> None:
     table = base + 0.002 * noise.standard_normal(time.size)
     rows = np.column_stack((time, top, table))
     np.savetxt(path, rows, delimiter=",", header="time,top,table", comments="", fmt="%.6f")
+
+
+def copied(campaign: Path, folder: Path) -> Path:
+    """Copy a campaign with its results, as if it had been run there: the catalogue knows the copies of its files."""
+    layout = Layout(Path(shutil.copytree(campaign, folder)))
+    known = json.loads(layout.catalogue.read_text(encoding="utf-8"))
+    del known["sha256"]
+    for kind in ("raw", "results", "pages", "photos"):
+        for name, entry in known[kind].items():
+            entry[0] = list(mark_of(folder / name.partition(" ")[0]))
+    known["sha256"] = hash_of(known)
+    layout.catalogue.write_text(json.dumps(known, separators=(",", ":")), encoding="utf-8")
+    return folder
 
 
 class Small:

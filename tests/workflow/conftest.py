@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from short_campaign import Small, write_campaign
+from short_campaign import Small, copied, write_campaign
 
 
 @pytest.fixture(scope="session")
@@ -19,8 +19,8 @@ def undisturbed(made_once: Callable[..., Path]) -> Small:
 
 @pytest.fixture
 def small(undisturbed: Small, tmp_path: Path) -> Small:
-    """Copy of it, with the files' times."""
-    return Small(Path(shutil.copytree(undisturbed.folder, tmp_path / "small")))
+    """Copy of it."""
+    return Small(copied(undisturbed.folder, tmp_path / "small"))
 
 
 @pytest.fixture
@@ -31,7 +31,7 @@ def untouched(undisturbed: Small, tmp_path: Path) -> Small:
 
 
 @pytest.fixture
-def in_space(small: Small) -> Small:
+def in_space(small: Small, undrawn: None) -> Small:
     """Copy of it that is also predicted by the contact model, whose damping is given."""
     contact = 'contact = {step = "30 us", penetration = 1e-6, damping_fraction = 0.3}'
     models = f'models = ["nonlinear", "contact"]\n{contact}\n'

@@ -14,6 +14,8 @@ from colonnade.store import files
 from colonnade.store.layout import Layout
 from colonnade.store.results import ResultId
 
+pytestmark = pytest.mark.usefixtures("undrawn")
+
 
 def failures(result):
     return {stage.subject: stage for stage in result.stages if stage.action == "failed"}

@@ -15,6 +15,8 @@ from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.maps.plans import Wanted
 from colonnade.workflow.maps.stability import make_maps
 
+pytestmark = pytest.mark.usefixtures("undrawn")
+
 FOLDERS = (
     "processed",
     "processed/tests",

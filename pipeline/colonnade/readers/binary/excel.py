@@ -202,5 +202,5 @@ FORMAT = Format(
     options=ExcelOptions,
     recognise=recognise,
     read=read,
-    modules=("python_calamine",),
+    modules=("python_calamine", "pandas"),
 )
