@@ -18,17 +18,8 @@ from colonnade.errors import CampaignError
 
 CONTRACT = Path(__file__).with_name("contract.toml").read_text(encoding="utf-8")
 HEADS = [
-    "id",
-    "kind",
-    "specimen",
-    "setup",
-    "file",
-    "file.daq2",
-    "window",
-    "zero",
-    "span",
-    "observed_outcome",
-    "frequency",
+    *("id", "kind", "specimen", "setup", "file", "file.daq2", "window", "zero", "span", "observed_outcome"),
+    *("frequency",),
 ]
 ROWS = [
     ["free-01", "free-vibration", "prism", "frame", "raw/a.csv", "raw/b.csv", "2 s, 14 s", "0 s to 0.5 s", "", "", ""],
