@@ -85,12 +85,6 @@ def test_a_channel_that_moves_in_one_file_is_not_dead_in_another(folder):
     assert list(channels(folder.draft()[0])) == ["lvdt_1"]
 
 
-def test_columns_of_which_nothing_is_known_are_asked_about_where_there_are_no_others(folder):
-    folder.write("a.csv", {"one": SINE, "two": DECAY})
-    document, _ = folder.draft()
-    assert [channel["quantity"] for channel in channels(document).values()] == ["?", "?"]
-
-
 def test_files_of_two_recorders_become_one_test_each_aligned_on_the_table(folder):
     for span in ("span-2.0", "span-10.0"):
         folder.write(f"raw/{span}.csv", {"LVDT 1 [mm]": noise(), "Table disp [mm]": SINE})
@@ -106,7 +100,7 @@ def test_files_of_two_recorders_become_one_test_each_aligned_on_the_table(folder
 
 def test_the_same_recording_in_two_formats_is_taken_once(folder):
     folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
-    folder.write("free.txt", {"LVDT 1 [mm]": DECAY}, delimiter="\t")
+    folder.write("free.txt", {"lvdt 1 [mm]": DECAY}, delimiter="\t")
     document, drafted = folder.draft()
     assert [test["file"] for test in document["tests"]] == ["free.csv"]
     assert "# free.txt: the same columns as free.csv" in drafted.text
@@ -126,13 +120,6 @@ def test_repetitions_are_tests_of_their_own_in_one_setup(folder):
     document, drafted = folder.draft()
     assert [test["id"] for test in document["tests"]] == ["free", "free-2", "free-repeated"]
     assert drafted.setups == 1
-
-
-def test_files_of_other_columns_become_a_setup_of_their_own(folder):
-    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY})
-    folder.write("sine-01.csv", {"LVDT 1 [mm]": noise(), "ACC [g]": SINE})
-    document, _ = folder.draft()
-    assert [test["setup"] for test in document["tests"]] == ["setup-1", "setup-2"]
 
 
 def test_specimens_are_told_by_the_names_of_files(folder):
