@@ -137,7 +137,7 @@ def test_specimens_are_told_by_the_names_of_files(folder):
 def test_what_is_no_recording_is_named_with_the_reason(folder):
     folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
     (folder.path / "notes.csv").write_text("nothing but words\n", encoding="utf-8")
-    (folder.path / "tests.csv").write_text("id,kind,specimen,setup,file\nfree,sine,p,s,free.csv\n", encoding="utf-8")
+    (folder.path / "tests.csv").write_text("id,kind,specimen\nfree,sine,p\n", encoding="utf-8")
     (folder.path / "photo.png").write_bytes(b"\x89PNG")
     _, drafted = folder.draft()
     assert [name for name, _ in drafted.refused] == ["notes.csv", "tests.csv"]
