@@ -73,6 +73,13 @@ def test_the_files_of_two_recorders_are_one_test(with_files: Campaigns) -> None:
     }
 
 
+def test_what_the_main_file_says_counts_whichever_file_comes_first(with_files: Campaigns) -> None:
+    pattern = '{{file = "{}-{{number}}.csv", kind = "{}", specimen = "cone"}}'
+    patterns = ", ".join(pattern.format(*each) for each in (("{recorder}", "sine"), ("x", "tilt")))
+    (test,) = with_files("daq2-1.csv", "x-1.csv", text=f"[watch]\npattern = [{patterns}]\n").tests.values()
+    assert (test.kind, list(test.files)) == ("tilt", ["daq2", "main"])
+
+
 def test_an_entry_wins(with_files: Campaigns) -> None:
     entry = (
         '[[tests]]\nid = "mine"\nkind = "other"\nspecimen = "cone"\nsetup = "frame"\nfile = "raw/prism-free-1.csv"\n'
