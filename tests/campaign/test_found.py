@@ -63,13 +63,6 @@ def test_files_that_fit_a_pattern_are_tests(with_files: Campaigns) -> None:
     assert tests["prism-free-2"].kind == "free-vibration"
 
 
-def test_nothing_is_written(with_files: Campaigns, tmp_path: Path) -> None:
-    with_files("prism-free-1.csv")
-    before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
-    load(tmp_path)
-    assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
-
-
 def test_the_files_of_two_recorders_are_one_test(with_files: Campaigns) -> None:
     campaign = with_files("prism-free-1.csv", "prism-free-1-daq2.csv")
     assert list(campaign.tests) == ["prism-free-1"]
@@ -78,6 +71,13 @@ def test_the_files_of_two_recorders_are_one_test(with_files: Campaigns) -> None:
         "main": "prism-free-1.csv",
         "daq2": "prism-free-1-daq2.csv",
     }
+
+
+def test_what_the_main_file_says_counts_whichever_file_comes_first(with_files: Campaigns) -> None:
+    pattern = '{{file = "{}-{{number}}.csv", kind = "{}", specimen = "cone"}}'
+    patterns = ", ".join(pattern.format(*each) for each in (("{recorder}", "sine"), ("x", "tilt")))
+    (test,) = with_files("daq2-1.csv", "x-1.csv", text=f"[watch]\npattern = [{patterns}]\n").tests.values()
+    assert (test.kind, list(test.files)) == ("tilt", ["daq2", "main"])
 
 
 def test_an_entry_wins(with_files: Campaigns) -> None:

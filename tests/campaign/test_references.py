@@ -8,6 +8,7 @@ import pytest
 
 from colonnade.campaign.campaign import CampaignFile
 from colonnade.campaign.references import dangling as of_campaign
+from every import every
 
 SHAPES = {
     "prism": {"width": "86 mm", "depth": "86 mm", "height": "456 mm"},
@@ -45,7 +46,7 @@ def aligned(*named):
 ALIGN = ("setups", "frame", "recorders", "daq2", "clock", "align")
 
 
-@pytest.mark.parametrize(
+@every(
     ("written", "place", "told"),
     [
         (
@@ -96,20 +97,6 @@ ALIGN = ("setups", "frame", "recorders", "daq2", "clock", "align")
             ("setups", "FRAME"),
             'This id differs from "frame" only in upper and lower case. Choose another.',
         ),
-    ],
-    ids=[
-        "specimen",
-        "body of a channel",
-        "setup",
-        "recorder of a test",
-        "recorder of a channel",
-        "aligned channel",
-        "aligned with the other recorder",
-        "aligned by the main recorder",
-        "channels",
-        "recorders",
-        "specimens",
-        "setups",
     ],
 )
 def test_one_problem_is_told_at_its_place(written, place, told):

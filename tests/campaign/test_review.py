@@ -16,6 +16,7 @@ from colonnade.campaign import load
 from colonnade.campaign.forms.schema import json_schema
 from colonnade.campaign.review import Exclude, Review, ReviewFile, Trim, decided
 from colonnade.errors import CampaignError
+from every import every
 
 WINDOWS = st.tuples(st.floats(-100, 100), st.floats(0, 100)).map(lambda pair: (pair[0], pair[0] + pair[1]))
 
@@ -146,7 +147,7 @@ def test_the_example_of_the_contract_is_a_review():
     jsonschema.validate(json.loads(json.dumps(example, default=str)), json_schema("review"))
 
 
-@pytest.mark.parametrize(
+@every(
     ("trimmed", "window", "taken"),
     [
         (None, None, None),
@@ -156,7 +157,6 @@ def test_the_example_of_the_contract_is_a_review():
         ((3.0, 4.0), (2.0, 9.0), (3.0, 4.0)),
         ((0.0, 5.0), (2.0, 9.0), (2.0, 5.0)),
     ],
-    ids=["neither", "trimmed only", "window only", "window inside", "trim inside", "overlap"],
 )
 def test_what_is_taken_is_what_both_windows_share(trimmed, window, taken):
     assert Review(window=trimmed).within(window) == taken

@@ -9,6 +9,7 @@ from pydantic import ValidationError
 
 from colonnade.campaign.setup import Align, FileOptions, Setup
 from colonnade.errors import CampaignError
+from every import every
 
 CHANNELS = {"top": {"column": 1, "quantity": "other"}, "second": {"column": 1, "quantity": "other", "recorder": "daq2"}}
 
@@ -48,19 +49,17 @@ def test_a_setup_without_channels_is_refused():
     assert "channels" in problems(channels={})
 
 
-@pytest.mark.parametrize(
+@every(
     ("written", "clock"),
     [("trigger", "trigger"), ({"align": ["top", "second"]}, Align(channel="top", own_channel="second"))],
-    ids=["together", "linked"],
 )
 def test_a_clock_starts_with_the_main_one_or_is_linked_to_it(written, clock):
     assert setup(recorders={"daq2": {"clock": written}}).recorders["daq2"].clock == clock
 
 
-@pytest.mark.parametrize(
+@every(
     "clock",
     ["Trigger", 3, {}, {"align": ["top"]}, {"align": ["top", 2]}, {"align": "top"}, {"align": ["a", "b"], "by": 1}],
-    ids=["other word", "number", "empty", "one channel", "no name", "no list", "key too many"],
 )
 def test_what_is_no_clock_is_refused_with_what_was_expected(clock):
     ((place, told),) = problems(recorders={"daq2": {"clock": clock}}).items()
@@ -82,7 +81,7 @@ def test_angles_are_taken_to_radians_and_a_catch_is_positive():
     assert "catch" in problems(catch="0 rad")
 
 
-@pytest.mark.parametrize(
+@every(
     ("file", "place", "told"),
     [
         ("a.csv", "file", '"a.csv" was found. A table was expected'),
@@ -95,14 +94,6 @@ def test_angles_are_taken_to_radians_and_a_catch_is_positive():
         ),
         ({"delimeter": ";"}, "file.delimeter", 'Unknown option of format "'),
         ({"format": "delimited", "decimal": 3}, "file.decimal", "3 was found: "),
-    ],
-    ids=[
-        "no table",
-        "mistyped format",
-        "number for a format",
-        "mistyped option",
-        "no format",
-        "option of another type",
     ],
 )
 def test_a_wrong_option_of_a_file_is_told_at_its_key(file, place, told):

@@ -18,17 +18,8 @@ from colonnade.errors import CampaignError
 
 CONTRACT = Path(__file__).with_name("contract.toml").read_text(encoding="utf-8")
 HEADS = [
-    "id",
-    "kind",
-    "specimen",
-    "setup",
-    "file",
-    "file.daq2",
-    "window",
-    "zero",
-    "span",
-    "observed_outcome",
-    "frequency",
+    *("id", "kind", "specimen", "setup", "file", "file.daq2", "window", "zero", "span", "observed_outcome"),
+    *("frequency",),
 ]
 ROWS = [
     ["free-01", "free-vibration", "prism", "frame", "raw/a.csv", "raw/b.csv", "2 s, 14 s", "0 s to 0.5 s", "", "", ""],
@@ -167,6 +158,14 @@ def test_a_wrong_cell_is_told_by_row_and_column(row, column, cell, told, tmp_pat
     with pytest.raises(CampaignError) as caught:
         with_log(tmp_path, "log.csv", table(";", [HEADS, *rows]).encode())
     assert told in str(caught.value)
+
+
+def test_wrong_cells_are_told_in_the_order_of_their_rows(tmp_path):
+    rows = [list(each) for each in ROWS]
+    rows[2][0], rows[1][2] = "free-01", "prsm"
+    with pytest.raises(CampaignError) as caught:
+        with_log(tmp_path, "log.csv", table(";", [HEADS, *rows]).encode())
+    assert [line[:15] for line in str(caught.value).splitlines()] == ["log.csv, row 3,", "log.csv, row 4,"]
 
 
 def test_a_column_of_the_laboratorys_own_is_warned_of_and_a_mistyped_key_refused(tmp_path):

@@ -14,7 +14,7 @@ from colonnade.dynamics import density
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.findings import Finding, note, serious, warning
 from colonnade.units import format_percent
-from colonnade.units.text import listed
+from colonnade.units.text import listed, number, quantity
 
 OFF_SIDE = 0.02
 """Fraction of its radius by which the point of a line of sight may lie off the side of a round specimen."""
@@ -105,9 +105,9 @@ def _off_side(setup_name: str, setup: Setup, specimen_name: str, specimen: AnySp
         if radius is not None and abs(hypot(x, y) - radius) > OFF_SIDE * radius:
             yield warning(
                 "geometry",
-                f"setups.{setup_name}.channels.{name}.at is {1e3 * hypot(x, y):.4g} mm from the axis of "
-                f"{specimen_name}, but the side is {1e3 * radius:.4g} mm from the axis at that height. Give the point "
-                "where the line of sight meets the side.",
+                f"setups.{setup_name}.channels.{name}.at is {quantity(hypot(x, y), 'mm', 4)} from the axis of "
+                f"{specimen_name}, but the side is {quantity(radius, 'mm', 4)} from the axis at that height. Give "
+                "the point where the line of sight meets the side.",
             )
 
 
@@ -133,12 +133,12 @@ def _density(name: str, specimen: AnySpecimen) -> Iterator[Finding]:
     unit, count = density.mistaken_lengths(found)
     lengths = {1: "one of the lengths", 2: "two of the lengths", 3: "the lengths"}
     cause = f"were {lengths[count]} in {unit} read as m?" if count else "check the units of its lengths and mass."
-    sizes = ", ".join(f"{key} {value:.4g} m" for key, value in specimen.sizes().items())
+    sizes = ", ".join(f"{key} {quantity(value, 'm', 4)}" for key, value in specimen.sizes().items())
     weight = warning if density.FOAM <= found <= density.HEAVIEST else serious
     yield weight(
         "specimen",
-        f"specimens.{name}: {sizes} and {specimen.mass:.4g} kg give {found:.2g} kg/m³; {density.LIGHTEST:g} to "
-        f"{density.HEAVIEST:g} kg/m³ was expected: {cause}",
+        f"specimens.{name}: {sizes} and {quantity(specimen.mass, 'kg', 4)} give {number(found, 2)} kg/m³; "
+        f"{density.LIGHTEST:g} to {density.HEAVIEST:g} kg/m³ was expected: {cause}",
     )
 
 
@@ -162,8 +162,9 @@ def _place(place: str, channel: Channel, name: str, specimen: AnySpecimen) -> It
     weight = serious if off > FAR_OFF * largest else warning
     yield weight(
         "geometry",
-        f"{place}.at is {1e3 * off:.4g} mm off {name}, which is {1e3 * height:.4g} mm high and {2e3 * half_width:.4g} "
-        "mm wide. Give a point on it, measured from the centre of the base, and check the unit.",
+        f"{place}.at is {quantity(off, 'mm', 4)} off {name}, which is {quantity(height, 'mm', 4)} high and "
+        f"{quantity(2 * half_width, 'mm', 4)} wide. Give a point on it, measured from the centre of the base, and "
+        "check the unit.",
     )
 
 
@@ -179,13 +180,14 @@ def _range(place: str, channel: Channel, name: str, specimen: AnySpecimen) -> It
     if reach > WIDEST_RANGE * max(lying, 0.1 * height):
         yield warning(
             "gain",
-            f"{place}: with its gain and range it reads up to {1e3 * reach:.4g} mm, {reach / lying:.2g} times the "
-            f"{1e3 * lying:.3g} mm that this point of {name} moves until it lies on its side. Check gain and unit.",
+            f"{place}: with its gain and range it reads up to {quantity(reach, 'mm', 4)}, "
+            f"{number(reach / lying, 2)} times the {quantity(lying, 'mm')} that this point of {name} moves until it "
+            "lies on its side. Check gain and unit.",
         )
     elif reach < NARROWEST_RANGE * rocking:
         yield warning(
             "gain",
-            f"{place}: with its gain and range it reads up to {1e3 * reach:.3g} mm, "
-            f"{format_percent(reach / rocking, 1)} of the {1e3 * rocking:.3g} mm that this point of {name} moves "
+            f"{place}: with its gain and range it reads up to {quantity(reach, 'mm')}, "
+            f"{format_percent(reach / rocking, 1)} of the {quantity(rocking, 'mm')} that this point of {name} moves "
             "until it overturns. Check gain and unit.",
         )

@@ -15,6 +15,7 @@ from colonnade.campaign.syntax.table import Table
 from colonnade.dynamics.block import STANDARD_GRAVITY, Block, pair
 from colonnade.dynamics.density import UnlikelyBlockWarning, cone_volume, prism_volume
 from colonnade.units import format_percent
+from colonnade.units.text import quantity
 
 # The notices report it for a campaign's specimens.
 warnings.filterwarnings("ignore", category=UnlikelyBlockWarning, module=r"colonnade\.campaign\.specimen")
@@ -36,7 +37,7 @@ _VOLUMES: dict[str, Callable[..., float]] = {
     "cone": cone_volume,
 }
 
-_MEASURED = {"critical_angle": ("rad", 1.0), "pole_distance": ("mm", 1e3), "inertia": ("kg m²", 1.0)}
+_MEASURED = {"critical_angle": "rad", "pole_distance": "mm", "inertia": "kg m²"}
 
 
 class Specimen(Table):
@@ -142,7 +143,7 @@ class Specimen(Table):
             ),
         }
         sentences = []
-        for name, (unit, factor) in _MEASURED.items():
+        for name, unit in _MEASURED.items():
             given: fields.Sided | None = getattr(self, name)
             if given is None:
                 continue
@@ -153,9 +154,9 @@ class Specimen(Table):
                 slip, meaning = slips.get(name, (0.0, ""))
                 hint = f" It agrees with {meaning}." if abs(value - slip) < SLIP_TOLERANCE * expected else ""
                 sentences.append(
-                    f"{name} is given as {value * factor:.4g} {unit}, "
-                    f"{format_percent(value / expected - 1, 1, signed=True)} from the {expected * factor:.4g} "
-                    f"{unit} that the dimensions give; the given value is used.{hint}"
+                    f"{name} is given as {quantity(value, unit, 4)}, "
+                    f"{format_percent(value / expected - 1, 1, signed=True)} from the {quantity(expected, unit, 4)} "
+                    f"that the dimensions give; the given value is used.{hint}"
                 )
         return sentences
 

@@ -218,17 +218,6 @@ def test_files_of_two_recorders_are_one_test(first, second, recorder):
     ]
 
 
-def test_a_name_that_only_adds_a_word_is_another_test_if_the_columns_are_the_same():
-    (setup,), _ = arrange([raw("x.csv", "top"), raw("x-again.csv", "top")])
-    assert len(setup.tests) == 2
-
-
-def test_a_copy_in_another_form_is_left_out():
-    setups, copies = arrange([raw("a.csv", "top", "bottom"), raw("a.txt", "Top", "Bottom")])
-    assert copies == [("a.txt", "a.csv")]
-    assert [len(setup.tests) for setup in setups] == [1]
-
-
 def test_a_column_is_shown_as_in_the_file_where_it_moves_most():
     (setup,), _ = arrange([raw("a.csv", "top", spread=0.1), raw("b.csv", "top", spread=3.0)])
     assert [column.shape.spread for column in setup.columns("main")] == [3.0]

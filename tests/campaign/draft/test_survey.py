@@ -38,22 +38,6 @@ def test_files_without_headings_of_another_rate_are_of_another_layout(folder):
     assert first.layout != second.layout
 
 
-@pytest.mark.parametrize(
-    ("name", "content", "reason"),
-    [
-        ("log.csv", "id,kind,specimen\nfree-01,sine,prism\n", "it looks like a test log; use it with tests ="),
-        ("notes.dat", "nothing to see\n", ""),
-    ],
-)
-def test_a_file_that_is_no_recording_is_refused_with_the_reason(folder, name, content, reason):
-    folder.path.joinpath(name).write_text(content)
-    files, refused = survey(folder.path)
-    assert files == []
-    assert [each for each, _ in refused] == [name]
-    assert refused[0][1].startswith(reason)
-    assert refused[0][1]
-
-
 def test_documents_hidden_files_and_own_results_are_passed_over(folder):
     for name in ("readme.md", ".hidden.csv", "processed/a.csv", "report/b.csv"):
         folder.write(name, {"LVDT 1 [mm]": np.sin(TIME)})

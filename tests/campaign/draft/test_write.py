@@ -85,12 +85,6 @@ def test_a_channel_that_moves_in_one_file_is_not_dead_in_another(folder):
     assert list(channels(folder.draft()[0])) == ["lvdt_1"]
 
 
-def test_columns_of_which_nothing_is_known_are_asked_about_where_there_are_no_others(folder):
-    folder.write("a.csv", {"one": SINE, "two": DECAY})
-    document, _ = folder.draft()
-    assert [channel["quantity"] for channel in channels(document).values()] == ["?", "?"]
-
-
 def test_files_of_two_recorders_become_one_test_each_aligned_on_the_table(folder):
     for span in ("span-2.0", "span-10.0"):
         folder.write(f"raw/{span}.csv", {"LVDT 1 [mm]": noise(), "Table disp [mm]": SINE})
@@ -106,7 +100,7 @@ def test_files_of_two_recorders_become_one_test_each_aligned_on_the_table(folder
 
 def test_the_same_recording_in_two_formats_is_taken_once(folder):
     folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
-    folder.write("free.txt", {"LVDT 1 [mm]": DECAY}, delimiter="\t")
+    folder.write("free.txt", {"lvdt 1 [mm]": DECAY}, delimiter="\t")
     document, drafted = folder.draft()
     assert [test["file"] for test in document["tests"]] == ["free.csv"]
     assert "# free.txt: the same columns as free.csv" in drafted.text
@@ -128,13 +122,6 @@ def test_repetitions_are_tests_of_their_own_in_one_setup(folder):
     assert drafted.setups == 1
 
 
-def test_files_of_other_columns_become_a_setup_of_their_own(folder):
-    folder.write("free-01.csv", {"LVDT 1 [mm]": DECAY})
-    folder.write("sine-01.csv", {"LVDT 1 [mm]": noise(), "ACC [g]": SINE})
-    document, _ = folder.draft()
-    assert [test["setup"] for test in document["tests"]] == ["setup-1", "setup-2"]
-
-
 def test_specimens_are_told_by_the_names_of_files(folder):
     for name in ("cone-free-1.csv", "free-1.csv", "Zylinder-free-1.csv"):
         folder.write(name, {"LVDT 1 [mm]": DECAY})
@@ -150,7 +137,7 @@ def test_specimens_are_told_by_the_names_of_files(folder):
 def test_what_is_no_recording_is_named_with_the_reason(folder):
     folder.write("free.csv", {"LVDT 1 [mm]": DECAY})
     (folder.path / "notes.csv").write_text("nothing but words\n", encoding="utf-8")
-    (folder.path / "tests.csv").write_text("id,kind,specimen,setup,file\nfree,sine,p,s,free.csv\n", encoding="utf-8")
+    (folder.path / "tests.csv").write_text("id,kind,specimen\nfree,sine,p\n", encoding="utf-8")
     (folder.path / "photo.png").write_bytes(b"\x89PNG")
     _, drafted = folder.draft()
     assert [name for name, _ in drafted.refused] == ["notes.csv", "tests.csv"]
