@@ -111,7 +111,7 @@ def _assessed(
     if not names and not column.needs_specimen:
         return [assess_own(None, None, None, column, asked, where)]
     loaded = load(path)
-    layout = Layout.of(loaded.folder, results)
+    layout = Layout.of(loaded.path, results)
     if not asked:
         return assess_campaign(loaded, layout, names, where)
     if len(names) > 1:

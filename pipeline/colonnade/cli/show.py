@@ -153,7 +153,7 @@ def _known(path: Path, results: Path | None) -> tuple[Campaign, Summary | None]:
     from colonnade.store.records.summary import read_summary
 
     campaign = load(path)
-    return campaign, read_summary(Layout.of(campaign.folder, results))
+    return campaign, read_summary(Layout.of(campaign.path, results))
 
 
 def _show_records(

@@ -162,7 +162,7 @@ def _campaign(path: Path, results: Path | None) -> tuple[Campaign | None, Layout
     from colonnade.store.layout import Layout
 
     campaign = load(path)
-    return campaign, Layout.of(campaign.folder, results)
+    return campaign, Layout.of(campaign.path, results)
 
 
 def _show(found: Rocking | Overturning, out: Path | None, data: Path | None, as_json: bool) -> int:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from colonnade.campaign.loading import FILE_NAME
 from colonnade.errors import StoreError
 from colonnade.store.results import STAGES, ResultId
 
@@ -24,6 +25,8 @@ class Layout:
         The folder of campaign.toml.
     results : Path or None
         The folder that holds `processed` and `report`, such as one on another disk; None: the folder of campaign.toml.
+    file : str
+        Name of the campaign's file in its folder.
 
     Examples
     --------
@@ -33,11 +36,12 @@ class Layout:
 
     folder: Path
     results: Path | None = None
+    file: str = FILE_NAME
 
     @classmethod
-    def of(cls, folder: Path, results: Path | str | None) -> Layout:
+    def of(cls, campaign: Path, results: Path | str | None) -> Layout:
         """
-        Return the layout of a campaign's results in the given folder.
+        Return the layout of the results of the campaign of a file, in the given folder.
 
         Raises
         ------
@@ -45,7 +49,7 @@ class Layout:
             If its path is invalid.
         """
         try:
-            return cls(folder, None if results is None else Path(results).resolve())
+            return cls(campaign.parent, None if results is None else Path(results).resolve(), campaign.name)
         except (OSError, RuntimeError, ValueError) as error:
             raise StoreError(f"{results}: invalid path of a folder for results ({error}).") from None
 
@@ -106,7 +110,7 @@ class Layout:
 
     @property
     def owner(self) -> Path:
-        """In a folder given with --results: the folder of the campaign whose results these are."""
+        """The path of the campaign file whose results these are."""
         return self.processed / ".campaign"
 
     @property

@@ -123,7 +123,7 @@ def calibrate(
         If a run is in progress, or results cannot be written.
     """
     loaded = load(Path(campaign))
-    layout = Layout.of(loaded.folder, results)
+    layout = Layout.of(loaded.path, results)
     for name in specimens:
         if name not in loaded.specimens:
             raise CampaignError(f'{loaded.path.name} has no specimen "{name}".{nearest(name, loaded.specimens)}')

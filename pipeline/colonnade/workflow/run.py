@@ -102,7 +102,7 @@ def run(
     loaded = load(Path(campaign)).awaiting() if awaiting else load(Path(campaign))
     last = _last_stage(start_from, until)
     tests = _chosen(loaded, (only,) if isinstance(only, str) else only)
-    layout = Layout.of(loaded.folder, results)
+    layout = Layout.of(loaded.path, results)
     with only_run(layout) as run_id:
         catalogue = Catalogue(layout, verify=verify)
         notices = catalogue.remove_altered()

@@ -75,16 +75,34 @@ def test_half_a_file_that_a_killed_runs_worker_left_after_the_next_run_began_is_
 
 def test_two_campaigns_do_not_share_one_folder_of_results(small, tmp_path):
     results, other = tmp_path / "results", shutil.copytree(small.folder, tmp_path / "other")
-    for folder in (small.folder, small.folder):
-        with only_run(Layout.of(folder, results)):
+    of_small, of_other = small.folder / "campaign.toml", other / "campaign.toml"
+    for _ in range(2):
+        with only_run(Layout.of(of_small, results)):
             pass
     with (
         pytest.raises(StoreError, match=r"results of another campaign, .*small.campaign\.toml, are in this folder"),
-        only_run(Layout.of(other, results)),
+        only_run(Layout.of(of_other, results)),
     ):
         pass
-    with pytest.raises(StoreError, match="results of another campaign"), only_run(Layout.of(other, small.folder)):
+    with pytest.raises(StoreError, match="results of another campaign"), only_run(Layout.of(of_other, small.folder)):
         pass
-    moved = small.folder.rename(tmp_path / "moved")
+    moved = small.folder.rename(tmp_path / "moved") / "campaign.toml"
     with only_run(Layout.of(moved, results)):
+        pass
+
+
+def test_two_campaign_files_of_one_folder_do_not_share_its_results(small):
+    first, second = small.folder / "campaign.toml", small.folder / "second.toml"
+    shutil.copy(first, second)
+    with only_run(Layout.of(first, None)):
+        pass
+    with (
+        pytest.raises(StoreError, match=r"another campaign, .*campaign\.toml, .* of its own with --results"),
+        only_run(Layout.of(second, None)),
+    ):
+        pass
+    with only_run(Layout.of(second, small.folder / "second")):
+        pass
+    first.unlink()
+    with only_run(Layout.of(second, None)):
         pass

@@ -74,7 +74,7 @@ def advise(
     for name in specimens:
         if name not in loaded.specimens:
             raise CampaignError(f'{loaded.path.name} has no specimen "{name}".{nearest(name, loaded.specimens)}')
-    layout = Layout.of(loaded.folder, results)
+    layout = Layout.of(loaded.path, results)
     summary = read_summary(layout)
     if summary is None:
         raise StoreError(f"{loaded.folder}: this campaign has no results yet. Run `colonnade run` first.")

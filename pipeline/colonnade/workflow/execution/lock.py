@@ -108,20 +108,20 @@ def _held(
 
 
 def _expect_own(layout: Layout) -> None:
-    """Refuse a folder of results of another campaign, if that is still where it was; else note whose it is."""
-    if layout.results is None:
-        return
+    """Refuse a folder of results of another campaign, if its file is still where it was; else note whose it is."""
+    own = layout.folder / layout.file
     try:
         noted = Path(layout.owner.read_text(encoding="utf-8").strip())
     except (FileNotFoundError, ValueError):
-        noted = layout.home
-    for other in {noted, layout.home} - {layout.folder}:
-        if (other / FILE_NAME).is_file():
+        noted = own
+    there = own if layout.results is None else layout.home / FILE_NAME
+    for other in {noted, there} - {own}:
+        if other.is_file():
             raise StoreError(
-                f"{layout.home}: the results of another campaign, {other / FILE_NAME}, are in this folder and would be "
+                f"{layout.home}: the results of another campaign, {other}, are in this folder and would be "
                 "overwritten. Give each campaign a folder of its own with --results."
             )
-    write_text(layout.owner, f"{layout.folder}\n")
+    write_text(layout.owner, f"{own}\n")
 
 
 def expect_run(layout: Layout, run_id: str) -> None:

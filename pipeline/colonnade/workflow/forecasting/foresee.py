@@ -106,7 +106,7 @@ def foresee(
         If a file cannot be written.
     """
     loaded = load(Path(campaign))
-    layout = Layout.of(loaded.folder, results)
+    layout = Layout.of(loaded.path, results)
     own = _test(loaded, test)
     name = _specimen(loaded, specimen, own)
     if time_scale is not None and (expected := outside(time_scale, PLAIN)):

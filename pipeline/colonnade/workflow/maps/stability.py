@@ -115,7 +115,7 @@ def make_maps(
     for name in specimens:
         if name not in loaded.specimens:
             raise CampaignError(f'{loaded.path.name} has no specimen "{name}".{nearest(name, loaded.specimens)}')
-    layout = Layout.of(loaded.folder, results)
+    layout = Layout.of(loaded.path, results)
     with only_run(layout):
         spread = partial(in_blocks, workers=workers, scheduler=scheduler, progress=progress)
         return [

@@ -46,7 +46,7 @@ def write_pdf(campaign: Path | str, *, results: Path | str | None = None) -> Pat
         If there is no report, another run is under way, or the PDF cannot be written.
     """
     loaded = load(Path(campaign))
-    layout = Layout.of(loaded.folder, results)
+    layout = Layout.of(loaded.path, results)
     with only_run(layout):
         folder = _there(layout)
         recipe = _recipe(loaded, layout, folder)
@@ -73,7 +73,7 @@ def write_bundle(campaign: Path | str, target: Path | str, *, results: Path | st
     target : Path
     """
     loaded = load(Path(campaign))
-    layout = Layout.of(loaded.folder, results)
+    layout = Layout.of(loaded.path, results)
     with only_run(layout):
         folder = _there(layout)
         own = [*_pages(loaded, folder), *_shown(folder)]

@@ -78,7 +78,7 @@ def draw(campaign: Campaign, entry: Entry, subject: str, results: Path | None) -
     """
     from colonnade.report.pictures import subjects
 
-    layout = Layout.of(campaign.folder, results)
+    layout = Layout.of(campaign.path, results)
     found: subjects.Subject
     if entry.of == "test":
         found = subjects.read_of_test(campaign, layout, subject)

@@ -96,7 +96,7 @@ def watch(
         If another process watches the campaign, or results cannot be written.
     """
     loaded = load(Path(campaign)).awaiting()
-    layout = Layout.of(loaded.folder, results)
+    layout = Layout.of(loaded.path, results)
     with only_watch(layout), _logged(layout, say) as log, listening(loaded.folder / loaded.watch.folder) as bell:
         behind = Behind(loaded.path, layout.results, workers)
         watching = _Watching(loaded, layout, bell, behind, command, show, log, once)
