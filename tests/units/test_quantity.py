@@ -230,6 +230,7 @@ def test_the_usual_spelling_of_a_unit_is_the_same_unit_and_its_own(parts: list[t
     assert again.dimension == found.dimension
     assert again.factor == pytest.approx(found.factor, rel=1e-12)
     assert units.normalise_unit(usual) == usual
+    assert units.same_unit(usual, text)
 
 
 @every(
