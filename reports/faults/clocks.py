@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from colonnade.arrays import Array
-from faults.curves import delays, rotations, steps, table
+from faults.curves import ACCELERATION, ROTATION, delays, rotations, steps, table
 from faults.fault import Fault, Group, Picture
 from faults.planting import TIME, both, in_file, processing, times
 from faults.sound import RATE, SECOND_RATE
@@ -27,7 +27,6 @@ def _lost(samples: Array) -> Array:
 
 
 ACROSS, STEP = "time in the file, s", "step of the clock, ms"
-ACCELERATION = "table's acceleration, m/s²"
 
 CLOCKS = Group(
     "clocks",
@@ -41,7 +40,7 @@ CLOCKS = Group(
             happens="The time stamps are those of a computer that was busy with other things.",
             plant=in_file("sine.csv", _jitter),
             message=r"samples up to 0\.\d+ ms off an even clock of (2|1\.9999\d*|2\.0000\d*) ms",
-            picture=Picture(steps("sine.csv"), ACROSS, STEP, (4.0, 4.2), "With the fault, no two steps are equal."),
+            picture=Picture(steps("sine.csv"), STEP, (4.0, 4.2), "With the fault, no two steps are equal.", ACROSS),
             mend="Nothing has to be written: samples are used at the times that the file gives. If the recorder's own "
             "clock is even, leave its time column out and give the `sampling_rate`.",
         ),
@@ -53,10 +52,10 @@ CLOCKS = Group(
             message=r"recorder daq2: its clock runs \d+ ± \d+ ppm fast against the main recorder's",
             picture=Picture(
                 delays,
-                ACROSS,
                 "delay of the second recorder, ms",
                 (2.0, 9.0),
                 "Without the fault, the delay stays near 20 ms; with it, it changes by 0.6 ms every second.",
+                ACROSS,
             ),
             mend="Nothing has to be written: it was corrected. A common sampling clock or trigger line avoids it.",
         ),
@@ -67,11 +66,7 @@ CLOCKS = Group(
             plant=in_file("quake-daq2.csv", _started_late),
             message=r"agree better at -1[23]\d\d ms, beyond the range searched; .* processing.longest_offset",
             picture=Picture(
-                table,
-                ACROSS,
-                ACCELERATION,
-                (4.0, 6.0),
-                "With the fault, the accelerometer is 1.3 s early.",
+                table, ACCELERATION, (4.0, 6.0), "With the fault, the accelerometer is 1.3 s early.", ACROSS
             ),
             mend="Allow a longer delay.",
             mending=processing('longest_offset = "2 s"'),
@@ -82,7 +77,7 @@ CLOCKS = Group(
             happens="The recorder's buffer ran over, and 200 samples were not written.",
             plant=in_file("sine.csv", _lost),
             message="1 gap in time, about 200 samples lost",
-            picture=Picture(steps("sine.csv"), ACROSS, STEP, (5.8, 6.6), "With the fault, one step is 0.4 s long."),
+            picture=Picture(steps("sine.csv"), STEP, (5.8, 6.6), "With the fault, one step is 0.4 s long.", ACROSS),
             mend="What was not recorded cannot be mended. Results bridge the gap and say where it is. If it is at the "
             "end of the test, a `[[trim]]` in review.toml keeps what is before it; next to strong motion the peak "
             "may be lost, and the test has to be repeated.",
@@ -95,10 +90,10 @@ CLOCKS = Group(
             message=r"channels top and bottom all show 0\.\d+ times the rotation .*: a sampling rate × 2 \(",
             picture=Picture(
                 rotations("top", "bottom"),
-                ACROSS,
-                "reading over height, mrad",
+                ROTATION,
                 (5.0, 9.0),
                 "With the fault, the block seems to rock half as fast as its size allows.",
+                ACROSS,
             ),
             mend="Correct the clock where the file was made. If the file has no time column, correct `sampling_rate` "
             "of the set-up.",

@@ -6,14 +6,10 @@ from pathlib import Path
 
 from colonnade.arrays import Array
 from colonnade.dynamics.motion import Motion
-from faults.curves import filtered, named_motion, rotations, signals
+from faults.curves import ROTATION, filtered, motions, pair, signals
 from faults.fault import Fault, Group, Picture
 from faults.planting import TIME, TOP, in_campaign, in_file, processing, review
 from faults.sound import RATE, earthquake, write_motion
-
-PAIR = rotations("top", "bottom")
-ACROSS, ROTATION = "time, s", "reading over height, mrad"
-OVER_PEAK = "acceleration over its peak"
 
 
 def _slipped(samples: Array) -> Array:
@@ -44,7 +40,7 @@ COURSE = Group(
             happens="A transducer slipped in its clamp by 3 mm.",
             plant=in_file("free.csv", _slipped),
             message=r"the zero of the angle drifts by \+\d+\.\d+ ± \d\.\d+ mrad over the arcs",
-            picture=Picture(PAIR, ACROSS, ROTATION, (3.5, 7.0), "With the fault, top and bottom differ until 5 s."),
+            picture=pair((3.5, 7.0), "With the fault, top and bottom differ until 5 s."),
             mend="Use the part of the test after it, or leave the channel out.",
             mending=review('[[trim]]\ntest = "free"\nwindow = ["5.1 s", "22 s"]'),
             command="run",
@@ -55,7 +51,7 @@ COURSE = Group(
             happens="Started after the release, stopped while the block still rocked: it is at rest at neither end.",
             plant=in_file("free.csv", _stopped),
             message="the zero of the rocking angle is uncertain by .* Record until the specimen is still",
-            picture=Picture(PAIR, ACROSS, ROTATION, (1.9, 8.0), "With the fault, no zero can be read off."),
+            picture=pair((1.9, 8.0), "With the fault, no zero can be read off."),
             mend="Test again, and record half a second of rest at one end at least. If the block was upright "
             "and still in some stretch, give it to the test as its `zero`.",
         ),
@@ -70,7 +66,6 @@ COURSE = Group(
             message="e of single impacts scatters by .*: the table moves, or somebody touched the block",
             picture=Picture(
                 signals("top", "table_displacement"),
-                ACROSS,
                 "reading, mm",
                 (4.0, 10.0),
                 "With the fault, the table's motion is missing; the block looks as in any free vibration.",
@@ -89,7 +84,7 @@ COURSE = Group(
             happens="A cut-off was chosen for a smooth picture.",
             plant=processing('lowpass = "4 Hz"'),
             message="no restitution from this test",
-            picture=Picture(filtered, ACROSS, ROTATION, (10.0, 13.0), "With the fault, small arcs lose their height."),
+            picture=Picture(filtered, ROTATION, (10.0, 13.0), "With the fault, small arcs lose their height."),
             mend="Leave `lowpass` out: the default follows from the specimen "
             "([how much it takes off](../explanation/filter.md)).",
             mending=in_campaign('\n\\[processing\\]\nlowpass = "4 Hz"\n', "\n"),
@@ -101,7 +96,7 @@ COURSE = Group(
             happens="The operator loaded another file than the log says.",
             plant=in_campaign('motion = "Valley"', 'motion = "Hill"'),
             message=r'the table did not move as "Hill" at time scale 0.25 .*: it moved as "Valley" \((0.9\d|1.00)\)',
-            picture=Picture(named_motion, ACROSS, OVER_PEAK, (3.0, 7.0), "With the fault, the two differ throughout."),
+            picture=motions("With the fault, the two differ throughout."),
             mend="Correct the name of the motion.",
             mending=in_campaign('motion = "Hill"', 'motion = "Valley"'),
         ),
@@ -111,7 +106,7 @@ COURSE = Group(
             happens="The reference record has the other sign than the motion that the table was given.",
             plant=_turned,
             message='moved as "Valley" with the other polarity',
-            picture=Picture(named_motion, ACROSS, OVER_PEAK, (3.0, 7.0), "With the fault, the two are mirror images."),
+            picture=motions("With the fault, the two are mirror images."),
             mend="If the table was driven with the other sign on purpose, give that record as the reference. If not, "
             "the sign of the table's acceleration is wrong.",
             mending=_turned_back,
@@ -122,7 +117,7 @@ COURSE = Group(
             happens="The motion was compressed for another model scale: √(1/20) instead of 1/4.",
             plant=in_campaign(r"time_scale = 0\.25", "time_scale = 0.2236"),
             message=r"but with time scale 0\.(25|249\d|250\d) ",
-            picture=Picture(named_motion, ACROSS, OVER_PEAK, (3.0, 7.0), "With the fault, the two run apart."),
+            picture=motions("With the fault, the two run apart."),
             mend="Correct the time scale.",
             mending=in_campaign(r"time_scale = 0\.2236", "time_scale = 0.25"),
         ),

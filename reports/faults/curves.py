@@ -12,12 +12,13 @@ import numpy as np
 from colonnade import units
 from colonnade.arrays import Array
 from colonnade.signals.filters import default_lowpass, lowpass, second_derivative
-from faults.fault import Curve
+from faults.fault import Curve, Picture
 from faults.planting import samples
 from faults.sound import PRISM, RATE, RELEASE
 
 Draws = Callable[[Path], list[Curve]]
 
+ROTATION, ACCELERATION = "reading over height, mrad", "table's acceleration, m/s²"
 STILL = 0.5
 """s at the end of a record, from which its zero is taken."""
 
@@ -50,6 +51,11 @@ def rotations(*channels: str) -> Draws:
     return draw
 
 
+def pair(window: tuple[float, float], shows: str) -> Picture:
+    """Show the rotation that top and bottom give."""
+    return Picture(rotations("top", "bottom"), ROTATION, window, shows)
+
+
 def filtered(folder: Path) -> list[Curve]:
     """Draw the rotation that top gives, as recorded and with the low-pass of the campaign, in mrad."""
     [whole] = rotations("top")(folder)
@@ -71,6 +77,11 @@ def table(folder: Path) -> list[Curve]:
     scaled = units.factor_to_si(unit, "acceleration") * (acceleration - float(np.median(still)))
     scaled = lowpass(scaled, float(np.median(np.diff(time))), SMOOTH)
     return [Curve("accelerometer", time, scaled), Curve("from the displacement", own, derived)]
+
+
+def tables(window: tuple[float, float], shows: str) -> Picture:
+    """Show the table's two accelerations."""
+    return Picture(table, ACCELERATION, window, shows)
 
 
 def delays(folder: Path) -> list[Curve]:
@@ -109,6 +120,11 @@ def named_motion(folder: Path) -> list[Curve]:
         Curve("the table moved", time, acceleration / np.abs(acceleration).max()),
         Curve("the campaign says", own * test["time_scale"] + RELEASE, values / np.abs(values).max()),
     ]
+
+
+def motions(shows: str) -> Picture:
+    """Show the table's motion and the record that the test names."""
+    return Picture(named_motion, "acceleration over its peak", (3.0, 7.0), shows)
 
 
 def _campaign(folder: Path) -> dict[str, Any]:

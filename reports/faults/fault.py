@@ -35,19 +35,21 @@ class Picture:
     ----------
     curves : callable
         Of the folder of a campaign.
-    across, up : str
-        What the axes are, with their units.
+    up : str
+        What the upright axis is, with its unit.
     window : pair of float
         Of the axis across.
     shows : str
         What is seen, in a sentence.
+    across : str
+        What the axis across is, with its unit.
     """
 
     curves: Callable[[Path], list[Curve]]
-    across: str
     up: str
     window: tuple[float, float]
     shows: str
+    across: str = "time, s"
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ import difflib
 import re
 from pathlib import Path
 
+import study
 from faults.fault import Fault, Group
 from faults.registry import GROUPS
 
@@ -61,11 +62,9 @@ def _toml(text: str) -> str:
 
 def table(told: dict[str, str]) -> str:
     """Write the table of all faults, with the finding that names each."""
-    rows = ["| fault | finding | found by |", "|---|---|---|"]
+    rows = []
     for group in GROUPS:
         for fault in group.faults:
-            [line] = [line for line in told[fault.slug].splitlines() if re.search(fault.message, line, re.IGNORECASE)][
-                :1
-            ]
-            rows.append(f"| [{fault.name}]({group.name}.md#{fault.slug}) | {line.split(': ')[0]} | `{fault.command}` |")
-    return "\n".join(rows)
+            line = next(line for line in told[fault.slug].splitlines() if re.search(fault.message, line, re.IGNORECASE))
+            rows.append((f"[{fault.name}]({group.name}.md#{fault.slug})", line.split(": ")[0], f"`{fault.command}`"))
+    return study.table(("fault", "finding", "found by"), rows)

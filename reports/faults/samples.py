@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from colonnade.arrays import Array
-from faults.curves import rotations, signals
+from faults.curves import pair, signals
 from faults.fault import Fault, Group, Picture
 from faults.planting import BOTTOM, TOP, both, channel_line, in_campaign, in_file, processing, review
 from faults.sound import RATE
 
-ACROSS, READING = "time, s", "reading of top, mm"
+READING = "reading of top, mm"
 WINDOW = (4.0, 6.5)
 STRETCH = slice(int(5.0 * RATE), int(5.8 * RATE))
 
@@ -61,13 +61,7 @@ SAMPLES = Group(
             happens="The core came off its rod, or a cable broke: the channel shows noise alone.",
             plant=in_file("sine.csv", _dead),
             message=r"channel bottom hardly moves \(.*\), although the rotation measured by top",
-            picture=Picture(
-                rotations("top", "bottom"),
-                ACROSS,
-                "reading over height, mrad",
-                (2.5, 4.0),
-                "With the fault, bottom stays at zero while top turns.",
-            ),
+            picture=pair((2.5, 4.0), "With the fault, bottom stays at zero while top turns."),
             mend="Leave the channel out of this test. The angle then comes from the other one alone, and the report "
             "says so.",
             mending=review('[[exclude]]\ntest = "sine"\nchannel = "bottom"'),
@@ -78,7 +72,7 @@ SAMPLES = Group(
             happens="The range of the recorder was too small for this test.",
             plant=both(in_file("sine.csv", _clipped), channel_line("rig", "top", 'range = "10 V"', 'range = "0.9 V"')),
             message=r"channel top: \d+ samples at the end of the range",
-            picture=Picture(signals("top"), ACROSS, READING, (2.5, 4.0), "With the fault, the peaks are cut off."),
+            picture=Picture(signals("top"), READING, (2.5, 4.0), "With the fault, the peaks are cut off."),
             mend="The peaks are lost on this channel. Leave it out if another one shows the rotation.",
             mending=review('[[exclude]]\ntest = "sine"\nchannel = "top"'),
             stays=True,
@@ -89,7 +83,7 @@ SAMPLES = Group(
             happens="A loose contact, or a drive that switches next to the cable.",
             plant=in_file("sine.csv", _spikes),
             message="channel top: spikes on 40 samples, the first at",
-            picture=Picture(signals("top"), ACROSS, READING, (4.0, 6.0), "With the fault, single samples stand out."),
+            picture=Picture(signals("top"), READING, (4.0, 6.0), "With the fault, single samples stand out."),
             mend="Nothing has to be written: flagged samples are bridged. If a peak was taken for a spike, raise the "
             "threshold, here until none is flagged.",
             mending=processing("spike_threshold = 900"),
@@ -100,7 +94,7 @@ SAMPLES = Group(
             happens="The recorder repeated the last value for a while.",
             plant=in_file("sine.csv", _flat),
             message="channel top: 400 samples flat for more than 0.5 s, the first at 5 s",
-            picture=Picture(signals("top"), ACROSS, READING, WINDOW, "With the fault, the reading stays the same."),
+            picture=Picture(signals("top"), READING, WINDOW, "With the fault, the reading stays the same."),
             mend="Flag the stretch as failed; it is then bridged, and the angle in it comes from the other transducer.",
             mending=review('[[flag]]\ntest = "sine"\nchannel = "top"\nwindow = ["4.99 s", "5.81 s"]\nas = "fail"'),
             stays=True,
@@ -111,7 +105,7 @@ SAMPLES = Group(
             happens="The recorder wrote NaN where it had no value.",
             plant=in_file("sine.csv", _empty),
             message="channel top: 400 samples without a value, the first at 5 s",
-            picture=Picture(signals("top"), ACROSS, READING, WINDOW, "With the fault, a stretch is empty."),
+            picture=Picture(signals("top"), READING, WINDOW, "With the fault, a stretch is empty."),
             mend="Nothing has to be written: NaN is the right way to say that a value is missing. But next to "
             "strong motion the peak may be among what is missing: read the samples from the recorder again, or repeat "
             "the test.",
@@ -122,7 +116,7 @@ SAMPLES = Group(
             happens="The recorder's software was set up again, and a column got another name.",
             plant=_renamed,
             message=r'channel top: .*"LVDT 1"',
-            picture=Picture(signals("bottom"), ACROSS, "reading of bottom, mm", WINDOW, "The recording is the same."),
+            picture=Picture(signals("bottom"), "reading of bottom, mm", WINDOW, "The recording is the same."),
             mend="Write the name as the file has it.",
             mending=in_campaign(r'(?s)(\[setups\.rig\.channels\].*?)"LVDT 1"', r'\g<1>"WA-50 left"'),
         ),

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from faults.curves import rotations, table
-from faults.fault import Fault, Group, Picture
+from faults.curves import pair, tables
+from faults.fault import Fault, Group
 from faults.planting import BOTTOM, TABLE, channel_line, in_campaign, in_file, review, swapped, times
 
 QUAKE, SINE, FREE = (5.0, 7.0), (2.5, 4.0), (1.3, 5.0)
 """s: windows of the pictures."""
-PAIR = rotations("top", "bottom")
-ROTATION = "reading over height, mrad"
-ACROSS = "time, s"
 
 SCALES = Group(
     "scales",
@@ -26,7 +23,7 @@ SCALES = Group(
             plant=channel_line("rig", "top", "15 mm/V", "150 mm/V"),
             message=r"channel top shows (9\.\d+|10(\.\d)?) times the rotation .* that bottom shows: a gain wrong by a "
             "factor of 10",
-            picture=Picture(PAIR, ACROSS, ROTATION, QUAKE, "With the fault, top turns ten times as far as bottom."),
+            picture=pair(QUAKE, "With the fault, top turns ten times as far as bottom."),
             mend="Correct the gain in campaign.toml. If only some tests were recorded with the other range, correct "
             "those in review.toml.",
             mending=review('[[correct]]\ntest = "quake"\nchannel = "top"\nfactor = 0.1'),
@@ -37,7 +34,7 @@ SCALES = Group(
             happens="The recorder's software was set to inches for one transducer.",
             plant=in_file("free.csv", times(BOTTOM, 1 / 25.4)),
             message=r"channel bottom shows 0.0[34]\d* times the rotation .* that top shows: inches read as mm",
-            picture=Picture(PAIR, ACROSS, ROTATION, FREE, "With the fault, bottom hardly turns."),
+            picture=pair(FREE, "With the fault, bottom hardly turns."),
             mend="Correct the channel, here for one test; if all tests have it, correct its `unit` and `gain`.",
             mending=review('[[correct]]\ntest = "free"\nchannel = "bottom"\nfactor = 25.4'),
         ),
@@ -48,9 +45,7 @@ SCALES = Group(
             plant=channel_line("rig", "table_acceleration", "0.2 g/V", "0.2 m/s^2/V"),
             message=r"table_acceleration is 0.10\d* ± \S+ times the second derivative of table_displacement: the "
             r"specimen's rocking shows that table_acceleration is wrong; g read as m/s²",
-            picture=Picture(
-                table, ACROSS, "table's acceleration, m/s²", SINE, "With the fault, the accelerometer shows a tenth."
-            ),
+            picture=tables(SINE, "With the fault, the accelerometer shows a tenth."),
             mend="Correct the unit of the gain.",
             mending=channel_line("rig", "table_acceleration", r"0\.2 m/s\^2/V", "0.2 g/V"),
         ),
@@ -60,7 +55,7 @@ SCALES = Group(
             happens="A transducer was mounted from the other side, so that its rod goes in when the top moves to +x.",
             plant=in_file("sine.csv", times(BOTTOM, -1.0)),
             message="channel bottom turns opposite to top: the sign of bottom is wrong",
-            picture=Picture(PAIR, ACROSS, ROTATION, SINE, "With the fault, top and bottom turn against each other."),
+            picture=pair(SINE, "With the fault, top and bottom turn against each other."),
             mend="Turn `direction` of the channel in campaign.toml, or correct the tests that have it.",
             mending=channel_line("rig", "bottom", r"direction = \[1, 0, 0\]", "direction = [-1, 0, 0]"),
         ),
@@ -71,9 +66,7 @@ SCALES = Group(
             plant=in_file("sine-daq2.csv", times(TABLE, -1.0)),
             message="table_acceleration and the second derivative of table_displacement have opposite signs: the "
             "specimen's rocking shows that table_acceleration is wrong",
-            picture=Picture(
-                table, ACROSS, "table's acceleration, m/s²", SINE, "With the fault, the two are mirror images."
-            ),
+            picture=tables(SINE, "With the fault, the two are mirror images."),
             mend="Turn its `direction`, or correct the tests that have it.",
             mending=review('[[correct]]\ntest = "sine"\nchannel = "table_acceleration"\nfactor = -1'),
         ),
@@ -83,7 +76,7 @@ SCALES = Group(
             happens="Two plugs were exchanged at the recorder.",
             plant=in_file("free.csv", swapped),
             message=r"channels top and bottom look swapped: .* falls from [\d.]+ to 0\.0\d+ mm",
-            picture=Picture(PAIR, ACROSS, ROTATION, FREE, "With the fault, neither shows the rotation of the block."),
+            picture=pair(FREE, "With the fault, neither shows the rotation of the block."),
             mend="Exchange the two columns in campaign.toml.",
             mending=in_campaign(r'(?s)(frame\.channels\].*?)"LVDT 1"(.*?)"LVDT 2"', r'\g<1>"LVDT 2"\g<2>"LVDT 1"'),
         ),
@@ -93,7 +86,7 @@ SCALES = Group(
             happens="The height of a transducer was measured from the middle of the block, not from its base.",
             plant=channel_line("frame", "top", "440 mm", "212 mm"),
             message=r"channel top shows 2\.0\d* times the rotation .* that bottom shows",
-            picture=Picture(PAIR, ACROSS, ROTATION, FREE, "With the fault, top seems to turn twice as far."),
+            picture=pair(FREE, "With the fault, top seems to turn twice as far."),
             mend="Correct `at` in campaign.toml. `colonnade check --drawing FILE.svg` draws where the transducers are.",
             mending=channel_line("frame", "top", "212 mm", "440 mm"),
         ),
@@ -104,9 +97,7 @@ SCALES = Group(
             plant=in_campaign('height = "456 mm"', 'height = "912 mm"'),
             message=r"channels top and bottom all show 3\.\d+ times the rotation .* specimen's dimensions, or the "
             "sampling rate",
-            picture=Picture(
-                PAIR, ACROSS, ROTATION, FREE, "The recordings are the same: only the equation of motion disagrees."
-            ),
+            picture=pair(FREE, "The recordings are the same: only the equation of motion disagrees."),
             mend="Give the sizes of the specimen that was tested. If they are right, look at the sampling rate.",
             mending=in_campaign('height = "912 mm"', 'height = "456 mm"'),
         ),

@@ -14,6 +14,7 @@ from colonnade.store.layout import Layout
 from faults.planting import TIME, TOP, Change, both, channel_line, in_file
 from faults.sound import PRISM, RELEASE, RESTITUTION
 from faults.told import findings, keep_only
+from study import table
 
 TEST = "free"
 """The test of the sound campaign that they are planted in."""
@@ -94,9 +95,9 @@ def effect(fault: Unseen, folder: Path) -> Effect:
 
 def page(effects: list[tuple[Unseen, Effect]]) -> str:
     """Write the page."""
+    heads = ("planted", "held at", "e", "95 % interval", "findings")
     rows = [
-        f"| {fault.name} | {of.held:.3f} α | {of.restitution:.6f} | {of.low:.6f} to {of.high:.6f} "
-        f"| {of.told or 'none'} |"
+        (fault.name, f"{of.held:.3f} α", f"{of.restitution:.6f}", f"{of.low:.6f} to {of.high:.6f}", of.told or "none")
         for fault, of in effects
     ]
     reasons = [f"- **{fault.name}.** {fault.why} {fault.advice}" for fault, _ in effects if fault.why]
@@ -107,9 +108,7 @@ def page(effects: list[tuple[Unseen, Effect]]) -> str:
             "A check can only find what contradicts something else. These faults were planted into the free vibration "
             f"of the same campaign, whose true e is {RESTITUTION:g} and whose prism was held at 0.55 α. The runs gave:",
             "",
-            "| planted | held at | e | 95 % interval | findings |",
-            "|---|---|---|---|---|",
-            *rows,
+            table(heads, rows),
             "",
             "e is a ratio and hardly changes; the angle, and with it every peak, has the error of the gain or the "
             "height, and no interval includes that.",

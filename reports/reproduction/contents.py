@@ -16,6 +16,8 @@ from reproduction.statements import answers
 from reproduction.statements.sines import shown as test_shown
 from study import table
 
+MODELS = ("linear", "nonlinear", "contact")
+
 
 class Page(NamedTuple):
     """A page: its title, the numbers of the paper's tables and figures on it, and what it holds of the numbers."""
@@ -52,15 +54,18 @@ def _setting(numbers: Numbers) -> list[str]:
     ]
 
 
+def _outcome(found: Numbers, digits: int) -> str:
+    """Say how a test ended, and its largest |θ|/α if it has one."""
+    peak = found["peak_ratio"]
+    return str(found["outcome"]) if peak is None else f"{found['outcome']}, {peak:.{digits}f}"
+
+
 def _free(numbers: Numbers) -> list[str]:
+    spans = [(model, when) for model in MODELS for when in ("early", "late")]
     rows = [
         [
             test,
-            *(
-                fixed(each[model][when], 3)
-                for model in ("linear", "nonlinear", "contact")
-                for when in ("early", "late")
-            ),
+            *(fixed(each[model][when], 3) for model, when in spans),
         ]
         for test, each in numbers["free_vibrations"].items()
     ]
@@ -85,13 +90,7 @@ def _free(numbers: Numbers) -> list[str]:
         "RMS of predicted less measured θ over α, in the first four predicted arcs (early) and in the twelve after "
         "them (late). The virtual prism cannot leave its plane: what the linear model misses here is the equation's "
         "own.",
-        table(
-            (
-                "test",
-                *(f"{model}, {when}" for model in ("linear", "nonlinear", "contact") for when in ("early", "late")),
-            ),
-            rows,
-        ),
+        table(("test", *(f"{model}, {when}" for model, when in spans)), rows),
         "What turns a real release three-dimensional is answered by [the study of the contact "
         "model](../contact-study.md#what-turns-rocking-three-dimensional).",
     ]
@@ -106,10 +105,7 @@ def _sines(numbers: Numbers) -> list[str]:
                 name,
                 f"{test['frequency_ratio']:.2f}",
                 f"{test['amplitude_ratio']:.3f}",
-                *(
-                    each["outcome"] if each["peak_ratio"] is None else f"{each['outcome']}, {each['peak_ratio']:.2f}"
-                    for each in (test, *(test["predicted"][model] for model in ("linear", "nonlinear", "contact")))
-                ),
+                *(_outcome(each, 2) for each in (test, *(test["predicted"][model] for model in MODELS))),
                 numbers["sines"][name]["first_order"] or "–",
                 test["order"] or "–",
             ]
@@ -120,10 +116,7 @@ def _sines(numbers: Numbers) -> list[str]:
         "Outcome and largest |θ|/α; order of the measured response (1: harmonic, n: sub-harmonic 1/n) in the first "
         "ten periods of the steady sine, and settled.",
         table(
-            (
-                "test",
-                *("Ω", "A", "measured", "linear", "nonlinear", "contact", "order at first", "settled"),
-            ),
+            ("test", "Ω", "A", "measured", *MODELS, "order at first", "settled"),
             rows,
         ),
         "## In space",
@@ -131,10 +124,7 @@ def _sines(numbers: Numbers) -> list[str]:
         "base and rotations about x and about the vertical, up to the angle of 0.28 rad at which the frame catches "
         "the prism. The last column is what the balance of energy misses.",
         table(
-            (
-                "test",
-                *("friction", "outcome", "slide, mm", "out of plane, % of α", "turn, °", "energy missing, %"),
-            ),
+            ("test", "friction", "outcome", "slide, mm", "out of plane, % of α", "turn, °", "energy missing, %"),
             _in_space(numbers),
         ),
     ]
@@ -224,13 +214,8 @@ def _earthquakes(numbers: Numbers) -> list[str]:
             [
                 f"{span:.1f}",
                 fixed(test["pga"]),
-                *(
-                    found["outcome"]
-                    if found["peak_ratio"] is None
-                    else f"{found['outcome']}, {found['peak_ratio']:.3f}"
-                    for found in (test, *(test["predicted"][model] for model in ("linear", "nonlinear", "contact")))
-                ),
-                *(fixed(test["predicted"][model]["nrmse"], 3) for model in ("linear", "nonlinear", "contact")),
+                *(_outcome(found, 3) for found in (test, *(test["predicted"][model] for model in MODELS))),
+                *(fixed(test["predicted"][model]["nrmse"], 3) for model in MODELS),
                 fixed(each["numerical_to_analytical"], 3),
             ]
         )
@@ -250,11 +235,7 @@ def _earthquakes(numbers: Numbers) -> list[str]:
         "Table's peak acceleration, m/s²; outcome and largest |θ|/α; RMS of predicted less measured θ over α, and of "
         "contact less linear model.",
         table(
-            (
-                "Span",
-                *("peak, m/s²", "measured", "linear", "nonlinear", "contact"),
-                *("misfit: linear", "nonlinear", "contact", "contact − linear"),
-            ),
+            ("Span", "peak, m/s²", "measured", *MODELS, "misfit: linear", *MODELS[1:], "contact − linear"),
             rows,
         ),
         "## The paper's own time step",

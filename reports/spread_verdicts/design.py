@@ -62,25 +62,18 @@ height = "{height} m"
 mass = "100 kg"
 """
 
-SETUP = """
-[setups.{name}.channels.top]
-column = "TOP"
+DISPLACEMENT = """
+[setups.{name}.channels.{channel}]
+column = "{column}"
 quantity = "displacement"
 unit = "m"
 on = "specimen"
-at = ["{edge} m", "0 m", "{top} m"]
+at = ["{edge} m", "0 m", "{above} m"]
 direction = [1, 0, 0]
 relative_to = "table"
+"""
 
-[setups.{name}.channels.bottom]
-column = "BOTTOM"
-quantity = "displacement"
-unit = "m"
-on = "specimen"
-at = ["{edge} m", "0 m", "{bottom} m"]
-direction = [1, 0, 0]
-relative_to = "table"
-
+ACCELERATION = """
 [setups.{name}.channels.table_acceleration]
 column = "TABLE"
 quantity = "acceleration"
@@ -106,12 +99,18 @@ def campaign_text() -> str:
         specimens="".join(
             SPECIMEN.format(name=name, width=widths[name], height=height) for name, height in HEIGHTS.items()
         ),
-        setups="".join(
-            SETUP.format(name=name, edge=widths[name] / 2, top=0.9 * height, bottom=0.05 * height)
-            for name, height in HEIGHTS.items()
-        ),
+        setups="".join(_setup(name, height) for name, height in HEIGHTS.items()),
         tests="".join(TEST.format(name=name, kind=kind) for name in HEIGHTS for kind in KINDS),
     )
+
+
+def _setup(name: str, height: float) -> str:
+    edge, heights = height / SLENDERNESS / 2, {"top": 0.9 * height, "bottom": 0.05 * height}
+    above = (
+        DISPLACEMENT.format(name=name, channel=channel, column=channel.upper(), edge=edge, above=each)
+        for channel, each in heights.items()
+    )
+    return "".join(above) + ACCELERATION.format(name=name)
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.programme import write
 from colonnade.laboratory.table import recorded
 from colonnade.signals.filters import lowpass
+from faults.planting import TIME, TOP, both, in_campaign, in_file, swapped
 from prism import PRISM
 
 pytestmark = pytest.mark.whole
@@ -83,25 +84,6 @@ def sound(tmp_path_factory):
     return folder
 
 
-def _in_campaign(*changes):
-    def plant(folder):
-        path = folder / "campaign.toml"
-        text = path.read_text(encoding="utf-8")
-        for pattern, replacement in changes:
-            text, count = re.subn(pattern, replacement, text)
-            assert count == 1, pattern
-        path.write_text(text, encoding="utf-8")
-
-    return plant
-
-
-def _swap(folder):
-    path = folder / "raw" / "free.csv"
-    rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines()]
-    lines = [",".join([*row[:1], row[2], row[1], *row[3:]]) for row in rows[2:]]
-    path.write_text("\n".join([*(",".join(row) for row in rows[:2]), *lines, ""]), encoding="utf-8")
-
-
 def _wrap(folder):
     """The table's acceleration alone, eight numbers a row; the fourth column is taken for a channel of its own."""
     values = np.round(_component(1).acceleration, 5)
@@ -109,7 +91,7 @@ def _wrap(folder):
     (folder / "raw" / "quake.csv").write_text("\n".join([*rows, ""]), encoding="utf-8")
     channel = 'column = 4, quantity = "acceleration", unit = "m/s^2", on = "table", direction = [1, 0, 0]'
     setup = f'[setups.logger]\nsampling_rate = "200 Hz"\n[setups.logger.channels]\nacceleration = {{{channel}}}\n\n'
-    _in_campaign((r"\[\[tests\]\]\nid = \"free\"", f'{setup}[[tests]]\nid = "free"'))(folder)
+    in_campaign(r"\[\[tests\]\]\nid = \"free\"", f'{setup}[[tests]]\nid = "free"')(folder)
     path = folder / "campaign.toml"
     before, quake = path.read_text(encoding="utf-8").split('id = "quake"')
     path.write_text(f'{before}id = "quake"{quake.replace("rig", "logger")}', encoding="utf-8")
@@ -134,55 +116,54 @@ def _twice(folder):
     path.write_text(text + "\n" + entry.replace('id = "free"', 'id = "free-2"'), encoding="utf-8")
 
 
-def _top_saturated(folder):
-    """The top transducer saturates at 80 % of the largest peak, under noise, and no range says so."""
-    _in_campaign((r'unit = "V", gain = "15 mm/V", range = "10 V"', 'unit = "V", gain = "15 mm/V"'))(folder)
-    path = folder / "raw" / "quake.csv"
-    head, rows = path.read_text(encoding="utf-8").splitlines()[:2], np.loadtxt(path, delimiter=",", skiprows=2)
-    zero, noise = np.median(rows[:200, 1]), np.random.default_rng(0).normal(0, 0.002, len(rows))
-    limit = 0.8 * np.abs(rows[:, 1] - zero).max()
-    rows[:, 1] = np.clip(rows[:, 1], zero - limit, zero + limit) + noise
-    path.write_text("\n".join([*head, *(",".join(f"{x:.6f}" for x in row) for row in rows), ""]), encoding="utf-8")
+def _saturated_at_the_top(samples):
+    zero, noise = np.median(samples[:200, TOP]), np.random.default_rng(0).normal(0, 0.002, len(samples))
+    limit = 0.8 * np.abs(samples[:, TOP] - zero).max()
+    samples[:, TOP] = np.clip(samples[:, TOP], zero - limit, zero + limit) + noise
+    return samples
 
 
-def _alone_behind_a_high_pass(folder):
-    """One transducer is left, and it is AC-coupled."""
-    _in_campaign((r"bottom = \{.*\}\n", ""))(folder)
-    path = folder / "raw" / "free.csv"
-    head, rows = path.read_text(encoding="utf-8").splitlines()[:2], np.loadtxt(path, delimiter=",", skiprows=2)
-    rows[:, 1] = _high_pass(0.3)(rows[:, 0], rows[:, 1] - rows[0, 1])
-    path.write_text("\n".join([*head, *(",".join(f"{x:.6f}" for x in row) for row in rows), ""]), encoding="utf-8")
+def _coupled_at_the_top(samples):
+    samples[:, TOP] = _high_pass(0.3)(samples[:, TIME], samples[:, TOP] - samples[0, TOP])
+    return samples
 
 
 MISTAKES = {
     "AC-coupled alone": (
-        _alone_behind_a_high_pass,
+        both(in_campaign(r"bottom = \{.*\}\n", ""), in_file("free.csv", _coupled_at_the_top)),
         r"serious \(AC coupling\): free: Channel top does not hold a constant value .*high-pass of 0.3 Hz",
     ),
     "saturated under noise": (
-        _top_saturated,
+        # At 80 % of the largest peak, under noise, and no range says so.
+        both(
+            in_campaign(r'unit = "V", gain = "15 mm/V", range = "10 V"', 'unit = "V", gain = "15 mm/V"'),
+            in_file("quake.csv", _saturated_at_the_top),
+        ),
         r"serious \(end of the range\): quake: Channel top stands still .*: its transducer .* saturates",
     ),
     "another block": (
-        _in_campaign((r'width = "86 mm"', 'width = "97 mm"')),
+        in_campaign(r'width = "86 mm"', 'width = "97 mm"'),
         r"serious \((specimen|gain)\): \w+: Channels top and bottom all show .* a base of 8[567].* mm for 97 mm",
     ),
     "gain x 10": (
-        _in_campaign((r'gain = "15 mm/V"', 'gain = "150 mm/V"')),
+        in_campaign(r'gain = "15 mm/V"', 'gain = "150 mm/V"'),
         r"serious \(gain\): free: Channel top shows .* times the rotation .*: a gain wrong by a factor of 10",
     ),
-    "swapped columns": (_swap, r"serious \(swapped channels\): free: Channels top and bottom look swapped"),
+    "swapped columns": (
+        in_file("free.csv", swapped),
+        r"serious \(swapped channels\): free: Channels top and bottom look swapped",
+    ),
     "V for mm": (
-        _in_campaign((r'unit = "V", gain = "15 mm/V", range = "10 V"', 'unit = "mm"')),
+        in_campaign(r'unit = "V", gain = "15 mm/V", range = "10 V"', 'unit = "mm"'),
         r'serious \(unit\): free: channel top: free.csv says "V" .* the campaign file says "mm"',
     ),
     "mm for m": (
-        _in_campaign((r'height = "456 mm"', 'height = "456 m"')),
+        in_campaign(r'height = "456 mm"', 'height = "456 m"'),
         r"serious \(specimen\): campaign file: .* give 7.7 kg/m³; .* one of the lengths in mm read as m",
     ),
     "wrapped rows": (_wrap, r"quake[\s\S]*quake.csv: .*runs on from row to row"),
     "wrong component": (
-        _in_campaign(('motion = "Valley NS"', 'motion = "Valley EW"')),
+        in_campaign('motion = "Valley NS"', 'motion = "Valley EW"'),
         r'\(another motion\): quake: .* did not move as "Valley EW" .*: it moved as "Valley NS" .*another component',
     ),
     "empty file": (lambda folder: (folder / "raw" / "free.csv").write_bytes(b""), r"free.csv: the file is empty"),
@@ -200,16 +181,12 @@ MISTAKES = {
 def _in_quake(change):
     """Change the table's acceleration, V, at its times, in the earthquake's file."""
 
-    def plant(folder):
-        path = folder / "raw" / "quake.csv"
-        head = path.read_text(encoding="utf-8").splitlines()[:2]
-        rows = np.loadtxt(path, delimiter=",", skiprows=2)
-        rest = rows[:100, -1].mean()
-        rows[:, -1] = rest + change(rows[:, 0], rows[:, -1] - rest)
-        lines = [",".join(f"{value:.6f}" for value in row) for row in rows]
-        path.write_text("\n".join([*head, *lines, ""]), encoding="utf-8")
+    def changed(samples):
+        rest = samples[:100, -1].mean()
+        samples[:, -1] = rest + change(samples[:, TIME], samples[:, -1] - rest)
+        return samples
 
-    return plant
+    return in_file("quake.csv", changed)
 
 
 def _high_pass(corner):
@@ -268,9 +245,9 @@ def _gains(factor):
 
 CONTRADICTED = {
     **{f"all gains x {factor}": _gains(factor) for factor in (1.04, 1.08, 1.4)},
-    **{f"width {width} mm": _in_campaign(('width = "86 mm"', f'width = "{width} mm"')) for width in (90, 94, 120)},
-    "cylinder": _in_campaign(
-        ('shape = "prism", width = "86 mm", depth = "86 mm"', 'shape = "cylinder", diameter = "97 mm"')
+    **{f"width {width} mm": in_campaign('width = "86 mm"', f'width = "{width} mm"') for width in (90, 94, 120)},
+    "cylinder": in_campaign(
+        'shape = "prism", width = "86 mm", depth = "86 mm"', 'shape = "cylinder", diameter = "97 mm"'
     ),
 }
 """What a free vibration contradicts and a shaken test uses: how each is planted."""
@@ -313,7 +290,7 @@ def test_a_shaken_test_is_told_what_its_free_vibration_contradicts(
     monkeypatch.setenv("COLUMNS", "400")
     folder = tmp_path / "campaign"
     shutil.copytree(sound, folder)
-    _in_campaign(('id = "quake"', f'id = "quake"\nwindow = ["0 s", "{SILENT} s"]'))(folder)
+    in_campaign('id = "quake"', f'id = "quake"\nwindow = ["0 s", "{SILENT} s"]')(folder)
     CONTRADICTED[mistake](folder)
     invoke((command[0], str(folder), *command[1:]))
     screen = "\n".join(capsys.readouterr().out.splitlines()[:SCREEN])
