@@ -1,5 +1,5 @@
 """
-The criteria of practice by their ids: a new one is its entry here.
+Criteria of practice for rocking and overturning by their ids: a new one is its entry here.
 
 Formulas are those by which the papers are cited. Of Housner (1963) and Ishiyama (1982) summaries were at hand; both
 formulas are held to their derivations by tests: the energy that a sudden velocity gives the block against the energy
@@ -11,16 +11,37 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import cos, sqrt
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from colonnade.arrays import Array
-from colonnade.assessment.criteria.demands import Demands
+from colonnade.arrays import Array, Mask
 from colonnade.dynamics.block import Block
+from colonnade.dynamics.spectra.response import response_spectrum
+
+PERIODS = np.geomspace(0.1, 2.5, 60)
+"""s, over which the velocity spectrum is taken as constant."""
 
 ISHIYAMA_FACTOR = 0.4
 """Of the velocity that overturns at once, the least velocity of sines and earthquakes that overturned."""
+
+
+class Demands(NamedTuple):
+    """
+    Of motions, in arrays of one shape; NaN if not known, as the velocity of a record that drifts.
+
+    Attributes
+    ----------
+    acceleration, velocity : ndarray
+        PGA in m/s², PGV in m/s.
+    spectral_velocity : ndarray
+        As of `spectral_velocity`, m/s.
+    """
+
+    acceleration: Array
+    velocity: Array
+    spectral_velocity: Array
 
 
 @dataclass(frozen=True)
@@ -145,3 +166,65 @@ CRITERIA = (
 
 NOT_COMPUTED = {"ASCE 43": "The full text of the rocking procedure of ASCE/SEI 43-05, appendix A, was not at hand."}
 """Criteria that are asked for and not computed, with the reason."""
+
+
+def spectral_velocity(acceleration: ArrayLike, interval: float) -> float:
+    """
+    Return the level of the undamped velocity spectrum of a motion.
+
+    Parameters
+    ----------
+    acceleration : array_like, shape (n,)
+        m/s².
+    interval : float
+        s.
+
+    Returns
+    -------
+    velocity : float
+        Mean undamped pseudo-velocity over `PERIODS`, evenly in ln T, m/s; proportional to the motion.
+
+    Raises
+    ------
+    ValueError
+        As of `response_spectrum`.
+
+    Notes
+    -----
+    Housner (1963) takes the undamped spectrum as constant and does not say over which periods a recorded one is to be
+    averaged; these are those of his spectrum intensity.
+    """
+    spectrum = response_spectrum(acceleration, interval, PERIODS, damping=0.0)
+    return float((2 * np.pi / spectrum.period * spectrum.displacement).mean())
+
+
+def agreement(ratio: Array, happened: Mask) -> dict[str, int]:
+    """
+    Count how often a criterion agrees with what is computed.
+
+    Parameters
+    ----------
+    ratio : ndarray, shape (n,)
+        Demand over capacity of each motion (`Criterion.ratio`); NaN if a demand is not known.
+    happened : ndarray of bool, shape (n,)
+        Whether the block rocked or overturned, whichever the criterion predicts.
+
+    Returns
+    -------
+    counts : dict of str to int
+        Motions by what became of the prediction, under the names of `JudgedCriterion`.
+
+    Examples
+    --------
+    >>> agreement(np.array([0.5, 2.0, 3.0]), np.array([False, False, True]))
+    {'right_overturned': 1, 'right_stands': 1, 'false_alarms': 1, 'missed': 0, 'unknown': 0}
+    """
+    known, predicted = ~np.isnan(ratio), ratio > 1.0
+    counted = {
+        "right_overturned": predicted & happened,
+        "right_stands": known & ~predicted & ~happened,
+        "false_alarms": predicted & ~happened,
+        "missed": known & ~predicted & happened,
+        "unknown": ~known,
+    }
+    return {name: int(each.sum()) for name, each in counted.items()}
