@@ -11,8 +11,7 @@ from colonnade.assessment.cases.prototype import MOST_DRAWS, Limits, Prototype
 from colonnade.assessment.fragility.curves.hazard import Hazard, hazard_curve
 from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES, checked_level
 from colonnade.assessment.fragility.summary import Fragility
-from colonnade.assessment.intensity.baselines import NONE
-from colonnade.assessment.intensity.ground import LARGEST_DRIFT
+from colonnade.assessment.ground import LARGEST_DRIFT, NONE
 from colonnade.assessment.study import DRAWS, judge, plan_study
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.models.nonlinear import NONLINEAR

@@ -17,10 +17,8 @@ from colonnade.assessment.fragility import outcomes as counted
 from colonnade.assessment.fragility.curves.hazard import Hazard
 from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES
 from colonnade.assessment.fragility.summary import Fragility, summarise
-from colonnade.assessment.intensity.baselines import NONE, baseline_of
-from colonnade.assessment.intensity.ground import LARGEST_DRIFT, Ground
-from colonnade.assessment.intensity.measured import measured, measures_of
-from colonnade.assessment.intensity.registry import MEASURES, Measure, measure_of
+from colonnade.assessment.ground import LARGEST_DRIFT, NONE, Ground, correction_of
+from colonnade.assessment.measures import MEASURES, Measure, measure_of, measured, measures_of
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.models.nonlinear import NONLINEAR
 from colonnade.dynamics.motion import Motion
@@ -123,7 +121,7 @@ def plan_study(
     scaled_over, block = measure_of(measure), prototype.block
     if not scaled_over.power:
         raise ValueError(f"{scaled_over.id} does not grow with a motion; a measure that does was expected")
-    baseline_of(baseline)
+    correction_of(baseline)
     drift = number("drift", drift, "a positive share of the peak velocity", above=0.0)
     compared = [scaled_over, *measures_of(USUAL if measures is None else measures)]
     corrected = {name: _corrected(motion, baseline) for name, motion in motions.items()}
@@ -273,7 +271,7 @@ def _left_out(kept: Sequence[str], reasons: Mapping[tuple[str, str], str]) -> di
 def _corrected(motion: Motion, baseline: str) -> Motion:
     if baseline == NONE:
         return motion
-    correct = baseline_of(baseline).correct
+    correct = correction_of(baseline)
     others = (None if part is None else correct(part, motion.dt) for part in (motion.vertical, motion.transverse))
     return Motion(correct(motion.acceleration, motion.dt), motion.dt, *others)
 

@@ -12,7 +12,7 @@ from colonnade.assessment.cases.cases import AXES, COMPONENTS, Outcomes, in_plan
 from colonnade.assessment.cases.prototype import UNCERTAIN
 from colonnade.assessment.cases.sliding import FrictionNeeded, friction_needed, holds
 from colonnade.assessment.fragility.summary import Fragility
-from colonnade.assessment.intensity.registry import measure_of
+from colonnade.assessment.measures import measure_of
 from colonnade.assessment.study import Study, counted_draws, judge
 from colonnade.dynamics.spectra.response import response_spectrum
 from colonnade.errors import StageError

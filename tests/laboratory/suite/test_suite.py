@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import scipy
 
-from colonnade.assessment.intensity.measured import intensity_measures
+from colonnade.assessment.measures import intensity_measures
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.suite.motion import broad_band, pulse
 from colonnade.laboratory.suite.parameters import CORRELATION, FLATTEST, STEEPEST, Shaking, drawn_shaking, shaking_of

@@ -20,7 +20,7 @@ from colonnade.assessment.fragility.outcomes import Outcomes
 from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES, Interval
 from colonnade.assessment.fragility.resurrection import Resurrection, resurrection
 from colonnade.assessment.fragility.uplift import Uplift, uplift
-from colonnade.assessment.intensity.registry import measure_of
+from colonnade.assessment.measures import measure_of
 from colonnade.digest import Digested, written
 from colonnade.validation import number
 

@@ -12,7 +12,7 @@ from colonnade.assessment.cases.prototype import Prototype
 from colonnade.assessment.fragility.curves.lognormal import LognormalFit
 from colonnade.assessment.fragility.resampling import Interval
 from colonnade.assessment.fragility.summary import Fragility
-from colonnade.assessment.intensity.registry import measure_of
+from colonnade.assessment.measures import measure_of
 from colonnade.campaign.assessing.assessed import (
     UNCORRECTED,
     AssessmentSummary,

@@ -7,7 +7,7 @@ import numpy as np
 from colonnade.arrays import Array
 from colonnade.assessment.cases.cases import Outcomes, in_plane
 from colonnade.assessment.criteria import CRITERIA, Demands, agreement, spectral_velocity
-from colonnade.assessment.intensity.ground import Ground
+from colonnade.assessment.ground import Ground
 from colonnade.assessment.study import Study
 from colonnade.campaign.assessing.assessed import JudgedCriterion
 

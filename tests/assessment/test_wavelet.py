@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.assessment.intensity.wavelet import LONGEST, PULSE_LIKE, SCALING, _daubechies, largest_pulse
+from colonnade.assessment.wavelet import LONGEST, PULSE_LIKE, SCALING, _daubechies, largest_pulse
 
 STEP = 0.01
 TIME = np.arange(4001) * STEP
