@@ -15,7 +15,7 @@ from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specime
 from colonnade.laboratory.files import COMMAS, GERMAN
 from colonnade.laboratory.programme import write
 from colonnade.laboratory.rig import frame, table_acceleration, table_displacement
-from colonnade.laboratory.suite.records import synthetic_records
+from colonnade.laboratory.site import synthetic_records
 from colonnade.laboratory.table import ramped_sine, recorded
 
 RESTITUTION = 0.94

@@ -18,7 +18,7 @@ from colonnade.laboratory.plans.trials import LENGTH_SCALE, Placed, earthquakes,
 from colonnade.laboratory.record import load_record
 from colonnade.laboratory.rig import prism_setups
 from colonnade.laboratory.runs import run_tests, write_truth
-from colonnade.laboratory.suite.site import add_site
+from colonnade.laboratory.site import add_site
 from colonnade.store.files import own_files
 
 PRISM_RESTITUTION = 0.976
