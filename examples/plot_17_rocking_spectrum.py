@@ -11,7 +11,7 @@ import numpy as np
 import colonnade
 from colonnade.laboratory.site import synthetic_records
 
-record = synthetic_records(3)[2]  # a synthetic ground motion with a long pulse
+record = synthetic_records(12)[11]  # a synthetic ground motion with a long pulse
 motion = record.motion
 print(f"{record.name}: a pulse of {record.pulse_period:.1f} s, PGA {motion.peak:.1f} m/s²")
 

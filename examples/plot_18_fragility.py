@@ -18,7 +18,7 @@ found = colonnade.fragility(
     records,
     restitution=0.94,
     restitution_range=(0.92, 0.96),
-    levels=np.geomspace(0.2, 3.2, 9),  # m/s, of PGV
+    levels=np.geomspace(0.2, 1.6, 9),  # m/s, of PGV
     draws=2,
     baseline="linear",
     resamples=200,

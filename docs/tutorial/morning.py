@@ -60,7 +60,7 @@ def quake(number, motion, peak):
     return Trial(f"quake-{number}", "earthquake", "table", duration=shaking.stop + 5.0, table=shaking, spikes=3)
 
 
-valley = synthetic_records(count=9)[8].motion
+valley = synthetic_records(count=2)[1].motion
 plan = Plan(
     campaign="morning",
     title="A morning at the shake table",
