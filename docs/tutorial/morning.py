@@ -13,8 +13,8 @@ from pathlib import Path
 from colonnade import Block, Motion
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import COMMAS, GERMAN
-from colonnade.laboratory.programme import write
-from colonnade.laboratory.rig import frame, table_acceleration, table_displacement
+from colonnade.laboratory.programme import frame, table_acceleration, table_displacement
+from colonnade.laboratory.runs import write
 from colonnade.laboratory.site import synthetic_records
 from colonnade.laboratory.table import ramped_sine, recorded
 

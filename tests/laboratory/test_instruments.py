@@ -7,9 +7,9 @@ import pytest
 
 from colonnade.laboratory.experiment import MAIN
 from colonnade.laboratory.instruments import STEP, Imperfections, Transducer, measure
-from colonnade.laboratory.rig import (
-    PRISM_CATCH,
-    prism_setups,
+from colonnade.laboratory.programme import (
+    RIGS,
+    setups,
 )
 from colonnade.laboratory.table import ramped_sine, still
 from every import every
@@ -87,9 +87,9 @@ def test_gain_and_offset_give_the_physical_value_back() -> None:
 
 
 def test_no_transducer_on_the_prism_reaches_its_range_before_the_catch() -> None:
-    assert PRISM_CATCH / PRISM.critical_angle == pytest.approx(1.5, rel=0.02)
-    angle = np.linspace(-PRISM_CATCH, PRISM_CATCH, 101)
-    for transducer in prism_setups()["bench"].recorders[MAIN].transducers:
+    assert RIGS["prism"].catch / PRISM.critical_angle == pytest.approx(1.5, rel=0.02)
+    angle = np.linspace(-RIGS["prism"].catch, RIGS["prism"].catch, 101)
+    for transducer in setups(RIGS["prism"], table_range=0.050)["bench"].recorders[MAIN].transducers:
         read = transducer.sense(PRISM, still(), np.zeros(angle.size), angle)
         # Its zero may be off by 2 % of the range; much more room than that would waste resolution.
         assert 0.5 < np.abs(read).max() / transducer.full_scale < 0.97

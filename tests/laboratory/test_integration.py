@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.block import Block
-from colonnade.laboratory.integration import REST_ANGLE, Integration
+from colonnade.laboratory.truth import REST_ANGLE, Integration
 from prism import PRISM
 
 ALPHA, P = PRISM.critical_angle, PRISM.p

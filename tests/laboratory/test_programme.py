@@ -17,7 +17,7 @@ from colonnade.laboratory.campaign_file import OPERATOR
 from colonnade.laboratory.experiment import Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import GERMAN
 from colonnade.laboratory.instruments import Transducer
-from colonnade.laboratory.programme import WrittenCampaign, write
+from colonnade.laboratory.runs import WrittenCampaign, write
 from colonnade.laboratory.table import ramped_sine
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import read

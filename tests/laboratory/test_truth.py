@@ -11,10 +11,9 @@ import pytest
 
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
-from colonnade.laboratory.comparison import with_truth
-from colonnade.laboratory.integration import REST_ANGLE, Integration
+from colonnade.laboratory.runs import with_truth
 from colonnade.laboratory.table import Piece, TableMotion, ramped_sine, recorded
-from colonnade.laboratory.truth import simulate
+from colonnade.laboratory.truth import REST_ANGLE, Integration, simulate
 from prism import PRISM
 
 SLENDER = Block.measured(mass=1.0, pole_distance=1.0, critical_angle=1e-4, inertia=1.3)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from colonnade.dynamics.motion import Motion
-from colonnade.laboratory.plans.schedule import TESTS_A_DAY, begun
-from colonnade.laboratory.plans.trials import QUIET, RELEASES, SPANS, Placed, earthquakes, free_vibrations, sine
+from colonnade.laboratory.experiment import TESTS_A_DAY, begun
+from colonnade.laboratory.programme import QUIET, RELEASES, SPANS, Placed, earthquakes, free_vibrations, sine
 from prism import PRISM
 
 PLACED = Placed("prism", PRISM, "bench", "table", "p-")

@@ -7,28 +7,30 @@ import pytest
 
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
-from colonnade.laboratory.plans import ladder
-from colonnade.laboratory.plans.paper import paper_cone, paper_cylinder
-from colonnade.laboratory.plans.trials import Placed, sine
-from colonnade.laboratory.programme import paper_prism
+from colonnade.laboratory.programme import (
+    CYCLES,
+    LADDERS,
+    LASTING,
+    MARGIN,
+    RAMP,
+    RAMPS,
+    SPECIMENS,
+    Placed,
+    sine,
+)
 
-SPECIMENS = {
-    "prism": (paper_prism(), ladder.PRISM),
-    "cylinder": (paper_cylinder(), ladder.CYLINDER),
-    "cone": (paper_cone(), ladder.CONE),
-}
 RUNGS = [
     pytest.param(name, frequency, id=f"{name} at {frequency:g} Hz")
-    for name, (_, steps) in SPECIMENS.items()
+    for name, steps in LADDERS.items()
     for frequency in steps
 ]
 
 
 def outcomes(name: str, frequency: float, looks: int, samples_per_cycle: int) -> list[set[str]]:
     """Outcomes around each step, by the nonlinear model: not the integrator that makes the truth."""
-    specimen, steps = SPECIMENS[name]
+    specimen, steps = SPECIMENS[name], LADDERS[name]
     placed = Placed(name, specimen.block, "bench", "table")
-    cycles, ramp = ladder.CYCLES.get(frequency, ladder.LASTING), ladder.RAMPS.get(frequency, ladder.RAMP)
+    cycles, ramp = CYCLES.get(frequency, LASTING), RAMPS.get(frequency, RAMP)
     table = sine(placed, "sine", frequency, 1.0, cycles=cycles, ramp=ramp).table
     dt = 1 / (frequency * samples_per_cycle)
     unit = table.acceleration(np.arange(0.0, table.stop + 1.0, dt))
@@ -37,7 +39,7 @@ def outcomes(name: str, frequency: float, looks: int, samples_per_cycle: int) ->
             rock(
                 specimen.block, Motion(amplitude * unit, dt), restitution=specimen.restitution, model="nonlinear"
             ).outcome
-            for amplitude in step * np.linspace(1 - ladder.MARGIN, 1 + ladder.MARGIN, looks)
+            for amplitude in step * np.linspace(1 - MARGIN, 1 + MARGIN, looks)
         }
         for step in steps[frequency]
     ]

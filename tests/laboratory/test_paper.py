@@ -13,8 +13,8 @@ import pytest
 from colonnade import campaign
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.experiment import Plan
-from colonnade.laboratory.plans.paper import paper_programme
-from colonnade.laboratory.programme import write
+from colonnade.laboratory.programme import paper_programme
+from colonnade.laboratory.runs import write
 from colonnade.readers.registry import read
 
 
