@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from colonnade.assessment.fragility.summary import Fragility as Fragility
+    from colonnade.assessment.fragility import Fragility as Fragility
     from colonnade.assessment.measures import IntensityMeasures as IntensityMeasures
     from colonnade.assessment.measures import intensity_measures as intensity_measures
     from colonnade.assessment.on_motions import fragility as fragility

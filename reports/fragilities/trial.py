@@ -5,14 +5,12 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
-from colonnade.assessment.fragility.betas import separate_betas
-from colonnade.assessment.fragility.curves.hazard import hazard_curve, lognormal_rate
-from colonnade.assessment.fragility.curves.isotonic import IsotonicCurve, fit_isotonic
-from colonnade.assessment.fragility.curves.lognormal import fit_lognormal
-from colonnade.assessment.fragility.curves.misfit import lognormal_misfit
-from colonnade.assessment.fragility.curves.rate import annual_rate
-from colonnade.assessment.fragility.outcomes import Outcomes
-from colonnade.assessment.fragility.resampling import Interval
+from colonnade.assessment.betas import separate_betas
+from colonnade.assessment.hazard import annual_rate, hazard_curve, lognormal_rate
+from colonnade.assessment.intervals import Interval
+from colonnade.assessment.isotonic import IsotonicCurve, fit_isotonic
+from colonnade.assessment.lognormal import fit_lognormal, lognormal_misfit
+from colonnade.assessment.outcomes import Outcomes
 from fragilities.population import MEDIAN, Population
 
 RESAMPLES = 999

@@ -7,10 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from assessing import RATE, ground_motion
-from colonnade.assessment.cases.cases import in_plane, run_cases
-from colonnade.assessment.cases.prototype import Prototype
-from colonnade.assessment.fragility.curves.hazard import hazard_curve
+from colonnade.assessment.cases import in_plane, run_cases
+from colonnade.assessment.hazard import hazard_curve
 from colonnade.assessment.measures import intensity_measures
+from colonnade.assessment.prototype import Prototype
 from colonnade.assessment.study import judge, plan_study
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 
 from numpy.typing import ArrayLike
 
-from colonnade.assessment.cases.cases import run_cases
-from colonnade.assessment.cases.prototype import MOST_DRAWS, Limits, Prototype
-from colonnade.assessment.fragility.curves.hazard import Hazard, hazard_curve
-from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES, checked_level
-from colonnade.assessment.fragility.summary import Fragility
+from colonnade.assessment.cases import run_cases
+from colonnade.assessment.fragility import Fragility
 from colonnade.assessment.ground import LARGEST_DRIFT, NONE
+from colonnade.assessment.hazard import Hazard, hazard_curve
+from colonnade.assessment.intervals import LEVEL, RESAMPLES, checked_level
+from colonnade.assessment.prototype import MOST_DRAWS, Limits, Prototype
 from colonnade.assessment.study import DRAWS, judge, plan_study
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.models.nonlinear import NONLINEAR

@@ -10,15 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
-from colonnade.assessment.cases.cases import COMPONENTS, Cases, Outcomes, factors_at
-from colonnade.assessment.cases.levels import default_levels
-from colonnade.assessment.cases.prototype import Prototype, draw
-from colonnade.assessment.fragility import outcomes as counted
-from colonnade.assessment.fragility.curves.hazard import Hazard
-from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES
-from colonnade.assessment.fragility.summary import Fragility, summarise
+from colonnade.assessment.cases import COMPONENTS, Cases, Outcomes, default_levels, factors_at
+from colonnade.assessment.fragility import Fragility, summarise
 from colonnade.assessment.ground import LARGEST_DRIFT, NONE, Ground, correction_of
+from colonnade.assessment.hazard import Hazard
+from colonnade.assessment.intervals import LEVEL, RESAMPLES
 from colonnade.assessment.measures import MEASURES, Measure, measure_of, measured, measures_of
+from colonnade.assessment.outcomes import gather
+from colonnade.assessment.prototype import Prototype, draw
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.models.nonlinear import NONLINEAR
 from colonnade.dynamics.motion import Motion
@@ -228,7 +227,7 @@ def judge(
     drawn = counted_draws(draws)
     directions = (records, levels, -1, signs * components)
     peak = np.where(outcomes.is_run & np.isnan(outcomes.peak_ratio), np.inf, outcomes.peak_ratio)
-    gathered = counted.gather(
+    gathered = gather(
         study.names,
         np.broadcast_to(study.levels, (records, levels)),
         np.where(outcomes.is_run, peak, np.nan)[:, :, drawn].reshape(directions),

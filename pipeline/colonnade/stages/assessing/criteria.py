@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.assessment.cases.cases import Outcomes, in_plane
+from colonnade.assessment.cases import Outcomes, in_plane
 from colonnade.assessment.criteria import CRITERIA, Demands, agreement, spectral_velocity
 from colonnade.assessment.ground import Ground
 from colonnade.assessment.study import Study

@@ -8,9 +8,8 @@ import numpy as np
 import scipy
 
 from colonnade.arrays import Array, Mask
-from colonnade.assessment.fragility.outcomes import Outcomes
-from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES, Band, Interval, checked_level, record_weights
-from colonnade.assessment.fragility.stripes import striped
+from colonnade.assessment.intervals import LEVEL, RESAMPLES, Band, Interval, checked_level, record_weights
+from colonnade.assessment.outcomes import Outcomes, striped
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import scipy
 
-from colonnade.assessment.fragility.curves import probit
-from colonnade.assessment.fragility.curves.parameters import fit_parameters
-from colonnade.assessment.fragility.outcomes import Cells
+from colonnade.assessment import probit
+from colonnade.assessment.outcomes import Cells
+from colonnade.assessment.probit import fit_parameters
 from virtual_capacities import lognormal
 
 

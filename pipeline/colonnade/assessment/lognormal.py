@@ -1,4 +1,4 @@
-"""Lognormal fragility: binomial fit of the outcomes, with intervals over records; or why there is none."""
+"""Lognormal fragility: the fit with intervals over records, or why there is none; its misfit; the start of rocking."""
 
 from __future__ import annotations
 
@@ -11,10 +11,7 @@ import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
-from colonnade.assessment.fragility.curves import probit
-from colonnade.assessment.fragility.curves.parameters import Parameters, fit_parameters
-from colonnade.assessment.fragility.outcomes import Cells, Outcomes
-from colonnade.assessment.fragility.resampling import (
+from colonnade.assessment.intervals import (
     FEWEST_RECORDS,
     LEVEL,
     MOST_WITHOUT,
@@ -26,7 +23,16 @@ from colonnade.assessment.fragility.resampling import (
     shows_spread,
     studentised,
 )
-from colonnade.assessment.fragility.stripes import striped
+from colonnade.assessment.outcomes import Cells, Outcomes, Stripes, striped
+from colonnade.assessment.probit import (
+    FALLING,
+    FITTED,
+    ONE_INTENSITY,
+    ONE_OUTCOME,
+    SEPARATED,
+    Parameters,
+    fit_parameters,
+)
 from colonnade.units import format_percent
 from colonnade.validation import samples
 
@@ -156,7 +162,7 @@ def fit_lognormal(
     weights = np.vstack((np.ones(len(outcomes.records)), record_weights(len(outcomes.records), resamples, seed)))
     parameters, log_likelihood, status = fit_parameters(cells, weights)
     all_records, resampled = (Parameters(*(each[part] for each in parameters)) for part in (slice(1), slice(1, None)))
-    has_curve = status[1:] == probit.FITTED
+    has_curve = status[1:] == FITTED
     stripes = striped(cells)
     shares = stripes.events.sum(axis=0) / stripes.histories.sum(axis=0)
     mixed = float(np.minimum(shares, 1 - shares).sum())
@@ -208,13 +214,13 @@ def _with_errors(function: Callable[[Array, Array], Array], at: Parameters) -> t
 
 
 def _reason(status: int, cells: Cells) -> Reason:
-    if status == probit.ONE_OUTCOME:
+    if status == ONE_OUTCOME:
         return "never" if cells.events.sum() == 0 else "always"
     named: dict[int, Reason] = {
-        probit.FITTED: "",
-        probit.SEPARATED: "separated",
-        probit.FALLING: "falling",
-        probit.ONE_INTENSITY: "one intensity",
+        FITTED: "",
+        SEPARATED: "separated",
+        FALLING: "falling",
+        ONE_INTENSITY: "one intensity",
     }
     return named[status]
 
@@ -228,3 +234,138 @@ def _rises(cells: Cells) -> tuple[float, float]:
     low = y[counted & (y < first)].max(initial=-np.inf)
     high = y[counted & (y > last)].min(initial=np.inf)
     return float(np.exp(low)), float(np.exp(high))
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """
+    Departure of the stripes from the lognormal curve.
+
+    Attributes
+    ----------
+    intensity, departure : ndarray, shape (k,)
+        Of each stripe: share less the curve's probability.
+    deviance : float
+        Twice the log-likelihood that the curve loses to the shares of the stripes, histories taken as independent.
+    statistic : float
+        Pearson's, of which `p_value` is judged.
+    p_value : float
+        Probability of such a departure if the curve were right, by resamples of the records. NaN without a curve.
+    """
+
+    intensity: Array
+    departure: Array
+    deviance: float
+    statistic: float
+    p_value: float
+
+
+def lognormal_misfit(outcomes: Outcomes, *, resamples: int = RESAMPLES, seed: int = 0) -> Misfit:
+    """
+    Test whether a lognormal curve fits.
+
+    Parameters
+    ----------
+    outcomes : Outcomes
+    resamples, seed : int, optional
+        Of the bootstrap over records.
+
+    Returns
+    -------
+    misfit : Misfit
+
+    Notes
+    -----
+    The χ² of a deviance does not hold: a record at several levels is one record. The distribution under the curve is
+    that of the resamples' departures about the observed ones (centred bootstrap, Hall and Wilson 1991).
+    """
+    cells = outcomes.cells()
+    stripes = striped(cells)
+    weights = np.vstack((np.ones(len(outcomes.records)), record_weights(len(outcomes.records), resamples, seed)))
+    parameters, log_likelihood, status = fit_parameters(cells, weights)
+    shares, expected = _shares(cells, stripes, weights, parameters)
+    departures = shares - expected
+    fitted = status == FITTED
+    likely = np.clip(expected[0], 0.5 / len(outcomes.records), 1 - 0.5 / len(outcomes.records))
+    scale = stripes.histories.sum(axis=0) / (likely * (1 - likely))
+    statistic = float((scale * departures[0] ** 2).sum())
+    null = (scale * (departures[1:][fitted[1:]] - departures[0]) ** 2).sum(axis=1)
+    p_value = float((1 + (null >= statistic).sum()) / (1 + null.size)) if fitted[0] else np.nan
+    return Misfit(
+        np.exp(stripes.log_intensity), departures[0], _deviance(stripes, float(log_likelihood[0])), statistic, p_value
+    )
+
+
+def _shares(cells: Cells, stripes: Stripes, weights: Array, parameters: Parameters) -> tuple[Array, Array]:
+    """Shares of the stripes and those expected by each fit, shape (n, k)."""
+    events, histories = weights @ stripes.events, weights @ stripes.histories
+    expected = np.empty_like(events)
+    rows, stripes_of = cells.histories.shape[0], stripes.log_intensity.size
+    flat = (np.arange(rows)[:, None] * stripes_of + stripes.place).ravel()
+    for n, (mean, log_beta) in enumerate(zip(parameters.log_median, parameters.log_beta, strict=True)):
+        likely = cells.histories * scipy.special.ndtr((cells.log_intensity - mean) / np.exp(log_beta))
+        expected[n] = weights[n] @ np.bincount(flat, likely.ravel(), rows * stripes_of).reshape(rows, stripes_of)
+    of = np.where(histories > 0, histories, np.nan)
+    return events / of, expected / of
+
+
+def _deviance(stripes: Stripes, log_likelihood: float) -> float:
+    events, histories = stripes.events.sum(axis=0), stripes.histories.sum(axis=0)
+    share = events / histories
+    saturated = scipy.special.xlogy(events, share) + scipy.special.xlogy(histories - events, 1 - share)
+    return float(2 * (saturated.sum() - log_likelihood))
+
+
+@dataclass(frozen=True)
+class Uplift:
+    """
+    When the block starts to rock: one of the two is None.
+
+    Attributes
+    ----------
+    threshold : tuple of float or None
+        Lowest and highest intensity, over the draws, at which it starts. They differ only as the draws of α do.
+    curve : LognormalFit or None
+    """
+
+    threshold: tuple[float, float] | None
+    curve: LognormalFit | None
+
+
+def uplift(
+    outcomes: Outcomes,
+    *,
+    threshold: tuple[float, float] | None = None,
+    level: float = LEVEL,
+    resamples: int = RESAMPLES,
+    seed: int = 0,
+) -> Uplift:
+    """
+    Describe the start of rocking.
+
+    Parameters
+    ----------
+    outcomes : Outcomes
+        A history with a peak of 0 did not rock.
+    threshold : tuple of float, optional
+        Smallest and largest g tan α of the draws, if the intensity is the peak acceleration and no motion is vertical:
+        the block then rocks exactly if it exceeds g tan α, and no probability is fitted.
+    level, resamples, seed : optional
+        As of `fit_lognormal`.
+
+    Returns
+    -------
+    uplift : Uplift
+
+    Raises
+    ------
+    ValueError
+        If the threshold is not a rising pair of positive numbers.
+    """
+    if threshold is None:
+        curve = fit_lognormal(outcomes, event=outcomes.peak > 0, level=level, resamples=resamples, seed=seed)
+        return Uplift(None, curve)
+    low, high = threshold
+    if not 0 < low <= high:
+        raise ValueError(f"threshold is {low:g} to {high:g}; a rising pair of positive accelerations was expected")
+    return Uplift((float(low), float(high)), None)

@@ -8,9 +8,8 @@ from math import tan
 import numpy as np
 import pytest
 
-from colonnade.assessment.cases.cases import Cases
-from colonnade.assessment.cases.prototype import UNCERTAIN, Prototype, draw, drawn_column
-from colonnade.assessment.cases.sliding import FrictionNeeded, friction_needed, holds
+from colonnade.assessment.cases import Cases, FrictionNeeded, friction_needed, holds
+from colonnade.assessment.prototype import UNCERTAIN, Prototype, draw, drawn_column
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 import scipy
 
-from colonnade.assessment.fragility.betas import separate_betas
-from colonnade.assessment.fragility.curves.hazard import hazard_curve, lognormal_rate
-from colonnade.assessment.fragility.curves.lognormal import fit_lognormal
-from colonnade.assessment.fragility.influence import influence
-from colonnade.assessment.fragility.resampling import record_weights, studentised
-from colonnade.assessment.fragility.summary import summarise
+from colonnade.assessment.betas import separate_betas
+from colonnade.assessment.fragility import influence, summarise
+from colonnade.assessment.hazard import hazard_curve, lognormal_rate
+from colonnade.assessment.intervals import record_weights, studentised
+from colonnade.assessment.lognormal import fit_lognormal
 from fragilities.population import Population
 from virtual_capacities import MEDIAN, lognormal, outcomes_of
 

@@ -11,8 +11,7 @@ import scipy
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array
-from colonnade.assessment.fragility.outcomes import Outcomes
-from colonnade.assessment.fragility.resampling import (
+from colonnade.assessment.intervals import (
     LEVEL,
     RESAMPLES,
     Band,
@@ -22,7 +21,7 @@ from colonnade.assessment.fragility.resampling import (
     shows_spread,
     studentised,
 )
-from colonnade.assessment.fragility.resurrection import by_intensity
+from colonnade.assessment.outcomes import Outcomes, by_intensity
 
 NODES = np.linspace(-6.0, 6.0, 401)
 """Of the records' standardised departure, over which the likelihood is integrated."""

@@ -7,18 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from colonnade.assessment.cases.cases import (
+from colonnade.assessment.cases import (
     AXES,
     FALLS_AWAY,
     NOT_RUN,
     Cases,
+    default_levels,
     factors_at,
     gather,
     run_cases,
     run_part,
 )
-from colonnade.assessment.cases.levels import default_levels
-from colonnade.assessment.cases.prototype import Prototype, draw, drawn_column
+from colonnade.assessment.prototype import Prototype, draw, drawn_column
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.harmonic.motion import OUTCOMES

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from colonnade.assessment.fragility.curves.isotonic import IsotonicCurve, fit_isotonic
-from colonnade.assessment.fragility.outcomes import gather
-from colonnade.assessment.fragility.resampling import Band
+from colonnade.assessment.intervals import Band
+from colonnade.assessment.isotonic import IsotonicCurve, fit_isotonic
+from colonnade.assessment.outcomes import gather
 from virtual_capacities import lognormal, names
 
 

@@ -1,22 +1,25 @@
-"""All histories of an assessment: records at levels, drawn columns, both signs, both horizontal components."""
+"""All histories of an assessment: records at levels, drawn columns, signs, components; the friction that they need."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from colonnade.arrays import Array, Codes, Mask
-from colonnade.assessment.cases.prototype import Draws, Prototype, drawn_column
+from colonnade.assessment.prototype import Draws, Prototype, draw, drawn_column
+from colonnade.dynamics.block import Block
 from colonnade.dynamics.models.nonlinear import NONLINEAR
-from colonnade.dynamics.models.registry import plane_model_of
+from colonnade.dynamics.models.registry import model_of, plane_model_of
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.outcomes import OVERTURNS, Ends, ends_of, prepared
+from colonnade.dynamics.plane.reactions import reactions
 from colonnade.dynamics.plane.run import expect_usable
+from colonnade.dynamics.rock import rock
 from colonnade.validation import number, samples, whole
 
 if TYPE_CHECKING:
@@ -266,3 +269,160 @@ def _ends(cases: Cases, record: int, place: int, factor: float, drawn: list[Side
     if motion.vertical is not None and not motion.vertical.min() > -gravity:
         return FALLS_AWAY
     return ends_of(motion, drawn, gravity=gravity, model=cases.model)
+
+
+LEVELS = 12
+"""Levels of an assessment, equally spaced in their logarithm."""
+
+REACH = 50.0
+"""Largest factor on the records that is tried, in that from which the first of them uplifts the column."""
+
+TRIALS = 24
+"""Levels that are tried, equally spaced in their logarithm, with nothing varied."""
+
+
+def default_levels(
+    prototype: Prototype,
+    motions: Sequence[Motion],
+    intensity: Array,
+    *,
+    power: int = 1,
+    count: int = LEVELS,
+    model: str = NONLINEAR.name,
+) -> Array:
+    """
+    Choose levels at which the share of records that overturn goes from 0 to 1.
+
+    Parameters
+    ----------
+    prototype : Prototype
+    motions : sequence of Motion
+    intensity : ndarray, shape (records, components)
+        The measure of each as recorded; NaN for a component that is not run.
+    power : int, optional
+        As of `factors_at`.
+    count : int, optional
+    model : str, optional
+
+    Returns
+    -------
+    levels : ndarray, shape (count,)
+        Rising, in the unit of the measure; from the last trial below the first that overturns the column, to the first
+        from which on every record does, or the largest trial. Rounded to three digits.
+
+    Raises
+    ------
+    ValueError
+        If no record has the component and a positive measure.
+    """
+    lowest = _first_uplift(prototype, motions, intensity, power)
+    trials = np.geomspace(lowest, REACH**power * lowest, TRIALS)
+    cases = Cases(
+        prototype, (draw(prototype, 0),) * len(motions), tuple(motions), factors_at(trials, intensity, power), model
+    )
+    outcomes = run_cases(cases)
+    run, fell = outcomes.is_run, outcomes.exceeds()
+    aside = (0, 2, 3, 4)
+    some, every = fell.any(axis=aside), (fell | ~run).all(axis=aside)
+    first = int(np.argmax(some)) if some.any() else TRIALS - 1
+    standing = np.flatnonzero(~every)
+    last = min(int(standing[-1]) + 1 if standing.size else 0, TRIALS - 1)
+    ends = trials[max(first - 1, 0)], trials[max(last, first, 1)]
+    return np.array([float(f"{level:.3g}") for level in np.geomspace(*ends, count)])
+
+
+def _first_uplift(prototype: Prototype, motions: Sequence[Motion], intensity: Array, power: int) -> float:
+    """Give the level from which the first of the records uplifts the column, vertical motion left out."""
+    found = [
+        float(intensity[record, place]) * (prototype.block.uplift_acceleration / plane.peak) ** power
+        for record, motion in enumerate(motions)
+        for place in range(len(COMPONENTS))
+        if (plane := in_plane(motion, place, 1.0)) is not None and plane.peak > 0.0 and intensity[record, place] > 0.0
+    ]
+    if not found:
+        raise ValueError("no record has a component with a positive measure; a record that moves was expected")
+    return min(found)
+
+
+class FrictionNeeded(NamedTuple):
+    """
+    Largest |H|/N of the column with nothing varied, up to overturning; NaN where it is not run.
+
+    Attributes
+    ----------
+    standing, rocking, impact : ndarray, shape (records, levels, signs, components)
+        While it rests on its whole base, before uplift and between; while it rocks; of the impulses of its impacts.
+        0 if it never does; inf where the base would have to pull.
+    """
+
+    standing: Array
+    rocking: Array
+    impact: Array
+
+    @property
+    def largest(self) -> Array:
+        """Largest of the three, of the same shape."""
+        return np.maximum(np.maximum(self.standing, self.rocking), self.impact)
+
+
+def friction_needed(cases: Cases) -> FrictionNeeded:
+    """
+    Find the friction that each record needs at each level.
+
+    Returns
+    -------
+    needed : FrictionNeeded
+
+    Notes
+    -----
+    A column at rest needs |a|/(g + v), at most tan α until it uplifts: one with less friction slides instead of
+    rocking. Once it rocks, the forces are those of `reactions`.
+    """
+    records, levels, _draws, signs, components = cases.shape
+    needed = np.full((3, records, levels, signs, components), np.nan)
+    for record, level, sign, place in np.ndindex(needed.shape[1:]):
+        factor = float(cases.factors[record, level, place])
+        motion = None if np.isnan(factor) else in_plane(cases.motions[record], place, cases.signs[sign] * factor)
+        if motion is not None:
+            needed[:, record, level, sign, place] = _needed(cases, motion)
+    return FrictionNeeded(*needed)
+
+
+def holds(needed: FrictionNeeded, friction: Array) -> Mask:
+    """
+    Tell in which cases the column does not slide.
+
+    Parameters
+    ----------
+    needed : FrictionNeeded
+    friction : ndarray, shape (records, draws)
+        Drawn coefficients; not of a column without friction.
+
+    Returns
+    -------
+    holds : ndarray of bool, shape (records, levels, draws, signs, components)
+        False also where nothing was run.
+    """
+    return np.asarray(needed.largest[:, :, None] <= friction[:, None, :, None, None])
+
+
+def _needed(cases: Cases, motion: Motion) -> tuple[float, float, float]:
+    block = cases.prototype.block
+    if motion.vertical is not None and not motion.vertical.min() > -block.gravity:
+        return 0.0, np.inf, 0.0
+    history = rock(block, motion, restitution=cases.prototype.restitution, model=cases.model)
+    forces = reactions(history, motion)
+    until = history.overturning_time if np.isfinite(history.overturning_time) else np.inf
+    upright = (history.angle == 0.0) & (history.angular_velocity == 0.0)
+    # A record that begins with a jump uplifts the column in its first sample: it stands there, but does not rest.
+    rests = upright & (forces.required_friction <= model_of(cases.model).uplift_threshold(_widest(block)))
+    before, landed = forces.time <= until, forces.impact_times <= until
+    return (
+        float(forces.required_friction[before & rests].max(initial=0.0)),
+        float(forces.required_friction[before & ~upright].max(initial=0.0)),
+        float(forces.impact_friction[landed].max(initial=0.0)),
+    )
+
+
+def _widest(block: Block) -> float:
+    return max(side.critical_angle for side in block.sides)

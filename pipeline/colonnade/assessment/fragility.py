@@ -1,4 +1,4 @@
-"""Everything that is asked of the outcomes of a set of records, in one result."""
+"""Everything that is asked of the outcomes of a set of records, and the records that decide it."""
 
 from __future__ import annotations
 
@@ -6,21 +6,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
 from numpy.typing import ArrayLike
 
-from colonnade.assessment.fragility.betas import Betas, separate_betas
-from colonnade.assessment.fragility.curves.hazard import Hazard
-from colonnade.assessment.fragility.curves.isotonic import IsotonicCurve, fit_isotonic
-from colonnade.assessment.fragility.curves.lognormal import LognormalFit, fit_lognormal
-from colonnade.assessment.fragility.curves.misfit import Misfit, lognormal_misfit
-from colonnade.assessment.fragility.curves.rate import AnnualRate, annual_rate
-from colonnade.assessment.fragility.influence import Influence, influence
-from colonnade.assessment.fragility.measures import Comparison, compare_measures
-from colonnade.assessment.fragility.outcomes import Outcomes
-from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES, Interval
-from colonnade.assessment.fragility.resurrection import Resurrection, resurrection
-from colonnade.assessment.fragility.uplift import Uplift, uplift
+from colonnade.arrays import Array
+from colonnade.assessment.betas import Betas, separate_betas
+from colonnade.assessment.comparison import Comparison, compare_measures
+from colonnade.assessment.hazard import AnnualRate, Hazard, annual_rate, lognormal_rate
+from colonnade.assessment.intervals import LEVEL, RESAMPLES, Interval
+from colonnade.assessment.isotonic import IsotonicCurve, fit_isotonic
+from colonnade.assessment.lognormal import LognormalFit, Misfit, Uplift, fit_lognormal, lognormal_misfit, uplift
 from colonnade.assessment.measures import measure_of
+from colonnade.assessment.outcomes import Outcomes, Resurrection, resurrection
+from colonnade.assessment.probit import fit_parameters
 from colonnade.digest import Digested, written
 from colonnade.validation import number
 
@@ -191,3 +189,51 @@ def summarise(
         annual_rate(hazard, lognormal, isotonic) if hazard is not None and not lognormal.reason else None,
         measure,
     )
+
+
+@dataclass(frozen=True)
+class Influence:
+    """
+    A curve without each record.
+
+    Attributes
+    ----------
+    records : tuple of str, length r
+        The most influential first: by the change of the rate if there is a hazard, else of the median. A record
+        without which there is no curve comes first of all.
+    median, beta : ndarray, shape (r,)
+        Without the record; NaN if there is then no curve.
+    rate : ndarray, shape (r,), or None
+        Per year, if there is a hazard.
+    """
+
+    records: tuple[str, ...]
+    median: Array
+    beta: Array
+    rate: Array | None
+
+
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # without a record the curve may be nearly flat
+def influence(outcomes: Outcomes, hazard: Hazard | None = None) -> Influence:
+    """Leave out one record after the other; `hazard` is of the same measure."""
+    rows = len(outcomes.records)
+    weights = np.vstack((np.ones(rows), 1.0 - np.eye(rows)))
+    parameters = fit_parameters(outcomes.cells(), weights)[0]
+    median, beta = np.exp(parameters.log_median), np.exp(parameters.log_beta)
+    rate = None if hazard is None else _rates(hazard, median, beta)
+    decides = median if rate is None else rate
+    change = np.abs(np.log(decides[1:] / decides[0]))
+    order = np.argsort(-np.where(np.isnan(change), np.inf, change), kind="stable")
+    return Influence(
+        tuple(outcomes.records[place] for place in order),
+        median[1:][order],
+        beta[1:][order],
+        None if rate is None else rate[1:][order],
+    )
+
+
+def _rates(hazard: Hazard, median: Array, beta: Array) -> Array:
+    found = np.full(median.size, np.nan)
+    known = np.isfinite(median)
+    found[known] = lognormal_rate(hazard, median[known], beta[known])
+    return found

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from colonnade.arrays import Array, Mask
 from colonnade.validation import samples
@@ -150,3 +150,87 @@ def _overturned(given: ArrayLike | None, peaks: Array) -> Mask:
             f"overturned has shape {mask.shape} and holds {mask.dtype}; truth values in the shape of peak were expected"
         )
     return np.asarray(mask.reshape(peaks.shape))
+
+
+MOST_STRIPES = 20
+"""Distinct intensities that are stripes of their own; of more, neighbours share one."""
+
+
+class Stripes(NamedTuple):
+    """
+    Histories counted by record and stripe.
+
+    Attributes
+    ----------
+    log_intensity : ndarray, shape (k,)
+        Mean of a stripe, rising.
+    events, histories : ndarray, shape (r, k)
+    place : ndarray of int, shape (r, m)
+        Stripe of each cell.
+    """
+
+    log_intensity: Array
+    events: Array
+    histories: Array
+    place: NDArray[np.intp]
+
+
+def striped(cells: Cells) -> Stripes:
+    """Sort the cells into stripes: one for each intensity, or `MOST_STRIPES` with about as many histories each."""
+    counted = cells.histories > 0
+    y = cells.log_intensity
+    distinct = np.unique(np.round(y[counted], 9))
+    if distinct.size > MOST_STRIPES:
+        distinct = np.unique(np.quantile(y[counted], (np.arange(MOST_STRIPES) + 0.5) / MOST_STRIPES))
+    edges = (distinct[1:] + distinct[:-1]) / 2
+    # Between two quantiles there may be nothing.
+    distinct = np.unique(np.searchsorted(edges, y[counted]))
+    place = np.minimum(np.searchsorted(distinct, np.searchsorted(edges, y)), distinct.size - 1)
+    rows = np.repeat(np.arange(y.shape[0])[:, None], y.shape[1], axis=1)
+    flat = (rows * distinct.size + place).ravel()
+    shape = (y.shape[0], distinct.size)
+    events, histories, total = (
+        np.asarray(np.bincount(flat, each.ravel(), shape[0] * shape[1]).reshape(shape), dtype=np.float64)
+        for each in (cells.events, cells.histories, cells.histories * y)
+    )
+    return Stripes(total.sum(axis=0) / histories.sum(axis=0), events, histories, place)
+
+
+@dataclass(frozen=True)
+class Resurrection:
+    """
+    How often a stronger motion spares what a weaker one overturned.
+
+    Attributes
+    ----------
+    pairs : float
+        Share of the pairs of record and draw (in each direction) that overturn at a level and survive at a higher one.
+    records : tuple of str
+        In which it happens.
+    lost : float
+        Share of all histories that survive although the same pair overturned at a lower level: what the curve would
+        gain if overturning once were overturning at all higher levels.
+    """
+
+    pairs: float
+    records: tuple[str, ...]
+    lost: float
+
+
+def resurrection(outcomes: Outcomes) -> Resurrection:
+    """Count resurrections; the levels of a record are compared by their intensities."""
+    over, was_run = by_intensity(outcomes)[1:]
+    before = np.logical_or.accumulate(over, axis=1)
+    lost: Mask = before & ~over & was_run
+    pairs: Mask = np.any(lost, axis=1)
+    counted = np.any(was_run, axis=1)
+    names = tuple(name for name, has in zip(outcomes.records, np.any(pairs, axis=(1, 2)), strict=True) if has)
+    return Resurrection(float(pairs.sum() / counted.sum()), names, float(lost.sum() / was_run.sum()))
+
+
+def by_intensity(outcomes: Outcomes) -> tuple[Array, Mask, Mask]:
+    """Give intensity, overturned and was_run with the levels of each record and direction in rising order."""
+    intensity = np.broadcast_to(outcomes.intensity[:, :, None, :], outcomes.peak.shape)
+    order = np.argsort(intensity, axis=1)
+    over, was_run = (np.take_along_axis(each, order, axis=1) for each in (outcomes.overturned, outcomes.was_run))
+    return np.take_along_axis(intensity, order, axis=1), over, was_run

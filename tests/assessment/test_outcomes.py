@@ -5,10 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.assessment.fragility.outcomes import Cells, gather
-from colonnade.assessment.fragility.resurrection import resurrection
-from colonnade.assessment.fragility.stripes import MOST_STRIPES, striped
-from colonnade.assessment.fragility.uplift import uplift
+from colonnade.assessment.lognormal import uplift
+from colonnade.assessment.outcomes import MOST_STRIPES, Cells, gather, resurrection, striped
 from virtual_capacities import lognormal, names
 
 PEAK = np.array([[0.0, 0.4, 2.0], [0.2, np.nan, 0.9]])

@@ -7,10 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from colonnade.assessment.fragility.curves.lognormal import fit_lognormal
-from colonnade.assessment.fragility.curves.misfit import lognormal_misfit
-from colonnade.assessment.fragility.outcomes import gather
-from colonnade.assessment.fragility.resampling import FEWEST_RECORDS
+from colonnade.assessment.intervals import FEWEST_RECORDS
+from colonnade.assessment.lognormal import fit_lognormal, lognormal_misfit
+from colonnade.assessment.outcomes import gather
 from fragilities.population import Population
 from virtual_capacities import BETA, MEDIAN, lognormal, names, outcomes_of, two_kinds
 

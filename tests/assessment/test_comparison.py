@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from colonnade.assessment.fragility.measures import compare_measures
+from colonnade.assessment.comparison import compare_measures
 from virtual_capacities import lognormal
 
 
