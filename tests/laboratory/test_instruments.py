@@ -60,16 +60,16 @@ def test_a_perfect_chain_differs_by_half_a_step_at_most() -> None:
 
 def test_noise_drift_and_zero_offset_are_as_stated() -> None:
     volts, errors = measure(np.zeros(200_000), LVDT, Imperfections(), np.random.default_rng(2))
-    line = errors.zero + errors.drift * np.linspace(0.0, 1.0, volts.size)
-    assert abs(errors.drift) == pytest.approx(0.010)  # 0.1 % of 10 V
-    assert abs(errors.zero) <= 0.2  # 2 %
+    line = errors["zero_volts"] + errors["drift_volts"] * np.linspace(0.0, 1.0, volts.size)
+    assert abs(errors["drift_volts"]) == pytest.approx(0.010)  # 0.1 % of 10 V
+    assert abs(errors["zero_volts"]) <= 0.2  # 2 %
     assert np.std(volts - line) == pytest.approx(0.005, rel=0.01)  # 0.05 %
     assert abs(np.mean(volts - line)) < 5e-5
 
 
 def test_a_spike_stands_out_at_its_sample_alone() -> None:
     volts, errors = measure(np.zeros(1000), LVDT, Imperfections(), np.random.default_rng(3), spikes=(400,))
-    assert errors.spikes == (400,)
+    assert errors["spikes"] == [400]
     assert np.flatnonzero(np.abs(volts - np.median(volts)) > 0.1).tolist() == [400]
 
 

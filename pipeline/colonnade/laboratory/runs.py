@@ -204,13 +204,8 @@ def _record(
         for transducer in recorder.transducers:
             value = transducer.sense(truth.block, trial.table, clocks[name], angle)
             struck = spikes.get(transducer.channel, ())
-            volts, drawn = measure(value, transducer, plan.imperfections, generator, struck)
+            volts, errors[transducer.channel] = measure(value, transducer, plan.imperfections, generator, struck)
             columns[transducer.column] = (transducer.recorded_unit, transducer.written(volts))
-            errors[transducer.channel] = {
-                "zero_volts": drawn.zero,
-                "drift_volts": drawn.drift,
-                "spikes": list(drawn.spikes),
-            }
         sheet = Sheet(clocks[name] - starts[name], recorder.sampling_rate_hz, columns, start)
         put(folder / raw_path(trial, name, recorder), recorder.flavour.content(sheet))
     return errors
