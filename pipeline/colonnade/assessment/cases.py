@@ -20,7 +20,7 @@ from colonnade.dynamics.plane.outcomes import OVERTURNS, Ends, ends_of, prepared
 from colonnade.dynamics.plane.reactions import reactions
 from colonnade.dynamics.plane.run import expect_usable
 from colonnade.dynamics.rock import rock
-from colonnade.validation import number, samples, whole
+from colonnade.validation import number, whole
 
 if TYPE_CHECKING:
     from colonnade.dynamics.plane.sides import Sides
@@ -62,8 +62,7 @@ class Cases:
     Raises
     ------
     ValueError
-        If the shapes differ, a factor is not positive, or a record is too strong or too coarse for the plane models;
-        the message gives its number, from 0.
+        If a record is too strong or too coarse for the plane models; the message gives its number, from 0.
 
     Notes
     -----
@@ -78,24 +77,10 @@ class Cases:
 
     def __post_init__(self) -> None:
         plane_model_of(self.model)
-        factors = samples("factors", self.factors, dimensions=(3,), fewest=0, finite=False)
-        if (factors.shape[0], factors.shape[2]) != (len(self.motions), len(COMPONENTS)):
-            raise ValueError(
-                f"factors has shape {factors.shape}; ({len(self.motions)} records, levels, {len(COMPONENTS)} "
-                "components) was expected"
-            )
-        if factors.size == 0:
-            raise ValueError(f"factors has shape {factors.shape}; at least one record and one level were expected")
-        if not (np.isnan(factors) | (factors > 0.0) & (factors < np.inf)).all():
-            raise ValueError("a factor on a record is not positive; positive numbers, or NaN, were expected")
-        if len(self.draws) != len(self.motions) or len({each.size for each in self.draws}) > 1:
-            raise ValueError(
-                f"{len(self.draws)} sets of draws are given; one of each record, of one size, was expected"
-            )
         record = int(np.argmax([each.of("p").max() for each in self.draws]))
         fastest, _ = drawn_column(self.prototype, self.draws[record], int(self.draws[record].of("p").argmax()))
-        for record, place in np.argwhere(np.isfinite(factors).any(axis=1)).tolist():
-            largest = float(np.nanmax(factors[record, :, place]))
+        for record, place in np.argwhere(np.isfinite(self.factors).any(axis=1)).tolist():
+            largest = float(np.nanmax(self.factors[record, :, place]))
             plane = in_plane(self.motions[record], place, largest)
             if plane is None:
                 continue

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import compress
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from colonnade.arrays import Array, Mask
+from colonnade.arrays import Array
 from colonnade.assessment.cases import COMPONENTS, Cases, Outcomes, default_levels, factors_at, run_cases
 from colonnade.assessment.fragility import Fragility, summarise
 from colonnade.assessment.ground import LARGEST_DRIFT, NONE, Ground, correction_of
@@ -120,35 +119,32 @@ def plan_study(
     scaled_over, block = measure_of(measure), prototype.block
     if not scaled_over.power:
         raise ValueError(f"{scaled_over.id} does not grow with a motion; a measure that does was expected")
-    correction_of(baseline)
     drift = number("drift", drift, "a positive share of the peak velocity", above=0.0)
     compared = [scaled_over, *measures_of(USUAL if measures is None else measures)]
-    corrected = {name: _corrected(motion, baseline) for name, motion in motions.items()}
-    values, drifts, reasons = _measured(corrected, compared, block, drift)
-    usable: Mask = np.asarray(np.isfinite(values[scaled_over.id]).any(axis=1))
-    if not usable.any():
+    names, recorded = tuple(motions), [_corrected(motion, baseline) for motion in motions.values()]
+    values, drifts, reasons = _measured(dict(zip(names, recorded, strict=True)), compared, block, drift)
+    usable = np.flatnonzero(np.isfinite(values[scaled_over.id]).any(axis=1))
+    if not usable.size:
         why = next(iter(reasons.values()), "there is no record")
         raise ValueError(f"No record has a {scaled_over.name}: {why}")
-    kept = list(compress(corrected, usable))
-    chosen = tuple(corrected[name] for name in kept)
-    values = {name: each[usable] for name, each in values.items()}
-    recorded, power = values[scaled_over.id], scaled_over.power
+    intensity, power = values[scaled_over.id][usable], scaled_over.power
     if levels is None:
-        found = default_levels(prototype, chosen, recorded, power=power, model=model)
+        found = default_levels(prototype, [recorded[row] for row in usable], intensity, power=power, model=model)
     else:
         found = _checked_levels(levels, scaled_over)
-    factors = factors_at(found, recorded, power)
-    runs = np.array([_has_history(*each, block.gravity) for each in zip(chosen, factors, strict=True)])
-    if not runs.all():
-        reasons |= {(name, "z"): FALLS for name, is_in in zip(kept, runs, strict=True) if not is_in}
-        kept, chosen = list(compress(kept, runs)), tuple(compress(chosen, runs))
-        values, factors = {name: each[runs] for name, each in values.items()}, factors[runs]
-        usable[usable] = runs
-    if not kept:
+    factors = factors_at(found, intensity, power)
+    runs = np.array(
+        [_has_history(recorded[row], each, block.gravity) for row, each in zip(usable, factors, strict=True)]
+    )
+    if not runs.any():
         raise ValueError(f"No record can be run: {FALLS}")
-    drawn = tuple(draw(prototype, draws, seed, record=number) for number in range(len(chosen)))
-    cases = Cases(prototype, drawn, chosen, factors, model)
-    return Study(tuple(kept), cases, scaled_over, found, values, drifts[usable], _left_out(kept, reasons))
+    reasons |= {(names[row], "z"): FALLS for row in usable[~runs]}
+    rows = usable[runs]
+    drawn = tuple(draw(prototype, draws, seed, record=number) for number in range(rows.size))
+    cases = Cases(prototype, drawn, tuple(recorded[row] for row in rows), factors[runs], model)
+    kept = tuple(names[row] for row in rows)
+    values = {name: each[rows] for name, each in values.items()}
+    return Study(kept, cases, scaled_over, found, values, drifts[rows], _left_out(kept, reasons))
 
 
 def _measured(
