@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from colonnade.assessment.comparison import compare_measures
+from colonnade.assessment.intervals import Resampling
 from virtual_capacities import lognormal
 
 
@@ -20,7 +21,7 @@ def measures(outcomes):
 
 
 def test_the_measure_that_decides_comes_first_by_every_criterion(outcomes, measures):
-    scores = compare_measures(outcomes, measures, resamples=200).scores
+    scores = compare_measures(outcomes, measures, Resampling(200)).scores
     assert [each.name for each in scores] == ["pgv", "noisy", "unrelated"]
     best = scores[0]
     assert min(best.best_deviance, best.best_auc, best.best_scatter) > 0.8
@@ -31,19 +32,19 @@ def test_the_measure_that_decides_comes_first_by_every_criterion(outcomes, measu
 
 def test_two_measures_that_say_the_same_share_the_first_place(outcomes, measures):
     twins = {"one": measures["pgv"], "other": measures["pgv"] ** 2}
-    shares = [each.best_deviance for each in compare_measures(outcomes, twins, resamples=50).scores]
+    shares = [each.best_deviance for each in compare_measures(outcomes, twins, Resampling(50)).scores]
     assert shares == pytest.approx([0.5, 0.5], abs=0.2)
 
 
 def test_the_auc_is_the_share_of_pairs_in_their_order(outcomes, measures):
-    found = compare_measures(outcomes, {"noisy": measures["noisy"]}, resamples=2).scores[0].auc
+    found = compare_measures(outcomes, {"noisy": measures["noisy"]}, Resampling(2)).scores[0].auc
     x = np.broadcast_to(measures["noisy"][:, :, None, None], outcomes.peak.shape)
     fell, stood = x[outcomes.overturned], x[~outcomes.overturned]
     assert found == pytest.approx(np.mean((fell[:, None] > stood) + 0.5 * (fell[:, None] == stood)))
 
 
 def test_the_scatter_is_that_of_a_straight_line(outcomes, measures):
-    found = compare_measures(outcomes, {"noisy": measures["noisy"]}, resamples=2).scores[0].scatter
+    found = compare_measures(outcomes, {"noisy": measures["noisy"]}, Resampling(2)).scores[0].scatter
     stood = ~outcomes.overturned
     x = np.log(np.broadcast_to(measures["noisy"][:, :, None, None], outcomes.peak.shape)[stood])
     y = np.log(outcomes.peak[stood])
@@ -54,17 +55,18 @@ def test_the_scatter_is_that_of_a_straight_line(outcomes, measures):
 def test_records_without_a_measure_are_left_out_of_all(outcomes, measures):
     lacking = measures["noisy"].copy()
     lacking[3] = np.nan
-    found = compare_measures(outcomes, {"pgv": measures["pgv"], "noisy": lacking}, resamples=20)
+    found = compare_measures(outcomes, {"pgv": measures["pgv"], "noisy": lacking}, Resampling(20))
     assert found.left_out == ("record 3",)
     kept = np.arange(30) != 3
-    alone = compare_measures(outcomes.only(kept), {"pgv": measures["pgv"][kept]}, resamples=2)
+    alone = compare_measures(outcomes.only(kept), {"pgv": measures["pgv"][kept]}, Resampling(2))
     assert found.scores[0].deviance == pytest.approx(alone.scores[0].deviance)
 
 
 def test_a_measure_that_leaves_magnitude_to_explain_is_not_sufficient(outcomes, measures):
     magnitude = np.random.default_rng(6).uniform(5, 7.5, 30)
     without = measures["pgv"] * np.exp(-0.8 * (magnitude - 6))[:, None]
-    scores = compare_measures(outcomes, {"pgv": measures["pgv"], "without": without}, magnitude=magnitude, resamples=2)
+    both = {"pgv": measures["pgv"], "without": without}
+    scores = compare_measures(outcomes, both, Resampling(2), magnitude=magnitude)
     by_name = {each.name: each for each in scores.scores}
     assert by_name["without"].on_magnitude.p_value < 0.02 < by_name["pgv"].on_magnitude.p_value
     assert (by_name["without"].on_magnitude.slope > 0, by_name["pgv"].on_log_distance) == (True, None)
@@ -80,4 +82,4 @@ def test_a_measure_that_leaves_magnitude_to_explain_is_not_sufficient(outcomes, 
 )
 def test_measures_that_cannot_be_compared_are_refused(outcomes, measures, change, said):
     with pytest.raises(ValueError, match=said):
-        compare_measures(outcomes, {"pgv": change(measures["pgv"])}, resamples=2)
+        compare_measures(outcomes, {"pgv": change(measures["pgv"])}, Resampling(2))

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from colonnade.assessment.hazard import annual_rate, hazard_curve, isotonic_rate, lognormal_rate
+from colonnade.assessment.intervals import Resampling
 from colonnade.assessment.isotonic import fit_isotonic
 from colonnade.assessment.lognormal import fit_lognormal
 from every import every
@@ -83,7 +84,7 @@ LEVELS_OF_RATE = np.geomspace(0.02, 5, 12)
 
 
 def rate_of(outcomes, hazard):
-    return annual_rate(hazard, fit_lognormal(outcomes, resamples=300), fit_isotonic(outcomes, resamples=50))
+    return annual_rate(hazard, fit_lognormal(outcomes, Resampling(300)), fit_isotonic(outcomes, Resampling(50)))
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from colonnade.assessment.intervals import FEWEST_RECORDS
+from colonnade.assessment.intervals import FEWEST_RECORDS, Resampling
 from colonnade.assessment.lognormal import fit_lognormal, lognormal_misfit
 from colonnade.assessment.outcomes import gather
 from fragilities.population import Population
@@ -20,7 +20,7 @@ def single(peaks, intensity=(1.0, 2.0, 3.0)):
 
 
 def test_median_beta_and_probabilities_are_near_the_truth_and_inside_their_intervals():
-    fit = fit_lognormal(lognormal(5, records=200), resamples=500)
+    fit = fit_lognormal(lognormal(5, records=200), Resampling(500))
     assert (fit.median.low < MEDIAN < fit.median.high, fit.beta.low < BETA < fit.beta.high) == (True, True)
     assert (fit.median.value, fit.beta.value) == pytest.approx((MEDIAN, BETA), rel=0.1)
     at = fit.probability([fit.median.value, MEDIAN * np.exp(BETA)])
@@ -30,7 +30,7 @@ def test_median_beta_and_probabilities_are_near_the_truth_and_inside_their_inter
 
 
 def test_the_intensity_of_a_probability_has_that_probability():
-    fit = fit_lognormal(lognormal(5), resamples=100)
+    fit = fit_lognormal(lognormal(5), Resampling(100))
     found = fit.intensity([0.05, 0.5, 0.95])
     assert fit.probability(found.value).value == pytest.approx([0.05, 0.5, 0.95])
     assert (found.low[1], found.high[1]) == pytest.approx((fit.median.low, fit.median.high))
@@ -43,13 +43,13 @@ def test_a_record_at_more_levels_or_draws_does_not_narrow_the_interval_as_more_r
     """32 records with 10 draws of hardly any scatter: the median's error is that of 32 capacities."""
     random = np.random.default_rng(8)
     capacity = MEDIAN * np.exp(random.normal(0, 0.5, (32, 1)) + random.normal(0, 0.01, (32, 10)))
-    fit = fit_lognormal(outcomes_of(capacity, MEDIAN * np.exp(np.linspace(-1.5, 1.5, 31))), resamples=1000)
+    fit = fit_lognormal(outcomes_of(capacity, MEDIAN * np.exp(np.linspace(-1.5, 1.5, 31))), Resampling(1000))
     assert np.log(fit.median.high / fit.median.low) == pytest.approx(2 * 2.04 * 0.5 / np.sqrt(32), rel=0.25)
 
 
 def test_the_same_seed_gives_the_same_interval():
     outcomes = lognormal(6)
-    first, same, other = (fit_lognormal(outcomes, resamples=100, seed=seed).median for seed in (3, 3, 4))
+    first, same, other = (fit_lognormal(outcomes, Resampling(100, seed)).median for seed in (3, 3, 4))
     assert (first == same, first == other) == (True, False)
 
 
@@ -64,7 +64,7 @@ def test_the_same_seed_gives_the_same_interval():
     ],
 )
 def test_no_curve_is_given_if_the_outcomes_have_none(peaks, reason, rises):
-    fit = fit_lognormal(single(peaks), resamples=20)
+    fit = fit_lognormal(single(peaks), Resampling(20))
     assert (fit.reason, fit.rises) == (reason, pytest.approx(rises))
     assert np.isnan([*fit.median, *fit.beta, *fit.probability([1.0]).low]).all()
 
@@ -79,7 +79,7 @@ def test_no_curve_is_given_if_the_outcomes_have_none(peaks, reason, rises):
     ids=["few records", "few levels between none and all", "levels too far apart"],
 )
 def test_a_curve_whose_resamples_do_not_show_the_scatter_has_no_interval_and_says_why(outcomes, why):
-    fit = fit_lognormal(outcomes, resamples=200)
+    fit = fit_lognormal(outcomes, Resampling(200))
     assert (fit.reason, why in fit.no_interval) == ("", True)
     assert np.isfinite([fit.median.value, fit.beta.value]).all()
     assert np.isnan([fit.median.low, fit.beta.high, fit.probability([MEDIAN]).low[0]]).all()
@@ -88,7 +88,7 @@ def test_a_curve_whose_resamples_do_not_show_the_scatter_has_no_interval_and_say
 def test_intervals_of_few_records_at_few_levels_hold_the_truth_as_often_as_they_say_or_are_not_given():
     """Without the resamples that have no curve, of 12 records at levels of 0.9 β apart, β would be held in 3 of 4."""
     population = Population(records=12, draws=1, levels=6, of_parameters=0.0)
-    fits = [fit_lognormal(population.sample(np.random.default_rng(seed)), resamples=199) for seed in range(80)]
+    fits = [fit_lognormal(population.sample(np.random.default_rng(seed)), Resampling(199)) for seed in range(80)]
     given = [fit for fit in fits if not (fit.reason or fit.no_interval)]
     assert 10 < len(given) < 70
     for name, truth in (("median", MEDIAN), ("beta", population.beta)):
@@ -97,12 +97,12 @@ def test_intervals_of_few_records_at_few_levels_hold_the_truth_as_often_as_they_
 
 
 def test_as_many_records_as_are_needed_have_an_interval():
-    fit = fit_lognormal(lognormal(5, records=FEWEST_RECORDS), resamples=50)
+    fit = fit_lognormal(lognormal(5, records=FEWEST_RECORDS), Resampling(50))
     assert (fit.no_interval, bool(np.isfinite(fit.median.low))) == ("", True)
 
 
 def test_one_intensity_gives_no_curve():
-    assert fit_lognormal(single([[0.5], [2.0]], [1.0]), resamples=20).reason == "one intensity"
+    assert fit_lognormal(single([[0.5], [2.0]], [1.0]), Resampling(20)).reason == "one intensity"
 
 
 @settings(deadline=None, max_examples=10)
@@ -110,7 +110,7 @@ def test_one_intensity_gives_no_curve():
 def test_the_unit_of_the_intensity_does_not_matter(factor):
     outcomes = lognormal(7)
     scaled = gather(outcomes.records, outcomes.intensity[:, :, 0] * factor, outcomes.peak)
-    one, other = (fit_lognormal(each, resamples=50) for each in (outcomes, scaled))
+    one, other = (fit_lognormal(each, Resampling(50)) for each in (outcomes, scaled))
     assert np.array(other.median) == pytest.approx(np.array(one.median) * factor)
     assert np.array(other.beta) == pytest.approx(np.array(one.beta))
 
@@ -119,26 +119,26 @@ def test_thousand_resamples_take_well_below_a_second():
     from time import perf_counter
 
     outcomes = lognormal(9, records=40)
-    fit_lognormal(outcomes, resamples=2)
+    fit_lognormal(outcomes, Resampling(2))
     start = perf_counter()
-    fit_lognormal(outcomes, resamples=1000)
+    fit_lognormal(outcomes, Resampling(1000))
     assert perf_counter() - start < 2.0
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_two_kinds_of_records_are_not_lognormal(seed):
-    assert lognormal_misfit(two_kinds(seed), resamples=300).p_value < 0.05
+    assert lognormal_misfit(two_kinds(seed), Resampling(300)).p_value < 0.05
 
 
 def test_lognormal_outcomes_pass_although_their_deviance_is_large():
     """χ² of 8 degrees of freedom would call many of them misfits: its 95 % limit is 15.5."""
-    found = [lognormal_misfit(lognormal(seed), resamples=300) for seed in range(12)]
+    found = [lognormal_misfit(lognormal(seed), Resampling(300)) for seed in range(12)]
     assert sum(each.p_value < 0.05 for each in found) <= 2
     assert sum(each.deviance > 15.5 for each in found) >= 4
 
 
 def test_the_departure_shows_where():
-    found = lognormal_misfit(two_kinds(1), resamples=50)
+    found = lognormal_misfit(two_kinds(1), Resampling(50))
     steep = np.argmax(np.abs(found.departure))
     assert 0 < steep < found.intensity.size - 1
     assert np.abs(found.departure).max() > 0.05
@@ -146,4 +146,4 @@ def test_the_departure_shows_where():
 
 def test_without_a_curve_there_is_no_p():
     separated = outcomes_of(np.full((4, 2), 0.4))
-    assert np.isnan(lognormal_misfit(separated, resamples=20).p_value)
+    assert np.isnan(lognormal_misfit(separated, Resampling(20)).p_value)

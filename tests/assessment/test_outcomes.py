@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from colonnade.assessment.lognormal import uplift
 from colonnade.assessment.outcomes import MOST_STRIPES, Cells, gather, resurrection, striped
-from virtual_capacities import lognormal, names
+from virtual_capacities import lognormal
 
 PEAK = np.array([[0.0, 0.4, 2.0], [0.2, np.nan, 0.9]])
 INTENSITY = np.array([[1.0, 2.0, 3.0], [1.0, 2.0, 4.0]])
@@ -85,24 +84,6 @@ def test_cells_that_were_not_run_make_no_stripe():
     y = np.log([[1.0, 2.0, 50.0], [1.0, 2.0, 50.0]])
     found = striped(Cells(y, np.zeros((2, 3)), np.array([[1.0, 1.0, 0.0]] * 2)))
     np.testing.assert_allclose(np.exp(found.log_intensity), [1.0, 2.0])
-
-
-def test_with_peak_acceleration_and_no_vertical_motion_it_is_a_threshold():
-    outcomes = gather(names(2), [[1.0, 2.0]] * 2, [[0.0, 0.1], [0.0, 0.2]])
-    found = uplift(outcomes, threshold=(1.7, 1.9))
-    assert (found.threshold, found.curve) == ((1.7, 1.9), None)
-
-
-def test_otherwise_it_is_a_curve_of_the_histories_that_rocked():
-    peak = np.where(np.random.default_rng(1).normal(2.0, 0.5, (40, 1)) < np.linspace(1, 3, 8), 0.3, 0.0)
-    found = uplift(gather(names(40), np.tile(np.linspace(1, 3, 8), (40, 1)), peak), resamples=100)
-    assert found.threshold is None
-    assert found.curve.median.low < 2.0 < found.curve.median.high
-
-
-def test_a_threshold_that_falls_is_refused():
-    with pytest.raises(ValueError, match="rising pair"):
-        uplift(gather(names(2), [[1.0]] * 2, [[0.0]] * 2), threshold=(2.0, 1.0))
 
 
 def test_a_pair_that_survives_more_than_overturned_it_is_counted_once_and_its_histories_each():

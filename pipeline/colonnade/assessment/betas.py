@@ -12,12 +12,9 @@ from numpy.typing import NDArray
 
 from colonnade.arrays import Array
 from colonnade.assessment.intervals import (
-    LEVEL,
-    RESAMPLES,
     Band,
     Interval,
-    checked_level,
-    record_weights,
+    Resampling,
     shows_spread,
     studentised,
 )
@@ -58,7 +55,7 @@ class Betas:
     level: float
 
 
-def separate_betas(outcomes: Outcomes, *, level: float = LEVEL, resamples: int = RESAMPLES, seed: int = 0) -> Betas:
+def separate_betas(outcomes: Outcomes, resampling: Resampling) -> Betas:
     """
     Separate the scatter between records from that between draws.
 
@@ -66,8 +63,7 @@ def separate_betas(outcomes: Outcomes, *, level: float = LEVEL, resamples: int =
     ----------
     outcomes : Outcomes
         Each record with draws of its own.
-    level, resamples, seed : optional
-        Of the bootstrap over records.
+    resampling : Resampling
 
     Returns
     -------
@@ -82,7 +78,7 @@ def separate_betas(outcomes: Outcomes, *, level: float = LEVEL, resamples: int =
     records. A resample moves the two variances by the mean influence of its records (one Newton step, Davidson and
     MacKinnon 1999), which is nearly exact: they are nearly means.
     """
-    level = checked_level(level)
+    level = resampling.level
     pairs, counts, record = _capacities(outcomes)
     unknown = Interval(np.nan, np.nan, np.nan)
     if outcomes.peak.shape[2] == 1:
@@ -93,8 +89,7 @@ def separate_betas(outcomes: Outcomes, *, level: float = LEVEL, resamples: int =
     alike = np.exp(estimate[1:]) < SMALLEST
     if alike.any():
         return Betas("records alike" if alike[0] else "parameters alike", unknown, unknown, level)
-    weights = record_weights(len(outcomes.records), resamples, seed)
-    band = _band(pairs, counts, record, estimate, np.vstack((np.ones(len(outcomes.records)), weights)), level)
+    band = _band(pairs, counts, record, estimate, resampling.weights(len(outcomes.records)), level)
     records, parameters = (Interval(*(float(each[part]) for each in band)) for part in (0, 1))
     return Betas("", records, parameters, level)
 

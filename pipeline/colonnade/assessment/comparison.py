@@ -10,7 +10,7 @@ import scipy
 from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
-from colonnade.assessment.intervals import RESAMPLES, record_weights
+from colonnade.assessment.intervals import Resampling
 from colonnade.assessment.outcomes import FEWEST, Cells, Outcomes, with_axes
 from colonnade.assessment.probit import fit_parameters
 from colonnade.validation import samples
@@ -67,11 +67,10 @@ class Comparison:
 def compare_measures(
     outcomes: Outcomes,
     measures: Mapping[str, ArrayLike],
+    resampling: Resampling,
     *,
     magnitude: ArrayLike | None = None,
     distance: ArrayLike | None = None,
-    resamples: int = RESAMPLES,
-    seed: int = 0,
 ) -> Comparison:
     """
     Compare measures on the same histories.
@@ -81,10 +80,9 @@ def compare_measures(
     outcomes : Outcomes
     measures : mapping of str to array_like, shape (r, l) or (r, l, c)
         Positive values of each measure for the scaled records; NaN if a record does not have it.
+    resampling : Resampling
     magnitude, distance : array_like, shape (r,), optional
         Of the records; distances positive. NaN if not known.
-    resamples, seed : int, optional
-        Of the bootstrap over records.
 
     Returns
     -------
@@ -104,7 +102,7 @@ def compare_measures(
     if known.sum() < FEWEST:
         raise ValueError(f"{known.sum()} records have all measures; at least {FEWEST} were expected")
     chosen = outcomes.only(known)
-    weights = np.vstack((np.ones(int(known.sum())), record_weights(int(known.sum()), resamples, seed)))
+    weights = resampling.weights(int(known.sum()))
     found = {name: _scored(chosen, each[known], weights) for name, each in arrays.items()}
     deviances, aucs, scatters = (np.array([each[part] for each in found.values()]) for part in range(3))
     best = _shares_best(deviances), _shares_best(-np.maximum(aucs, 1 - aucs)), _shares_best(scatters)

@@ -13,9 +13,9 @@ from colonnade.arrays import Array
 from colonnade.assessment.betas import Betas, separate_betas
 from colonnade.assessment.comparison import Comparison, compare_measures
 from colonnade.assessment.hazard import AnnualRate, Hazard, annual_rate, lognormal_rate
-from colonnade.assessment.intervals import LEVEL, RESAMPLES, Interval
+from colonnade.assessment.intervals import Interval, Resampling
 from colonnade.assessment.isotonic import IsotonicCurve, fit_isotonic
-from colonnade.assessment.lognormal import LognormalFit, Misfit, Uplift, fit_lognormal, lognormal_misfit, uplift
+from colonnade.assessment.lognormal import LognormalFit, Misfit, fit_lognormal, lognormal_misfit
 from colonnade.assessment.measures import measure_of
 from colonnade.assessment.outcomes import Outcomes, Resurrection, resurrection
 from colonnade.assessment.probit import fit_parameters
@@ -24,6 +24,22 @@ from colonnade.validation import number
 
 MISFITS = 0.05
 """p-value of the misfit below which the lognormal curve is not taken."""
+
+
+@dataclass(frozen=True)
+class Uplift:
+    """
+    When the block starts to rock: one of the two is None.
+
+    Attributes
+    ----------
+    threshold : tuple of float or None
+        Lowest and highest intensity, over the draws, at which it starts. They differ only as the draws of α do.
+    curve : LognormalFit or None
+    """
+
+    threshold: tuple[float, float] | None
+    curve: LognormalFit | None
 
 
 @dataclass(frozen=True, repr=False)
@@ -134,6 +150,7 @@ class Fragility(Digested):
 
 def summarise(
     outcomes: Outcomes,
+    resampling: Resampling,
     *,
     threshold: tuple[float, float] | None = None,
     hazard: Hazard | None = None,
@@ -141,9 +158,6 @@ def summarise(
     magnitude: ArrayLike | None = None,
     distance: ArrayLike | None = None,
     measure: str = "",
-    level: float = LEVEL,
-    resamples: int = RESAMPLES,
-    seed: int = 0,
 ) -> Fragility:
     """
     Summarise outcomes.
@@ -152,16 +166,17 @@ def summarise(
     ----------
     outcomes : Outcomes
         Made by `gather`.
+    resampling : Resampling
+        Of all intervals.
     threshold : tuple of float, optional
-        As of `uplift`.
+        Smallest and largest g tan α of the draws, if the intensity is the peak acceleration and no motion is vertical:
+        the block then rocks exactly if it exceeds g tan α, and no probability is fitted.
     hazard : Hazard, optional
         Of the measure of the outcomes; made by `hazard_curve`.
     measures, magnitude, distance : optional
         As of `compare_measures`.
     measure : str, optional
         Id of the measure of the outcomes.
-    level, resamples, seed : optional
-        Of all intervals; the same seed gives the same result.
 
     Returns
     -------
@@ -172,20 +187,20 @@ def summarise(
     ValueError
         If an argument is out of its range.
     """
-    lognormal = fit_lognormal(outcomes, level=level, resamples=resamples, seed=seed)
-    isotonic = fit_isotonic(outcomes, level=level, resamples=resamples, seed=seed)
+    lognormal, isotonic = fit_lognormal(outcomes, resampling), fit_isotonic(outcomes, resampling)
+    compared = None
+    if measures:
+        compared = compare_measures(outcomes, measures, resampling, magnitude=magnitude, distance=distance)
     return Fragility(
         outcomes,
         lognormal,
         isotonic,
-        lognormal_misfit(outcomes, resamples=resamples, seed=seed),
-        uplift(outcomes, threshold=threshold, level=level, resamples=resamples, seed=seed),
+        lognormal_misfit(outcomes, resampling),
+        Uplift(threshold, None if threshold else fit_lognormal(outcomes, resampling, event=outcomes.peak > 0)),
         resurrection(outcomes),
-        separate_betas(outcomes, level=level, resamples=resamples, seed=seed),
+        separate_betas(outcomes, resampling),
         influence(outcomes, hazard),
-        compare_measures(outcomes, measures, magnitude=magnitude, distance=distance, resamples=resamples, seed=seed)
-        if measures
-        else None,
+        compared,
         annual_rate(hazard, lognormal, isotonic) if hazard is not None and not lognormal.reason else None,
         measure,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -35,28 +36,51 @@ class Band(NamedTuple):
     high: Array
 
 
-def record_weights(records: int, resamples: int, seed: int) -> Array:
+@dataclass(frozen=True)
+class Resampling:
     """
-    Draw records with replacement, as many as there are.
+    How intervals over records are made.
 
-    Returns
-    -------
-    weights : ndarray, shape (resamples, records)
-        How often each was drawn.
+    Attributes
+    ----------
+    count : int
+        How often the records are drawn again.
+    seed : int
+        The same seed gives the same intervals.
+    level : float
+        Of the intervals.
+
+    Raises
+    ------
+    ValueError
+        If one is out of its range.
     """
-    random = np.random.default_rng(whole("seed", seed, 0, LARGEST_SEED))
-    count = whole("resamples", resamples, 1, MOST_RESAMPLES)
-    return random.multinomial(records, np.full(records, 1 / records), size=count).astype(np.float64)
+
+    count: int = RESAMPLES
+    seed: int = 0
+    level: float = LEVEL
+
+    def __post_init__(self) -> None:
+        whole("resamples", self.count, 1, MOST_RESAMPLES)
+        whole("seed", self.seed, 0, LARGEST_SEED)
+        number("level", self.level, "a probability between 0 and 1", above=0.0, below=1.0)
+
+    def weights(self, records: int) -> Array:
+        """
+        Draw records with replacement, as many as there are.
+
+        Returns
+        -------
+        weights : ndarray, shape (1 + count, records)
+            How often each was drawn; in the first row each once.
+        """
+        drawn = np.random.default_rng(self.seed).multinomial(records, np.full(records, 1 / records), size=self.count)
+        return np.vstack((np.ones(records), drawn))
 
 
 def shows_spread(usable: Mask, records: int) -> bool:
     """Whether resamples, of which some give a value, show how much records differ: else there is no interval."""
     return bool(records >= FEWEST_RECORDS and usable.mean() >= 1 - MOST_WITHOUT)
-
-
-def checked_level(level: float) -> float:
-    """Return the level of an interval, or raise ValueError."""
-    return number("level", level, "a probability between 0 and 1", above=0.0, below=1.0)
 
 
 def studentised(value: Array, error: Array, values: Array, errors: Array, level: float, records: int) -> Band:

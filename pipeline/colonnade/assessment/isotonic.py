@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from colonnade.arrays import Array, Mask
-from colonnade.assessment.intervals import LEVEL, RESAMPLES, Band, Interval, checked_level, record_weights
+from colonnade.arrays import Array
+from colonnade.assessment.intervals import Band, Interval, Resampling
 from colonnade.assessment.outcomes import Outcomes, striped
 
 
@@ -51,23 +51,14 @@ class IsotonicCurve:
         return float(np.exp(y[0] + (probability - before) / (after - before) * (y[1] - y[0])))
 
 
-def fit_isotonic(
-    outcomes: Outcomes,
-    *,
-    event: Mask | None = None,
-    level: float = LEVEL,
-    resamples: int = RESAMPLES,
-    seed: int = 0,
-) -> IsotonicCurve:
+def fit_isotonic(outcomes: Outcomes, resampling: Resampling) -> IsotonicCurve:
     """
     Fit a curve that only rises.
 
     Parameters
     ----------
-    outcomes, event
-        As of `fit_lognormal`.
-    level, resamples, seed : optional
-        Of the bootstrap over records.
+    outcomes : Outcomes
+    resampling : Resampling
 
     Returns
     -------
@@ -81,17 +72,14 @@ def fit_isotonic(
     the number of records. If each record has intensities of its own, a stripe is a bin,
     and the curve is that of its bins.
     """
-    stripes = striped(outcomes.cells(event))
-    ones = np.ones((1, len(outcomes.records)))
-    events, histories = ones @ stripes.events, ones @ stripes.histories
-    value = _pooled(events, histories)[0]
-    weights = record_weights(len(outcomes.records), resamples, seed)
-    variance = _pooled(weights @ stripes.events, weights @ stripes.histories).var(axis=0)
+    stripes, weights = striped(outcomes.cells()), resampling.weights(len(outcomes.records))
+    pooled = _pooled(weights @ stripes.events, weights @ stripes.histories)
+    value, variance = pooled[0], pooled[1:].var(axis=0)
     of_records = (stripes.histories > 0).sum(axis=0)
-    low, high = _limits(value, variance, of_records, checked_level(level))
+    low, high = _limits(value, variance, of_records, resampling.level)
     # A curve that only rises has limits that only rise.
     band = Band(value, np.maximum.accumulate(low), np.minimum.accumulate(high[::-1])[::-1])
-    return IsotonicCurve(np.exp(stripes.log_intensity), band, level)
+    return IsotonicCurve(np.exp(stripes.log_intensity), band, resampling.level)
 
 
 def _pooled(events: Array, histories: Array) -> Array:

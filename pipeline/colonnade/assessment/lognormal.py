@@ -1,4 +1,4 @@
-"""Lognormal fragility: the fit with intervals over records, or why there is none; its misfit; the start of rocking."""
+"""Lognormal fragility: the fit with intervals over records, or why there is none; its misfit."""
 
 from __future__ import annotations
 
@@ -13,13 +13,10 @@ from numpy.typing import ArrayLike
 from colonnade.arrays import Array, Mask
 from colonnade.assessment.intervals import (
     FEWEST_RECORDS,
-    LEVEL,
     MOST_WITHOUT,
-    RESAMPLES,
     Band,
     Interval,
-    checked_level,
-    record_weights,
+    Resampling,
     shows_spread,
     studentised,
 )
@@ -123,25 +120,16 @@ class LognormalFit:
         return studentised(value[0], error[0], values, errors, self.level, self.records)
 
 
-def fit_lognormal(
-    outcomes: Outcomes,
-    *,
-    event: Mask | None = None,
-    intensity: Array | None = None,
-    level: float = LEVEL,
-    resamples: int = RESAMPLES,
-    seed: int = 0,
-) -> LognormalFit:
+def fit_lognormal(outcomes: Outcomes, resampling: Resampling, *, event: Mask | None = None) -> LognormalFit:
     """
     Fit a lognormal curve to outcomes.
 
     Parameters
     ----------
     outcomes : Outcomes
-    event, intensity : ndarray, optional
+    resampling : Resampling
+    event : ndarray, optional
         As of `Outcomes.cells`.
-    level, resamples, seed : optional
-        Of the bootstrap over records; the same seed gives the same intervals.
 
     Returns
     -------
@@ -158,9 +146,8 @@ def fit_lognormal(
     one record are not independent, so the standard errors are those of records (sandwich) and the intervals are
     studentised, of ln median and ln β.
     """
-    cells = outcomes.cells(event, intensity)
-    weights = np.vstack((np.ones(len(outcomes.records)), record_weights(len(outcomes.records), resamples, seed)))
-    parameters, log_likelihood, status = fit_parameters(cells, weights)
+    cells, level = outcomes.cells(event), resampling.level
+    parameters, log_likelihood, status = fit_parameters(cells, resampling.weights(len(outcomes.records)))
     all_records, resampled = (Parameters(*(each[part] for each in parameters)) for part in (slice(1), slice(1, None)))
     has_curve = status[1:] == FITTED
     stripes = striped(cells)
@@ -169,7 +156,7 @@ def fit_lognormal(
     shows = len(outcomes.records) >= ENOUGH_RECORDS or mixed >= LEAST_MIXED
     usable = has_curve & (shows and shows_spread(has_curve, len(outcomes.records)))
     resampled = Parameters(*(each[usable] for each in resampled))
-    median, beta = _intervals(all_records, resampled, checked_level(level), len(outcomes.records))
+    median, beta = _intervals(all_records, resampled, level, len(outcomes.records))
     return LognormalFit(
         _reason(int(status[0]), cells),
         _rises(cells),
@@ -260,15 +247,14 @@ class Misfit:
     p_value: float
 
 
-def lognormal_misfit(outcomes: Outcomes, *, resamples: int = RESAMPLES, seed: int = 0) -> Misfit:
+def lognormal_misfit(outcomes: Outcomes, resampling: Resampling) -> Misfit:
     """
     Test whether a lognormal curve fits.
 
     Parameters
     ----------
     outcomes : Outcomes
-    resamples, seed : int, optional
-        Of the bootstrap over records.
+    resampling : Resampling
 
     Returns
     -------
@@ -281,7 +267,7 @@ def lognormal_misfit(outcomes: Outcomes, *, resamples: int = RESAMPLES, seed: in
     """
     cells = outcomes.cells()
     stripes = striped(cells)
-    weights = np.vstack((np.ones(len(outcomes.records)), record_weights(len(outcomes.records), resamples, seed)))
+    weights = resampling.weights(len(outcomes.records))
     parameters, log_likelihood, status = fit_parameters(cells, weights)
     shares, expected = _shares(cells, stripes, weights, parameters)
     departures = shares - expected
@@ -314,58 +300,3 @@ def _deviance(stripes: Stripes, log_likelihood: float) -> float:
     share = events / histories
     saturated = scipy.special.xlogy(events, share) + scipy.special.xlogy(histories - events, 1 - share)
     return float(2 * (saturated.sum() - log_likelihood))
-
-
-@dataclass(frozen=True)
-class Uplift:
-    """
-    When the block starts to rock: one of the two is None.
-
-    Attributes
-    ----------
-    threshold : tuple of float or None
-        Lowest and highest intensity, over the draws, at which it starts. They differ only as the draws of α do.
-    curve : LognormalFit or None
-    """
-
-    threshold: tuple[float, float] | None
-    curve: LognormalFit | None
-
-
-def uplift(
-    outcomes: Outcomes,
-    *,
-    threshold: tuple[float, float] | None = None,
-    level: float = LEVEL,
-    resamples: int = RESAMPLES,
-    seed: int = 0,
-) -> Uplift:
-    """
-    Describe the start of rocking.
-
-    Parameters
-    ----------
-    outcomes : Outcomes
-        A history with a peak of 0 did not rock.
-    threshold : tuple of float, optional
-        Smallest and largest g tan α of the draws, if the intensity is the peak acceleration and no motion is vertical:
-        the block then rocks exactly if it exceeds g tan α, and no probability is fitted.
-    level, resamples, seed : optional
-        As of `fit_lognormal`.
-
-    Returns
-    -------
-    uplift : Uplift
-
-    Raises
-    ------
-    ValueError
-        If the threshold is not a rising pair of positive numbers.
-    """
-    if threshold is None:
-        curve = fit_lognormal(outcomes, event=outcomes.peak > 0, level=level, resamples=resamples, seed=seed)
-        return Uplift(None, curve)
-    low, high = threshold
-    if not 0 < low <= high:
-        raise ValueError(f"threshold is {low:g} to {high:g}; a rising pair of positive accelerations was expected")
-    return Uplift((float(low), float(high)), None)

@@ -13,7 +13,7 @@ from colonnade.assessment.cases import COMPONENTS, Cases, Outcomes, default_leve
 from colonnade.assessment.fragility import Fragility, summarise
 from colonnade.assessment.ground import LARGEST_DRIFT, NONE, Ground, correction_of
 from colonnade.assessment.hazard import Hazard, hazard_curve
-from colonnade.assessment.intervals import LEVEL, RESAMPLES, checked_level
+from colonnade.assessment.intervals import LEVEL, RESAMPLES, Resampling
 from colonnade.assessment.measures import MEASURES, Measure, measure_of, measured, measures_of
 from colonnade.assessment.outcomes import gather
 from colonnade.assessment.prototype import MOST_DRAWS, Limits, Prototype, draw
@@ -183,14 +183,12 @@ def _checked_levels(levels: ArrayLike, measure: Measure) -> Array:
 def judge(
     study: Study,
     outcomes: Outcomes,
+    resampling: Resampling,
     *,
     overturned: float = 1.0,
     hazard: Hazard | None = None,
     magnitude: ArrayLike | None = None,
     distance: ArrayLike | None = None,
-    level: float = LEVEL,
-    resamples: int = RESAMPLES,
-    seed: int = 0,
 ) -> Fragility:
     """
     Judge the outcomes of a study.
@@ -200,14 +198,13 @@ def judge(
     study : Study
     outcomes : Outcomes
         Of its cases.
+    resampling : Resampling
     overturned : float, optional
         A largest |θ|/α above this counts as overturned.
     hazard : Hazard, optional
         Of the study's measure.
     magnitude, distance : array_like, shape (records,), optional
         Of the earthquakes; NaN if not known.
-    level, resamples, seed : optional
-        As of `summarise`.
 
     Returns
     -------
@@ -231,15 +228,13 @@ def judge(
     )
     return summarise(
         gathered,
+        resampling,
         threshold=_threshold(study),
         hazard=hazard,
         measures=_scaled(study, signs),
         magnitude=magnitude,
         distance=distance,
         measure=study.measure.id,
-        level=level,
-        resamples=resamples,
-        seed=seed,
     )
 
 
@@ -370,7 +365,7 @@ def fragility(
     named = _named(motions)
     whole("draws", draws, 1, MOST_DRAWS)
     number("overturned", overturned, "a positive share of the critical angle", above=0.0)
-    checked_level(level)
+    resampling = Resampling(resamples, seed, level)
     curve = _curve(hazard)
     prototype = Prototype(
         block,
@@ -391,8 +386,7 @@ def fragility(
         baseline=baseline,
         seed=seed,
     )
-    outcomes = run_cases(study.cases)
-    return judge(study, outcomes, overturned=overturned, hazard=curve, level=level, resamples=resamples, seed=seed)
+    return judge(study, run_cases(study.cases), resampling, overturned=overturned, hazard=curve)
 
 
 def _named(motions: Mapping[str, Motion] | Sequence[Motion]) -> dict[str, Motion]:
