@@ -6,10 +6,9 @@ import numpy as np
 import scipy
 
 from colonnade.assessment.betas import separate_betas
+from colonnade.assessment.curves import IsotonicCurve, fit_isotonic, fit_lognormal, lognormal_misfit
 from colonnade.assessment.hazard import annual_rate, hazard_curve, lognormal_rate
 from colonnade.assessment.intervals import Interval, Resampling
-from colonnade.assessment.isotonic import IsotonicCurve, fit_isotonic
-from colonnade.assessment.lognormal import fit_lognormal, lognormal_misfit
 from colonnade.assessment.outcomes import Outcomes
 from fragilities.population import MEDIAN, Population
 

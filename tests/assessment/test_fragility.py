@@ -7,10 +7,10 @@ import pytest
 import scipy
 
 from colonnade.assessment.betas import separate_betas
+from colonnade.assessment.curves import fit_lognormal
 from colonnade.assessment.fragility import influence, summarise
 from colonnade.assessment.hazard import hazard_curve, lognormal_rate
 from colonnade.assessment.intervals import Resampling, studentised
-from colonnade.assessment.lognormal import fit_lognormal
 from colonnade.assessment.outcomes import gather
 from fragilities.population import Population
 from virtual_capacities import MEDIAN, lognormal, outcomes_of

@@ -10,10 +10,9 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from colonnade.assessment.curves import fit_isotonic, fit_lognormal
 from colonnade.assessment.hazard import annual_rate, hazard_curve, isotonic_rate, lognormal_rate
 from colonnade.assessment.intervals import Resampling
-from colonnade.assessment.isotonic import fit_isotonic
-from colonnade.assessment.lognormal import fit_lognormal
 from every import every
 from virtual_capacities import BETA, MEDIAN, lognormal, outcomes_of
 

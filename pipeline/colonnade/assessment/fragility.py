@@ -12,10 +12,16 @@ from numpy.typing import ArrayLike
 from colonnade.arrays import Array
 from colonnade.assessment.betas import Betas, separate_betas
 from colonnade.assessment.comparison import Comparison, compare_measures
+from colonnade.assessment.curves import (
+    IsotonicCurve,
+    LognormalFit,
+    Misfit,
+    fit_isotonic,
+    fit_lognormal,
+    lognormal_misfit,
+)
 from colonnade.assessment.hazard import AnnualRate, Hazard, annual_rate, lognormal_rate
 from colonnade.assessment.intervals import Interval, Resampling
-from colonnade.assessment.isotonic import IsotonicCurve, fit_isotonic
-from colonnade.assessment.lognormal import LognormalFit, Misfit, fit_lognormal, lognormal_misfit
 from colonnade.assessment.measures import measure_of
 from colonnade.assessment.outcomes import Outcomes, Resurrection, resurrection
 from colonnade.assessment.probit import fit_parameters

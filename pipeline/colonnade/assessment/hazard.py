@@ -10,9 +10,8 @@ from numpy.typing import ArrayLike
 from scipy.special import log_ndtr, ndtr
 
 from colonnade.arrays import Array
+from colonnade.assessment.curves import IsotonicCurve, LognormalFit
 from colonnade.assessment.intervals import Interval
-from colonnade.assessment.isotonic import IsotonicCurve
-from colonnade.assessment.lognormal import LognormalFit
 from colonnade.validation import samples
 
 

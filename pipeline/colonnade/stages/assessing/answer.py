@@ -8,9 +8,9 @@ from typing import Any, Literal
 import numpy as np
 
 from colonnade.assessment.cases import Outcomes
+from colonnade.assessment.curves import LognormalFit
 from colonnade.assessment.fragility import Fragility
 from colonnade.assessment.intervals import Interval
-from colonnade.assessment.lognormal import LognormalFit
 from colonnade.assessment.measures import measure_of
 from colonnade.assessment.prototype import Prototype
 from colonnade.campaign.assessing.assessed import (
