@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from colonnade.arrays import Array, Mask
 from colonnade.assessment.intervals import Resampling
-from colonnade.assessment.outcomes import FEWEST, Cells, Outcomes, with_axes
+from colonnade.assessment.outcomes import FEWEST, Cells, Outcomes, summed, with_axes
 from colonnade.assessment.probit import fit_parameters
 from colonnade.validation import samples
 
@@ -147,13 +147,8 @@ def _scored(outcomes: Outcomes, intensity: Array, weights: Array) -> tuple[Array
 def _auc(cells: Cells, weights: Array) -> Array:
     """Mann and Whitney's statistic of events against survivals, over the number of pairs."""
     distinct, place = np.unique(np.round(cells.log_intensity, 9), return_inverse=True)
-    record = np.repeat(np.arange(cells.events.shape[0]), cells.events.shape[1])
-    flat = record * distinct.size + place.ravel()
-    shape = (cells.events.shape[0], distinct.size)
-    events, histories = (
-        weights @ np.bincount(flat, each.ravel(), shape[0] * shape[1]).reshape(shape)
-        for each in (cells.events, cells.histories)
-    )
+    place = place.reshape(cells.events.shape)
+    events, histories = (weights @ summed(each, place, distinct.size) for each in (cells.events, cells.histories))
     survivals = histories - events
     below = np.cumsum(survivals, axis=1) - survivals / 2
     pairs = events.sum(axis=1) * survivals.sum(axis=1)

@@ -20,7 +20,7 @@ from colonnade.assessment.intervals import (
     shows_spread,
     studentised,
 )
-from colonnade.assessment.outcomes import Cells, Outcomes, Stripes, striped
+from colonnade.assessment.outcomes import Cells, Outcomes, Stripes, striped, summed
 from colonnade.assessment.probit import (
     FALLING,
     FITTED,
@@ -286,11 +286,9 @@ def _shares(cells: Cells, stripes: Stripes, weights: Array, parameters: Paramete
     """Shares of the stripes and those expected by each fit, shape (n, k)."""
     events, histories = weights @ stripes.events, weights @ stripes.histories
     expected = np.empty_like(events)
-    rows, stripes_of = cells.histories.shape[0], stripes.log_intensity.size
-    flat = (np.arange(rows)[:, None] * stripes_of + stripes.place).ravel()
     for n, (mean, log_beta) in enumerate(zip(parameters.log_median, parameters.log_beta, strict=True)):
         likely = cells.histories * scipy.special.ndtr((cells.log_intensity - mean) / np.exp(log_beta))
-        expected[n] = weights[n] @ np.bincount(flat, likely.ravel(), rows * stripes_of).reshape(rows, stripes_of)
+        expected[n] = weights[n] @ summed(likely, stripes.place, stripes.log_intensity.size)
     of = np.where(histories > 0, histories, np.nan)
     return events / of, expected / of
 

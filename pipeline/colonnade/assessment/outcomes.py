@@ -186,14 +186,17 @@ def striped(cells: Cells) -> Stripes:
     # Between two quantiles there may be nothing.
     distinct = np.unique(np.searchsorted(edges, y[counted]))
     place = np.minimum(np.searchsorted(distinct, np.searchsorted(edges, y)), distinct.size - 1)
-    rows = np.repeat(np.arange(y.shape[0])[:, None], y.shape[1], axis=1)
-    flat = (rows * distinct.size + place).ravel()
-    shape = (y.shape[0], distinct.size)
     events, histories, total = (
-        np.asarray(np.bincount(flat, each.ravel(), shape[0] * shape[1]).reshape(shape), dtype=np.float64)
-        for each in (cells.events, cells.histories, cells.histories * y)
+        summed(each, place, distinct.size) for each in (cells.events, cells.histories, cells.histories * y)
     )
     return Stripes(total.sum(axis=0) / histories.sum(axis=0), events, histories, place)
+
+
+def summed(values: Array, place: NDArray[np.intp], count: int) -> Array:
+    """Add up the values of each record, shape (r, m), that have the same place, shape (r, count)."""
+    rows = len(values)
+    flat = (np.arange(rows)[:, None] * count + place).ravel()
+    return np.asarray(np.bincount(flat, values.ravel(), rows * count).reshape(rows, count), dtype=np.float64)
 
 
 @dataclass(frozen=True)
