@@ -103,25 +103,18 @@ def compare_measures(
         raise ValueError(f"{known.sum()} records have all measures; at least {FEWEST} were expected")
     chosen = outcomes.only(known)
     weights = resampling.weights(int(known.sum()))
-    found = {name: _scored(chosen, each[known], weights) for name, each in arrays.items()}
-    deviances, aucs, scatters = (np.array([each[part] for each in found.values()]) for part in range(3))
-    best = _shares_best(deviances), _shares_best(-np.maximum(aucs, 1 - aucs)), _shares_best(scatters)
+    found = np.array([_scored(chosen, each[known], weights) for each in arrays.values()])
+    deviances, aucs, scatters = found.swapaxes(0, 1)
+    best = [_shares_best(each) for each in (deviances, -np.maximum(aucs, 1 - aucs), scatters)]
     by_magnitude = None if magnitude is None else samples("magnitude", magnitude, gaps=True)[known]
     by_distance = None if distance is None else np.log(samples("distance", distance, gaps=True)[known])
-    scores = [
-        MeasureScore(
-            name,
-            float(deviances[place, 0]),
-            float(aucs[place, 0]),
-            float(scatters[place, 0]),
-            float(best[0][place]),
-            float(best[1][place]),
-            float(best[2][place]),
-            _trend(by_magnitude, residuals(chosen, arrays[name][known])),
-            _trend(by_distance, residuals(chosen, arrays[name][known])),
-        )
-        for place, name in enumerate(arrays)
-    ]
+    scores = []
+    for place, (name, intensity) in enumerate(arrays.items()):
+        left = residuals(chosen, intensity[known])
+        deviance, auc, spread = found[place, :, 0].tolist()
+        of_deviance, of_auc, of_scatter = (float(each[place]) for each in best)
+        trends = _trend(by_magnitude, left), _trend(by_distance, left)
+        scores.append(MeasureScore(name, deviance, auc, spread, of_deviance, of_auc, of_scatter, *trends))
     left_out = tuple(name for name, is_in in zip(outcomes.records, known, strict=True) if not is_in)
     return Comparison(tuple(sorted(scores, key=lambda score: score.deviance)), left_out)
 
