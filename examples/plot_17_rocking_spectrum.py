@@ -9,9 +9,9 @@ curve is one slenderness. It shows which columns the motion overturns, and which
 import numpy as np
 
 import colonnade
-from colonnade.laboratory.suite.records import synthetic_records
+from colonnade.laboratory.site import synthetic_records
 
-record = synthetic_records(3)[2]  # a synthetic ground motion with a long pulse
+record = synthetic_records(12)[11]  # a synthetic ground motion with a long pulse
 motion = record.motion
 print(f"{record.name}: a pulse of {record.pulse_period:.1f} s, PGA {motion.peak:.1f} m/s²")
 

@@ -9,7 +9,7 @@ for several e within their limits. The intervals are over the records: these are
 import numpy as np
 
 import colonnade
-from colonnade.laboratory.suite.records import synthetic_records
+from colonnade.laboratory.site import synthetic_records
 
 column = colonnade.Block.prism(width=0.9, depth=0.9, height=5.4, mass=11e3)
 records = {record.name: record.motion for record in synthetic_records(12)}
@@ -18,7 +18,7 @@ found = colonnade.fragility(
     records,
     restitution=0.94,
     restitution_range=(0.92, 0.96),
-    levels=np.geomspace(0.2, 3.2, 9),  # m/s, of PGV
+    levels=np.geomspace(0.2, 1.6, 9),  # m/s, of PGV
     draws=2,
     baseline="linear",
     resamples=200,

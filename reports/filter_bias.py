@@ -17,7 +17,7 @@ from colonnade.dynamics.block import Block
 from colonnade.figures.style import blank_figure, styled
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.instruments import Imperfections, Transducer
-from colonnade.laboratory.programme import write
+from colonnade.laboratory.runs import write
 from colonnade.readers.registry import read
 from colonnade.signals.filters import default_lowpass
 from colonnade.stages import condition, ingest, restitution, rocking

@@ -16,7 +16,7 @@ from colonnade.figures.files.output import to_gif
 from colonnade.figures.stored import maps, record, restitution
 from colonnade.figures.stored.moving import animation
 from colonnade.laboratory import paper_programme, prism_programme, write_campaign
-from colonnade.laboratory.plans.ladder import KEPT_AWAY
+from colonnade.laboratory.programme import KEPT_AWAY
 from colonnade.report.overview_page.agreement import agreement
 from colonnade.store.layout import Layout
 from colonnade.store.records.stored import read_test

@@ -14,7 +14,7 @@ from PIL import Image
 
 import rebuild
 from colonnade.cli import invoke
-from colonnade.laboratory.plans.ladder import KEPT_AWAY
+from colonnade.laboratory.programme import KEPT_AWAY
 
 PROJECT = Path(__file__).parents[1]
 README = (PROJECT / "README.md").read_text(encoding="utf-8")

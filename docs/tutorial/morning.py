@@ -13,9 +13,9 @@ from pathlib import Path
 from colonnade import Block, Motion
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import COMMAS, GERMAN
-from colonnade.laboratory.programme import write
-from colonnade.laboratory.rig import frame, table_acceleration, table_displacement
-from colonnade.laboratory.suite.records import synthetic_records
+from colonnade.laboratory.programme import frame, table_acceleration, table_displacement
+from colonnade.laboratory.runs import write
+from colonnade.laboratory.site import synthetic_records
 from colonnade.laboratory.table import ramped_sine, recorded
 
 RESTITUTION = 0.94
@@ -60,7 +60,7 @@ def quake(number, motion, peak):
     return Trial(f"quake-{number}", "earthquake", "table", duration=shaking.stop + 5.0, table=shaking, spikes=3)
 
 
-valley = synthetic_records(count=9)[8].motion
+valley = synthetic_records(count=2)[1].motion
 plan = Plan(
     campaign="morning",
     title="A morning at the shake table",

@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from colonnade.assessment.fragility.summary import Fragility as Fragility
-    from colonnade.assessment.intensity.measured import IntensityMeasures as IntensityMeasures
-    from colonnade.assessment.intensity.measured import intensity_measures as intensity_measures
-    from colonnade.assessment.on_motions import fragility as fragility
+    from colonnade.assessment.fragility import Fragility as Fragility
+    from colonnade.assessment.measures import IntensityMeasures as IntensityMeasures
+    from colonnade.assessment.measures import intensity_measures as intensity_measures
+    from colonnade.assessment.study import fragility as fragility
     from colonnade.dynamics.block import Block as Block
     from colonnade.dynamics.ensembles.ensemble import ensemble as ensemble
     from colonnade.dynamics.ensembles.outcome import Ensemble as Ensemble

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from colonnade.assessment.fragility.curves.lognormal import ENOUGH_RECORDS, LEAST_MIXED
-from colonnade.assessment.fragility.resampling import FEWEST_RECORDS, MOST_WITHOUT
+from colonnade.assessment.curves import ENOUGH_RECORDS, LEAST_MIXED
+from colonnade.assessment.intervals import FEWEST_RECORDS, MOST_WITHOUT
 from fragilities.population import APART, MEDIAN, WITHIN, Population
 from fragilities.trial import PROBABILITIES, RESAMPLES, SIGNIFICANT
 

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from colonnade.arrays import Array
-from colonnade.assessment.fragility.outcomes import Outcomes, gather
+from colonnade.assessment.outcomes import Outcomes, gather
 
 MEDIAN = 0.4
 """Of all capacities, m/s."""

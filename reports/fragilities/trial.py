@@ -5,14 +5,11 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
-from colonnade.assessment.fragility.betas import separate_betas
-from colonnade.assessment.fragility.curves.hazard import hazard_curve, lognormal_rate
-from colonnade.assessment.fragility.curves.isotonic import IsotonicCurve, fit_isotonic
-from colonnade.assessment.fragility.curves.lognormal import fit_lognormal
-from colonnade.assessment.fragility.curves.misfit import lognormal_misfit
-from colonnade.assessment.fragility.curves.rate import annual_rate
-from colonnade.assessment.fragility.outcomes import Outcomes
-from colonnade.assessment.fragility.resampling import Interval
+from colonnade.assessment.betas import separate_betas
+from colonnade.assessment.curves import IsotonicCurve, fit_isotonic, fit_lognormal, lognormal_misfit
+from colonnade.assessment.hazard import annual_rate, hazard_curve, lognormal_rate
+from colonnade.assessment.intervals import Interval, Resampling
+from colonnade.assessment.outcomes import Outcomes
 from fragilities.population import MEDIAN, Population
 
 RESAMPLES = 999
@@ -33,17 +30,17 @@ is, `misfit` whether the test finds one.
 def run(population: Population, seed: int, number: int) -> Held:
     """Run repetition `number`."""
     outcomes = population.sample(np.random.default_rng((seed, number)))
-    curve = fit_isotonic(outcomes, resamples=RESAMPLES, seed=number)
+    curve = fit_isotonic(outcomes, Resampling(RESAMPLES, number))
     truth = population.probability(curve.intensity)
     inside = (curve.probability.low <= truth) & (truth <= curve.probability.high)
     held: Held = {f"isotonic {place}": bool(each) for place, each in enumerate(inside)}
-    held["misfit"] = lognormal_misfit(outcomes, resamples=RESAMPLES, seed=number).p_value < SIGNIFICANT
+    held["misfit"] = lognormal_misfit(outcomes, Resampling(RESAMPLES, number)).p_value < SIGNIFICANT
     return held if population.two_kinds else held | _lognormal(population, outcomes, curve, number)
 
 
 def _lognormal(population: Population, outcomes: Outcomes, curve: IsotonicCurve, number: int) -> Held:
-    fit = fit_lognormal(outcomes, resamples=RESAMPLES, seed=number)
-    betas = separate_betas(outcomes, resamples=RESAMPLES, seed=number)
+    fit = fit_lognormal(outcomes, Resampling(RESAMPLES, number))
+    betas = separate_betas(outcomes, Resampling(RESAMPLES, number))
     given = not (fit.reason or fit.no_interval)
     held: Held = {
         "given": given,

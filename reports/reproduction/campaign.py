@@ -16,8 +16,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.laboratory import paper_programme, write_campaign
 from colonnade.laboratory.campaign_file import FILE_NAME
 from colonnade.laboratory.experiment import Plan
-from colonnade.laboratory.plans.ladder import LASTING, PRISM, RAMP
-from colonnade.laboratory.plans.trials import Placed, sine
+from colonnade.laboratory.programme import LADDERS, LASTING, RAMP, Placed, sine
 from colonnade.store.files import write_text
 from colonnade.workflow.maps.plans import Wanted
 from colonnade.workflow.maps.stability import make_maps
@@ -56,7 +55,7 @@ def programme(name: str, record: Motion, *, seed: int = SEED) -> Plan:
     """Plan the demo's programme and, at its end, the histories that the paper shows and the demo leaves out."""
     plan = paper_programme(name, record, seed=seed)
     placed = Placed(SPECIMEN, plan.specimens[SPECIMEN].block, f"{SPECIMEN}-bench", f"{SPECIMEN}-table")
-    missing = [level for level in SHOWN if level not in PRISM[SHOWN_FREQUENCY]]
+    missing = [level for level in SHOWN if level not in LADDERS["prism"][SHOWN_FREQUENCY]]
     added = (
         sine(placed, f"sine-{SHOWN_FREQUENCY:g}Hz-{level:.2f}", SHOWN_FREQUENCY, level, cycles=LASTING, ramp=RAMP)
         for level in missing

@@ -7,10 +7,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from assessing import RATE, ground_motion
-from colonnade.assessment.cases.cases import in_plane, run_cases
-from colonnade.assessment.cases.prototype import Prototype
-from colonnade.assessment.fragility.curves.hazard import hazard_curve
-from colonnade.assessment.intensity.measured import intensity_measures
+from colonnade.assessment.cases import in_plane, run_cases
+from colonnade.assessment.hazard import hazard_curve
+from colonnade.assessment.intervals import Resampling
+from colonnade.assessment.measures import intensity_measures
+from colonnade.assessment.prototype import Prototype
 from colonnade.assessment.study import judge, plan_study
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
@@ -53,11 +54,11 @@ def test_outcomes_are_judged_as_they_are():
     study = plan_study(COLUMN, MOTIONS, measure="pga", levels=[3.0, 6.0, 9.0, 15.0, 25.0], draws=2, measures=["pga"])
     outcomes = run_cases(study.cases)
     hazard = hazard_curve([1.0, 20.0], [1e-2, 1e-6])
-    found = judge(study, outcomes, hazard=hazard, resamples=100)
+    found = judge(study, outcomes, Resampling(100), hazard=hazard)
     assert found.isotonic.probability.value.mean() == pytest.approx(outcomes.exceeds()[:, :, 1:, :, 0].mean())
     assert found.uplift.threshold == pytest.approx((COLUMN.block.uplift_acceleration,) * 2, rel=1e-9)
     assert found.rate is not None
-    stricter = judge(study, outcomes, overturned=0.2, resamples=100)
+    stricter = judge(study, outcomes, Resampling(100), overturned=0.2)
     assert stricter.outcomes.overturned.sum() > found.outcomes.overturned.sum()
 
 
@@ -82,4 +83,4 @@ def test_a_record_whose_base_falls_away_at_all_levels_is_named_and_the_rest_is_j
     assert "falls faster" in study.left_out["falls"]
     assert study.names == tuple(MOTIONS)
     assert len(study.drift) == len(study.values["pgv"]) == len(study.cases.draws) == len(MOTIONS)
-    assert judge(study, run_cases(study.cases), resamples=20).outcomes.records == study.names
+    assert judge(study, run_cases(study.cases), Resampling(20)).outcomes.records == study.names

@@ -16,8 +16,8 @@ import numba
 import numpy as np
 import pytest
 
-from colonnade.assessment.cases.cases import Cases, factors_at, in_plane, run_part
-from colonnade.assessment.cases.prototype import Prototype, draw, drawn_column
+from colonnade.assessment.cases import Cases, factors_at, in_plane, run_part
+from colonnade.assessment.prototype import Prototype, draw, drawn_column
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane.nonlinear import by_series

@@ -11,7 +11,7 @@ from colonnade.dynamics.block import Block
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import Flavour
 from colonnade.laboratory.instruments import Transducer
-from colonnade.laboratory.programme import write
+from colonnade.laboratory.runs import write
 from colonnade.laboratory.table import ramped_sine
 from colonnade.workflow import run
 

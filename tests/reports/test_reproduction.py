@@ -13,7 +13,7 @@ import pytest
 
 import reproduce
 from colonnade.laboratory import paper_programme
-from colonnade.laboratory.record import load_record
+from colonnade.laboratory.programme import load_record
 from reproduction import campaign, computed, drawings, printed, tables
 from reproduction.contents import PAGES
 from reproduction.markdown import VIRTUAL

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import norm, t
 
-from colonnade.assessment.cases.cases import run_cases
+from colonnade.assessment.cases import run_cases
 from colonnade.campaign.assessing.assessed import UNCORRECTED, AssessmentSummary
 from colonnade.campaign.assessing.prototype import Prototype
 from colonnade.dynamics.block import Block

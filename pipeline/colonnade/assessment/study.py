@@ -1,30 +1,26 @@
-"""An assessment from the records to the answer: measured and scaled, then run by whoever has the cores, then judged."""
+"""An assessment from the records to the answer: measured and scaled, run by whoever has the cores, judged."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import compress
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from colonnade.arrays import Array, Mask
-from colonnade.assessment.cases.cases import COMPONENTS, Cases, Outcomes, factors_at
-from colonnade.assessment.cases.levels import default_levels
-from colonnade.assessment.cases.prototype import Prototype, draw
-from colonnade.assessment.fragility import outcomes as counted
-from colonnade.assessment.fragility.curves.hazard import Hazard
-from colonnade.assessment.fragility.resampling import LEVEL, RESAMPLES
-from colonnade.assessment.fragility.summary import Fragility, summarise
-from colonnade.assessment.intensity.baselines import NONE, baseline_of
-from colonnade.assessment.intensity.ground import LARGEST_DRIFT, Ground
-from colonnade.assessment.intensity.measured import measured, measures_of
-from colonnade.assessment.intensity.registry import MEASURES, Measure, measure_of
-from colonnade.dynamics.block import Block
+from colonnade.arrays import Array
+from colonnade.assessment.cases import COMPONENTS, Cases, Outcomes, default_levels, factors_at, run_cases
+from colonnade.assessment.fragility import Fragility, summarise
+from colonnade.assessment.ground import LARGEST_DRIFT, NONE, Ground, correction_of
+from colonnade.assessment.hazard import Hazard, hazard_curve
+from colonnade.assessment.intervals import LEVEL, RESAMPLES, Resampling
+from colonnade.assessment.measures import MEASURES, Measure, measure_of, measured, measures_of
+from colonnade.assessment.outcomes import gather
+from colonnade.assessment.prototype import MOST_DRAWS, Limits, Prototype, draw
+from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.models.nonlinear import NONLINEAR
 from colonnade.dynamics.motion import Motion
-from colonnade.validation import number, samples
+from colonnade.validation import described, instance, number, samples, whole
 
 DRAWS = 8
 """Columns that are drawn besides the one with nothing varied."""
@@ -123,35 +119,32 @@ def plan_study(
     scaled_over, block = measure_of(measure), prototype.block
     if not scaled_over.power:
         raise ValueError(f"{scaled_over.id} does not grow with a motion; a measure that does was expected")
-    baseline_of(baseline)
     drift = number("drift", drift, "a positive share of the peak velocity", above=0.0)
     compared = [scaled_over, *measures_of(USUAL if measures is None else measures)]
-    corrected = {name: _corrected(motion, baseline) for name, motion in motions.items()}
-    values, drifts, reasons = _measured(corrected, compared, block, drift)
-    usable: Mask = np.asarray(np.isfinite(values[scaled_over.id]).any(axis=1))
-    if not usable.any():
+    names, recorded = tuple(motions), [_corrected(motion, baseline) for motion in motions.values()]
+    values, drifts, reasons = _measured(dict(zip(names, recorded, strict=True)), compared, block, drift)
+    usable = np.flatnonzero(np.isfinite(values[scaled_over.id]).any(axis=1))
+    if not usable.size:
         why = next(iter(reasons.values()), "there is no record")
         raise ValueError(f"No record has a {scaled_over.name}: {why}")
-    kept = list(compress(corrected, usable))
-    chosen = tuple(corrected[name] for name in kept)
-    values = {name: each[usable] for name, each in values.items()}
-    recorded, power = values[scaled_over.id], scaled_over.power
+    intensity, power = values[scaled_over.id][usable], scaled_over.power
     if levels is None:
-        found = default_levels(prototype, chosen, recorded, power=power, model=model)
+        found = default_levels(prototype, [recorded[row] for row in usable], intensity, power=power, model=model)
     else:
         found = _checked_levels(levels, scaled_over)
-    factors = factors_at(found, recorded, power)
-    runs = np.array([_has_history(*each, block.gravity) for each in zip(chosen, factors, strict=True)])
-    if not runs.all():
-        reasons |= {(name, "z"): FALLS for name, is_in in zip(kept, runs, strict=True) if not is_in}
-        kept, chosen = list(compress(kept, runs)), tuple(compress(chosen, runs))
-        values, factors = {name: each[runs] for name, each in values.items()}, factors[runs]
-        usable[usable] = runs
-    if not kept:
+    factors = factors_at(found, intensity, power)
+    runs = np.array(
+        [_has_history(recorded[row], each, block.gravity) for row, each in zip(usable, factors, strict=True)]
+    )
+    if not runs.any():
         raise ValueError(f"No record can be run: {FALLS}")
-    drawn = tuple(draw(prototype, draws, seed, record=number) for number in range(len(chosen)))
-    cases = Cases(prototype, drawn, chosen, factors, model)
-    return Study(tuple(kept), cases, scaled_over, found, values, drifts[usable], _left_out(kept, reasons))
+    reasons |= {(names[row], "z"): FALLS for row in usable[~runs]}
+    rows = usable[runs]
+    drawn = tuple(draw(prototype, draws, seed, record=number) for number in range(rows.size))
+    cases = Cases(prototype, drawn, tuple(recorded[row] for row in rows), factors[runs], model)
+    kept = tuple(names[row] for row in rows)
+    values = {name: each[rows] for name, each in values.items()}
+    return Study(kept, cases, scaled_over, found, values, drifts[rows], _left_out(kept, reasons))
 
 
 def _measured(
@@ -190,14 +183,12 @@ def _checked_levels(levels: ArrayLike, measure: Measure) -> Array:
 def judge(
     study: Study,
     outcomes: Outcomes,
+    resampling: Resampling,
     *,
     overturned: float = 1.0,
     hazard: Hazard | None = None,
     magnitude: ArrayLike | None = None,
     distance: ArrayLike | None = None,
-    level: float = LEVEL,
-    resamples: int = RESAMPLES,
-    seed: int = 0,
 ) -> Fragility:
     """
     Judge the outcomes of a study.
@@ -207,14 +198,13 @@ def judge(
     study : Study
     outcomes : Outcomes
         Of its cases.
+    resampling : Resampling
     overturned : float, optional
         A largest |θ|/α above this counts as overturned.
     hazard : Hazard, optional
         Of the study's measure.
     magnitude, distance : array_like, shape (records,), optional
         Of the earthquakes; NaN if not known.
-    level, resamples, seed : optional
-        As of `summarise`.
 
     Returns
     -------
@@ -230,7 +220,7 @@ def judge(
     drawn = counted_draws(draws)
     directions = (records, levels, -1, signs * components)
     peak = np.where(outcomes.is_run & np.isnan(outcomes.peak_ratio), np.inf, outcomes.peak_ratio)
-    gathered = counted.gather(
+    gathered = gather(
         study.names,
         np.broadcast_to(study.levels, (records, levels)),
         np.where(outcomes.is_run, peak, np.nan)[:, :, drawn].reshape(directions),
@@ -238,15 +228,13 @@ def judge(
     )
     return summarise(
         gathered,
+        resampling,
         threshold=_threshold(study),
         hazard=hazard,
         measures=_scaled(study, signs),
         magnitude=magnitude,
         distance=distance,
         measure=study.measure.id,
-        level=level,
-        resamples=resamples,
-        seed=seed,
     )
 
 
@@ -273,7 +261,7 @@ def _left_out(kept: Sequence[str], reasons: Mapping[tuple[str, str], str]) -> di
 def _corrected(motion: Motion, baseline: str) -> Motion:
     if baseline == NONE:
         return motion
-    correct = baseline_of(baseline).correct
+    correct = correction_of(baseline)
     others = (None if part is None else correct(part, motion.dt) for part in (motion.vertical, motion.transverse))
     return Motion(correct(motion.acceleration, motion.dt), motion.dt, *others)
 
@@ -295,3 +283,128 @@ def _scaled(study: Study, signs: int) -> dict[str, Array]:
             # What is not run has no say.
             found[name] = np.tile(np.where(np.isfinite(study.cases.factors), values, 1.0), (1, 1, signs))
     return found
+
+
+def fragility(
+    block: Block,
+    motions: Mapping[str, Motion] | Sequence[Motion],
+    *,
+    restitution: Sided | None = None,
+    measure: str = "pgv",
+    levels: ArrayLike | None = None,
+    restitution_range: Limits | None = None,
+    critical_angle_range: Limits | None = None,
+    p_range: Limits | None = None,
+    draws: int = DRAWS,
+    overturned: float = 1.0,
+    hazard: tuple[ArrayLike, ArrayLike] | None = None,
+    measures: Sequence[str] | None = None,
+    model: str = NONLINEAR.name,
+    drift: float = LARGEST_DRIFT,
+    baseline: str = NONE,
+    level: float = LEVEL,
+    resamples: int = RESAMPLES,
+    seed: int = 0,
+) -> Fragility:
+    """
+    Find how probably a block overturns on a set of motions, over a measure of their intensity.
+
+    Parameters
+    ----------
+    block : Block
+        The real column.
+    motions : mapping of str to Motion, or sequence of Motion
+        Records, by name or numbered from 1. Both horizontal components are cases in the plane, with vertical motion.
+    restitution : float or pair of float, optional
+        e; default the rigid-body value.
+    measure : str, optional
+        Id of the measure over which the records are scaled: "pgv", "pga", "sa(0.5 s)" …
+    levels : array_like, optional
+        Of it, SI; chosen so that the share of records that overturn goes from 0 to 1 if not given.
+    restitution_range, critical_angle_range, p_range : pair of float, optional
+        Limits between which e, α (rad) and p (rad/s) are drawn for each record; known exactly if not given.
+    draws : int, optional
+    overturned : float, optional
+        A largest |θ|/α above this counts as overturned.
+    hazard : pair of array_like, optional
+        Levels of the measure, SI, and the annual rates at which they are exceeded.
+    measures : sequence of str, optional
+        Ids of the measures that are compared; default all that need no block.
+    model : str, optional
+        A plane one.
+    drift, baseline : optional
+        As of `intensity_measures`.
+    level, resamples, seed : optional
+        Of the intervals: their level, how often the records are drawn again, and the seed of all that is drawn.
+
+    Returns
+    -------
+    fragility : Fragility
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or there are too few records.
+
+    Notes
+    -----
+    Binomial likelihood on stripes (Baker 2015). Records at several levels are one record: intervals resample records.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> block = Block.prism(width=1.7, depth=1.7, height=9.1, mass=40e3)
+    >>> time = np.arange(0.0, 6.0, 0.02)
+    >>> taper = np.sin(np.pi * time / 6.0) ** 2
+    >>> motions = [Motion(3.0 * taper * np.sin(2 * np.pi * f * (time - 3.0)), 0.02) for f in (0.4, 0.5, 0.6, 0.7)]
+    >>> found = fragility(block, motions, restitution=0.95, levels=[0.5, 1.0, 2.0, 4.0], draws=1, resamples=100)
+    >>> found.lognormal.rises[0] < 4.0, len(found.outcomes.records)
+    (True, 4)
+    """
+    instance("block", block, Block)
+    named = _named(motions)
+    whole("draws", draws, 1, MOST_DRAWS)
+    number("overturned", overturned, "a positive share of the critical angle", above=0.0)
+    resampling = Resampling(resamples, seed, level)
+    curve = _curve(hazard)
+    prototype = Prototype(
+        block,
+        max(block.restitution, 0.0) if restitution is None else restitution,
+        restitution_range=restitution_range,
+        critical_angle_range=critical_angle_range,
+        p_range=p_range,
+    )
+    study = plan_study(
+        prototype,
+        named,
+        measure=measure,
+        levels=levels,
+        measures=measures,
+        draws=draws,
+        model=model,
+        drift=drift,
+        baseline=baseline,
+        seed=seed,
+    )
+    return judge(study, run_cases(study.cases), resampling, overturned=overturned, hazard=curve)
+
+
+def _named(motions: Mapping[str, Motion] | Sequence[Motion]) -> dict[str, Motion]:
+    """Give the motions by name; numbered from 1 if they have none."""
+    if not isinstance(motions, (Mapping, Sequence)) or isinstance(motions, str):
+        raise ValueError(f"motions is {described(motions)}; a list of motions, or motions by name, was expected")
+    named = dict(motions) if isinstance(motions, Mapping) else {str(n): each for n, each in enumerate(motions, 1)}
+    for name, motion in named.items():
+        instance(f"motions[{name!r}]", motion, Motion)
+    return named
+
+
+def _curve(hazard: tuple[ArrayLike, ArrayLike] | None) -> Hazard | None:
+    if hazard is None:
+        return None
+    if not isinstance(hazard, (tuple, list)) or len(hazard) != 2:
+        raise ValueError(f"hazard is {described(hazard)}; a pair of levels and of annual rates was expected")
+    try:
+        return hazard_curve(*hazard)
+    except ValueError as error:
+        raise ValueError(f"hazard: {error}") from None

@@ -43,7 +43,7 @@ def demo(
     from colonnade.errors import ReadError
     from colonnade.laboratory import paper_programme, prism_programme, write_campaign
     from colonnade.laboratory.campaign_file import FILE_NAME
-    from colonnade.laboratory.comparison import with_truth
+    from colonnade.laboratory.runs import with_truth
 
     if folder.is_dir() and any(folder.iterdir()) and not (folder / FILE_NAME).is_file():
         raise click.UsageError(f"{folder} contains other files. Name an empty folder, a new one, or an earlier demo.")
@@ -66,7 +66,7 @@ def demo(
 
 
 def _show(comparison: dict[str, Any]) -> None:
-    from colonnade.laboratory.plans.ladder import KEPT_AWAY
+    from colonnade.laboratory.programme import KEPT_AWAY
     from colonnade.report.overview_page.agreement import agreement
     from colonnade.units.text import interval, ratio
 

@@ -11,8 +11,8 @@ from matplotlib.animation import FuncAnimation
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
-from colonnade.assessment.fragility.summary import Fragility
-from colonnade.assessment.intensity.registry import measure_of
+from colonnade.assessment.fragility import Fragility
+from colonnade.assessment.measures import measure_of
 from colonnade.dynamics.ensembles.outcome import Ensemble
 from colonnade.dynamics.history import History
 from colonnade.dynamics.maps.chart import StabilityMap

@@ -8,10 +8,9 @@ from colonnade import units
 from colonnade.campaign.syntax.document import toml_key, toml_value
 from colonnade.dynamics.block import STANDARD_GRAVITY
 from colonnade.errors import CampaignError
-from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Trial, raw_path
+from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Trial, begun, raw_path
 from colonnade.laboratory.files import FileFormat
 from colonnade.laboratory.instruments import VOLTS, Transducer
-from colonnade.laboratory.plans.schedule import begun
 from colonnade.readers.files import irregular
 
 FILE_NAME = "campaign.toml"

@@ -1,9 +1,12 @@
-"""A virtual campaign: what is tested, and how it is recorded."""
+"""A virtual campaign: what is tested, when, and how it is recorded."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from datetime import datetime, time, timedelta
+
+import numpy as np
 
 from colonnade.dynamics.block import Block
 from colonnade.laboratory.files import FileFormat, Flavour
@@ -11,6 +14,13 @@ from colonnade.laboratory.instruments import Imperfections, Transducer
 from colonnade.laboratory.table import TableMotion, still
 
 MAIN = "main"
+
+FIRST_DAY = np.datetime64("2013-05-14")
+FIRST_TEST = time(9)
+"""A working day begins with it."""
+BETWEEN_TESTS = timedelta(minutes=24)
+TESTS_A_DAY = 18
+"""The last begins at 15:48."""
 
 
 @dataclass(frozen=True)
@@ -148,3 +158,17 @@ class Plan:
 def raw_path(trial: Trial, name: str, recorder: Recorder) -> str:
     """Path of the raw file that one recorder writes of a trial, from the campaign's folder."""
     return f"raw/{trial.name}{'' if name == MAIN else f'-{name}'}{recorder.flavour.suffix}"
+
+
+def begun(position: int) -> datetime:
+    """
+    Return when a test is said to begin, by its place in the plan from 0: on working days, one after the other.
+
+    Examples
+    --------
+    >>> begun(0).isoformat(" "), begun(4 * TESTS_A_DAY).isoformat(" ")
+    ('2013-05-14 09:00:00', '2013-05-20 09:00:00')
+    """
+    days, before = divmod(position, TESTS_A_DAY)
+    day = datetime.fromisoformat(str(np.busday_offset(FIRST_DAY, days)))
+    return datetime.combine(day, FIRST_TEST) + before * BETWEEN_TESTS

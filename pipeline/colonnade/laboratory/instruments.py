@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -125,22 +125,13 @@ class Imperfections:
     zero: float = 0.02
 
 
-@dataclass(frozen=True)
-class Errors:
-    """Errors drawn for one channel of one record: zero offset and drift over the record, V; samples with a spike."""
-
-    zero: float
-    drift: float
-    spikes: tuple[int, ...]
-
-
 def measure(
     value: Array,
     transducer: Transducer,
     imperfections: Imperfections,
     generator: np.random.Generator,
     spikes: tuple[int, ...] = (),
-) -> tuple[Array, Errors]:
+) -> tuple[Array, dict[str, Any]]:
     """
     Turn a physical value into volts as the recorder's converter sees them.
 
@@ -158,7 +149,8 @@ def measure(
     -------
     volts : ndarray, shape (n,)
         On the converter's steps, within its range.
-    errors : Errors
+    errors : dict
+        As truth.json gives them: `zero_volts` and `drift_volts` over the record, V; `spikes`, their samples.
     """
     zero = VOLTS * imperfections.zero * generator.uniform(-1.0, 1.0)
     drift = VOLTS * imperfections.drift * generator.choice([-1.0, 1.0])
@@ -168,4 +160,4 @@ def measure(
     for sample in spikes:
         volts[sample] -= np.copysign(generator.uniform(2.0, 5.0), volts[sample])
     codes = np.clip(np.rint(volts / STEP), -(2 ** (BITS - 1)), 2 ** (BITS - 1) - 1)
-    return codes * STEP, Errors(float(zero), float(drift), spikes)
+    return codes * STEP, {"zero_volts": float(zero), "drift_volts": float(drift), "spikes": list(spikes)}

@@ -1,10 +1,10 @@
-"""Runs the tests of a virtual campaign: each is simulated, measured, and written as raw files with its truth."""
+"""Writes virtual campaigns: each test is simulated and measured, and results are compared with the truth."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from dataclasses import asdict
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -12,14 +12,95 @@ from typing import Any
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.laboratory.experiment import MAIN, Plan, Setup, Trial, raw_path
+from colonnade.laboratory.campaign_file import FILE_NAME, campaign_text, refuse_foreign
+from colonnade.laboratory.experiment import MAIN, Plan, Setup, Trial, begun, raw_path
 from colonnade.laboratory.files import Sheet, put
 from colonnade.laboratory.instruments import measure
-from colonnade.laboratory.plans.schedule import begun
+from colonnade.laboratory.programme import load_record, prism_programme
+from colonnade.laboratory.site import add_site
 from colonnade.laboratory.truth import Truth, simulate
+from colonnade.store.files import own_files
 
 START_SCATTER = 1e-3
 """A recorder that starts late does so within ± this, s: no two starts are alike."""
+
+
+@dataclass(frozen=True)
+class WrittenCampaign:
+    """
+    A virtual campaign on disk.
+
+    Attributes
+    ----------
+    path : Path
+        Its campaign.toml.
+    truth : dict
+        What truth/truth.json next to it holds: by specimen `restitution` and more, by test `outcome`, `peak_ratio` and
+        more. The true angle of each test is in the same folder.
+    """
+
+    path: Path
+    truth: dict[str, Any]
+
+
+def write_campaign(
+    folder: Path | str,
+    *,
+    seed: int = 0,
+    motion: Path | None = None,
+    programme: Callable[..., Plan] | None = None,
+    workers: int | None = 1,
+    site: bool = False,
+) -> WrittenCampaign:
+    """
+    Write a virtual campaign.
+
+    Parameters
+    ----------
+    folder : Path or str
+        Folder of campaign.toml, raw/ and truth/; made if necessary.
+    seed : int, optional
+        Of noise, offsets, spikes and the exact releases. The same seed gives the same files.
+    motion : Path, optional
+        File with the earthquake record; default: El Centro 1940 NS of the extra `demo`.
+    programme : callable, optional
+        `paper_programme`, or `prism_programme`, the default: its prism's ten tests.
+    workers : int or None, optional
+        Processes; None takes one a core.
+    site : bool, optional
+        Also ask whether the real columns stand, on synthetic ground motions.
+
+    Returns
+    -------
+    written : WrittenCampaign
+
+    Raises
+    ------
+    ReadError
+        If the record is missing or cannot be read.
+    CampaignError
+        If the folder holds a campaign that the laboratory did not write.
+    StoreError
+        If a file cannot be written.
+    """
+    name, record = load_record(motion)
+    plan = (programme or prism_programme)(name, record, seed=seed)
+    written = write(plan, folder, seed=seed, workers=workers)
+    if site:
+        add_site(plan, written.path, seed=seed)
+    return written
+
+
+def write(plan: Plan, folder: Path | str, *, seed: int = 0, workers: int | None = 1) -> WrittenCampaign:
+    """Run a plan: write its raw files, its truth and its campaign file; see `write_campaign`."""
+    folder = Path(folder)
+    refuse_foreign(folder)
+    for name in ("raw", "truth"):
+        own_files(folder / name)
+    records = run_tests(plan, folder, seed, workers)
+    truth = write_truth(plan, records, folder, seed)
+    put(folder / FILE_NAME, campaign_text(plan).encode())
+    return WrittenCampaign(folder / FILE_NAME, truth)
 
 
 def run_tests(plan: Plan, folder: Path, seed: int, workers: int | None) -> dict[str, dict[str, Any]]:
@@ -123,13 +204,8 @@ def _record(
         for transducer in recorder.transducers:
             value = transducer.sense(truth.block, trial.table, clocks[name], angle)
             struck = spikes.get(transducer.channel, ())
-            volts, drawn = measure(value, transducer, plan.imperfections, generator, struck)
+            volts, errors[transducer.channel] = measure(value, transducer, plan.imperfections, generator, struck)
             columns[transducer.column] = (transducer.recorded_unit, transducer.written(volts))
-            errors[transducer.channel] = {
-                "zero_volts": drawn.zero,
-                "drift_volts": drawn.drift,
-                "spikes": list(drawn.spikes),
-            }
         sheet = Sheet(clocks[name] - starts[name], recorder.sampling_rate_hz, columns, start)
         put(folder / raw_path(trial, name, recorder), recorder.flavour.content(sheet))
     return errors
@@ -194,3 +270,37 @@ def write_truth(plan: Plan, records: Mapping[str, Mapping[str, Any]], folder: Pa
     }
     put(folder / "truth" / "truth.json", (json.dumps(truth, indent=1, ensure_ascii=False) + "\n").encode())
     return truth
+
+
+def with_truth(truth: Mapping[str, Any], summary: Path) -> dict[str, Any]:
+    """
+    Put what a run found next to what is true.
+
+    Parameters
+    ----------
+    truth : mapping
+        Of a campaign of `write_campaign`: `specimens` and `tests` by id.
+    summary : Path
+        summary.json of its run.
+
+    Returns
+    -------
+    comparison : dict
+        `restitution` by specimen: the true one as `true`, and the fields of the summary; `tests` by id: outcome, peak
+        and release, each found and true, and what was predicted.
+    """
+    read = json.loads(summary.read_text(encoding="utf-8"))
+    return {
+        "restitution": {
+            name: {"true": true["restitution"]} | read["specimens"][name]["restitution"]
+            for name, true in truth["specimens"].items()
+        },
+        "tests": {name: _test(true, read["tests"][name]) for name, true in truth["tests"].items()},
+    }
+
+
+def _test(true: Mapping[str, Any], found: Mapping[str, Any]) -> dict[str, Any]:
+    pairs: dict[str, Any] = {}
+    for name in ("outcome", "peak_ratio", "release_ratio"):
+        pairs |= {f"true_{name}": true[name], name: found[name]}
+    return pairs | {"predicted": found["predicted"]}

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from math import cos, pi, sin
+from itertools import pairwise
+from math import copysign, cos, pi, sin
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -108,29 +109,18 @@ def ramped_sine(frequency: float, acceleration: float, *, start: float, cycles: 
         grown = fraction**4 * (35 + fraction * (-84 + fraction * (70 - 20 * fraction)))
         return np.asarray(-acceleration / omega**2 * grown * np.sin(omega * (time - start)))
 
-    def plateau(time: float) -> float:
-        return acceleration * sin(omega * (time - start))
-
-    def on_ramp(time: float, *, origin: float, direction: float) -> float:
-        x = direction * (time - origin) / ramp_duration
-        grown = x**4 * (35 + x * (-84 + x * (70 - 20 * x)))
-        first = direction * 140 * x**3 * (1 - x) ** 3 / ramp_duration
-        second = 420 * x**2 * (1 - x) ** 2 * (1 - 2 * x) / ramp_duration**2
+    def acceleration_at(time: float) -> float:
+        x = min(time - start, end - time) / ramp_duration
         phase = omega * (time - start)
+        if x >= 1.0:
+            return acceleration * sin(phase)
+        grown = x**4 * (35 + x * (-84 + x * (70 - 20 * x)))
+        first = copysign(140 * x**3 * (1 - x) ** 3 / ramp_duration, end - start - 2 * (time - start))
+        second = 420 * x**2 * (1 - x) ** 2 * (1 - 2 * x) / ramp_duration**2
         return acceleration * ((grown - second / omega**2) * sin(phase) - 2 * first / omega * cos(phase))
 
-    pieces = []
-    for number, (left, right) in enumerate(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True)):
-        cycle = number // PIECES_PER_CYCLE
-        function: Callable[[float], float]
-        if cycle < ramp:
-            function = partial(on_ramp, origin=start, direction=1.0)
-        elif cycle >= ramp + cycles:
-            function = partial(on_ramp, origin=end, direction=-1.0)
-        else:
-            function = plateau
-        pieces.append(Piece(left, right, function))
-    return TableMotion(tuple(pieces), shape)
+    pieces = tuple(Piece(left, right, acceleration_at) for left, right in pairwise(edges.tolist()))
+    return TableMotion(pieces, shape)
 
 
 def recorded(motion: Motion, *, start: float) -> TableMotion:

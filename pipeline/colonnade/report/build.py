@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from colonnade.assessment.criteria.registry import NOT_COMPUTED
+from colonnade.assessment.criteria import NOT_COMPUTED
 from colonnade.campaign import Campaign
 from colonnade.campaign.settings import settings
 from colonnade.identification.response.base_motion import LEAST_MOTION

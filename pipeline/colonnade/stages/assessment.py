@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.assessment.cases.cases import AXES, COMPONENTS, Outcomes, in_plane
-from colonnade.assessment.cases.prototype import UNCERTAIN
-from colonnade.assessment.cases.sliding import FrictionNeeded, friction_needed, holds
-from colonnade.assessment.fragility.summary import Fragility
-from colonnade.assessment.intensity.registry import measure_of
+from colonnade.assessment.cases import AXES, COMPONENTS, FrictionNeeded, Outcomes, friction_needed, holds, in_plane
+from colonnade.assessment.fragility import Fragility
+from colonnade.assessment.intervals import Resampling
+from colonnade.assessment.measures import measure_of
+from colonnade.assessment.prototype import UNCERTAIN
 from colonnade.assessment.study import Study, counted_draws, judge
 from colonnade.dynamics.spectra.response import response_spectrum
 from colonnade.errors import StageError
@@ -61,12 +61,11 @@ def assessment(plan: Plan, outcomes: Mapping[str, Outcomes]) -> xr.Dataset:
         return judge(
             plan.studies[name],
             outcomes[name],
+            Resampling(plan.inputs.asked.resamples, plan.inputs.asked.seed),
             overturned=plan.inputs.asked.overturned,
             hazard=plan.hazard if name == ASSUMED else None,
             magnitude=magnitude if name == ASSUMED else None,
             distance=distance if name == ASSUMED else None,
-            resamples=plan.inputs.asked.resamples,
-            seed=plan.inputs.asked.seed,
         )
 
     try:

@@ -147,7 +147,7 @@ def _checked(campaign: Campaign, test: Test, reading: Reading) -> Checked:
 
 def _records_checked(asked: Assessment) -> Checked:
     """Read the ground motions and the hazard of an assessment; no history is run."""
-    from colonnade.assessment.fragility.outcomes import FEWEST
+    from colonnade.assessment.outcomes import FEWEST
     from colonnade.readers.ground_motions.hazard import read_hazard_of
     from colonnade.readers.ground_motions.record_set import read_record_set
 

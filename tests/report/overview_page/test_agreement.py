@@ -8,7 +8,7 @@ import pytest
 
 import rebuild
 from colonnade.campaign.forms.summary import Warned
-from colonnade.laboratory.plans.ladder import KEPT_AWAY
+from colonnade.laboratory.programme import KEPT_AWAY
 from colonnade.report.overview_page.agreement import agreement
 from colonnade.report.overview_page.attention import attention
 from colonnade.report.overview_page.confusion import confusions

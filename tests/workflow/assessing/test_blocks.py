@@ -15,8 +15,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from colonnade.assessment.cases.cases import Cases, run_cases
-from colonnade.assessment.cases.prototype import Prototype, draw
+from colonnade.assessment.cases import Cases, run_cases
+from colonnade.assessment.prototype import Prototype, draw
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.motion import Motion
 from colonnade.workflow.assessing.blocks import given, outcomes_of

@@ -7,9 +7,8 @@ from typing import Annotated, Self
 from pydantic import AfterValidator, model_validator
 
 from colonnade import units
-from colonnade.assessment.intensity.baselines import NONE, baseline_of
-from colonnade.assessment.intensity.ground import LARGEST_DRIFT
-from colonnade.assessment.intensity.registry import measure_of
+from colonnade.assessment.ground import LARGEST_DRIFT, NONE, correction_of
+from colonnade.assessment.measures import measure_of
 from colonnade.campaign.settings import setting
 from colonnade.campaign.syntax.fields import (
     SOME_TEXT,
@@ -56,7 +55,7 @@ def _measures(names: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _baseline(name: str) -> str:
-    baseline_of(name)
+    correction_of(name)
     return name
 
 

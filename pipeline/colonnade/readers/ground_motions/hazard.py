@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from colonnade import units
-from colonnade.assessment.fragility.curves.hazard import Hazard, hazard_curve
-from colonnade.assessment.intensity.registry import measure_of
+from colonnade.assessment.hazard import Hazard, hazard_curve
+from colonnade.assessment.measures import measure_of
 from colonnade.errors import ReadError, UnitError, quoted
 from colonnade.readers.small_table import Head, SmallTable, read_table
 

@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 
 from colonnade.arrays import Array
-from colonnade.assessment.criteria.registry import CRITERIA, Criterion
-from colonnade.assessment.intensity.registry import measure_of
+from colonnade.assessment.criteria import CRITERIA, Criterion
+from colonnade.assessment.measures import measure_of
 from colonnade.assessment.study import counted_draws
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessing.assessed import AssessmentSummary, JudgedCriterion, RecordUsed

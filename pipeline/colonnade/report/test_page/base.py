@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from colonnade.assessment.intensity.ground import LARGEST_DRIFT_AT_REST
-from colonnade.assessment.intensity.measured import table_measures
+from colonnade.assessment.ground import LARGEST_DRIFT_AT_REST
+from colonnade.assessment.measures import table_measures
 from colonnade.campaign import Campaign
 from colonnade.dynamics.block import Block
 from colonnade.dynamics.similitude import at_prototype

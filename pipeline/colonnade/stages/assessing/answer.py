@@ -7,12 +7,12 @@ from typing import Any, Literal
 
 import numpy as np
 
-from colonnade.assessment.cases.cases import Outcomes
-from colonnade.assessment.cases.prototype import Prototype
-from colonnade.assessment.fragility.curves.lognormal import LognormalFit
-from colonnade.assessment.fragility.resampling import Interval
-from colonnade.assessment.fragility.summary import Fragility
-from colonnade.assessment.intensity.registry import measure_of
+from colonnade.assessment.cases import Outcomes
+from colonnade.assessment.curves import LognormalFit
+from colonnade.assessment.fragility import Fragility
+from colonnade.assessment.intervals import Interval
+from colonnade.assessment.measures import measure_of
+from colonnade.assessment.prototype import Prototype
 from colonnade.campaign.assessing.assessed import (
     UNCORRECTED,
     AssessmentSummary,

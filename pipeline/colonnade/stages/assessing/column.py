@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy
 
-from colonnade.assessment.cases.prototype import Prototype
+from colonnade.assessment.prototype import Prototype
 from colonnade.campaign.assessing import prototype as written
 from colonnade.campaign.settings import PlaneEnsembleSettings
 from colonnade.dynamics.block import Block, Sided

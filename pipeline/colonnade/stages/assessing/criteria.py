@@ -5,11 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.assessment.cases.cases import Outcomes, in_plane
-from colonnade.assessment.criteria.agreement import agreement
-from colonnade.assessment.criteria.demands import Demands, spectral_velocity
-from colonnade.assessment.criteria.registry import CRITERIA
-from colonnade.assessment.intensity.ground import Ground
+from colonnade.assessment.cases import Outcomes, in_plane
+from colonnade.assessment.criteria import CRITERIA, Demands, agreement, spectral_velocity
+from colonnade.assessment.ground import Ground
 from colonnade.assessment.study import Study
 from colonnade.campaign.assessing.assessed import JudgedCriterion
 
@@ -38,20 +36,13 @@ def judged_criteria(
     }
     recorded = _recorded(study, drift)
     demands = Demands(*((each[:, None, :] * study.cases.factors)[run] for each in recorded))
-    found = []
-    for criterion in CRITERIA:
-        counted = agreement(criterion.ratio(study.cases.prototype.block, demands), happened[criterion.predicts])
-        found.append(
-            JudgedCriterion(
-                criterion=criterion.id,
-                right_overturned=counted.hits,
-                right_stands=counted.rejections,
-                false_alarms=counted.false_alarms,
-                missed=counted.misses,
-                unknown=counted.unknown,
-            )
+    block = study.cases.prototype.block
+    return tuple(
+        JudgedCriterion(
+            criterion=criterion.id, **agreement(criterion.ratio(block, demands), happened[criterion.predicts])
         )
-    return tuple(found)
+        for criterion in CRITERIA
+    )
 
 
 def _recorded(study: Study, drift: float) -> tuple[Array, Array, Array]:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from colonnade.assessment.cases.cases import FALLS_AWAY, NOT_RUN, Outcomes
-from colonnade.assessment.fragility.summary import MISFITS, Fragility
+from colonnade.assessment.cases import FALLS_AWAY, NOT_RUN, Outcomes
+from colonnade.assessment.fragility import MISFITS, Fragility
 from colonnade.campaign.assessing.assessed import RecordLeftOut
 from colonnade.stages.assessing.plan import ASSUMED, Plan
 from colonnade.units import format_percent, with_minus

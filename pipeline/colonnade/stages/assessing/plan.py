@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colonnade.assessment.cases.prototype import Prototype
-from colonnade.assessment.fragility.curves.hazard import Hazard
-from colonnade.assessment.fragility.outcomes import FEWEST
-from colonnade.assessment.intensity.baselines import NONE
+from colonnade.assessment.ground import NONE
+from colonnade.assessment.hazard import Hazard
+from colonnade.assessment.outcomes import FEWEST
+from colonnade.assessment.prototype import Prototype
 from colonnade.assessment.study import Study, plan_study
 from colonnade.campaign import Campaign
 from colonnade.campaign.assessing.assessed import UNCORRECTED

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from colonnade.assessment.intensity.registry import measure_of
+from colonnade.assessment.measures import measure_of
 from colonnade.campaign.assessing.assessed import UNCORRECTED, AssessmentSummary, Estimate, Variant
 from colonnade.units import PERCENT, with_minus
 from colonnade.units.text import NOTHING, number, quantity

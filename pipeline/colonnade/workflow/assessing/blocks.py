@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from colonnade.assessment.cases.cases import Cases, Outcomes, gather, run_part
+from colonnade.assessment.cases import Cases, Outcomes, gather, run_part
 from colonnade.dynamics.motion import Motion
 from colonnade.store.provenance import hash_of
 from colonnade.workflow.execution.blocks import Spread, blocks_of

@@ -239,7 +239,7 @@ def _raw_files(campaign: Campaign, layout: Layout, catalogue: Catalogue, test: T
 
 
 def _table(motion: Motion) -> ForecastTable:
-    from colonnade.assessment.intensity.measured import table_measures
+    from colonnade.assessment.measures import table_measures
 
     measured, drift = table_measures(motion.acceleration, motion.dt)
     return ForecastTable(

@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from colonnade import units
-from colonnade.assessment.intensity.baselines import NONE, corrected
-from colonnade.assessment.intensity.ground import Ground
+from colonnade.assessment.ground import NONE, Ground, corrected
 from colonnade.campaign import Campaign
 from colonnade.campaign.syntax.fields import BETWEEN, outside
 from colonnade.dynamics.block import Block, pair

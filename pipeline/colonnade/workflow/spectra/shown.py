@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.assessment.intensity.registry import measure_of
+from colonnade.assessment.measures import measure_of
 from colonnade.dynamics.spectra.pulses import pulse_of
 from colonnade.units.text import NOTHING, acceleration, number, quantity, ratio
 from colonnade.workflow.spectra.asked import Column

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colonnade.assessment.intensity.measured import IntensityMeasures, intensity_measures
+from colonnade.assessment.measures import IntensityMeasures, intensity_measures
 from colonnade.campaign import Campaign
 from colonnade.campaign.syntax.fields import MAP_RATIO, MOST_POINTS, outside
 from colonnade.dynamics.history import History

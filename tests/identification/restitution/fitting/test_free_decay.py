@@ -17,7 +17,7 @@ from colonnade.identification.restitution.fitting.least_squares import Unfollowe
 from colonnade.identification.restitution.fitting.rocking_path import RockingPath, fit_path, fit_path_forward
 from colonnade.identification.restitution.fitting.samples import AngleSamples
 from colonnade.identification.restitution.identify import identify_restitution
-from colonnade.laboratory.integration import Integration
+from colonnade.laboratory.truth import Integration
 from prism import PRISM
 
 LOPSIDED = Block.measured(mass=80.0, pole_distance=0.61, critical_angle=(0.21, 0.15), inertia=41.2)

@@ -1,1 +1,0 @@
-"""Which histories of a real column are run, and how each of them ends."""

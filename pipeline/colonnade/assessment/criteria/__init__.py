@@ -1,1 +1,0 @@
-"""Criteria of practice for rocking and overturning, and how often they agree with what is computed."""

@@ -1,0 +1,396 @@
+"""Curves of overturning: lognormal with its misfit, or why there is none, and one that only rises."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import scipy
+from numpy.typing import ArrayLike
+
+from colonnade.arrays import Array, Mask
+from colonnade.assessment.intervals import (
+    FEWEST_RECORDS,
+    MOST_WITHOUT,
+    Band,
+    Interval,
+    Resampling,
+    shows_spread,
+    studentised,
+)
+from colonnade.assessment.outcomes import Cells, Outcomes, Stripes, striped, summed
+from colonnade.assessment.probit import (
+    FALLING,
+    FITTED,
+    ONE_INTENSITY,
+    ONE_OUTCOME,
+    SEPARATED,
+    Parameters,
+    fit_parameters,
+)
+from colonnade.units import format_percent
+from colonnade.validation import samples
+
+Reason = Literal["", "separated", "falling", "never", "always", "one intensity"]
+"""Why there is no curve: no overlap of outcomes, fewer events at higher intensity, no event, only events."""
+
+ENOUGH_RECORDS, LEAST_MIXED = 50, 0.8
+"""Of an interval: of fewer records, shares of the rarer outcome add up to so much, as of levels that are β apart."""
+
+STEP = 1e-5
+"""Of numerical derivatives with respect to ln median and ln β."""
+
+
+@dataclass(frozen=True)
+class LognormalFit:
+    """
+    P = Φ(ln(x / median) / β), or why there is none.
+
+    Attributes
+    ----------
+    reason : str
+        Empty if there is a curve.
+    rises : tuple of float
+        Up to the first intensity nothing overturned, from the second on everything: the curve rises between them.
+        If the outcomes are separated, that is all that is known. 0 or inf if there is no such intensity.
+    median, beta : Interval
+        NaN if there is no curve; their limits also if `no_interval` says why.
+    log_likelihood : float
+        Of the histories, taken as independent; if separated its limit.
+    level : float
+        Of the intervals.
+    records : int
+        Their number.
+    degenerate : float
+        Share of the resamples that have no curve.
+    fit, resampled : Parameters
+        Of all records, shape (1,), and of each resample with a curve, shape (n,); none if there is no interval.
+    """
+
+    reason: Reason
+    rises: tuple[float, float]
+    median: Interval
+    beta: Interval
+    log_likelihood: float
+    level: float
+    records: int
+    degenerate: float
+    fit: Parameters
+    resampled: Parameters
+
+    @property
+    def no_interval(self) -> str:
+        """Why the curve has no intervals, in sentences; empty if it has some, or there is no curve."""
+        if self.reason or self.resampled.log_median.size:
+            return ""
+        if self.records < FEWEST_RECORDS:
+            return f"There are {self.records} records. A curve has no interval below {FEWEST_RECORDS}. Add records."
+        why = f"The levels are too far apart for {self.records} records"
+        if self.degenerate > MOST_WITHOUT:
+            why = f"{format_percent(self.degenerate)} of the resamples of records have no curve"
+        return (
+            f"{why}, so there is no interval: at too few levels some records stand and others overturn. "
+            "Add records, or levels closer together."
+        )
+
+    def probability(self, intensity: ArrayLike) -> Band:
+        """Give P at intensities, shape (k,), with intervals; NaN if there is no curve."""
+        x = np.log(samples("intensity", intensity))
+        band = self.band(lambda mean, log_beta: (x - mean) / np.exp(log_beta))
+        return Band(*(scipy.special.ndtr(each) for each in band))
+
+    def intensity(self, probability: ArrayLike) -> Band:
+        """Give the intensities at which P is `probability`, shape (k,), with intervals; NaN if there is no curve."""
+        z = scipy.special.ndtri(_probabilities(probability))
+        return Band(*(np.exp(each) for each in self.band(lambda mean, log_beta: mean + z * np.exp(log_beta))))
+
+    def band(self, function: Callable[[Array, Array], Array]) -> Band:
+        """
+        Give an interval of what follows from the curve.
+
+        Parameters
+        ----------
+        function : callable
+            Of ln median and ln β, shape (n, 1) each; returns shape (n, k), on a scale where it is about normal.
+        """
+        value, error = _with_errors(function, self.fit)
+        values, errors = _with_errors(function, self.resampled)
+        return studentised(value[0], error[0], values, errors, self.level, self.records)
+
+
+def fit_lognormal(outcomes: Outcomes, resampling: Resampling, *, event: Mask | None = None) -> LognormalFit:
+    """
+    Fit a lognormal curve to outcomes.
+
+    Parameters
+    ----------
+    outcomes : Outcomes
+    resampling : Resampling
+    event : ndarray, optional
+        As of `Outcomes.cells`.
+
+    Returns
+    -------
+    fit : LognormalFit
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range.
+
+    Notes
+    -----
+    Maximum of the binomial likelihood on stripes (Baker 2015), which holds for any intensities. Histories of
+    one record are not independent, so the standard errors are those of records (sandwich) and the intervals are
+    studentised, of ln median and ln β.
+    """
+    cells, level = outcomes.cells(event), resampling.level
+    parameters, log_likelihood, status = fit_parameters(cells, resampling.weights(len(outcomes.records)))
+    all_records, resampled = (Parameters(*(each[part] for each in parameters)) for part in (slice(1), slice(1, None)))
+    has_curve = status[1:] == FITTED
+    stripes = striped(cells)
+    shares = stripes.events.sum(axis=0) / stripes.histories.sum(axis=0)
+    mixed = float(np.minimum(shares, 1 - shares).sum())
+    shows = len(outcomes.records) >= ENOUGH_RECORDS or mixed >= LEAST_MIXED
+    usable = has_curve & (shows and shows_spread(has_curve, len(outcomes.records)))
+    resampled = Parameters(*(each[usable] for each in resampled))
+    median, beta = _intervals(all_records, resampled, level, len(outcomes.records))
+    return LognormalFit(
+        _reason(int(status[0]), cells),
+        _rises(cells),
+        median,
+        beta,
+        float(log_likelihood[0]),
+        level,
+        len(outcomes.records),
+        float(1 - has_curve.mean()),
+        all_records,
+        resampled,
+    )
+
+
+def _probabilities(values: ArrayLike) -> Array:
+    given = samples("probability", values)
+    if not ((given > 0) & (given < 1)).all():
+        raise ValueError("probability is not between 0 and 1; the curve reaches 0 and 1 nowhere")
+    return given
+
+
+@np.errstate(over="ignore", invalid="ignore")  # of few records a limit may be as good as infinite
+def _intervals(fit: Parameters, resampled: Parameters, level: float, records: int) -> tuple[Interval, Interval]:
+    """Of median and β."""
+    found = []
+    for value, variance, values, variances in (
+        (fit.log_median, fit.mm, resampled.log_median, resampled.mm),
+        (fit.log_beta, fit.bb, resampled.log_beta, resampled.bb),
+    ):
+        band = studentised(value, np.sqrt(variance), values[:, None], np.sqrt(variances)[:, None], level, records)
+        found.append(Interval(*(float(np.exp(each[0])) for each in band)))
+    return found[0], found[1]
+
+
+def _with_errors(function: Callable[[Array, Array], Array], at: Parameters) -> tuple[Array, Array]:
+    """Values of a function of the parameters, and their standard errors by its derivatives, shape (n, k) each."""
+    mean, log_beta = at.log_median[:, None], at.log_beta[:, None]
+    by_mean = (function(mean + STEP, log_beta) - function(mean - STEP, log_beta)) / (2 * STEP)
+    by_beta = (function(mean, log_beta + STEP) - function(mean, log_beta - STEP)) / (2 * STEP)
+    variance = by_mean**2 * at.mm[:, None] + 2 * by_mean * by_beta * at.mb[:, None] + by_beta**2 * at.bb[:, None]
+    return function(mean, log_beta), np.sqrt(np.maximum(variance, 0.0))
+
+
+def _reason(status: int, cells: Cells) -> Reason:
+    if status == ONE_OUTCOME:
+        return "never" if cells.events.sum() == 0 else "always"
+    named: dict[int, Reason] = {
+        FITTED: "",
+        SEPARATED: "separated",
+        FALLING: "falling",
+        ONE_INTENSITY: "one intensity",
+    }
+    return named[status]
+
+
+def _rises(cells: Cells) -> tuple[float, float]:
+    """Give the highest intensity below all events, and the lowest above all survivals."""
+    counted = cells.histories > 0
+    y = cells.log_intensity
+    first = y[counted & (cells.events > 0)].min(initial=np.inf)
+    last = y[counted & (cells.events < cells.histories)].max(initial=-np.inf)
+    low = y[counted & (y < first)].max(initial=-np.inf)
+    high = y[counted & (y > last)].min(initial=np.inf)
+    return float(np.exp(low)), float(np.exp(high))
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """
+    Departure of the stripes from the lognormal curve.
+
+    Attributes
+    ----------
+    intensity, departure : ndarray, shape (k,)
+        Of each stripe: share less the curve's probability.
+    deviance : float
+        Twice the log-likelihood that the curve loses to the shares of the stripes, histories taken as independent.
+    statistic : float
+        Pearson's, of which `p_value` is judged.
+    p_value : float
+        Probability of such a departure if the curve were right, by resamples of the records. NaN without a curve.
+    """
+
+    intensity: Array
+    departure: Array
+    deviance: float
+    statistic: float
+    p_value: float
+
+
+def lognormal_misfit(outcomes: Outcomes, resampling: Resampling) -> Misfit:
+    """
+    Test whether a lognormal curve fits.
+
+    Parameters
+    ----------
+    outcomes : Outcomes
+    resampling : Resampling
+
+    Returns
+    -------
+    misfit : Misfit
+
+    Notes
+    -----
+    The χ² of a deviance does not hold: a record at several levels is one record. The distribution under the curve is
+    that of the resamples' departures about the observed ones (centred bootstrap, Hall and Wilson 1991).
+    """
+    cells = outcomes.cells()
+    stripes = striped(cells)
+    weights = resampling.weights(len(outcomes.records))
+    parameters, log_likelihood, status = fit_parameters(cells, weights)
+    shares, expected = _shares(cells, stripes, weights, parameters)
+    departures = shares - expected
+    fitted = status == FITTED
+    likely = np.clip(expected[0], 0.5 / len(outcomes.records), 1 - 0.5 / len(outcomes.records))
+    scale = stripes.histories.sum(axis=0) / (likely * (1 - likely))
+    statistic = float((scale * departures[0] ** 2).sum())
+    null = (scale * (departures[1:][fitted[1:]] - departures[0]) ** 2).sum(axis=1)
+    p_value = float((1 + (null >= statistic).sum()) / (1 + null.size)) if fitted[0] else np.nan
+    return Misfit(
+        np.exp(stripes.log_intensity), departures[0], _deviance(stripes, float(log_likelihood[0])), statistic, p_value
+    )
+
+
+def _shares(cells: Cells, stripes: Stripes, weights: Array, parameters: Parameters) -> tuple[Array, Array]:
+    """Shares of the stripes and those expected by each fit, shape (n, k)."""
+    events, histories = weights @ stripes.events, weights @ stripes.histories
+    expected = np.empty_like(events)
+    for n, (mean, log_beta) in enumerate(zip(parameters.log_median, parameters.log_beta, strict=True)):
+        likely = cells.histories * scipy.special.ndtr((cells.log_intensity - mean) / np.exp(log_beta))
+        expected[n] = weights[n] @ summed(likely, stripes.place, stripes.log_intensity.size)
+    of = np.where(histories > 0, histories, np.nan)
+    return events / of, expected / of
+
+
+def _deviance(stripes: Stripes, log_likelihood: float) -> float:
+    events, histories = stripes.events.sum(axis=0), stripes.histories.sum(axis=0)
+    share = events / histories
+    saturated = scipy.special.xlogy(events, share) + scipy.special.xlogy(histories - events, 1 - share)
+    return float(2 * (saturated.sum() - log_likelihood))
+
+
+@dataclass(frozen=True)
+class IsotonicCurve:
+    """
+    Probabilities at stripes.
+
+    Attributes
+    ----------
+    intensity : ndarray, shape (k,)
+        Rising.
+    probability : Band
+        Shape (k,) each.
+    level : float
+        Of the intervals.
+    """
+
+    intensity: Array
+    probability: Band
+    level: float
+
+    def reaches(self, probability: float) -> Interval:
+        """
+        Give the intensity at which the curve reaches a probability, ln x linear between stripes, and its interval.
+
+        The limits are where those of the curve reach it. 0 if that is below the first stripe, inf if above the last.
+        """
+        value, low, high = self.probability
+        return Interval(*(self._crossing(each, probability) for each in (value, high, low)))
+
+    def _crossing(self, values: Array, probability: float) -> float:
+        above = np.flatnonzero(values >= probability)
+        if above.size == 0:
+            return np.inf
+        place = int(above[0])
+        if place == 0:
+            return 0.0 if values[0] > probability else float(self.intensity[0])
+        y, (before, after) = np.log(self.intensity[place - 1 : place + 1]), values[place - 1 : place + 1]
+        return float(np.exp(y[0] + (probability - before) / (after - before) * (y[1] - y[0])))
+
+
+def fit_isotonic(outcomes: Outcomes, resampling: Resampling) -> IsotonicCurve:
+    """
+    Fit a curve that only rises.
+
+    Parameters
+    ----------
+    outcomes : Outcomes
+    resampling : Resampling
+
+    Returns
+    -------
+    curve : IsotonicCurve
+
+    Notes
+    -----
+    Barlow et al. (1972). Each interval is Clopper and Pearson's (1934), with the number of independent histories that
+    gives the bootstrap's variance (Korn and Graubard 1998): near 0 and 1 resamples of few records hardly scatter, and
+    their quantiles are too narrow. That number is at most what the variances of all stripes together give, and at least
+    the number of records. If each record has intensities of its own, a stripe is a bin,
+    and the curve is that of its bins.
+    """
+    stripes, weights = striped(outcomes.cells()), resampling.weights(len(outcomes.records))
+    pooled = _pooled(weights @ stripes.events, weights @ stripes.histories)
+    value, variance = pooled[0], pooled[1:].var(axis=0)
+    of_records = (stripes.histories > 0).sum(axis=0)
+    low, high = _limits(value, variance, of_records, resampling.level)
+    # A curve that only rises has limits that only rise.
+    band = Band(value, np.maximum.accumulate(low), np.minimum.accumulate(high[::-1])[::-1])
+    return IsotonicCurve(np.exp(stripes.log_intensity), band, resampling.level)
+
+
+def _pooled(events: Array, histories: Array) -> Array:
+    """Isotonic shares of each row, shape (n, k); a stripe without a history takes its neighbour's."""
+    found = np.empty_like(events)
+    for row, (happened, of) in enumerate(zip(events, histories, strict=True)):
+        counted = of > 0
+        fit = scipy.optimize.isotonic_regression(happened[counted] / of[counted], weights=of[counted]).x
+        found[row] = np.interp(np.arange(of.size), np.flatnonzero(counted), fit)
+    return found
+
+
+def _limits(value: Array, variance: Array, records: Array, level: float) -> tuple[Array, Array]:
+    """Limits of shares whose bootstrap has such a variance, of so many records each."""
+    spread = value * (1 - value)
+    # Of n records the bootstrap's variance is (n − 1) / n of the unbiased one.
+    unbiased = variance * records / np.maximum(records - 1, 1)
+    scatters = unbiased > 0
+    own = np.where(scatters, spread / np.where(scatters, unbiased, 1.0), records)
+    # Independent histories that a record is worth, from all stripes: one with few events overstates it.
+    worth = spread[scatters].sum() / (unbiased * records)[scatters].sum() if scatters.any() else 1.0
+    effective = np.maximum(np.minimum(own, worth * records), records)
+    events, outside = effective * value, (1 - level) / 2
+    low = np.where(value > 0, scipy.special.betaincinv(events, effective - events + 1, outside), 0.0)
+    high = np.where(value < 1, scipy.special.betaincinv(events + 1, effective - events, 1 - outside), 1.0)
+    return low, high

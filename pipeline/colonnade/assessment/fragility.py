@@ -1,0 +1,260 @@
+"""Everything that is asked of the outcomes of a set of records, and the records that decide it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from colonnade.arrays import Array
+from colonnade.assessment.betas import Betas, separate_betas
+from colonnade.assessment.comparison import Comparison, compare_measures
+from colonnade.assessment.curves import (
+    IsotonicCurve,
+    LognormalFit,
+    Misfit,
+    fit_isotonic,
+    fit_lognormal,
+    lognormal_misfit,
+)
+from colonnade.assessment.hazard import AnnualRate, Hazard, annual_rate, lognormal_rate
+from colonnade.assessment.intervals import Interval, Resampling
+from colonnade.assessment.measures import measure_of
+from colonnade.assessment.outcomes import Outcomes, Resurrection, resurrection
+from colonnade.assessment.probit import fit_parameters
+from colonnade.digest import Digested, written
+from colonnade.validation import number
+
+MISFITS = 0.05
+"""p-value of the misfit below which the lognormal curve is not taken."""
+
+
+@dataclass(frozen=True)
+class Uplift:
+    """
+    When the block starts to rock: one of the two is None.
+
+    Attributes
+    ----------
+    threshold : tuple of float or None
+        Lowest and highest intensity, over the draws, at which it starts. They differ only as the draws of α do.
+    curve : LognormalFit or None
+    """
+
+    threshold: tuple[float, float] | None
+    curve: LognormalFit | None
+
+
+@dataclass(frozen=True, repr=False)
+class Fragility(Digested):
+    """
+    Fragility of a block.
+
+    Attributes
+    ----------
+    outcomes : Outcomes
+    lognormal : LognormalFit
+        Of overturning, or why there is none.
+    isotonic : IsotonicCurve
+    misfit : Misfit
+        Of the lognormal curve.
+    uplift : Uplift
+    resurrection : Resurrection
+    betas : Betas
+    influence : Influence
+    measures : Comparison or None
+        If there are measures to compare.
+    rate : AnnualRate or None
+        If there are a hazard and a lognormal curve.
+    measure : str
+        Id of the measure of intensity; all intensities are in its SI unit. Empty if it was not said.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import colonnade
+    >>> block = colonnade.Block.prism(width=1.7, depth=1.7, height=9.1, mass=40e3)
+    >>> time = np.arange(0.0, 6.0, 0.02)
+    >>> taper = np.sin(np.pi * time / 6.0) ** 2
+    >>> waves = [3.0 * taper * np.sin(2 * np.pi * f * (time - 3.0)) for f in (0.4, 0.5, 0.6, 0.7)]
+    >>> motions = [colonnade.Motion(wave, 0.02) for wave in waves]
+    >>> found = colonnade.fragility(block, motions, restitution=0.95, levels=[0.5, 1.0, 2.0, 4.0], draws=1)
+    >>> found.measure, found.taken, 0.5 < found.reaches(0.5).value < 4.0
+    ('pgv', 'isotonic', True)
+    >>> found.digest()["records"]
+    '4'
+    """
+
+    outcomes: Outcomes
+    lognormal: LognormalFit
+    isotonic: IsotonicCurve
+    misfit: Misfit
+    uplift: Uplift
+    resurrection: Resurrection
+    betas: Betas
+    influence: Influence
+    measures: Comparison | None
+    rate: AnnualRate | None
+    measure: str = ""
+
+    @property
+    def taken(self) -> Literal["lognormal", "isotonic"]:
+        """The curve from which answers are read: the lognormal one, if there is one and it fits."""
+        return "isotonic" if self.lognormal.reason or self.misfit.p_value < MISFITS else "lognormal"
+
+    def reaches(self, probability: float) -> Interval:
+        """
+        Give the intensity at which so many overturn, by the curve that is `taken`.
+
+        Parameters
+        ----------
+        probability : float
+            Share that overturns, between 0 and 1.
+
+        Returns
+        -------
+        intensity : Interval
+            `value`, `low`, `high` in the SI unit of the measure; 0 if below the levels, inf if above.
+
+        Raises
+        ------
+        ValueError
+            If the probability is not between 0 and 1.
+        """
+        number("probability", probability, "a number between 0 and 1", above=0.0, below=1.0)
+        if self.taken == "isotonic":
+            return self.isotonic.reaches(probability)
+        return Interval(*(float(each[0]) for each in self.lognormal.intensity([probability])))
+
+    def digest(self) -> dict[str, str]:
+        """
+        Return the curve and what it rests on, or the reason why it is missing.
+
+        Returns
+        -------
+        digest : dict of str to str
+            Names and values with their units, as a notebook shows them.
+        """
+        unit = measure_of(self.measure).unit if self.measure else ""
+        curve: dict[str, str] = {"no curve": self.lognormal.reason}
+        if not self.lognormal.reason:
+            median, beta = self.lognormal.median, self.lognormal.beta
+            why = self.lognormal.no_interval
+            limits = ["" if why else f"({written(each.low)} to {written(each.high)}) " for each in (median, beta)]
+            curve = {
+                "median": written(median.value, limits[0] + unit),
+                "β": written(beta.value, limits[1].rstrip()),
+                **({"no interval": why} if why else {}),
+                "p of the misfit": written(self.misfit.p_value, digits=2),
+            }
+        rate = {} if self.rate is None else {"rate": written(self.rate.rate.value, "1/year", 3)}
+        return {"records": str(len(self.outcomes.records)), **curve, **rate}
+
+
+def summarise(
+    outcomes: Outcomes,
+    resampling: Resampling,
+    *,
+    threshold: tuple[float, float] | None = None,
+    hazard: Hazard | None = None,
+    measures: Mapping[str, ArrayLike] | None = None,
+    magnitude: ArrayLike | None = None,
+    distance: ArrayLike | None = None,
+    measure: str = "",
+) -> Fragility:
+    """
+    Summarise outcomes.
+
+    Parameters
+    ----------
+    outcomes : Outcomes
+        Made by `gather`.
+    resampling : Resampling
+        Of all intervals.
+    threshold : tuple of float, optional
+        Smallest and largest g tan α of the draws, if the intensity is the peak acceleration and no motion is vertical:
+        the block then rocks exactly if it exceeds g tan α, and no probability is fitted.
+    hazard : Hazard, optional
+        Of the measure of the outcomes; made by `hazard_curve`.
+    measures, magnitude, distance : optional
+        As of `compare_measures`.
+    measure : str, optional
+        Id of the measure of the outcomes.
+
+    Returns
+    -------
+    fragility : Fragility
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range.
+    """
+    lognormal, isotonic = fit_lognormal(outcomes, resampling), fit_isotonic(outcomes, resampling)
+    compared = None
+    if measures:
+        compared = compare_measures(outcomes, measures, resampling, magnitude=magnitude, distance=distance)
+    return Fragility(
+        outcomes,
+        lognormal,
+        isotonic,
+        lognormal_misfit(outcomes, resampling),
+        Uplift(threshold, None if threshold else fit_lognormal(outcomes, resampling, event=outcomes.peak > 0)),
+        resurrection(outcomes),
+        separate_betas(outcomes, resampling),
+        influence(outcomes, hazard),
+        compared,
+        annual_rate(hazard, lognormal, isotonic) if hazard is not None and not lognormal.reason else None,
+        measure,
+    )
+
+
+@dataclass(frozen=True)
+class Influence:
+    """
+    A curve without each record.
+
+    Attributes
+    ----------
+    records : tuple of str, length r
+        The most influential first: by the change of the rate if there is a hazard, else of the median. A record
+        without which there is no curve comes first of all.
+    median, beta : ndarray, shape (r,)
+        Without the record; NaN if there is then no curve.
+    rate : ndarray, shape (r,), or None
+        Per year, if there is a hazard.
+    """
+
+    records: tuple[str, ...]
+    median: Array
+    beta: Array
+    rate: Array | None
+
+
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # without a record the curve may be nearly flat
+def influence(outcomes: Outcomes, hazard: Hazard | None = None) -> Influence:
+    """Leave out one record after the other; `hazard` is of the same measure."""
+    rows = len(outcomes.records)
+    weights = np.vstack((np.ones(rows), 1.0 - np.eye(rows)))
+    parameters = fit_parameters(outcomes.cells(), weights)[0]
+    median, beta = np.exp(parameters.log_median), np.exp(parameters.log_beta)
+    rate = None if hazard is None else _rates(hazard, median, beta)
+    decides = median if rate is None else rate
+    change = np.abs(np.log(decides[1:] / decides[0]))
+    order = np.argsort(-np.where(np.isnan(change), np.inf, change), kind="stable")
+    return Influence(
+        tuple(outcomes.records[place] for place in order),
+        median[1:][order],
+        beta[1:][order],
+        None if rate is None else rate[1:][order],
+    )
+
+
+def _rates(hazard: Hazard, median: Array, beta: Array) -> Array:
+    found = np.full(median.size, np.nan)
+    known = np.isfinite(median)
+    found[known] = lognormal_rate(hazard, median[known], beta[known])
+    return found

@@ -1,0 +1,238 @@
+"""Hazard curves, log–log linear between their points, and the annual rate of overturning of a fragility over one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import log_ndtr, ndtr
+
+from colonnade.arrays import Array
+from colonnade.assessment.curves import IsotonicCurve, LognormalFit
+from colonnade.assessment.intervals import Interval
+from colonnade.validation import samples
+
+
+@dataclass(frozen=True)
+class Hazard:
+    """
+    Annual rate λ at which an intensity is exceeded; made by `hazard_curve`.
+
+    Attributes
+    ----------
+    intensity, rate : ndarray, shape (k,)
+        Rising and falling; log–log linear between the points, and beyond the ends as next to them. Rate per year.
+    """
+
+    intensity: Array
+    rate: Array
+
+    @property
+    def slopes(self) -> Array:
+        """k = −d ln λ / d ln x below the first point, between points, and above the last, shape (points + 1,)."""
+        between = -np.diff(np.log(self.rate)) / np.diff(np.log(self.intensity))
+        return np.concatenate((between[:1], between, between[-1:]))
+
+
+def hazard_curve(intensity: ArrayLike, rate: ArrayLike) -> Hazard:
+    """
+    Check a hazard curve.
+
+    Parameters
+    ----------
+    intensity, rate : array_like, shape (k,)
+        At least two points; intensities in SI, rates per year.
+
+    Raises
+    ------
+    ValueError
+        If intensities are not positive and rising, or rates not positive and falling (a rate may repeat).
+    """
+    x, annual = samples("intensity", intensity, fewest=2), samples("rate", rate, fewest=2)
+    if x.size != annual.size or not (x > 0).all() or not (np.diff(x) > 0).all():
+        raise ValueError(
+            f"intensity has {x.size} points and rate {annual.size}; as many positive, rising intensities were expected"
+        )
+    if not (annual > 0).all() or not (np.diff(annual) <= 0).all() or annual[0] == annual[-1]:
+        raise ValueError("rate is not positive and falling; the annual rate at which an intensity is exceeded falls")
+    return Hazard(x, annual)
+
+
+def lognormal_rate(
+    hazard: Hazard, median: ArrayLike, beta: ArrayLike, *, low: float = 0.0, high: float = np.inf
+) -> Array:
+    """
+    Integrate λ = ∫ P(x) |dλ(x)| between two intensities.
+
+    Parameters
+    ----------
+    hazard : Hazard
+    median, beta : array_like, shape (n,)
+        Of lognormal curves.
+    low, high : float, optional
+        Intensities.
+
+    Returns
+    -------
+    rate : ndarray, shape (n,)
+        Per year.
+
+    Notes
+    -----
+    Exact: between points λ is a power x^−k, and for one power from 0 to ∞ this is the closed form
+    k₀ m^−k exp(k² β² / 2) (Cornell et al. 2002).
+
+    Examples
+    --------
+    >>> power = hazard_curve([0.1, 1.0], [1e-2, 1e-5])  # 1e-5 x^-3
+    >>> float(round(lognormal_rate(power, 0.5, 0.4)[0] / (1e-5 * 0.5**-3 * np.exp(9 * 0.4**2 / 2)), 12))
+    1.0
+    """
+    mean, width = np.log(np.atleast_1d(median))[:, None], np.atleast_1d(beta).astype(np.float64)[:, None]
+    points = np.log(hazard.intensity)
+    with np.errstate(divide="ignore"):
+        ends = np.clip(np.concatenate(([-np.inf], points, [np.inf])), np.log(low), np.log(high))
+    # Each piece is referred to a point where its rate is known.
+    place = np.concatenate(([0], np.arange(points.size)))
+    pieces = _piece(mean, width, hazard.slopes, points[place], np.log(hazard.rate)[place], ends[:-1], ends[1:])
+    return np.asarray(pieces.sum(axis=1))
+
+
+def isotonic_rate(hazard: Hazard, intensity: Array, probability: Array) -> float:
+    """
+    Integrate ∫ λ dP over a curve that rises from point to point, per year.
+
+    Parameters
+    ----------
+    hazard : Hazard
+    intensity, probability : ndarray, shape (k,)
+        0 below the first intensity, constant above the last, linear in ln x between.
+    """
+    y = np.log(intensity)
+    points, slopes = np.log(hazard.intensity), hazard.slopes
+    found = probability[0] * _rate_at(hazard, y[:1])[0]
+    for low, high, rise in zip(y[:-1], y[1:], np.diff(probability), strict=True):
+        ends = np.concatenate(([low], points[(points > low) & (points < high)], [high]))
+        length = np.diff(ends)
+        falls = slopes[np.searchsorted(points, (ends[:-1] + ends[1:]) / 2)] * length
+        mean = np.where(falls > 0, -np.expm1(-falls) / np.where(falls > 0, falls, 1.0), 1.0)
+        found += rise * (_rate_at(hazard, ends[:-1]) * length * mean).sum() / (high - low)
+    return float(found)
+
+
+def _rate_at(hazard: Hazard, y: Array) -> Array:
+    """Rate at ln intensities, extrapolated beyond the ends."""
+    points = np.log(hazard.intensity)
+    place = np.searchsorted(points, y)
+    reference = np.maximum(place - 1, 0)
+    return np.asarray(hazard.rate[reference] * np.exp(-hazard.slopes[place] * (y - points[reference])))
+
+
+def _piece(mean: Array, width: Array, k: Array, at: Array, log_rate: Array, low: Array, high: Array) -> Array:
+    """∫ Φ((y − mean) / width) k λ dy over each piece, by parts: −Φ λ at its ends and a shifted normal between."""
+
+    def edge(y: Array) -> Array:
+        finite = np.isfinite(y)
+        rate = np.exp(log_rate - k * (np.where(finite, y, at) - at))
+        return np.where(finite, ndtr((np.where(finite, y, at) - mean) / width) * rate, 0.0)
+
+    shift = log_rate - k * (mean - at) + (k * width) ** 2 / 2
+    lower, upper = (low - mean) / width + k * width, (high - mean) / width + k * width
+    # In the upper tail the difference of the small complements keeps its digits.
+    turned = np.where(lower > 0, -1.0, 1.0)
+    between = turned * (np.exp(shift + log_ndtr(turned * upper)) - np.exp(shift + log_ndtr(turned * lower)))
+    return np.where((k > 0) & (low < high), edge(low) - edge(high) + between, 0.0)
+
+
+YEARS = 50.0
+LARGEST_SHARE = 0.05
+"""Of a rate from outside the range of hazard or levels, above which it depends on extrapolation."""
+
+BINS = 20
+"""Of the disaggregation."""
+
+
+@dataclass(frozen=True)
+class AnnualRate:
+    """
+    Rate of overturning.
+
+    Attributes
+    ----------
+    rate, in_50_years : Interval
+        Per year; probability of at least once in `YEARS`, 1 − exp(−λ t).
+    below_hazard, above_hazard : float
+        Shares of the rate from below the first point of the hazard curve and above its last, which is extrapolated.
+    below_levels, above_levels : float
+        Shares from below the lowest level and above the highest, where nothing was computed.
+    is_extrapolated : bool
+        Whether more than `LARGEST_SHARE` is from outside either.
+    edges, contributions : ndarray, shape (n + 1,) and (n,)
+        Disaggregation: shares of the rate between intensities.
+    isotonic : float
+        Rate by the isotonic curve: 0 below the lowest level, constant above the highest, ln x linear between.
+    """
+
+    rate: Interval
+    in_50_years: Interval
+    below_hazard: float
+    above_hazard: float
+    below_levels: float
+    above_levels: float
+    is_extrapolated: bool
+    edges: Array
+    contributions: Array
+    isotonic: float
+
+
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # of few records a resample may be nearly flat
+def annual_rate(hazard: Hazard, fit: LognormalFit, isotonic: IsotonicCurve) -> AnnualRate:
+    """
+    Put a fragility curve over a hazard curve of the same measure.
+
+    Parameters
+    ----------
+    hazard : Hazard
+    fit : LognormalFit
+        With a curve (no `reason`).
+    isotonic : IsotonicCurve
+        Of the same outcomes; its stripes are the levels.
+
+    Raises
+    ------
+    ValueError
+        If there is no curve.
+
+    Notes
+    -----
+    McGuire (2004). The interval is that of the fragility over records; the hazard has none.
+    """
+    if fit.reason:
+        raise ValueError(f"fit has no curve ({fit.reason}); a fitted curve was expected")
+
+    def log_rate(mean: Array, log_beta: Array) -> Array:
+        return np.log(lognormal_rate(hazard, np.exp(mean[:, 0]), np.exp(log_beta[:, 0])))[:, None]
+
+    rate = Interval(*(float(np.exp(each[0])) for each in fit.band(log_rate)))
+
+    def share(low: float, high: float) -> float:
+        return float(lognormal_rate(hazard, fit.median.value, fit.beta.value, low=low, high=high)[0]) / rate.value
+
+    first, last = float(isotonic.intensity[0]), float(isotonic.intensity[-1])
+    below_hazard, above_hazard = share(0.0, hazard.intensity[0]), share(hazard.intensity[-1], np.inf)
+    below_levels, above_levels = share(0.0, first), share(last, np.inf)
+    edges = np.geomspace(min(hazard.intensity[0], first), max(hazard.intensity[-1], last), BINS + 1)
+    return AnnualRate(
+        rate,
+        Interval(*(float(-np.expm1(-YEARS * each)) for each in rate)),
+        below_hazard,
+        above_hazard,
+        below_levels,
+        above_levels,
+        max(below_hazard + above_hazard, below_levels + above_levels) > LARGEST_SHARE,
+        edges,
+        np.array([share(low, high) for low, high in pairwise(edges)]),
+        isotonic_rate(hazard, isotonic.intensity, isotonic.probability.value),
+    )

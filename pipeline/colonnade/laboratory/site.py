@@ -1,0 +1,228 @@
+"""The real columns of a virtual campaign and their site: synthetic motions, some with a pulse, a made-up hazard."""
+
+from __future__ import annotations
+
+from math import log, pi, sqrt
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import scipy
+
+from colonnade.arrays import Array
+from colonnade.campaign.syntax.document import toml_key, toml_value
+from colonnade.dynamics.block import STANDARD_GRAVITY
+from colonnade.dynamics.motion import Motion
+from colonnade.dynamics.spectra.pulses import mavroeidis_papageorgiou
+from colonnade.laboratory.experiment import Plan, Specimen
+from colonnade.laboratory.files import put
+
+INTERVAL = 0.01
+"""s."""
+
+MAGNITUDES, DISTANCES = (6.0, 7.5), (10e3, 60e3)
+"""Of the earthquakes, drawn uniformly, and their distances, m, uniformly in their logarithm."""
+
+PULSED, NEAR = 3, (5e3, 15e3)
+"""One record of so many has a pulse, at such a distance, m."""
+
+AMPLITUDES, CYCLES = (0.4, 1.0), (1.0, 3.0)
+"""Of the pulses, m/s, and their γ, drawn uniformly; at a fault A is about 1 m/s (Mavroeidis and Papageorgiou 2003)."""
+
+DURATIONS, HIGHEST = (8.0, 25.0), (4.0, 12.0)
+"""D5–95, s, and upper end of the band, Hz, drawn uniformly in their logarithms."""
+
+LOWEST = 0.3
+"""Hz, lower end of the band: what is slower is taken off, so that the ground comes to rest."""
+
+SHAPE = 3.0
+"""Of the gamma distribution whose density is the square of the envelope (Saragoni and Hart 1974)."""
+
+FOLDER, LIST, HAZARD = "records", "records.csv", "hazard-synthetic.csv"
+
+KNOWN_WITHIN = 0.02
+"""Limits of α and p of the real columns, relative."""
+
+RESTITUTION, FRICTION = (0.93, 0.985), (0.6, 0.8)
+"""Limits of e and of the friction of the real columns."""
+
+LEVELS = np.geomspace(0.02, 3.0, 16)
+"""PGV of the hazard, m/s."""
+
+_HEAD = """
+# The real columns that these specimens are models of, and a question about each of them. Ground motions and hazard
+# are synthetic: no site has them. That the e of a model holds for its column is an assumption, within the limits given.
+"""
+
+
+class SyntheticRecord(NamedTuple):
+    """
+    A synthetic ground motion and the earthquake that it is drawn for.
+
+    Attributes
+    ----------
+    name : str
+        Begins with "synthetic".
+    motion : Motion
+    magnitude, distance : float
+        Moment magnitude; m.
+    pulse_period : float or None
+        s, of the pulse that was added.
+    """
+
+    name: str
+    motion: Motion
+    magnitude: float
+    distance: float
+    pulse_period: float | None
+
+
+def synthetic_records(count: int = 24, seed: int = 1) -> list[SyntheticRecord]:
+    """
+    Make a suite of ground motions.
+
+    Parameters
+    ----------
+    count : int, optional
+    seed : int, optional
+        Record k draws from a stream of its own, of (seed, k): the same whatever the count.
+
+    Returns
+    -------
+    records : list of SyntheticRecord
+        Every third has a pulse, of the velocity of Mavroeidis and Papageorgiou (2003), log T = −2.2 + 0.4 M.
+    """
+    return [_record(number, seed) for number in range(count)]
+
+
+def broad_band(arias: float, duration: float, highest: float, interval: float, random: np.random.Generator) -> Array:
+    """
+    Make a broad-band ground motion: white noise under an envelope, from `LOWEST` to a highest frequency.
+
+    Parameters
+    ----------
+    arias, duration, highest : float
+        Arias intensity, m/s; D5–95, s, as of the envelope; Hz.
+    interval : float
+        s.
+    random : Generator
+
+    Returns
+    -------
+    acceleration : ndarray, shape (n,)
+        m/s², from rest to rest: the filter has two zeros at frequency 0, and its transient is part of the motion.
+    """
+    early, late, end = scipy.stats.gamma.ppf([0.05, 0.95, 0.999], SHAPE)
+    scale = duration / (late - early)
+    time = interval * np.arange(int((end * scale + 3.0 / LOWEST) / interval) + 1)
+    envelope = np.where(time < end * scale, np.sqrt(scipy.stats.gamma.pdf(time, SHAPE, scale=scale)), 0.0)
+    band = scipy.signal.butter(2, (LOWEST, highest), "bandpass", fs=1 / interval, output="sos")
+    values = scipy.signal.sosfilt(band, envelope * random.standard_normal(time.size))
+    energy = scipy.integrate.trapezoid(values**2, dx=interval)
+    return np.asarray(values * sqrt(arias * 2 * STANDARD_GRAVITY / pi / energy))
+
+
+def _record(number: int, seed: int) -> SyntheticRecord:
+    random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
+    has_pulse = number % PULSED == PULSED - 1
+    magnitude = float(random.uniform(*MAGNITUDES))
+    limits = np.log([NEAR if has_pulse else DISTANCES, DURATIONS, HIGHEST])
+    distance, duration, highest = np.exp(random.uniform(limits[:, 0], limits[:, 1])).tolist()
+    # Median and scatter for strike-slip faulting on rock, after Rezaeian and Der Kiureghian (2010).
+    strength = 2.944 * magnitude / 7 - 1.356 * log(max(distance, DISTANCES[0]) / 25e3) + random.normal(0.0, 0.65)
+    arias = pi / 2 * STANDARD_GRAVITY * float(np.exp(1.432 * (strength - 2.296) - 4.826))
+    acceleration, period = broad_band(arias, duration, highest, INTERVAL, random), None
+    if has_pulse:
+        period, cycles = 10 ** (0.4 * magnitude - 2.2), float(random.uniform(*CYCLES))
+        centre = max(duration / 2, cycles * period / 2)
+        acceleration = np.pad(acceleration, (0, int((centre + cycles * period / 2) / INTERVAL) + 2))
+        angle = 2 * pi / period * (INTERVAL * np.arange(acceleration.size) - centre)
+        pulse = mavroeidis_papageorgiou(cycles, float(random.uniform(0.0, 2 * pi)), angle)
+        amplitude = 2 * pi / period * float(random.uniform(*AMPLITUDES))
+        acceleration = acceleration + np.where(np.abs(angle) < pi * cycles, amplitude * pulse, 0.0)
+    name = f"synthetic-{number + 1:02d}{'-pulse' if has_pulse else ''}"
+    return SyntheticRecord(name, Motion(acceleration, INTERVAL), magnitude, distance, period)
+
+
+def write_suite(folder: Path, records: list[SyntheticRecord]) -> Path:
+    """
+    Write the accelerations of a suite as CSV files, and their list.
+
+    Parameters
+    ----------
+    folder : Path
+        Made if it is not there.
+    records : list of SyntheticRecord
+
+    Returns
+    -------
+    path : Path
+        Of the list, `LIST`: file, unit, interval, record, magnitude, distance.
+
+    Raises
+    ------
+    StoreError
+        If a file cannot be written.
+    """
+    rows = ["file,unit,interval,record,magnitude,distance [km]"]
+    for name, motion, magnitude, distance, _period in records:
+        values = "\n".join(f"{value:.6e}" for value in motion.acceleration)
+        put(folder / f"{name}.csv", f"acceleration [m/s^2]\n{values}\n".encode())
+        rows.append(f"{name}.csv,m/s^2,{motion.dt:g} s,{name},{magnitude:.2f},{distance / 1000:.1f}")
+    put(folder / LIST, "\n".join([*rows, ""]).encode())
+    return folder / LIST
+
+
+def annual_rate(velocity: float) -> float:
+    """
+    Rate a year at which a PGV (m/s) is exceeded at the made-up site: it falls ever faster.
+
+    Examples
+    --------
+    >>> [round(annual_rate(each), 6) for each in (0.1, 0.5)]
+    [0.01, 0.000386]
+    """
+    steps = np.log(velocity / 0.1)
+    return float(0.01 * np.exp(-1.7 * steps - 0.2 * steps**2))
+
+
+def add_site(plan: Plan, campaign_file: Path, *, seed: int) -> None:
+    """
+    Add the real columns, the ground motions and the hazard to a campaign that was written.
+
+    Parameters
+    ----------
+    plan : Plan
+    campaign_file : Path
+    seed : int
+        Of the ground motions.
+
+    Raises
+    ------
+    StoreError
+        If a file cannot be written.
+    """
+    folder = campaign_file.parent
+    write_suite(folder / FOLDER, synthetic_records(seed=seed))
+    rows = [f"{level:.4g}, {annual_rate(level):.4g}" for level in LEVELS.tolist()]
+    put(folder / HAZARD, "\n".join(["pgv [m/s], rate [1/year]", *rows, ""]).encode())
+    lines = [_HEAD.rstrip()]
+    for name, specimen in plan.specimens.items():
+        asked = {"specimen": name, "records": f"{FOLDER}/{LIST}", "measure": "pgv", "hazard": HAZARD}
+        for table, entries in (("prototype", _column(specimen)), ("assessments", asked)):
+            lines += ["", f"[{table}.{toml_key(name)}]"]
+            lines += [f"{key} = {toml_value(value)}" for key, value in entries.items()]
+    put(campaign_file, campaign_file.read_bytes() + "\n".join([*lines, ""]).encode())
+
+
+def _column(specimen: Specimen) -> dict[str, object]:
+    block, changes = specimen.block, np.array([1 - KNOWN_WITHIN, 1 + KNOWN_WITHIN])
+    angles, rates = block.critical_angle * changes, block.p / sqrt(float(specimen.shape["scale"])) * changes
+    return {
+        "restitution": "identified",
+        "restitution_range": list(RESTITUTION),
+        "critical_angle_range": [f"{each:.4g} rad" for each in angles.tolist()],
+        "p_range": [f"{each:.4g} rad/s" for each in rates.tolist()],
+        "friction": sum(FRICTION) / 2,
+        "friction_range": list(FRICTION),
+    }

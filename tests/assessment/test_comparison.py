@@ -1,0 +1,85 @@
+"""The measure that decides is found, with how sure that is."""
+
+import numpy as np
+import pytest
+
+from colonnade.assessment.comparison import compare_measures
+from colonnade.assessment.intervals import Resampling
+from virtual_capacities import lognormal
+
+
+@pytest.fixture(scope="module")
+def outcomes():
+    return lognormal(4)
+
+
+@pytest.fixture(scope="module")
+def measures(outcomes):
+    noise = np.exp(np.random.default_rng(5).normal(0, 1.2, (30, 1)))
+    own = outcomes.intensity[:, :, 0]
+    return {"noisy": own * noise, "pgv": own, "unrelated": np.tile(noise, (1, own.shape[1]))}
+
+
+def test_the_measure_that_decides_comes_first_by_every_criterion(outcomes, measures):
+    scores = compare_measures(outcomes, measures, Resampling(200)).scores
+    assert [each.name for each in scores] == ["pgv", "noisy", "unrelated"]
+    best = scores[0]
+    assert min(best.best_deviance, best.best_auc, best.best_scatter) > 0.8
+    assert scores[0].auc > scores[1].auc > 0.5
+    assert scores[0].scatter < scores[1].scatter
+    assert sum(each.best_deviance for each in scores) == pytest.approx(1.0)
+
+
+def test_two_measures_that_say_the_same_share_the_first_place(outcomes, measures):
+    twins = {"one": measures["pgv"], "other": measures["pgv"] ** 2}
+    shares = [each.best_deviance for each in compare_measures(outcomes, twins, Resampling(50)).scores]
+    assert shares == pytest.approx([0.5, 0.5], abs=0.2)
+
+
+def test_the_auc_is_the_share_of_pairs_in_their_order(outcomes, measures):
+    found = compare_measures(outcomes, {"noisy": measures["noisy"]}, Resampling(2)).scores[0].auc
+    x = np.broadcast_to(measures["noisy"][:, :, None, None], outcomes.peak.shape)
+    fell, stood = x[outcomes.overturned], x[~outcomes.overturned]
+    assert found == pytest.approx(np.mean((fell[:, None] > stood) + 0.5 * (fell[:, None] == stood)))
+
+
+def test_the_scatter_is_that_of_a_straight_line(outcomes, measures):
+    found = compare_measures(outcomes, {"noisy": measures["noisy"]}, Resampling(2)).scores[0].scatter
+    stood = ~outcomes.overturned
+    x = np.log(np.broadcast_to(measures["noisy"][:, :, None, None], outcomes.peak.shape)[stood])
+    y = np.log(outcomes.peak[stood])
+    left = y - np.polyval(np.polyfit(x, y, 1), x)
+    assert found == pytest.approx(np.sqrt((left**2).sum() / (left.size - 2)))
+
+
+def test_records_without_a_measure_are_left_out_of_all(outcomes, measures):
+    lacking = measures["noisy"].copy()
+    lacking[3] = np.nan
+    found = compare_measures(outcomes, {"pgv": measures["pgv"], "noisy": lacking}, Resampling(20))
+    assert found.left_out == ("record 3",)
+    kept = np.arange(30) != 3
+    alone = compare_measures(outcomes.only(kept), {"pgv": measures["pgv"][kept]}, Resampling(2))
+    assert found.scores[0].deviance == pytest.approx(alone.scores[0].deviance)
+
+
+def test_a_measure_that_leaves_magnitude_to_explain_is_not_sufficient(outcomes, measures):
+    magnitude = np.random.default_rng(6).uniform(5, 7.5, 30)
+    without = measures["pgv"] * np.exp(-0.8 * (magnitude - 6))[:, None]
+    both = {"pgv": measures["pgv"], "without": without}
+    scores = compare_measures(outcomes, both, Resampling(2), magnitude=magnitude)
+    by_name = {each.name: each for each in scores.scores}
+    assert by_name["without"].on_magnitude.p_value < 0.02 < by_name["pgv"].on_magnitude.p_value
+    assert (by_name["without"].on_magnitude.slope > 0, by_name["pgv"].on_log_distance) == (True, None)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        pytest.param(lambda values: values[:, :3], "were expected", id="another shape"),
+        pytest.param(lambda values: -values, "not positive", id="negative"),
+        pytest.param(lambda values: values * np.nan, "0 records have all", id="nothing known"),
+    ],
+)
+def test_measures_that_cannot_be_compared_are_refused(outcomes, measures, change, said):
+    with pytest.raises(ValueError, match=said):
+        compare_measures(outcomes, {"pgv": change(measures["pgv"])}, Resampling(2))

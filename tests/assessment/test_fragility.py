@@ -1,0 +1,128 @@
+"""All of it in one call; scatter of records and of parameters, records that decide, and resampling."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import scipy
+
+from colonnade.assessment.betas import separate_betas
+from colonnade.assessment.curves import fit_lognormal
+from colonnade.assessment.fragility import influence, summarise
+from colonnade.assessment.hazard import hazard_curve, lognormal_rate
+from colonnade.assessment.intervals import Resampling, studentised
+from colonnade.assessment.outcomes import gather
+from fragilities.population import Population
+from virtual_capacities import MEDIAN, lognormal, outcomes_of
+
+
+def test_everything_is_of_the_same_outcomes():
+    outcomes = lognormal(1)
+    found = summarise(
+        outcomes,
+        Resampling(100),
+        threshold=(1.8, 1.9),
+        hazard=hazard_curve([0.05, 2.0], [1e-1, 1e-5]),
+        measures={"pgv": outcomes.intensity},
+        magnitude=np.linspace(5, 7, 30),
+    )
+    assert found.lognormal.median.low < MEDIAN < found.lognormal.median.high
+    total = np.hypot(found.betas.records.value, found.betas.parameters.value)
+    assert total == pytest.approx(found.lognormal.beta.value, rel=0.1)
+    assert found.rate.rate.low < found.influence.rate.mean() < found.rate.rate.high
+    assert (found.uplift.threshold, found.resurrection.pairs, found.measures.scores[0].name) == ((1.8, 1.9), 0.0, "pgv")
+    assert found.misfit.intensity == pytest.approx(found.isotonic.intensity)
+
+
+def test_without_a_threshold_the_start_of_rocking_is_a_curve_of_the_histories_that_rocked():
+    peak = np.where(np.random.default_rng(1).normal(2.0, 0.5, (40, 1)) < np.linspace(1, 3, 8), 0.3, 0.0)
+    records = [str(number) for number in range(40)]
+    found = summarise(gather(records, np.tile(np.linspace(1, 3, 8), (40, 1)), peak), Resampling(100)).uplift
+    assert found.threshold is None
+    assert found.curve.median.low < 2.0 < found.curve.median.high
+
+
+def test_without_a_curve_the_isotonic_one_and_the_reason_remain():
+    found = summarise(outcomes_of(np.full((4, 3), MEDIAN)), Resampling(20), hazard=hazard_curve([0.1, 1.0], [1.0, 0.1]))
+    assert (found.lognormal.reason, found.rate, found.measures) == ("separated", None, None)
+    assert found.isotonic.probability.value.tolist() == [0.0] * 5 + [1.0] * 5
+    assert found.taken == "isotonic"
+    assert found.reaches(0.5) == found.isotonic.reaches(0.5)
+
+
+def test_answers_are_read_from_the_lognormal_curve_if_it_fits():
+    found = summarise(lognormal(1), Resampling(100), measure="pgv")
+    assert found.taken == "lognormal"
+    assert found.reaches(0.5) == pytest.approx(found.lognormal.median, rel=1e-6)
+    assert found.digest()["median"].endswith("m/s")
+
+
+FINE = MEDIAN * np.exp(np.linspace(-2.5, 2.5, 121))
+
+
+def test_both_are_near_the_truth_and_inside_their_intervals():
+    found = separate_betas(lognormal(3, records=150), Resampling(500))
+    assert found.reason == ""
+    assert found.records.low < Population.of_records < found.records.high
+    assert found.parameters.low < Population.of_parameters < found.parameters.high
+    truth = (Population.of_records, Population.of_parameters)
+    assert (found.records.value, found.parameters.value) == pytest.approx(truth, rel=0.12)
+
+
+def test_with_fine_levels_they_are_those_of_an_analysis_of_variance():
+    random = np.random.default_rng(5)
+    logs = random.normal(0, 0.5, (30, 1)) + random.normal(0, 0.2, (30, 8))
+    found = separate_betas(outcomes_of(MEDIAN * np.exp(logs), FINE), Resampling(50))
+    within = logs.var(axis=1, ddof=1).mean()
+    between = logs.mean(axis=1).var() - within / 8  # maximum likelihood of a balanced design
+    assert found.parameters.value == pytest.approx(np.sqrt(within), rel=0.01)
+    assert found.records.value == pytest.approx(np.sqrt(between), rel=0.01)
+
+
+def test_what_cannot_be_separated_is_said():
+    random = np.random.default_rng(6)
+    records = MEDIAN * np.exp(random.normal(0, 0.4, (20, 1)))
+    assert separate_betas(outcomes_of(records), Resampling(20)).reason == "one draw"
+    assert separate_betas(outcomes_of(np.tile(records, 5)), Resampling(20)).reason == "parameters alike"
+    assert separate_betas(outcomes_of(np.tile(records, 5) * 1e6), Resampling(20)).reason == "no overlap"
+
+
+def test_a_record_unlike_the_others_comes_first():
+    capacity = MEDIAN * np.exp(np.random.default_rng(1).normal(0, 0.1, (20, 4)))
+    capacity[7] /= 2.5
+    assert influence(outcomes_of(capacity)).records[0] == "record 7"
+
+
+def test_it_is_the_curve_of_all_other_records():
+    outcomes = lognormal(2)
+    found = influence(outcomes, hazard_curve([0.1, 1.0], [1e-2, 1e-5]))
+    place = found.records.index("record 3")
+    without = fit_lognormal(outcomes.only(np.arange(30) != 3), Resampling(2))
+    assert (found.median[place], found.beta[place]) == pytest.approx((without.median.value, without.beta.value))
+    expected = lognormal_rate(hazard_curve([0.1, 1.0], [1e-2, 1e-5]), without.median.value, without.beta.value)
+    assert found.rate[place] == pytest.approx(expected[0])
+
+
+def test_a_record_without_which_there_is_no_curve_comes_first():
+    capacity = np.full((6, 2), MEDIAN)
+    capacity[4] *= 3
+    found = influence(outcomes_of(capacity))
+    assert (found.records[0], np.isnan(found.median[0])) == ("record 4", True)
+
+
+def test_each_resample_has_as_many_records_and_draws_them_alike():
+    weights = Resampling(5000, 1).weights(7)[1:]
+    assert (weights.sum(axis=1) == 7).all()
+    assert weights.mean(axis=0) == pytest.approx(np.ones(7), abs=0.05)
+    assert weights.var(axis=0) == pytest.approx(np.full(7, 6 / 7), abs=0.1)
+
+
+def test_of_a_mean_of_normal_values_it_is_about_students_interval():
+    values = np.random.default_rng(3).normal(0, 1, 40)
+    weights = Resampling(20000, 2).weights(40)[1:]
+    means = weights @ values / 40
+    errors = np.sqrt((weights @ values**2 / 40 - means**2) / 40)
+    mean, error = values.mean(), values.std() / np.sqrt(40)
+    band = studentised(np.array([mean]), np.array([error]), means[:, None], errors[:, None], 0.95, 40)
+    reach = scipy.stats.t.ppf(0.975, 39) * error
+    assert (band.low[0], band.high[0]) == pytest.approx((mean - reach, mean + reach), abs=0.25 * reach)

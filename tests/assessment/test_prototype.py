@@ -1,0 +1,148 @@
+"""The real column: ranges, draws that are the same however many, and the friction that it needs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import tan
+
+import numpy as np
+import pytest
+
+from colonnade.assessment.cases import Cases, FrictionNeeded, friction_needed, holds
+from colonnade.assessment.prototype import UNCERTAIN, Prototype, draw, drawn_column
+from colonnade.dynamics.block import Block
+from colonnade.dynamics.motion import Motion
+
+BLOCK = Block.measured(mass=1000.0, pole_distance=4.0, critical_angle=0.18, inertia=4 / 3 * 1000.0 * 16.0)
+COLUMN = Prototype(
+    BLOCK,
+    0.95,
+    0.6,
+    restitution_range=(0.93, 0.97),
+    critical_angle_range=(0.17, 0.19),
+    p_range=(1.2, 1.5),
+    friction_range=(0.5, 0.7),
+)
+
+
+def test_more_draws_begin_with_the_same_and_the_first_has_nothing_varied():
+    few, many = draw(COLUMN, 5, seed=3), draw(COLUMN, 50, seed=3)
+    np.testing.assert_array_equal(few.values, many.values[:6])
+    np.testing.assert_allclose(many.values[0], [0.95, 0.18, BLOCK.p, 0.6])
+    assert (draw(COLUMN, 5, seed=4).values[1:] != few.values[1:]).all()
+
+
+def test_each_record_draws_columns_of_its_own():
+    here, there = draw(COLUMN, 5, record=0), draw(COLUMN, 5, record=1)
+    assert (here.values[0] == there.values[0]).all()
+    assert (here.values[1:] != there.values[1:]).all()
+
+
+def test_draws_fill_their_ranges_evenly():
+    values = draw(COLUMN, 2000).values[1:]
+    for column, (low, high) in enumerate(COLUMN.ranges):
+        share = (values[:, column] - low) / (high - low)
+        assert 0.0 <= share.min() < 0.01
+        assert 0.99 < share.max() <= 1.0
+        assert share.mean() == pytest.approx(0.5, abs=4 / np.sqrt(12 * 2000))
+    assert np.abs(np.corrcoef(values.T) - np.eye(4)).max() < 4 / np.sqrt(2000)
+
+
+def test_a_range_that_goes_leaves_the_other_draws_as_they_are():
+    without = draw(replace(COLUMN, p_range=None), 9).values
+    np.testing.assert_array_equal(without[:, [0, 1, 3]], draw(COLUMN, 9).values[:, [0, 1, 3]])
+    assert set(without[:, UNCERTAIN.index("p")]) == {BLOCK.p}
+
+
+def test_nothing_is_drawn_of_what_is_exactly_known():
+    exact = Prototype(BLOCK, 0.95)
+    draws = draw(exact, 100)
+    assert draws.size == 1
+    assert np.isnan(draws.of("friction")).all()
+    assert drawn_column(exact, draws, 0) == (BLOCK, (0.95, 0.95))
+
+
+def test_a_drawn_column_has_what_was_drawn():
+    draws = draw(COLUMN, 3)
+    block, e = drawn_column(COLUMN, draws, 2)
+    drawn = (*set(e), block.critical_angle, block.p)
+    np.testing.assert_allclose(drawn, draws.values[2, :3], rtol=1e-12)
+
+
+def test_the_sides_of_a_column_keep_their_proportions():
+    uneven = replace(BLOCK, positive=replace(BLOCK.positive, critical_angle=0.27))
+    column = replace(COLUMN, block=uneven, restitution=(0.94, 0.96))
+    assert not column.is_symmetric
+    draws = draw(column, 1)
+    block, (negative, positive) = drawn_column(column, draws, 1)
+    assert block.positive.critical_angle / block.negative.critical_angle == pytest.approx(1.5)
+    assert 0.5 * (negative + positive) == pytest.approx(draws.of("restitution")[1])
+    assert positive - negative == pytest.approx(0.02)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"restitution_range": (0.97, 0.93)}, "restitution_range goes from 0.97 to 0.93"),
+        ({"restitution_range": (0.93, 1.01)}, "restitution_range is 1.01"),
+        ({"critical_angle_range": (0.0, 0.2)}, "critical_angle_range is 0"),
+        ({"p_range": (-1.0, 1.0)}, "p_range is -1"),
+        ({"friction": None}, "friction_range is given without friction"),
+        ({"friction": -0.1}, "friction is -0.1"),
+        ({"restitution": 1.5}, "restitution is 1.5"),
+    ],
+)
+def test_what_no_column_can_be_is_refused(changed, message):
+    with pytest.raises(ValueError, match=message):
+        replace(COLUMN, **changed)
+
+
+TIME = np.arange(0.0, 6.0, 0.01)
+WAVE = np.where(TIME < 1.0, np.sin(2 * np.pi * TIME), 0.0)
+
+
+def needed(*factors, vertical=None):
+    column = Prototype(BLOCK, 0.9)
+    factor = np.array([[[each, np.nan] for each in factors]])
+    return friction_needed(Cases(column, (draw(column, 0),), (Motion(WAVE, 0.01, vertical),), factor))
+
+
+def test_a_column_at_rest_needs_the_accelerations_over_gravity():
+    found = needed(0.1 * 9.81)
+    assert found.standing[0, 0, 0, 0] == pytest.approx(0.1, rel=1e-3)
+    assert found.rocking[0, 0, 0, 0] == found.impact[0, 0, 0, 0] == 0.0
+    assert np.isnan(found.largest[..., 1]).all()
+
+
+def test_a_rising_base_presses_a_column_and_a_falling_one_lets_it_slide():
+    down, up = (needed(0.981, vertical=sign * 3.0 * np.ones_like(TIME)).standing.flat[0] for sign in (-1, 1))
+    assert down == pytest.approx(0.981 / (9.81 - 3.0 * 0.981), rel=1e-3)
+    assert up == pytest.approx(0.981 / (9.81 + 3.0 * 0.981), rel=1e-3)
+
+
+def test_a_column_that_rocks_needs_tan_alpha_at_rest_and_the_ratio_of_impulses_at_impacts():
+    found = needed(0.4 * 9.81)
+    assert 0.8 * tan(0.18) < found.standing[0, 0, 0, 0] <= tan(0.18)
+    assert found.impact[0, 0, 0, 0] == pytest.approx((1 - 0.9) / ((1 + 0.9) * tan(0.18)), rel=1e-9)
+    assert found.rocking[0, 0, 0, 0] > tan(0.18)
+
+
+def test_a_record_that_begins_with_a_jump_uplifts_the_column_before_it_needs_friction_at_rest():
+    column = Prototype(BLOCK, 0.9)
+    jump = Motion(np.where(TIME < 0.1, 5.0, 0.0), 0.01)
+    found = friction_needed(Cases(column, (draw(column, 0),), (jump,), np.array([[[1.0, np.nan]]])))
+    assert found.standing[0, 0, 0, 0] <= tan(0.18)
+    assert tan(0.18) < found.rocking[0, 0, 0, 0] < 5.0 / 9.81
+
+
+def test_a_base_that_falls_away_holds_nothing():
+    found = needed(1.0, 4.0, vertical=-3.0 * np.ones_like(TIME))
+    assert np.isinf(found.largest[0, 1, 0, 0])
+    assert np.isfinite(found.largest[0, 0, 0, 0])
+
+
+def test_a_case_holds_where_the_drawn_friction_reaches():
+    one = np.array([0.3, 0.5, np.nan]).reshape(1, 3, 1, 1)
+    found = holds(FrictionNeeded(one, 0.5 * one, 0.0 * one), np.array([[0.2, 0.4, 0.6]]))
+    assert found.shape == (1, 3, 3, 1, 1)
+    assert found[0, :, :, 0, 0].tolist() == [[False, True, True], [False, False, True], [False, False, False]]
