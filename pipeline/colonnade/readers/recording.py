@@ -53,6 +53,8 @@ class RecordedChannel:
         The head of the column as written, `LVDT 1 [mm]`; the name if nothing else is known.
     is_clock : bool
         Whether the column holds times; `time` is then its own values in seconds.
+    scope : tuple of str
+        Structs or groups of the file that contain it, outermost first.
     """
 
     name: str
@@ -61,6 +63,7 @@ class RecordedChannel:
     time: Array | None = None
     heading: str = ""
     is_clock: bool = False
+    scope: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.heading:

@@ -14,20 +14,20 @@ from colonnade.readers.binary.matlab_columns import (
     numbered_channels,
     object_reason,
 )
-from colonnade.readers.binary.vectors import Column
+from colonnade.readers.recording import RecordedChannel
 
 VECTOR = np.arange(50.0).reshape(-1, 1)
 
 
 def test_vectors_in_structs_and_cells_have_the_path_that_matlab_would_write() -> None:
     found = find_columns({"x": VECTOR, "run": {"top": VECTOR, "inner": {"t": VECTOR}}, "c": [VECTOR, "text", VECTOR]})
-    assert [column.path for column in found.columns] == ["x", "run.top", "run.inner.t", "c{1}", "c{3}"]
+    assert [column.heading for column in found.columns] == ["x", "run.top", "run.inner.t", "c{1}", "c{3}"]
     assert [column.scope for column in found.columns][1:3] == [("run",), ("run", "run.inner")]
 
 
 def test_an_array_of_structs_is_counted_in_round_brackets() -> None:
     found = find_columns({"s": [{"v": VECTOR}, {"v": VECTOR}]})
-    assert [column.path for column in found.columns] == ["s(1).v", "s(2).v"]
+    assert [column.heading for column in found.columns] == ["s(1).v", "s(2).v"]
 
 
 @pytest.mark.parametrize(
@@ -39,7 +39,7 @@ def test_a_matrix_has_its_samples_along_the_vector_else_along_its_longer_side(
     shape: tuple[int, int], beside: bool, count: int
 ) -> None:
     variables = {"m": np.zeros(shape), **({"t": VECTOR} if beside else {})}
-    columns = [column for column in find_columns(variables).columns if column.path.startswith("m[")]
+    columns = [column for column in find_columns(variables).columns if column.heading.startswith("m[")]
     assert len(columns) == count
     assert {column.values.size for column in columns} == {max(shape) if not beside else 50}
 
@@ -75,7 +75,7 @@ NODES = some.recursive(
 def test_any_nest_of_variables_gives_columns_of_several_numbers(variables: dict[str, object]) -> None:
     found = find_columns(variables)  # type: ignore[arg-type]
     assert all(column.values.ndim == 1 and column.values.size > 0 for column in found.columns)
-    paths = [column.path for column in found.columns]
+    paths = [column.heading for column in found.columns]
     assert len(set(paths)) == len(paths)
 
 
@@ -96,7 +96,7 @@ def test_channels_have_the_names_and_units_of_their_headers() -> None:
     others, columns, scalars, notes = numbered_channels(layout(SINE))  # type: ignore[arg-type]
     assert [(column.name, column.unit, column.values.shape) for column in columns] == [
         ("LVDT 1", "mm", (20,)),
-        (None, None, (20,)),
+        ("", None, (20,)),
     ]
     assert others == {"comment": "kept"}
     assert scalars == {"File_Header.SampleFrequency": 200.0}
@@ -121,7 +121,7 @@ def test_a_file_of_another_layout_is_left_as_it_is() -> None:
 
 
 def test_channels_that_are_missing_are_counted() -> None:
-    columns = [Column(f"chan{number}", (), SINE.ravel()) for number in (1, 2)]
+    columns = [RecordedChannel(f"chan{number}", None, SINE.ravel()) for number in (1, 2)]
     assert lacking_channels({"No_Channels": np.array([[3]])}, columns) == [
         "No_Channels says 3, but 2 channels are in the file"
     ]

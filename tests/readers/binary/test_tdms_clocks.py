@@ -15,7 +15,8 @@ START = np.datetime64("2013-04-26T10:15:00", "us")
 
 
 def column(name: str, values: np.ndarray, group: str = "g", **properties: Any) -> Column:
-    return Column(group, RecordedChannel(name, None, values, heading=f"{group}/{name}"), waveform(properties))
+    channel = RecordedChannel(name, None, values, heading=f"{group}/{name}", scope=(group,))
+    return Column(channel, waveform(properties))
 
 
 @pytest.mark.parametrize(

@@ -69,7 +69,7 @@ def read(path: Path, options: Options) -> Recording:
     recording = Recording(path, "diadem", tuple(channels), notes=tuple(notes), warnings=tuple(warnings))
     if is_clocked or not channels:
         return recording
-    clocks = find_clocks(recording.channels, ("number",) * len(channels))
+    clocks = find_clocks(recording.channels)
     each = zip(clocks.times, channels, strict=True)
     times = tuple(time if time is None or time.size == channel.values.size else None for time, channel in each)
     return replace(clocks, times=times).applied(recording)

@@ -59,7 +59,11 @@ def told(recording: Recording) -> tuple[dict[str, Any], Arrays]:
         return numbers[id(array)]
 
     columns = [
-        {**vars(channel), "values": number(channel.values), "time": number(channel.time)}
+        {
+            **{name: getattr(channel, name) for name in ("name", "unit", "heading", "is_clock")},
+            "values": number(channel.values),
+            "time": number(channel.time),
+        }
         for channel in recording.channels
     ]
     start = None if recording.start is None else recording.start.isoformat()

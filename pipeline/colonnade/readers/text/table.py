@@ -108,7 +108,7 @@ class Table:
 
     def _clocks(self, recording: Recording, options: TableOptions) -> Clocks:
         """Times of the channels: by the column that was given, else by those found."""
-        found = find_clocks(recording.channels, self.kinds)
+        found = find_clocks(recording.channels)
         if options.time is None:
             return found
         given = given_clock(recording, options.time, options.time_unit)
