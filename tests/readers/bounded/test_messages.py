@@ -39,7 +39,7 @@ def test_an_answer_that_is_none_is_refused(tmp_path: Path, answer: bytes) -> Non
 
 
 HEADER = {"format": "odd", "start": None, "notes": [], "warnings": [], "hint": "", "left_out": []}
-COLUMN = {"name": "a", "unit": None, "heading": "a", "is_clock": False, "values": 0, "time": 1}
+COLUMN = ["a", None, "a", False, 0, 1]
 
 
 @every(
@@ -49,7 +49,7 @@ COLUMN = {"name": "a", "unit": None, "heading": "a", "is_clock": False, "values"
         ({**HEADER, "columns": [COLUMN]}, [np.zeros(2), np.zeros(3)]),
         ({**HEADER, "columns": [COLUMN]}, [np.zeros((2, 1)), np.zeros((2, 1))]),
         ({**HEADER, "columns": [COLUMN]}, [np.zeros(2, dtype=np.uint8)] * 2),
-        ({**HEADER, "columns": [{**COLUMN, "name": 1}]}, [np.zeros(2)] * 2),
+        ({**HEADER, "columns": [[1, *COLUMN[1:]]]}, [np.zeros(2)] * 2),
         (HEADER, []),
         (None, []),
     ],

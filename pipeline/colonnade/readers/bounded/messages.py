@@ -90,9 +90,8 @@ class Answer(BaseModel):
         Why the file cannot be read; empty if it was.
     error_number : int or None
         The system's own number of what went wrong, where it did.
-    out_of_memory : bool
     exit_code : int or None
-        How the copy of the process that was to read it ended, where it did so without an answer.
+        How the copy of the process that was to read it ended, or would have, where there is no answer.
     header : JSON
     arrays : tuple of Form
     """
@@ -101,7 +100,6 @@ class Answer(BaseModel):
 
     refusal: str = ""
     error_number: int | None = None
-    out_of_memory: bool = False
     exit_code: int | None = None
     header: JsonValue = None
     arrays: tuple[Form, ...] = ()

@@ -15,26 +15,17 @@ from colonnade.readers.recording import RecordedChannel, Recording
 
 SAME = ("format", "notes", "warnings", "hint", "left_out")
 """What a header and a recording both have, in the same form."""
-_STRICT = ConfigDict(extra="forbid", frozen=True)
-
-
-class Column(BaseModel):
-    """A channel, whose values and times are among the arrays, by number."""
-
-    model_config = _STRICT
-
-    name: str
-    unit: str | None
-    heading: str
-    is_clock: bool
-    values: NonNegativeInt
-    time: NonNegativeInt | None
 
 
 class Header(BaseModel):
-    """All of a recording but its path and its numbers."""
+    """
+    All of a recording but its path and its numbers.
 
-    model_config = _STRICT
+    Of each channel `columns` has name, unit, heading, whether it is a clock, and where among the arrays its values and
+    its times are.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
 
     format: str
     start: datetime | None
@@ -42,7 +33,7 @@ class Header(BaseModel):
     warnings: tuple[str, ...]
     hint: str
     left_out: tuple[tuple[str, str], ...]
-    columns: tuple[Column, ...]
+    columns: tuple[tuple[str, str | None, str, bool, NonNegativeInt, NonNegativeInt | None], ...]
 
 
 def told(recording: Recording) -> tuple[dict[str, Any], Arrays]:
@@ -59,11 +50,7 @@ def told(recording: Recording) -> tuple[dict[str, Any], Arrays]:
         return numbers[id(array)]
 
     columns = [
-        {
-            **{name: getattr(channel, name) for name in ("name", "unit", "heading", "is_clock")},
-            "values": number(channel.values),
-            "time": number(channel.time),
-        }
+        (channel.name, channel.unit, channel.heading, channel.is_clock, number(channel.values), number(channel.time))
         for channel in recording.channels
     ]
     start = None if recording.start is None else recording.start.isoformat()
@@ -84,12 +71,8 @@ def recording_of(path: Path, header: Any, arrays: Arrays) -> Recording:
         raise ValueError("channels of numbers were expected")
     try:
         channels = tuple(
-            RecordedChannel(
-                **column.model_dump(exclude={"values", "time"}),
-                values=arrays[column.values],
-                time=None if column.time is None else arrays[column.time],
-            )
-            for column in found.columns
+            RecordedChannel(name, unit, arrays[values], None if time is None else arrays[time], heading, is_clock)
+            for name, unit, heading, is_clock, values, time in found.columns
         )
     except IndexError:
         raise ValueError("a channel names an array that is missing") from None
