@@ -15,8 +15,7 @@ import pytest
 import xlwt
 
 from colonnade.errors import ReadError
-from colonnade.readers.binary.diadem import stored_channels
-from colonnade.readers.binary.stored_numbers import beside
+from colonnade.readers.binary.diadem import bytes_beside, described_channels
 from colonnade.readers.clock import even_times
 from colonnade.readers.registry import read
 from every import every
@@ -130,7 +129,7 @@ def test_a_stray_cell_of_an_old_workbook_leaves_the_others_as_they_are(tmp_path:
 
 def test_a_name_that_is_too_long_for_a_file_is_a_file_that_is_not_there(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match="which is not in its folder") as refused:
-        beside(tmp_path / "header.dat", "a" * 5000)
+        bytes_beside(tmp_path / "header.dat", "a" * 5000)
     assert len(str(refused.value)) < 300
 
 
@@ -138,4 +137,4 @@ def test_a_header_in_an_encoding_that_there_is_not_is_refused(tmp_path: Path) ->
     path = tmp_path / "a.tdm"
     path.write_bytes(b'<?xml version="1.0" encoding="UTF-6"?><usi:tdm xmlns:usi="http://www.ni.com/Schemas/USI/1_0"/>')
     with pytest.raises(ReadError, match="unknown encoding"):
-        stored_channels(path)
+        described_channels(path)

@@ -11,7 +11,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.binary.stored_numbers import Bytes, StoredNumbers, values_at
+from colonnade.readers.binary.numbers import Bytes, StoredNumbers, values_at
 from colonnade.readers.clock import RISING_SHARE, TIME_NAME, even_times, moment_after, rising_share
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, from_head
@@ -162,7 +162,7 @@ def _stored(header: _Header, content: Bytes, place: int) -> tuple[StoredNumbers,
             low, high = struct.unpack_from("<2d", content.data, place)
             factor = (high - low) / TWO_BYTE_STEPS
         place += 16
-    stored = StoredNumbers(header.name, header.unit, "", header.precision, place, header.length, size, low, factor)
+    stored = StoredNumbers(header.name, header.precision, place, header.length, size, low, factor)
     return stored, place + header.length * size
 
 

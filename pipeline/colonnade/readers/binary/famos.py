@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.readers.binary.stored_numbers import Bytes, StoredNumbers, values_at
+from colonnade.readers.binary.numbers import Bytes, StoredNumbers, values_at
 from colonnade.readers.clock import even_times, moment_after
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, by_mark, from_head
@@ -189,7 +189,7 @@ def _values(content: Bytes, file: _File, said: _Said) -> Array:
     is_scaled, factor, offset, _ = said.get("CR", (0, 1.0, 0.0, ""))
     factor, offset = (factor, offset) if is_scaled == 1 and not digital else (1.0, 0.0)
     stored = StoredNumbers(
-        title, "", "", file.order + form, begin + first + shift, filled // size, size, offset, factor, end=end
+        title, file.order + form, begin + first + shift, filled // size, size, offset, factor, end=end
     )
     values, told = values_at(content, stored)
     file.warnings += told

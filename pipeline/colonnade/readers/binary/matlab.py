@@ -11,7 +11,7 @@ from colonnade.errors import ReadError, nearest
 from colonnade.readers.binary.matlab_5 import read_v5
 from colonnade.readers.binary.matlab_73 import read_v73
 from colonnade.readers.binary.matlab_columns import Node, Tree, find_columns, lacking_channels, numbered_channels
-from colonnade.readers.binary.vectors import ClockOptions, recorded
+from colonnade.readers.binary.numbers import ClockOptions, recorded
 from colonnade.readers.clock import find_vector_clocks, given_clock
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import HDF5, Head, from_head

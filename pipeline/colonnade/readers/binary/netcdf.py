@@ -16,7 +16,7 @@ from pydantic import Field
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.binary.hdf5 import Walk, open_hdf5
-from colonnade.readers.binary.vectors import ClockOptions, UnreadableError, recorded
+from colonnade.readers.binary.numbers import ClockOptions, UnreadableError, recorded
 from colonnade.readers.clock import Clocks, find_vector_clocks, given_clock
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import HDF5, NETCDF, Head, by_mark, from_head

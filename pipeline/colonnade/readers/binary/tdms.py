@@ -14,8 +14,8 @@ import numpy as np
 from pydantic import Field
 
 from colonnade.errors import ReadError, nearest
+from colonnade.readers.binary.numbers import ClockOptions, as_values
 from colonnade.readers.binary.tdms_clocks import NO_TIMING, Column, beginnings, on_clocks, waveform
-from colonnade.readers.binary.vectors import ClockOptions, as_values
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import Head, by_mark, from_head
 from colonnade.readers.recording import RecordedChannel, Recording, Window

@@ -1,15 +1,17 @@
-"""Vectors in structs and groups."""
+"""Numbers as values: vectors in structs and groups; at a place in a file, scaled, with gaps between them, cut off."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as some
 from hypothesis.extra.numpy import arrays
 
-from colonnade.readers.binary.vectors import as_values, recorded
+from colonnade.readers.binary.numbers import StoredNumbers, as_values, recorded, values_at
 from colonnade.readers.recording import RecordedChannel
 
 COLUMNS = [
@@ -44,3 +46,24 @@ def test_numbers_of_any_type_become_values(numbers: np.ndarray) -> None:
     values, _ = as_values(numbers)
     assert values.dtype == np.float64
     assert values.shape == numbers.shape
+
+
+CONTENT = np.frombuffer(np.arange(12, dtype="<i2").tobytes(), dtype=np.uint8)
+EVERY_THIRD = StoredNumbers("top", "<i2", first=2, count=4, stride=6, offset=10.0, factor=0.5)
+
+
+def test_numbers_are_taken_at_their_stride_and_scaled() -> None:
+    values, warnings = values_at(CONTENT, EVERY_THIRD)
+    assert values.tolist() == [10.5, 12.0, 13.5, 15.0]
+    assert warnings == []
+
+
+@pytest.mark.parametrize(
+    ("change", "there"),
+    [({"count": 9}, 4), ({"end": 10}, 2), ({"first": 400}, 0), ({"first": -2}, 0)],
+    ids=["more than the file", "more than the block", "behind the file", "before the file"],
+)
+def test_numbers_that_are_not_there_are_told(change: dict[str, int], there: int) -> None:
+    values, warnings = values_at(CONTENT, replace(EVERY_THIRD, **change))
+    assert values.size == there
+    assert warnings == [f'"top": the file ends after {there} of its {change.get("count", 4)} values']

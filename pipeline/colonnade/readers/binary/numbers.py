@@ -1,9 +1,9 @@
-"""Channels of files that hold vectors in structs and groups, not columns of one table."""
+"""Numbers of a binary file as the values of channels: at a place of its bytes, or in structs and groups."""
 
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,67 @@ from pydantic import Field
 from colonnade.arrays import Array
 from colonnade.readers.format import Options
 from colonnade.readers.recording import RecordedChannel, Recording, TimeUnit
+
+Bytes = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class StoredNumbers:
+    """
+    Where a channel's numbers stand.
+
+    Attributes
+    ----------
+    name : str
+        Of the channel.
+    form : str
+        As numpy spells it, `<f8`.
+    first : int
+        Byte of the first number.
+    count : int
+    stride : int
+        Bytes from one number to the next.
+    offset, factor : float
+        Value = number × factor + offset.
+    end : int or None
+        Byte behind the last one that may be the channel's; that of the file otherwise.
+    """
+
+    name: str
+    form: str
+    first: int
+    count: int
+    stride: int
+    offset: float = 0.0
+    factor: float = 1.0
+    end: int | None = None
+
+
+def values_at(content: Bytes, stored: StoredNumbers, file: str = "the file") -> tuple[Array, list[str]]:
+    """
+    Take a channel's numbers out of the bytes of a file, called `file` in a warning.
+
+    Returns
+    -------
+    values : ndarray, shape (n,)
+        As many as there are; NaN where one is missing.
+    warnings : list of str
+        Whether the bytes end too early.
+    """
+    form = np.dtype(stored.form)
+    end = content.size if stored.end is None else stored.end
+    room = (end - stored.first - form.itemsize) // stored.stride + 1
+    there = max(min(stored.count, room), 0) if stored.first >= 0 else 0
+    warnings = []
+    if there < stored.count:
+        warnings.append(f'"{stored.name}": {file} ends after {there} of its {stored.count} values')
+    if not there:
+        return np.empty(0), warnings
+    raw = np.ndarray(there, form, content, offset=stored.first, strides=(stored.stride,))
+    with np.errstate(invalid="ignore", over="ignore"):
+        values = raw.astype(np.float64) * stored.factor + stored.offset
+    values[~np.isfinite(values)] = np.nan
+    return values, warnings
 
 
 class UnreadableError(Exception):
