@@ -9,7 +9,6 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-import pytest
 import scipy.io
 import xlwt
 from nptdms import ChannelObject, TdmsWriter
@@ -17,6 +16,7 @@ from nptdms import ChannelObject, TdmsWriter
 from colonnade.errors import ReadError
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import read
+from every import every
 
 TIME = np.arange(60) * 0.01
 TABLE = np.random.default_rng(5).random((60, 3))
@@ -133,7 +133,7 @@ def read_or_refusal(path: Path) -> Recording | ReadError:
         return error
 
 
-@pytest.mark.parametrize("name", list(WRITERS))
+@every("name", list(WRITERS))
 def test_a_damaged_file_is_read_or_refused(tmp_path: Path, name: str) -> None:
     writer: Callable[[Path], None]
     writer, suffix = WRITERS[name]
@@ -157,7 +157,7 @@ def test_a_damaged_file_is_read_or_refused(tmp_path: Path, name: str) -> None:
     assert min(seen["read"], seen["refused"]) > 0
 
 
-@pytest.mark.parametrize("name", list(WRITERS))
+@every("name", list(WRITERS))
 def test_a_file_that_ends_anywhere_is_refused_or_warned_of(tmp_path: Path, name: str) -> None:
     writer, suffix = WRITERS[name]
     path = tmp_path / f"cut{suffix}"

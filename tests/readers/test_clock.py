@@ -14,6 +14,7 @@ from colonnade.errors import ReadError
 from colonnade.readers.clock import equal_step, find_vector_clocks, given_clock, may_be_clock, rising_share
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import read
+from every import every
 
 
 def recorded(folder: Path, text: str) -> Recording:
@@ -111,7 +112,7 @@ def test_times_in_equal_steps_have_a_step_within_their_rounding(
         assert equal_step(late, 1e-3) is None
 
 
-@pytest.mark.parametrize("values", [[], [1.0], [0, 1, np.nan], [0, 1, 1], [0, 2, 1], [0, 1, np.inf]], ids=str)
+@every("values", [[], [1.0], [0, 1, np.nan], [0, 1, 1], [0, 2, 1], [0, 1, np.inf]])
 def test_what_does_not_rise_in_equal_steps_has_no_step(values: list[float]) -> None:
     assert equal_step(np.array(values), 0.1) is None
 
@@ -133,14 +134,14 @@ def vectors(**values: np.ndarray) -> list[RecordedChannel]:
     ]
 
 
-@pytest.mark.parametrize("name", ["t", "Time", "tMeas", "time_vec", "t_s", "simtime", "xTime"])
+@every("name", ["t", "Time", "tMeas", "time_vec", "t_s", "simtime", "xTime"])
 def test_a_rising_vector_with_a_name_of_times_is_the_clock(name: str) -> None:
     clocks = find_vector_clocks(vectors(**{name: RISING, "top": SIGNAL}), {})
     assert clocks.columns == {0}
     np.testing.assert_allclose(clocks.times[1], RISING)
 
 
-@pytest.mark.parametrize(("name", "unit", "factor"), [("t_ms", None, 1e-3), ("t", "ms", 1e-3), ("t", None, 1.0)])
+@every(("name", "unit", "factor"), [("t_ms", None, 1e-3), ("t", "ms", 1e-3), ("t", None, 1.0)])
 def test_its_unit_is_given_or_at_the_end_of_its_name(name: str, unit: str | None, factor: float) -> None:
     clocks = find_vector_clocks(vectors(**{name: RISING, "top": SIGNAL}), {}, unit)
     np.testing.assert_allclose(clocks.times[1], factor * RISING)
@@ -167,7 +168,7 @@ def test_days_of_matlabs_calendar_are_a_date() -> None:
     np.testing.assert_allclose(clocks.times[1], RISING, atol=1e-4)
 
 
-@pytest.mark.parametrize("scalars", [{"dt": 0.1}, {"run.Fs": 10.0}, {"sample_rate": 10.0}, {"dt": 0.1, "fs": 10.0}])
+@every("scalars", [{"dt": 0.1}, {"run.Fs": 10.0}, {"sample_rate": 10.0}, {"dt": 0.1, "fs": 10.0}])
 def test_without_a_vector_a_constant_step_is_taken_by_its_name(scalars: dict[str, float]) -> None:
     (time,) = find_vector_clocks(vectors(top=SIGNAL), scalars).times
     np.testing.assert_allclose(time, RISING, atol=1e-12)

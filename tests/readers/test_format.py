@@ -34,7 +34,7 @@ def made_up() -> Format:
     return Format("made-up", "A format of this test.", (".x",), lambda path: Recognition(False, "never"), read)
 
 
-@pytest.mark.parametrize("options", [Options, Spaced])
+@every("options", [Options, Spaced])
 def test_an_option_that_does_not_exist_is_refused(options):
     with pytest.raises(ValidationError, match="colour"):
         options(colour="red")
@@ -95,7 +95,7 @@ def test_a_format_gives_its_reason_for_a_file_of_whatever_it_is(tmp_path, name, 
     assert not (found.yes and found.is_known)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@every("name", NAMES)
 def test_no_format_takes_bytes_of_no_format(tmp_path, name):
     path = tmp_path / "record.bin"
     path.write_bytes(RANDOM)

@@ -12,6 +12,7 @@ import pytest
 from colonnade.errors import ReadError
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import formats, read
+from every import every
 
 OWN = ("catman", "cosmos", "diadem", "famos", "lvm", "mts", "peer", "uff")
 BY_PACKAGES = ("waveform",)
@@ -19,7 +20,7 @@ KINDS = ("flips", "truncation", "deletion", "repetition", "zeros", "noise behind
 TIMES = 40 * np.arange(40) / 200
 
 
-@pytest.mark.parametrize("name", OWN + BY_PACKAGES)
+@every("name", OWN + BY_PACKAGES)
 def test_what_was_written_is_recognised_and_read_back(written: Callable[..., Path], name: str) -> None:
     recording = read(written(name))
     assert recording.format == name
@@ -35,7 +36,7 @@ def test_what_was_written_is_recognised_and_read_back(written: Callable[..., Pat
         assert top.unit == (None if name == "waveform" else "mm")
 
 
-@pytest.mark.parametrize("name", OWN + BY_PACKAGES)
+@every("name", OWN + BY_PACKAGES)
 def test_a_format_refuses_the_files_of_all_others(written: Callable[..., Path], name: str) -> None:
     path = written(name)
     took = [other for other, format in formats().items() if format.recognise(path).yes and other != "delimited"]
@@ -100,7 +101,7 @@ def test_a_file_that_was_cut_off_says_so(written: Callable[..., Path], name: str
     assert any(words in told for words in ("end", "cut off", "too few cells")), told or "nothing was told"
 
 
-@pytest.mark.parametrize("name", OWN)
+@every("name", OWN)
 def test_the_bytes_of_a_file_decide_not_its_name(written: Callable[..., Path], name: str) -> None:
     path = written(name)
     renamed = path.rename(path.with_name("record.csv"))

@@ -18,6 +18,7 @@ from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import formats, read
 from colonnade.readers.text.delimited import FORMAT as DELIMITED
+from every import every
 
 
 def test_delimited_text_is_always_known_and_asked_last() -> None:
@@ -79,7 +80,7 @@ def only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[Format], 
     return use
 
 
-@pytest.mark.parametrize(
+@every(
     "error",
     [
         struct.error("unpack requires 4 bytes"),
@@ -88,7 +89,6 @@ def only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[Format], 
         AssertionError(),
         OSError("not an MSEED"),
     ],
-    ids=lambda error: type(error).__name__,
 )
 def test_whatever_a_parser_stumbles_over_is_told_with_the_file_and_what_to_do(
     tmp_path: Path, only: Callable[[Format], None], error: Exception

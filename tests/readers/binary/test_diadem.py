@@ -16,6 +16,7 @@ from colonnade.readers.binary import diadem
 from colonnade.readers.binary.diadem import Described, described_channels
 from colonnade.readers.binary.numbers import StoredNumbers
 from colonnade.readers.registry import read, read_here
+from every import every
 
 HEADER = """<?xml version="1.0"?>
 <usi:tdm xmlns:usi="x">
@@ -47,7 +48,7 @@ def test_a_channel_is_found_by_way_of_its_references(tmp_path: Path) -> None:
     assert stored == Described("mm", "a.tdx", StoredNumbers("top", "<i2", 16, 10, 2), step=0.01, begin=0.0)
 
 
-@pytest.mark.parametrize(
+@every(
     ("kind", "parameters", "expected"),
     [
         ("raw_linear_external", "1.5 0.25", (1.5, 0.25, "a.tdx", 10)),
@@ -67,10 +68,9 @@ def test_numbers_in_blocks_have_a_stride(tmp_path: Path) -> None:
     assert (stored.numbers.first, stored.numbers.stride) == (20, 6)
 
 
-@pytest.mark.parametrize(
+@every(
     ("change", "told"),
     [(("usi2", "usi9"), "no column"), (('"inc0"/', '"inc9"/'), "inc9"), (("explicit_external", "odd"), '"odd"')],
-    ids=["reference", "block", "kind"],
 )
 def test_a_channel_that_cannot_be_found_says_why(tmp_path: Path, change: tuple[str, str], told: str) -> None:
     path = header(tmp_path / "a.tdm")

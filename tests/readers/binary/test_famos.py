@@ -11,6 +11,7 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
+from every import every
 
 
 def test_start_is_that_of_the_trigger_and_the_blocks_offset(written: Callable[..., Path]) -> None:
@@ -58,7 +59,7 @@ def test_numbers_of_every_kind_are_scaled(tmp_path: Path, kind: int, form: str, 
     assert channel.unit == "mm"
 
 
-@pytest.mark.parametrize(("kind", "packing"), [(4, "0,0,1,6"), (4, "255,0,1,0"), (9, "0,0,1,0")])
+@every(("kind", "packing"), [(4, "0,0,1,6"), (4, "255,0,1,0"), (9, "0,0,1,0")])
 def test_numbers_that_are_packed_in_another_way_are_refused(tmp_path: Path, kind: int, packing: str) -> None:
     with pytest.raises(ReadError, match="interleaved or of an unknown kind"):
         read(whole_numbers(tmp_path / "record.raw", kind, "i2", packing=packing))

@@ -14,6 +14,7 @@ import scipy.io
 from colonnade.errors import ReadError
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import read
+from every import every
 
 TIME = np.arange(60) * 0.005
 TOP = np.sin(TIME * 20)
@@ -129,14 +130,13 @@ def test_names_of_columns_beside_a_matrix_are_taken(tmp_path: Path) -> None:
     assert recording.channel("LVDT 1").unit == "mm"
 
 
-@pytest.mark.parametrize(
+@every(
     ("scalars", "evidence"),
     [
         ({"dt": 0.005}, "by the number dt"),
         ({"Fs": 200.0}, "by the number Fs"),
         ({"Ts": 0.005, "fs": 200}, "by the number Ts"),
     ],
-    ids=["step", "rate", "both, which agree"],
 )
 def test_a_single_number_gives_the_step_where_no_vector_is_a_clock(
     tmp_path: Path, scalars: dict[str, float], evidence: str
@@ -217,7 +217,7 @@ def test_bristols_other_layout_warns_of_channels_that_are_not_there(tmp_path: Pa
     np.testing.assert_array_equal(column(matrix, "output[2]"), -TOP)
 
 
-@pytest.mark.parametrize(
+@every(
     ("content", "reason"),
     [
         (b"version https://git-lfs.github.com/spec/v1\noid sha256:0", "pointer of git-lfs"),
@@ -229,7 +229,6 @@ def test_bristols_other_layout_warns_of_channels_that_are_not_there(tmp_path: Pa
         (b"\x80\x04\x95\x1b\x00", "a Python pickle, a program that runs when it is opened: never read"),
         (bytes([0, 0, 0, 0, 1, 0, 0, 0, 60, 0, 0, 0]), "if it is one of version 4, open it in MATLAB"),
     ],
-    ids=["git-lfs pointer", "web page", "empty", "zeros", "cut off within the header", "NumPy", "pickle", "version 4"],
 )
 def test_a_file_that_is_none_is_refused_with_what_it_is(tmp_path: Path, content: bytes, reason: str) -> None:
     path = tmp_path / "a.mat"
@@ -259,7 +258,7 @@ def test_a_damper_test_of_version_5(shared_data: Path) -> None:
     np.testing.assert_array_equal(force.values, recording.channel("x_F[3]").values)
 
 
-@pytest.mark.parametrize("name", ["shaketable/grashorn_testingData.mat", "matlab/labcontrol_ensaio1.mat"])
+@every("name", ["shaketable/grashorn_testingData.mat", "matlab/labcontrol_ensaio1.mat"])
 def test_the_numbers_are_those_that_scipy_reads(shared_data: Path, name: str) -> None:
     recording = read(shared_data / name)
     for variable, values in scipy.io.loadmat(shared_data / name).items():

@@ -10,6 +10,7 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
+from every import every
 
 
 def v73(path: Path, fill: object) -> Path:
@@ -57,7 +58,7 @@ def sparse(file: h5py.File) -> None:
     file.create_group("x").attrs["MATLAB_sparse"] = np.uint64(3)
 
 
-@pytest.mark.parametrize(
+@every(
     ("fill", "reason"),
     [
         (object_of_a_class, "it is an object of MATLAB's class timetable, which only MATLAB can open"),
@@ -68,7 +69,6 @@ def sparse(file: h5py.File) -> None:
         (virtual_numbers, "its numbers are in another file"),
         (sparse, "it is a sparse matrix"),
     ],
-    ids=lambda value: value.__name__ if callable(value) else "",
 )
 def test_what_is_no_data_of_this_file_is_left_out_with_the_reason(tmp_path: Path, fill: object, reason: str) -> None:
     recording = read(v73(tmp_path / "a.mat", fill))

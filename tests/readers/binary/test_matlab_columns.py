@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as some
 
@@ -15,6 +14,7 @@ from colonnade.readers.binary.matlab_columns import (
     object_reason,
 )
 from colonnade.readers.recording import RecordedChannel
+from every import every
 
 VECTOR = np.arange(50.0).reshape(-1, 1)
 
@@ -30,10 +30,9 @@ def test_an_array_of_structs_is_counted_in_round_brackets() -> None:
     assert [column.heading for column in found.columns] == ["s(1).v", "s(2).v"]
 
 
-@pytest.mark.parametrize(
+@every(
     ("shape", "beside", "count"),
     [((50, 3), True, 3), ((3, 50), True, 3), ((40, 60), False, 40), ((60, 40), False, 40), ((50, 60), True, 60)],
-    ids=["columns", "rows", "wide", "tall", "as long as the vector"],
 )
 def test_a_matrix_has_its_samples_along_the_vector_else_along_its_longer_side(
     shape: tuple[int, int], beside: bool, count: int
@@ -110,7 +109,7 @@ def test_a_first_channel_that_rises_is_the_clock() -> None:
     assert "Channel_1_Data rises: it is the clock" in notes
 
 
-@pytest.mark.parametrize("rate", ["", "fast", -5, np.empty((0, 0)), {}], ids=str)
+@every("rate", ["", "fast", -5, np.empty((0, 0)), {}])
 def test_a_rate_that_is_none_is_none(rate: object) -> None:
     assert numbered_channels(layout(SINE, rate))[2] == {}  # type: ignore[arg-type]
 
@@ -129,7 +128,7 @@ def test_channels_that_are_missing_are_counted() -> None:
     assert lacking_channels({}, columns) == []
 
 
-@pytest.mark.parametrize(("name", "told"), [("timetable", "timetable2table(x)"), ("odd", "as plain arrays")])
+@every(("name", "told"), [("timetable", "timetable2table(x)"), ("odd", "as plain arrays")])
 def test_an_object_is_refused_with_what_to_do(name: str, told: str) -> None:
     reason = object_reason(name)
     assert f"MATLAB's class {name}, which only MATLAB can open" in reason

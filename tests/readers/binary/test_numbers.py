@@ -6,13 +6,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as some
 from hypothesis.extra.numpy import arrays
 
 from colonnade.readers.binary.numbers import StoredNumbers, as_values, recorded, values_at
 from colonnade.readers.recording import RecordedChannel
+from every import every
 
 COLUMNS = [
     RecordedChannel("", None, np.arange(4) * 5, heading="run.t"),
@@ -58,11 +58,7 @@ def test_numbers_are_taken_at_their_stride_and_scaled() -> None:
     assert warnings == []
 
 
-@pytest.mark.parametrize(
-    ("change", "there"),
-    [({"count": 9}, 4), ({"end": 10}, 2), ({"first": 400}, 0), ({"first": -2}, 0)],
-    ids=["more than the file", "more than the block", "behind the file", "before the file"],
-)
+@every(("change", "there"), [({"count": 9}, 4), ({"end": 10}, 2), ({"first": 400}, 0), ({"first": -2}, 0)])
 def test_numbers_that_are_not_there_are_told(change: dict[str, int], there: int) -> None:
     values, warnings = values_at(CONTENT, replace(EVERY_THIRD, **change))
     assert values.size == there

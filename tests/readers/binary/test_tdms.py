@@ -18,6 +18,7 @@ from colonnade.readers.binary import tdms
 from colonnade.readers.binary.tdms import UNFINISHED, Ending, missing_samples, walk
 from colonnade.readers.recording import Window
 from colonnade.readers.registry import read
+from every import every
 
 SEGMENTS = 3
 
@@ -235,7 +236,7 @@ def test_a_stale_index_file_beside_it_is_not_looked_at(tmp_path: Path) -> None:
         read(tmp_path / "a.tdms_index")
 
 
-@pytest.mark.parametrize("cut", [8, 800, 1000], ids=lambda cut: f"{cut} bytes less")
+@every("cut", [8, 800, 1000])
 def test_a_file_that_was_cut_off_says_how_many_samples_are_there(tmp_path: Path, cut: int) -> None:
     path = written(
         tmp_path / "cut.tdms",
@@ -340,7 +341,7 @@ def two_channels(path: Path, step: float = 0.005) -> Path:
     return written(path, *segments)
 
 
-@pytest.mark.parametrize("window", [(2.0, 3.0), (0.0, 0.5), (9.0, 30.0), (0.05, 0.06)])
+@every("window", [(2.0, 3.0), (0.0, 0.5), (9.0, 30.0), (0.05, 0.06)])
 def test_a_window_of_a_long_file_is_what_the_whole_file_holds_there(
     tmp_path: Path, window: tuple[float, float]
 ) -> None:

@@ -10,6 +10,7 @@ import pytest
 
 from colonnade.readers.binary.tdms_clocks import Column, beginnings, on_clocks, waveform
 from colonnade.readers.recording import RecordedChannel
+from every import every
 
 START = np.datetime64("2013-04-26T10:15:00", "us")
 
@@ -19,16 +20,14 @@ def column(name: str, values: np.ndarray, group: str = "g", **properties: Any) -
     return Column(channel, waveform(properties))
 
 
-@pytest.mark.parametrize(
-    "properties",
-    [{}, {"wf_increment": 0}, {"wf_increment": -1.0}, {"wf_increment": np.nan}, {"wf_increment": "fast"}],
-    ids=str,
+@every(
+    "properties", [{}, {"wf_increment": 0}, {"wf_increment": -1.0}, {"wf_increment": np.nan}, {"wf_increment": "fast"}]
 )
 def test_a_step_that_is_none_gives_no_clock(properties: dict[str, Any]) -> None:
     assert waveform(properties) is None
 
 
-@pytest.mark.parametrize("start", [np.datetime64("1904-01-01", "us"), np.datetime64("NaT"), "yesterday", None], ids=str)
+@every("start", [np.datetime64("1904-01-01", "us"), np.datetime64("NaT"), "yesterday", None])
 def test_a_start_that_is_not_known_is_none(start: object) -> None:
     found = waveform({"wf_increment": 0.5, "wf_start_time": start})
     assert found is not None

@@ -16,7 +16,7 @@ from colonnade.readers.recording import RecordedChannel, Recording
 from every import every
 
 
-@pytest.mark.parametrize(
+@every(
     "answer",
     [
         b"",

@@ -10,6 +10,7 @@ import pytest
 
 from colonnade.errors import ReadError
 from delimited_text import recorded, values
+from every import every
 
 ROWS = "".join(f"{row};{row},5;-0,{row}\n" for row in range(1, 10))
 
@@ -26,7 +27,7 @@ def test_a_point_among_decimal_commas_is_missing_rather_than_guessed(tmp_path: P
     assert recording.warnings == ('"force": 1 cell holds no number (on line 4: "1.234"); missing',)
 
 
-@pytest.mark.parametrize(("thousands", "text"), [(".", "1.234"), ("'", "1'234"), (" ", "1 234")])
+@every(("thousands", "text"), [(".", "1.234"), ("'", "1'234"), (" ", "1 234")])
 def test_thousands_that_were_declared_are_read(tmp_path: Path, thousands: str, text: str) -> None:
     recording = recorded(tmp_path, f"n;force\n1;0,5\n2;{text}\n3;0,6\n4;0,7\n", thousands=thousands, decimal=",")
     assert values(recording, "force") == [0.5, 1234.0, 0.6, 0.7]
@@ -61,7 +62,7 @@ def test_fortran_exponents_and_the_printed_minus_are_numbers(tmp_path: Path) -> 
     assert values(recorded(tmp_path, "1.0D-03;\N{MINUS SIGN}2.5\n2.0D-03;3.5\n4.0D+00;4.5\n"), 2) == [-2.5, 3.5, 4.5]
 
 
-@pytest.mark.parametrize("text", ["NaN", "OVERFLOW", "-", "--", "#DIV/0!", "1.#INF", "inf", "", " ", "sensor off"])
+@every("text", ["NaN", "OVERFLOW", "-", "--", "#DIV/0!", "1.#INF", "inf", "", " ", "sensor off"])
 def test_what_recorders_write_for_no_number_is_missing_and_told(tmp_path: Path, text: str) -> None:
     recording = recorded(tmp_path, f"t;a;b\n0;1;2\n1;{text};2\n2;3;2\n3;{text};2\n")
     assert np.isnan(recording.channel("a").values).tolist() == [False, True, False, True]
@@ -152,7 +153,7 @@ def test_a_file_without_samples_is_refused(tmp_path: Path, text: str, message: s
         recorded(tmp_path, text)
 
 
-@pytest.mark.parametrize(
+@every(
     ("options", "message"),
     [
         ({"delimeter": ";"}, r'no option "delimeter". Did you mean "delimiter"'),
@@ -199,7 +200,7 @@ def test_whole_numbers_keep_their_size_with_a_mark_between_thousands(
     assert any("thousands" in note for note in recording.notes) is (mark in ".,")
 
 
-@pytest.mark.parametrize("written", ["{:.3f}", "{:.6g}"], ids=["always three decimals", "zeros at the end left out"])
+@every("written", ["{:.3f}", "{:.6g}"])
 def test_decimals_are_not_taken_for_thousands(tmp_path: Path, written: str) -> None:
     numbers = [float(written.format(550 + number / 3000)) for number in noisy_decay(1_000_000)]
     text = "".join(f"{row / 500};{written.format(number)}\n" for row, number in enumerate(numbers))

@@ -12,6 +12,7 @@ from pydantic import ValidationError
 from colonnade.errors import ReadError
 from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
 from colonnade.readers.text.encoding import text_of
+from every import every
 
 ROWS = "".join(f"{number},0;{number},25;{-number},5\n" for number in range(30))
 
@@ -43,7 +44,7 @@ def test_words_between_single_blanks_may_be_a_sentence(tmp_path: Path) -> None:
     assert header(tmp_path / "a.txt", rows).is_named is False
 
 
-@pytest.mark.parametrize(
+@every(
     ("text", "options", "told"),
     [
         ("\n \n", {}, "the file is empty"),
@@ -51,7 +52,6 @@ def test_words_between_single_blanks_may_be_a_sentence(tmp_path: Path) -> None:
         ("only words\n" * 5, {}, "no rows of numbers were found in the first 5 lines"),
         ("a b\n1 2\n", {"delimiter": ";", "decimal": ","}, "with delimiter = ';', decimal = ','"),
     ],
-    ids=["empty", "binary", "words", "as given"],
 )
 def test_a_text_without_rows_is_refused_with_the_reason(
     tmp_path: Path, text: str, options: dict[str, object], told: str
@@ -66,17 +66,16 @@ def test_text_in_another_encoding_than_given_is_refused(tmp_path: Path) -> None:
         read_header(text_of(tmp_path / "a.csv", "utf-32"), DelimitedOptions(encoding="utf-32"))
 
 
-@pytest.mark.parametrize(
+@every(
     "options",
     [{"delimiter": "ab"}, {"delimiter": "1"}, {"decimal": ".", "thousands": "."}, {"encoding": "utf-99"}, {"x": 1}],
-    ids=str,
 )
 def test_an_option_that_cannot_be_is_refused(options: dict[str, object]) -> None:
     with pytest.raises(ValidationError):
         DelimitedOptions.model_validate(options)
 
 
-@pytest.mark.parametrize(("word", "sign"), [("tab", "\t"), ("Semicolon", ";"), ("spaces", " "), ("|", "|")])
+@every(("word", "sign"), [("tab", "\t"), ("Semicolon", ";"), ("spaces", " "), ("|", "|")])
 def test_a_delimiter_may_be_a_word(word: str, sign: str) -> None:
     assert DelimitedOptions(delimiter=word).delimiter == sign
 

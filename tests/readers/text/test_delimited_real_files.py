@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from colonnade.readers.registry import read
+from every import every
 
 
 def test_a_shake_table_recording_with_names_and_units_rows(shared_data: Path) -> None:
@@ -29,7 +30,7 @@ def test_a_shake_table_recording_with_names_and_units_rows(shared_data: Path) ->
     assert recording.channel("Block accel 26430").values.std() == pytest.approx(0.006, abs=0.001)
 
 
-@pytest.mark.parametrize(("name", "rows"), [("earthquake-test1.csv", 4092), ("sinewave-test1.csv", 1400)])
+@every(("name", "rows"), [("earthquake-test1.csv", 4092), ("sinewave-test1.csv", 1400)])
 def test_recordings_without_header_and_clock(shared_data: Path, name: str, rows: int) -> None:
     recording = read(shared_data / "shaketable" / name)
     assert [channel.name for channel in recording.channels] == ["column 1", "column 2", "column 3"]

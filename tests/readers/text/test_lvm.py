@@ -14,6 +14,7 @@ from colonnade.errors import ReadError
 from colonnade.readers.registry import read
 from colonnade.readers.text.lvm import Segment, read_preamble, read_segments
 from colonnade.readers.text.numbered import NumberedLines
+from every import every
 
 PREAMBLE = "LabVIEW Measurement\nSeparator\tTab\nDecimal_Separator\t,\nX_Columns\tMulti\n***End_of_Header***\n\n"
 HEAD = "Channels\t1\nSamples\t2\nY_Unit_Label\tmm\n***End_of_Header***\nX_Value\ttop\tComment\n"
@@ -54,7 +55,7 @@ def test_a_special_block_is_passed_over(tmp_path: Path) -> None:
     assert warnings == []
 
 
-@pytest.mark.parametrize(
+@every(
     ("text", "told"),
     [
         ("LabVIEW Measurement\n", 'the line ".*End_of_Header.*" is missing'),
@@ -63,7 +64,6 @@ def test_a_special_block_is_passed_over(tmp_path: Path) -> None:
         (PREAMBLE + "Channels\t1\n", "ends within its header"),
         (PREAMBLE + HEAD.partition("X_Value")[0], "the names of the columns were expected"),
     ],
-    ids=["preamble", "decimal sign", "no header", "header", "names"],
 )
 def test_a_file_that_ends_too_early_says_where(tmp_path: Path, text: str, told: str) -> None:
     with pytest.raises(ReadError, match=told):
@@ -131,7 +131,7 @@ def test_without_x_columns_time_comes_from_the_header(tmp_path: Path) -> None:
     assert recording.start == datetime(2013, 4, 26, 10, 15, 2, 500000)
 
 
-@pytest.mark.parametrize("decimal", [".", ","])
+@every("decimal", [".", ","])
 def test_the_header_decides_the_decimal_sign(tmp_path: Path, decimal: str) -> None:
     rows = [f"{row * 0.005:.3f}\t{row}.125\t1.5E-1".replace(".", decimal) for row in range(3)]
     recording = read(written(tmp_path, header("One", decimal) + segment(rows)))
@@ -207,7 +207,7 @@ def test_a_file_without_samples_is_refused_with_the_reason(tmp_path: Path, text:
         read(written(tmp_path, text))
 
 
-@pytest.mark.parametrize("place", ["before", "within"])
+@every("place", ["before", "within"])
 def test_notes_in_a_segments_header_are_no_damage(tmp_path: Path, place: str) -> None:
     one, two = ([f"\t{row + first}\t0" for row in range(3)] for first in (0, 10))
     pieces = [segment(one, "10:15:01.5"), segment(two, "10:15:03.5")]

@@ -10,6 +10,7 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
+from every import every
 
 
 def written(tmp_path: Path, *lines: str) -> Path:
@@ -24,7 +25,7 @@ def block(delimiter: str, decimal: str, first: float, title: str) -> list[str]:
     return [title, delimiter.join(["Running Time", "Axial Displacement", "Axial Force"]), "s   mm   kN", *numbers, ""]
 
 
-@pytest.mark.parametrize(
+@every(
     ("declared", "delimiter", "decimal", "title", "date"),
     [
         ("ENU|1|2|.|/|:|1|0|0|A", "\t", ".", "Data Acquisition\tTime:\t10.0\tSec\t4/26/2013 1:54:32 PM", (13, 54, 22)),
@@ -44,7 +45,6 @@ def block(delimiter: str, decimal: str, first: float, title: str) -> list[str]:
             (13, 54, 22),
         ),
     ],
-    ids=["Excel, English", "Excel, German", "Lotus", "plain"],
 )
 def test_the_first_line_declares_delimiter_and_decimal_sign(
     tmp_path: Path, declared: str, delimiter: str, decimal: str, title: str, date: tuple[int, int, int]

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import pytest
-
 from colonnade.readers.text.cells import Dialect, is_sample
 from colonnade.readers.text.sniffing import Sniffed, column_kinds, find_first_sample, sniff
+from every import every
 
 GIVEN = Dialect("utf-8", ",", ".")
 
@@ -14,7 +13,7 @@ def sniffed(*lines: str, delimiter: str | None = None, decimal: str | None = Non
     return sniff(list(lines), GIVEN, delimiter=delimiter, decimal=decimal, thousands=None)
 
 
-@pytest.mark.parametrize(
+@every(
     ("lines", "delimiter", "decimal", "columns"),
     [
         (["1,5;2,5", "3,5;4,5"], ";", ",", 2),

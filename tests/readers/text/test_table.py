@@ -16,7 +16,7 @@ from every import every
 FOUND = HeadingLines(2, 3)
 
 
-@pytest.mark.parametrize(
+@every(
     ("options", "names", "units"),
     [
         ({}, 2, 3),
@@ -25,7 +25,6 @@ FOUND = HeadingLines(2, 3)
         ({"units_row": 3}, None, 2),
         ({"names_row": 0, "units_row": 0}, None, None),
     ],
-    ids=["found", "names given", "names where units were found", "units where names were found", "neither"],
 )
 def test_lines_of_names_and_units_are_as_given_else_as_found(
     options: dict[str, int], names: int | None, units: int | None
