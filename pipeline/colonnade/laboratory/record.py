@@ -6,7 +6,7 @@ from pathlib import Path
 
 from colonnade.dynamics.motion import Motion
 from colonnade.errors import ReadError
-from colonnade.readers.ground_motions.el_centro import EL_CENTRO, el_centro
+from colonnade.readers.motion import EL_CENTRO, el_centro
 
 
 def load_record(path: Path | None) -> tuple[str, Motion]:

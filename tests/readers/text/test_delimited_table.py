@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.text.heading import Heading, HeadingLines
-from colonnade.readers.text.layout import HeaderClaims
-from colonnade.readers.text.table import Table, TableOptions
+from colonnade.readers.text.delimited_header import TableOptions
+from colonnade.readers.text.heading import HeadingLines
+from delimited_text import recorded
 from every import every
 
 FOUND = HeadingLines(2, 3)
@@ -32,29 +31,16 @@ def test_lines_of_names_and_units_are_as_given_else_as_found(
     assert TableOptions(**options).heading_lines(FOUND) == HeadingLines(names, units)
 
 
-def table(*columns: list[float], kinds: tuple[str, ...]) -> Table:
-    names = tuple(f"column {number}" for number in range(1, len(columns) + 1))
-    heading = Heading(0, names, names, (None,) * len(columns), (), ())
-    return Table(Path("a.csv"), "delimited", heading, kinds, [np.array(column) for column in columns])
-
-
-def test_a_single_column_has_the_unit_and_clock_that_the_lines_above_claim() -> None:
-    recording = table([1.0, 2.0], kinds=("number",)).recording(TableOptions(), HeaderClaims(step=0.5, unit="g"))
-    (channel,) = recording.channels
+def test_a_single_column_has_the_unit_and_clock_that_the_lines_above_claim(tmp_path: Path) -> None:
+    (channel,) = recorded(tmp_path, "acceleration at intervals of 0.5 s, units of g\n1.0\n2.0\n3.0\n").channels
     assert channel.unit == "g"
     assert channel.time is not None
-    assert channel.time.tolist() == [0, 0.5]
+    assert channel.time.tolist() == [0, 0.5, 1]
 
 
-def test_the_column_that_is_given_is_the_clock_of_the_others() -> None:
-    options = TableOptions(time=1, time_unit="ms")
-    recording = table([0.0, 5.0], [1.0, 2.0], kinds=("number", "number")).recording(options, HeaderClaims())
-    clock, channel = recording.channels
-    assert clock.is_clock
-    assert channel.time is not None
-    assert channel.time.tolist() == [0, 0.005]
+def test_a_column_without_numbers_cannot_be_the_clock(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match="holds no number, so it cannot be the clock"):
-        table([np.nan], [1.0], kinds=("number", "number")).recording(TableOptions(time=1), HeaderClaims())
+        recorded(tmp_path, "x;a\n;1\n;2\n;3\n", time=1)
 
 
 @every(
