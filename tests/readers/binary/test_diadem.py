@@ -63,11 +63,6 @@ def test_a_channel_is_scaled_or_made_up_as_its_column_says(
     assert (stored.numbers.offset, stored.numbers.factor, stored.file, stored.numbers.count) == expected
 
 
-def test_numbers_in_blocks_have_a_stride(tmp_path: Path) -> None:
-    (stored,), _ = described_channels(header(tmp_path / "a.tdm", block='blockSize="6" blockOffset="4"'))
-    assert (stored.numbers.first, stored.numbers.stride) == (20, 6)
-
-
 @every(
     ("change", "told"),
     [(("usi2", "usi9"), "no column"), (('"inc0"/', '"inc9"/'), "inc9"), (("explicit_external", "odd"), '"odd"')],
@@ -191,13 +186,6 @@ def test_values_that_are_cut_off_are_told(written: Callable[..., Path]) -> None:
     values.write_bytes(values.read_bytes()[:-40])
     recording = read(path)
     assert recording.warnings == ('"table": record.tdx ends after 30 of its 40 values',)
-
-
-def test_a_header_without_its_values_says_which_file_is_lacking(written: Callable[..., Path]) -> None:
-    path = written("diadem")
-    path.with_suffix(".tdx").unlink()
-    with pytest.raises(ReadError, match=r'its values are in the file "record.tdx", which is not in its folder'):
-        read(path)
 
 
 def test_a_file_of_values_without_bytes_has_none(written: Callable[..., Path]) -> None:

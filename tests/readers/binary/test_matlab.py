@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -146,12 +145,6 @@ def test_a_single_number_gives_the_step_where_no_vector_is_a_clock(
     assert any(evidence in note for note in recording.notes)
 
 
-def test_two_steps_that_contradict_each_other_are_not_believed(tmp_path: Path) -> None:
-    recording = read(saved(tmp_path / "a.mat", {"top": TOP, "dt": 0.005, "fs": 100.0}))
-    assert recording.channel("top").time is None
-    assert any("the step is not clear" in note for note in recording.notes)
-
-
 def test_the_time_that_was_given_is_taken_and_a_likely_one_hinted_at(tmp_path: Path) -> None:
     path = saved(tmp_path / "a.mat", {"n": TIME * 1e3, "top": TOP})
     recording = read(path)
@@ -160,22 +153,6 @@ def test_the_time_that_was_given_is_taken_and_a_likely_one_hinted_at(tmp_path: P
     column(read(path, options={"time": "n", "time_unit": "ms"}), "top")
     with pytest.raises(ReadError, match='no column is called "m"'):
         read(path, options={"time": "m"})
-
-
-def test_a_unit_at_the_end_of_the_name_is_taken(tmp_path: Path) -> None:
-    column(read(saved(tmp_path / "a.mat", {"time_ms": TIME * 1e3, "top": TOP})), "top")
-
-
-def test_days_of_matlabs_calendar_are_a_clock_with_a_start(tmp_path: Path) -> None:
-    recording = read(saved(tmp_path / "a.mat", {"t": 735350.5 + TIME / 86400, "top": TOP}))  # datenum(2013,4,26,12,0,0)
-    np.testing.assert_allclose(recording.channel("top").time, TIME, atol=2e-5)
-    assert recording.start == datetime(2013, 4, 26, 12)
-
-
-def test_what_looks_like_a_clock_but_goes_back_is_none(tmp_path: Path) -> None:
-    recording = read(saved(tmp_path / "a.mat", {"t": TOP, "top": TOP}))
-    assert recording.channel("top").time is None
-    assert any("looks like a clock, but only" in warning for warning in recording.warnings)
 
 
 def test_only_the_variables_that_were_asked_for_are_read(tmp_path: Path) -> None:

@@ -113,31 +113,6 @@ def test_the_clock_that_was_given_is_taken(tmp_path: Path) -> None:
     )
 
 
-def test_only_the_file_itself_is_read(tmp_path: Path) -> None:
-    with h5py.File(tmp_path / "a.h5", "w") as file:
-        file["top"] = TOP
-        file["other"] = h5py.ExternalLink("b.h5", "top")
-        file.create_dataset("raw", shape=(5,), dtype="u1", external=[("/etc/hostname", 0, 5)])
-        file.create_dataset("bomb", shape=(1 << 40,), dtype="f8", chunks=(1 << 16,), compression="gzip")
-        file.create_group("loop")["loop"] = file["/"]
-    recording = read(tmp_path / "a.h5")
-    assert [channel.heading for channel in recording.channels] == ["top"]
-    told = " ".join(recording.notes)
-    assert "other is left out: it is a link" in told
-    assert "raw is left out: its numbers are in another file" in told
-    assert "bomb is damaged, or cannot be unpacked here" in " ".join(recording.warnings)
-    assert "loop/loop is left out: it contains itself" in told
-
-
-@every("form", ["NETCDF3_CLASSIC", "NETCDF4"])
-def test_a_file_that_was_cut_off_is_refused(tmp_path: Path, form: str) -> None:
-    path = saved(tmp_path / "a.nc", form, units="s")
-    whole = path.read_bytes()
-    path.write_bytes(whole[: len(whole) // 2])
-    with pytest.raises(ReadError, match=r"cut off|ends after"):
-        read(path)
-
-
 def test_the_variant_that_is_not_read_says_what_to_do(tmp_path: Path) -> None:
     (tmp_path / "a.nc").write_bytes(b"CDF\x05" + bytes(100))
     with pytest.raises(ReadError, match="nccopy -k nc4"):

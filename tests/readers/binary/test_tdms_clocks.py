@@ -70,10 +70,3 @@ def test_a_step_of_one_second_that_nobody_gave_yields_to_a_channel_of_times() ->
     recording = on_clocks(Path("a.tdms"), columns, None, None)
     np.testing.assert_array_equal(recording.channels[1].time, times)
     assert any('"g/top" uses the channel of times' in warning for warning in recording.warnings)
-
-
-def test_the_channel_that_is_given_is_the_clock_of_those_as_long_as_it() -> None:
-    columns = [column("x", np.arange(3.0)), column("a", np.zeros(3)), column("b", np.zeros(2), wf_increment=0.5)]
-    _, first, second = on_clocks(Path("a.tdms"), columns, "x", "ms").channels
-    np.testing.assert_allclose(first.time, [0, 0.001, 0.002])
-    np.testing.assert_allclose(second.time, [0, 0.5])

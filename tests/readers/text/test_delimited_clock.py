@@ -16,8 +16,6 @@ from colonnade.readers.text.delimited_header import DelimitedOptions
 from delimited_text import recorded
 from every import every
 
-ROWS = "".join(f"{row};{row},5;-0,{row}\n" for row in range(1, 10))
-
 
 @every(
     ("heading", "factor"),

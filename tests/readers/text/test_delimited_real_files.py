@@ -42,9 +42,3 @@ def test_recordings_without_header_and_clock(shared_data: Path, name: str, rows:
 def test_the_first_samples_of_a_file_without_header_are_kept(shared_data: Path) -> None:
     recording = read(shared_data / "shaketable" / "sinewave-test1.csv")
     assert recording.channel(2).values[:3].tolist() == [0.009, 0.0262, 0.0434]
-
-
-def test_a_record_as_two_columns(shared_data: Path) -> None:
-    recording = read(shared_data / "motion" / "elcentro_chopra_xy.dat")
-    assert recording.channel("Y").values.size == 1560
-    assert np.abs(recording.channel("y").values).max() == pytest.approx(0.3188, abs=5e-5)

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
-
-from colonnade.errors import ReadError
 from colonnade.readers.text.delimited_header import TableOptions
 from colonnade.readers.text.heading import HeadingLines
 from delimited_text import recorded
@@ -36,11 +33,6 @@ def test_a_single_column_has_the_unit_and_clock_that_the_lines_above_claim(tmp_p
     assert channel.unit == "g"
     assert channel.time is not None
     assert channel.time.tolist() == [0, 0.5, 1]
-
-
-def test_a_column_without_numbers_cannot_be_the_clock(tmp_path: Path) -> None:
-    with pytest.raises(ReadError, match="holds no number, so it cannot be the clock"):
-        recorded(tmp_path, "x;a\n;1\n;2\n;3\n", time=1)
 
 
 @every(

@@ -48,13 +48,6 @@ def test_each_header_begins_a_segment_and_rows_below_a_blank_line_another_of_the
     )
 
 
-def test_a_special_block_is_passed_over(tmp_path: Path) -> None:
-    block = "***Start_Special***\nPacket\tx\n***End_Special***\n"
-    (found,), warnings = segments(tmp_path / "a.lvm", PREAMBLE + HEAD + "0\t1\n" + block + "1\t2\n")
-    assert found.columns[1].tolist() == [1, 2]
-    assert warnings == []
-
-
 @every(
     ("text", "told"),
     [
@@ -191,22 +184,6 @@ def test_special_blocks_are_no_samples(tmp_path: Path) -> None:
     assert recording.channel("top").values.tolist() == [1, 3]
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        pytest.param("LabVIEW Measurement\nSeparator\tTab\n", "cut off in its header", id="within the first header"),
-        pytest.param(
-            header("No") + "\nChannels\t2\nSamples\t3\t3\n", "ends within its header", id="within a segment's"
-        ),
-        pytest.param(header("No") + segment([]), "no channel holds numbers", id="before the first row"),
-        pytest.param(header("No", ";") + segment(["\t1\t2"]), 'Decimal_Separator is ";"', id="another decimal sign"),
-    ],
-)
-def test_a_file_without_samples_is_refused_with_the_reason(tmp_path: Path, text: str, said: str) -> None:
-    with pytest.raises(ReadError, match=said):
-        read(written(tmp_path, text))
-
-
 @every("place", ["before", "within"])
 def test_notes_in_a_segments_header_are_no_damage(tmp_path: Path, place: str) -> None:
     one, two = ([f"\t{row + first}\t0" for row in range(3)] for first in (0, 10))
@@ -218,3 +195,8 @@ def test_notes_in_a_segments_header_are_no_damage(tmp_path: Path, place: str) ->
     assert recording.warnings == ()
     assert recording.channel("top").values.tolist() == [0, 1, 2, 10, 11, 12]
     np.testing.assert_allclose(recording.channel("top").time, [0, 0.005, 0.01, 2, 2.005, 2.01], atol=1e-9)
+
+
+def test_a_file_that_ends_before_its_first_row_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ReadError, match="no channel holds numbers"):
+        read(written(tmp_path, header("No") + segment([])))
