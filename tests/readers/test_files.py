@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.files import in_one_line, irregular, refusing, sha256_of, unreachable
+from colonnade.readers.files import in_one_line, irregular, refusing, sha256_of
 from every import every
 
 
@@ -81,10 +81,3 @@ def test_a_refusal_and_what_is_not_the_files_fault_pass(error: BaseException) ->
 
 def test_a_long_message_is_cut() -> None:
     assert len(in_one_line(ValueError("x" * 5000))) < 250
-
-
-def test_a_missing_file_is_told_with_the_nearest_name(tmp_path: Path) -> None:
-    (tmp_path / "free-01.csv").touch()
-    error = FileNotFoundError(errno.ENOENT, "x")
-    assert 'Did you mean "free-01.csv"?' in unreachable(tmp_path / "free-10.csv", error)
-    assert "as there is no folder" in unreachable(tmp_path / "raw" / "free-01.csv", error)

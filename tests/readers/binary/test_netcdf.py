@@ -111,9 +111,3 @@ def test_the_clock_that_was_given_is_taken(tmp_path: Path) -> None:
     np.testing.assert_allclose(
         read(tmp_path / "a.h5", options={"time": "n", "time_unit": "ms"}).channel("top").time, TIME, atol=1e-12
     )
-
-
-def test_the_variant_that_is_not_read_says_what_to_do(tmp_path: Path) -> None:
-    (tmp_path / "a.nc").write_bytes(b"CDF\x05" + bytes(100))
-    with pytest.raises(ReadError, match="nccopy -k nc4"):
-        read(tmp_path / "a.nc")

@@ -76,18 +76,6 @@ def test_a_number_that_stands_for_missing_can_be_told(tmp_path: Path) -> None:
     assert values(recorded(tmp_path, text), "a")[1] == -999.0
 
 
-def test_a_row_with_too_many_cells_is_missing_and_keeps_its_place(tmp_path: Path) -> None:
-    recording = recorded(tmp_path, "t;a;b\n0;1;2\n1;1;2\n2;9;9;9;9;9\n3;1;2\n")
-    assert np.isnan(values(recording, "b")).tolist() == [False, False, True, False]
-    assert recording.warnings == ('line 4: counted as missing: more than 3 cells ("2;9;9;9;9;9")',)
-
-
-def test_a_last_line_that_was_cut_is_left_out(tmp_path: Path) -> None:
-    recording = recorded(tmp_path, "t;a;b\n0;1;2\n1;1;2\n2;1;2\n3;1")
-    assert values(recording, "t") == [0, 1, 2]
-    assert recording.warnings[0].startswith("line 5: left out: the file ends here, before all 3 cells")
-
-
 def test_a_last_number_with_lost_decimals_is_missing(tmp_path: Path) -> None:
     rows = "".join(f"{row};{row / 1000:.4f}\n" for row in range(300))
     recording = recorded(tmp_path, "t;a\n" + rows + "300;0.1")
@@ -104,13 +92,6 @@ def test_columns_that_end_earlier_keep_their_values(tmp_path: Path) -> None:
     assert values(recording, "a") == list(range(30))
     assert np.isfinite(recording.channel("b").values).sum() == 20
     assert any("the last columns are shorter" in note for note in recording.notes)
-
-
-def test_comments_and_repeated_headings_among_samples_are_left_out(tmp_path: Path) -> None:
-    recording = recorded(tmp_path, "t;a\n0;1\n1;2\n# event 1\n2;3\nt;a\n3;4\n4;5\n")
-    assert values(recording, "a") == [1, 2, 3, 4, 5]
-    assert recording.warnings == ('line 6: left out: text without a number ("t;a")',)
-    assert any("line 4: left out as a comment" in note for note in recording.notes)
 
 
 def test_a_sample_behind_a_comment_sign_is_missing_and_keeps_its_place(tmp_path: Path) -> None:
@@ -160,6 +141,7 @@ def test_a_file_without_samples_is_refused(tmp_path: Path, text: str, message: s
         ({"decimal": "point"}, 'option "decimal" .* is "point"'),
         ({"encoding": "utf-9"}, r"unknown encoding"),
         ({"delimiter": "ab"}, r"one character was expected"),
+        ({"delimiter": "1"}, r"one character was expected"),
         ({"time": 1, "time_unit": "mm"}, r"a unit of time was expected"),
         ({"decimal": ",", "thousands": ","}, r"decimal and thousands are both"),
         ({"time": 4}, r"column 4 is missing; it has columns 1 to 3"),

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
-from pydantic import ValidationError
 
 from colonnade.errors import ReadError
 from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
@@ -64,15 +63,6 @@ def test_text_in_another_encoding_than_given_is_refused(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(ReadError, match="utf-32"):
         read_header(text_of(tmp_path / "a.csv", "utf-32"), DelimitedOptions(encoding="utf-32"))
-
-
-@every(
-    "options",
-    [{"delimiter": "ab"}, {"delimiter": "1"}, {"decimal": ".", "thousands": "."}, {"encoding": "utf-99"}, {"x": 1}],
-)
-def test_an_option_that_cannot_be_is_refused(options: dict[str, object]) -> None:
-    with pytest.raises(ValidationError):
-        DelimitedOptions.model_validate(options)
 
 
 @every(("word", "sign"), [("tab", "\t"), ("Semicolon", ";"), ("spaces", " "), ("|", "|")])

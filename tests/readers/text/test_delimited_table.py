@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from colonnade.readers.text.delimited_header import TableOptions
 from colonnade.readers.text.heading import HeadingLines
-from delimited_text import recorded
 from every import every
 
 FOUND = HeadingLines(2, 3)
@@ -26,13 +23,6 @@ def test_lines_of_names_and_units_are_as_given_else_as_found(
     options: dict[str, int], names: int | None, units: int | None
 ) -> None:
     assert TableOptions(**options).heading_lines(FOUND) == HeadingLines(names, units)
-
-
-def test_a_single_column_has_the_unit_and_clock_that_the_lines_above_claim(tmp_path: Path) -> None:
-    (channel,) = recorded(tmp_path, "acceleration at intervals of 0.5 s, units of g\n1.0\n2.0\n3.0\n").channels
-    assert channel.unit == "g"
-    assert channel.time is not None
-    assert channel.time.tolist() == [0, 0.5, 1]
 
 
 @every(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from datetime import datetime
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
@@ -97,14 +96,6 @@ def test_notes_of_the_operator_are_no_block(tmp_path: Path) -> None:
 def test_a_first_line_that_declares_nothing_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match=r'line 1 is "MTS793\|MPT\|ENU"; .* was expected'):
         read(written(tmp_path, "MTS793|MPT|ENU", "1\t2"))
-
-
-def test_a_row_that_is_too_short_counts_as_missing(tmp_path: Path) -> None:
-    lines = block("\t", ".", 0.0, "Data Acquisition\tTime:\t10.0\tSec\t4/26/2013 1:54:32 PM")
-    lines[2], lines[4] = "s\tmm\tkN", "0.5000\t11.5000"
-    recording = read(written(tmp_path, "MTS793|MPT|ENU|1|2|.|/|:|1|0|0|A", *lines))
-    np.testing.assert_array_equal(recording.channel("Axial Displacement").values, [10.5, np.nan, 12.5])
-    assert recording.warnings == ('line 6: counted as missing: fewer than 3 cells ("0.5000 11.5000")',)
 
 
 def test_the_longest_block_is_the_default_and_the_reader_says_so(tmp_path: Path) -> None:

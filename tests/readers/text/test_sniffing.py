@@ -42,10 +42,6 @@ def test_signs_between_thousands_are_found() -> None:
     assert 'between thousands (as in "1.234,5")' in found.notes[-1]
 
 
-def test_whole_numbers_around_commas_are_warned_of() -> None:
-    assert "could also be one column with decimal commas" in sniffed("1,5", "2,6", "3,7").warnings[0]
-
-
 def test_text_has_no_columns_of_numbers() -> None:
     assert sniffed("one", "two").columns == 0
 
