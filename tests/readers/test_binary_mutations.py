@@ -16,6 +16,7 @@ from nptdms import ChannelObject, TdmsWriter
 from colonnade.errors import ReadError
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import read
+from damage import KINDS, damaged
 from every import every
 
 TIME = np.arange(60) * 0.01
@@ -102,30 +103,6 @@ WRITERS = {
 }
 
 
-def damage(content: bytes, chance: random.Random) -> bytes:
-    kind = chance.choice(["flips", "head", "truncation", "deletion", "insertion", "zeros", "ones"])
-    place = chance.randrange(len(content))
-    damaged = bytearray(content)
-    if kind == "flips":
-        for _ in range(chance.randint(1, 30)):
-            damaged[chance.randrange(len(damaged))] ^= 1 << chance.randrange(8)
-    elif kind == "head":
-        for _ in range(chance.randint(1, 6)):
-            damaged[chance.randrange(min(len(damaged), 1500))] = chance.choice([0, 1, 127, 255])
-    elif kind == "truncation":
-        del damaged[place:]
-    elif kind == "deletion":
-        del damaged[place : place + chance.randint(1, 100)]
-    elif kind == "insertion":
-        damaged[place:place] = chance.randbytes(chance.randint(1, 50))
-    elif kind == "zeros":
-        damaged[place : place + 200] = bytes(len(damaged[place : place + 200]))
-    else:
-        place -= place % 4
-        damaged[place : place + 8] = b"\xff" * len(damaged[place : place + 8])
-    return bytes(damaged)
-
-
 def read_or_refusal(path: Path) -> Recording | ReadError:
     try:
         return read(path)
@@ -145,7 +122,7 @@ def test_a_damaged_file_is_read_or_refused(tmp_path: Path, name: str) -> None:
     samples = sum(channel.values.size for channel in whole.channels)
     seen: Counter[str] = Counter()
     for seed in range(MUTATIONS):
-        path.write_bytes(damage(content, random.Random(f"{name} {seed}")))
+        path.write_bytes(damaged(content, list(KINDS)[seed % len(KINDS)], random.Random(f"{name} {seed}")))
         recording = read_or_refusal(path)
         if isinstance(recording, ReadError):
             assert path.name in str(recording)

@@ -12,25 +12,9 @@ import pytest
 from colonnade.errors import ReadError
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import read
+from damage import KINDS, damaged
 from every import every
 
-INSERTED = [
-    '"',
-    ";",
-    ";;;;",
-    "OVERFLOW",
-    "\0\0\0\0",
-    "\r",
-    "\n\n",
-    "1.234,5",
-    "\N{GREEK SMALL LETTER THETA}",
-    "#",
-    "nan",
-    "--",
-    "\x1a",
-    "e",
-    "- 5",
-]
 ROWS = 400
 
 
@@ -42,26 +26,6 @@ def undamaged(separator: str, decimal: str, encoding: str) -> bytes:
     return ("\r\n".join(lines) + "\r\n").encode(encoding)
 
 
-def damage(content: bytes, kind: str, chance: random.Random) -> bytes:
-    place = chance.randrange(len(content))
-    if kind == "flips":
-        flipped = bytearray(content)
-        for _ in range(chance.randint(1, 40)):
-            flipped[chance.randrange(len(flipped))] ^= 1 << chance.randrange(8)
-        return bytes(flipped)
-    if kind == "truncation":
-        return content[:place]
-    if kind == "deletion":
-        return content[:place] + content[place + chance.randint(1, 200) :]
-    if kind == "insertion":
-        return content[:place] + chance.choice(INSERTED).encode() + content[place:]
-    if kind == "repetition":
-        return content[:place] + content[max(0, place - 300) :]
-    if kind == "zeros":
-        return content[:place] + bytes(chance.randint(1, 3000))
-    return bytes(chance.randrange(256) for _ in range(chance.randint(0, 3000)))
-
-
 def read_or_refusal(path: Path) -> Recording | ReadError:
     try:
         return read(path)
@@ -69,10 +33,10 @@ def read_or_refusal(path: Path) -> Recording | ReadError:
         return error
 
 
-@pytest.mark.parametrize("kind", ["flips", "truncation", "deletion", "insertion", "repetition", "zeros", "noise"])
 @pytest.mark.parametrize(
     ("separator", "decimal", "encoding"), [(";", ",", "latin-1"), (",", ".", "utf-16"), ("\t", ".", "utf-8")]
 )
+@every("kind", KINDS)
 def test_a_damaged_file_is_read_or_refused(
     tmp_path: Path, kind: str, separator: str, decimal: str, encoding: str
 ) -> None:
@@ -80,7 +44,7 @@ def test_a_damaged_file_is_read_or_refused(
     path = tmp_path / "damaged.csv"
     seen: Counter[str] = Counter()
     for seed in range(25):
-        path.write_bytes(damage(content, kind, random.Random(f"{kind} {encoding} {seed}")))
+        path.write_bytes(damaged(content, kind, random.Random(f"{kind} {encoding} {seed}")))
         outcome = read_or_refusal(path)
         if isinstance(outcome, ReadError):
             assert "damaged.csv" in str(outcome)
