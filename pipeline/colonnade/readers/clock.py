@@ -251,6 +251,32 @@ def moment_after(origin: datetime | None, seconds: float) -> datetime | None:
         return None
 
 
+def on_one_zero(channels: Sequence[RecordedChannel]) -> tuple[tuple[RecordedChannel, ...], datetime | None]:
+    """
+    Count the times of channels that have starts of their own from the earliest of these.
+
+    Returns
+    -------
+    channels : tuple of RecordedChannel
+    start : datetime or None
+        Of the first sample. None where no channel has a start, or only some of them have a zone: these cannot be
+        compared, and times stay as they are.
+    """
+    starts = [channel.start for channel in channels if channel.start is not None]
+    if len({moment.tzinfo for moment in starts}) != 1:
+        return tuple(channels), None
+    zero = min(starts)
+    moved = list(channels)
+    begins = []
+    for number, channel in enumerate(channels):
+        if channel.start is None or channel.time is None or not channel.time.size:
+            continue
+        shift = (channel.start - zero).total_seconds()
+        moved[number] = replace(channel, time=channel.time + shift) if shift else channel
+        begins.append(float(channel.time[0]) + shift)
+    return tuple(moved), moment_after(zero, min(begins, default=0.0))
+
+
 def rising_share(values: Array) -> float:
     """Share of the steps between numbers that are positive; 0 if there are fewer than two numbers."""
     steps = np.diff(values[np.isfinite(values)])

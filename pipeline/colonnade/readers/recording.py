@@ -55,6 +55,8 @@ class RecordedChannel:
         Whether the column holds times; `time` is then its own values in seconds.
     scope : tuple of str
         Structs or groups of the file that contain it, outermost first.
+    start : datetime or None
+        When its time is zero, where the file says it of each channel.
     """
 
     name: str
@@ -64,6 +66,7 @@ class RecordedChannel:
     heading: str = ""
     is_clock: bool = False
     scope: tuple[str, ...] = ()
+    start: datetime | None = None
 
     def __post_init__(self) -> None:
         if not self.heading:

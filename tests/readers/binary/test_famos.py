@@ -19,6 +19,18 @@ def test_start_is_that_of_the_trigger_and_the_blocks_offset(written: Callable[..
     assert recording.start == datetime(2013, 4, 26, 10, 15, 0, 250000)
 
 
+def test_channels_that_were_triggered_at_different_times_count_from_the_first(written: Callable[..., Path]) -> None:
+    path = written("famos")
+    content = path.read_bytes()
+    second = content.rindex(b"26,4,2013,10,15,0.25")
+    path.write_bytes(content[:second] + b"26,4,2013,10,15,1.75" + content[second + 20 :])
+    recording = read(path)
+    top, table = (channel.time for channel in recording.channels)
+    np.testing.assert_allclose(top, np.arange(40) / 200)
+    np.testing.assert_allclose(table, 1.5 + np.arange(40) / 200)
+    assert recording.start == datetime(2013, 4, 26, 10, 15, 0, 250000)
+
+
 def whole_numbers(path: Path, kind: int, form: str, *, order: int = 1, packing: str = "0,0,1,0") -> Path:
     data = np.array([0, 1, -2 if form[0] != "u" else 2, 100]).astype((">" if order == 2 else "<") + form).tobytes()
     size = int(form[1:])

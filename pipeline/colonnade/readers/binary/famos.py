@@ -12,7 +12,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.readers.binary.numbers import Bytes, StoredNumbers, values_at
-from colonnade.readers.clock import even_times, moment_after
+from colonnade.readers.clock import even_times, moment_after, on_one_zero
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, by_mark, from_head
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
@@ -73,17 +73,16 @@ def read(path: Path, options: Options) -> Recording:
     if "CG" in file.current and file.current is file.data_set:
         file.warnings.append("the last data set has no channel: the file was cut off")
     channels: list[RecordedChannel] = []
-    starts: list[datetime | None] = []
     for said in file.components:
         found = _values(content, file, said)
         if found.size:
-            time, start = _clock(said, found.size)
-            channels += _named(said, found, time, len(channels) + 1, file.warnings)
-            starts += [] if time is None else [start]
-    notes = ["clock: each channel's own start and step" if starts else "no clock: x is not a time"]
+            channels += _named(said, found, len(channels) + 1, file.warnings)
+    timed, start = on_one_zero(channels)
+    has_clock = any(channel.time is not None for channel in timed)
+    notes = ["clock: each channel's own start and step" if has_clock else "no clock: x is not a time"]
     if not all(map(_is_plain, file.components)):
         notes.append("a data set of pairs (x, y): both are channels, neither is used as a clock")
-    return Recording(path, "famos", tuple(channels), starts[0] if starts else None, tuple(notes), tuple(file.warnings))
+    return Recording(path, "famos", timed, start, tuple(notes), tuple(file.warnings))
 
 
 def _blocks(content: Bytes, file: _File) -> Iterator[tuple[int, str, bytes]]:
@@ -197,24 +196,22 @@ def _values(content: Bytes, file: _File, said: _Said) -> Array:
 
 
 def _clock(said: _Said, count: int) -> tuple[Array | None, datetime | None]:
-    """Times of a channel whose x is time, and the moment of the first."""
+    """Times of a channel whose x is time, and the moment of their zero."""
     step, unit = said.get("CD", (0.0, ""))
     scale = TIME_UNITS.get(unit.casefold())
     if step <= 0 or scale is None or not _is_plain(said):
         return None, None
     *_, x0, added = said["Cb"]
-    begin = x0 * scale
-    return even_times(count, step * scale, begin), moment_after(said.get("NT"), added + begin)
+    return even_times(count, step * scale, x0 * scale), moment_after(said.get("NT"), added)
 
 
-def _named(
-    said: _Said, values: Array, time: Array | None, number: int, warnings: list[str]
-) -> Iterator[RecordedChannel]:
+def _named(said: _Said, values: Array, number: int, warnings: list[str]) -> Iterator[RecordedChannel]:
     """Make a channel of values, or one of each bit of words that has a name."""
     name = _name(said) or f"channel {number}"
+    time, start = _clock(said, values.size)
     digital = _digital(said)
     if not digital:
-        yield RecordedChannel(name, said["CR"][-1] or None if "CR" in said else None, values, time)
+        yield RecordedChannel(name, said["CR"][-1] or None if "CR" in said else None, values, time, start=start)
         return
     words = values.astype(np.int64)
     for bit, own in digital:
@@ -222,7 +219,7 @@ def _named(
             warnings.append(f'"{own}": it is bit {bit} of a word, which has at most {WIDEST}; left out')
             continue
         is_set = (words >> (bit - 1) & 1).astype(np.float64)
-        yield RecordedChannel(own or f"{name} bit {bit}", None, is_set, time)
+        yield RecordedChannel(own or f"{name} bit {bit}", None, is_set, time, start=start)
 
 
 FORMAT = Format(

@@ -13,7 +13,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.clock import even_times, moment_after
+from colonnade.readers.clock import even_times, moment_after, on_one_zero
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import RecordedChannel, Recording
@@ -45,12 +45,11 @@ COMPONENT = re.compile(r"^Sta\s+Cha\w*[\s:]*(?P<name>.*?)\s*(?:\(Rcrdr|Location|
 
 @dataclass(frozen=True)
 class Part:
-    """A record within a file: one channel, as far as it is there, its component, a note, and when it starts."""
+    """A record within a file: one channel, as far as it is there, its component, and a note."""
 
     channel: RecordedChannel
     component: str
     note: str
-    start: datetime | None
 
 
 @from_head
@@ -74,9 +73,6 @@ def read(path: Path, options: Options) -> Recording:
         strays: list[str] = []
         warnings: list[str] = []
         parts = list(_parts(path, lines, strays, warnings))
-    starts = [part.start for part in parts if part.start is not None]
-    # A damaged header may lack its zone.
-    start = min(starts) if len({moment.tzinfo for moment in starts}) == 1 else None
     channels: list[RecordedChannel] = []
     notes: list[str] = []
     told = [f"{stray} does not belong to a channel: the file may have been cut off there" for stray in strays[:1]]
@@ -84,12 +80,10 @@ def read(path: Path, options: Options) -> Recording:
         name = part.channel.name
         if name in [channel.name for channel in channels]:
             name = f"{name} {part.component or len(parts)}"
-        time = part.channel.time
-        if time is not None and part.start is not None and start is not None:
-            time = time + (part.start - start).total_seconds()
-        channels.append(replace(part.channel, name=name, heading=name, time=time))
+        channels.append(replace(part.channel, name=name, heading=name))
         notes.append(f'"{name}": {part.note}')
-    return Recording(path, "cosmos", tuple(channels), start, tuple(notes), (*told, *warnings))
+    timed, start = on_one_zero(channels)  # a damaged header may lack its zone
+    return Recording(path, "cosmos", timed, start, tuple(notes), (*told, *warnings))
 
 
 def _parts(path: Path, lines: NumberedLines, strays: list[str], warnings: list[str]) -> Iterator[Part]:
@@ -149,8 +143,9 @@ def _part(
     component = next((found["name"] for text in texts if (found := COMPONENT.match(text))), "")
     component = " ".join(component.split())
     times = even_times(values.size, step)
-    channel = RecordedChannel(data["quantity"].casefold(), spelled(data["unit"]), values, times)
-    return Part(channel, component, f"{points} points, step {step:g} s, {component} (line {line})", _start(texts))
+    quantity, unit = data["quantity"].casefold(), spelled(data["unit"])
+    channel = RecordedChannel(quantity, unit, values, times, start=_start(texts))
+    return Part(channel, component, f"{points} points, step {step:g} s, {component} (line {line})")
 
 
 def _start(texts: list[str]) -> datetime | None:
