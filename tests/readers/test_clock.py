@@ -37,10 +37,8 @@ def test_the_time_of_a_graph_that_labview_exported_is_the_clock(tmp_path: Path) 
     assert recording.channel("Amplitude [g] - Plot 1") is second
 
 
-@pytest.mark.parametrize("head", ["", "\ttop\tbottom\n"], ids=["no names at all", "no name above it"])
-@pytest.mark.parametrize(
-    ("rate", "form"), [(200.0, "{:.4f}"), (600.0, "{:.3f}")], ids=["exact times", "times rounded to milliseconds"]
-)
+@every("head", ["", "\ttop\tbottom\n"])
+@every(("rate", "form"), [(200.0, "{:.4f}"), (600.0, "{:.3f}")])
 def test_a_first_column_without_a_name_that_rises_in_equal_steps_is_the_clock(
     tmp_path: Path, head: str, rate: float, form: str
 ) -> None:

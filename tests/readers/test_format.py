@@ -85,8 +85,8 @@ def test_the_modules_that_a_format_loads_late_exist(name):
     assert [module for module in formats()[name].modules if find_spec(module) is None] == []
 
 
-@pytest.mark.parametrize("content", [b"\0", RANDOM, b"PK\x03\x04", b"\x89HDF\r\n\x1a\n"], ids=len)
-@pytest.mark.parametrize("name", NAMES)
+@every("content", [b"\0", RANDOM, b"PK\x03\x04", b"\x89HDF\r\n\x1a\n"])
+@every("name", NAMES)
 def test_a_format_gives_its_reason_for_a_file_of_whatever_it_is(tmp_path, name, content):
     path = tmp_path / "record.bin"
     path.write_bytes(content)

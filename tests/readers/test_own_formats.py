@@ -7,7 +7,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.recording import Recording
@@ -51,7 +50,7 @@ def read_or_refusal(name: str, path: Path) -> Recording | ReadError:
         return error
 
 
-@pytest.mark.parametrize("name", OWN)
+@every("name", OWN)
 @every("kind", KINDS)
 def test_a_damaged_file_is_read_or_refused_by_its_format(written: Callable[..., Path], name: str, kind: str) -> None:
     path = written(name)
@@ -70,8 +69,8 @@ def test_a_damaged_file_is_read_or_refused_by_its_format(written: Callable[..., 
     assert recordings > 0 or kind == "noise" or name == "diadem"  # XML is whole or none
 
 
-@pytest.mark.parametrize("name", OWN)
-@pytest.mark.parametrize("share", [0.6, 0.9])
+@every("name", OWN)
+@every("share", [0.6, 0.9])
 def test_a_file_that_was_cut_off_says_so(written: Callable[..., Path], name: str, share: float) -> None:
     path = written(name)
     cut = path.with_suffix(".tdx") if name == "diadem" else path

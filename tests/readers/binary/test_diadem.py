@@ -143,8 +143,8 @@ def tdm(
     return path
 
 
-@pytest.mark.parametrize("packed", [False, True], ids=["plain", "packed"])
-@pytest.mark.parametrize("order", ["littleEndian", "bigEndian"])
+@every("packed", [False, True])
+@every("order", ["littleEndian", "bigEndian"])
 def test_a_tdm_header_tells_scaling_interleaving_and_clock(tmp_path: Path, packed: bool, order: str) -> None:
     recording = read(tdm(tmp_path, packed=packed, order=order))
     top = recording.channel("top")

@@ -56,11 +56,11 @@ def whole_numbers(path: Path, kind: int, form: str, *, order: int = 1, packing: 
     return path
 
 
-@pytest.mark.parametrize(
+@every(
     ("kind", "form"),
     [(1, "u1"), (2, "i1"), (3, "u2"), (4, "i2"), (5, "u4"), (6, "i4"), (7, "f4"), (8, "f8"), (12, "u8"), (14, "i8")],
 )
-@pytest.mark.parametrize("order", [1, 2], ids=["Intel", "Motorola"])
+@every("order", [1, 2])
 def test_numbers_of_every_kind_are_scaled(tmp_path: Path, kind: int, form: str, order: int) -> None:
     recording = read(whole_numbers(tmp_path / "record.raw", kind, form, order=order))
     third = 2 if form[0] == "u" else -2
@@ -100,8 +100,8 @@ def digital_word(path: Path, names: dict[int, str], *, kind: int = 11, bits: int
     return path
 
 
-@pytest.mark.parametrize("bits", [16, 4], ids=["a whole word", "a word of which four bits are used"])
-@pytest.mark.parametrize("scaled", [False, True])
+@every("bits", [16, 4])
+@every("scaled", [False, True])
 def test_digital_channels_of_one_word_are_channels_of_their_own(tmp_path: Path, bits: int, scaled: bool) -> None:
     names = {1: "release", 2: "door", 3: "pump", 16: "sync"}
     recording = read(digital_word(tmp_path / "record.raw", names, bits=bits, scaled=scaled))

@@ -162,9 +162,9 @@ def noisy_decay(peak: float) -> list[int]:
 MARKS = [".", ",", "'", "\N{RIGHT SINGLE QUOTATION MARK}", " ", "\N{NO-BREAK SPACE}", "\N{NARROW NO-BREAK SPACE}"]
 
 
-@pytest.mark.parametrize("peak", [1100, 2200, 250_000, 3_000_000], ids=lambda peak: f"up to {peak}")
-@pytest.mark.parametrize("decimal", [".", ","])
-@pytest.mark.parametrize("mark", MARKS, ids=ascii)
+@every("peak", [1100, 2200, 250_000, 3_000_000])
+@every("decimal", [".", ","])
+@every("mark", MARKS)
 def test_whole_numbers_keep_their_size_with_a_mark_between_thousands(
     tmp_path: Path, mark: str, decimal: str, peak: int
 ) -> None:

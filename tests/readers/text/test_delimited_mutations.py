@@ -7,7 +7,6 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.recording import Recording
@@ -33,9 +32,7 @@ def read_or_refusal(path: Path) -> Recording | ReadError:
         return error
 
 
-@pytest.mark.parametrize(
-    ("separator", "decimal", "encoding"), [(";", ",", "latin-1"), (",", ".", "utf-16"), ("\t", ".", "utf-8")]
-)
+@every(("separator", "decimal", "encoding"), [(";", ",", "latin-1"), (",", ".", "utf-16"), ("\t", ".", "utf-8")])
 @every("kind", KINDS)
 def test_a_damaged_file_is_read_or_refused(
     tmp_path: Path, kind: str, separator: str, decimal: str, encoding: str
