@@ -9,8 +9,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
 
 from colonnade.errors import ReadError
-from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
+from colonnade.readers.text.delimited_header import DelimitedOptions, Header, TableOptions, read_header
 from colonnade.readers.text.encoding import text_of
+from colonnade.readers.text.heading import HeadingLines
 from every import every
 
 ROWS = "".join(f"{number},0;{number},25;{-number},5\n" for number in range(30))
@@ -83,3 +84,38 @@ def test_whatever_is_above_the_rows_these_are_found(
     found = header(tmp_path / "a.csv", "\n".join([*above, *rows, ""]))
     assert len(found.form.kinds) == width
     assert found.heading.first <= len(above) + 1
+
+
+FOUND = HeadingLines(2, 3)
+
+
+@every(
+    ("options", "names", "units"),
+    [
+        ({}, 2, 3),
+        ({"names_row": 1}, 0, 3),
+        ({"names_row": 4}, 3, None),
+        ({"units_row": 3}, None, 2),
+        ({"names_row": 0, "units_row": 0}, None, None),
+    ],
+)
+def test_lines_of_names_and_units_are_as_given_else_as_found(
+    options: dict[str, int], names: int | None, units: int | None
+) -> None:
+    assert TableOptions(**options).heading_lines(FOUND) == HeadingLines(names, units)
+
+
+@every(
+    ("kinds", "options", "kind"),
+    [
+        (("number", "number"), TableOptions(layout="running"), "running"),
+        (("time", "number"), TableOptions(), "columns"),
+        (("number", "number"), TableOptions(time=1), "columns"),
+        (("number", "number"), TableOptions(), None),
+    ],
+)
+def test_the_layout_is_as_given_or_as_the_columns_kinds_leave_it(
+    kinds: tuple[str, ...], options: TableOptions, kind: str | None
+) -> None:
+    layout = options.given_layout(kinds)
+    assert (None if layout is None else layout.kind) == kind
