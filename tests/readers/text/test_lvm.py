@@ -41,11 +41,8 @@ def test_each_header_begins_a_segment_and_rows_below_a_blank_line_another_of_the
     assert [segment.names for segment in found] == [("X_Value", "top")] * 3
     assert [segment.columns[1].tolist() for segment in found] == [[1.5, 2.5]] * 3
     assert found[0].entries is found[1].entries
-    assert (found[0].entry("Y_Unit_Label", 1), found[0].entry("Y_Unit_Label", 9), found[0].entry("x", 0)) == (
-        "mm",
-        "",
-        "",
-    )
+    said = [found[0].entry(key, column) for key, column in (("Y_Unit_Label", 1), ("Y_Unit_Label", 9), ("x", 0))]
+    assert said == ["mm", "", ""]
 
 
 @every(
