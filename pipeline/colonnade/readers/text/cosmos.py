@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import UTC, datetime
 from itertools import islice
 from pathlib import Path
@@ -43,13 +43,8 @@ START = re.compile(
 COMPONENT = re.compile(r"^Sta\s+Cha\w*[\s:]*(?P<name>.*?)\s*(?:\(Rcrdr|Location|$)", re.IGNORECASE)
 
 
-@dataclass(frozen=True)
-class Part:
-    """A record within a file: one channel, as far as it is there, its component, and a note."""
-
-    channel: RecordedChannel
-    component: str
-    note: str
+Part = tuple[RecordedChannel, str, str]
+"""A record within a file: one channel, as far as it is there, its component, and a note."""
 
 
 @from_head
@@ -76,12 +71,12 @@ def read(path: Path, options: Options) -> Recording:
     channels: list[RecordedChannel] = []
     notes: list[str] = []
     told = [f"{stray} does not belong to a channel: the file may have been cut off there" for stray in strays[:1]]
-    for part in parts:
-        name = part.channel.name
-        if name in [channel.name for channel in channels]:
-            name = f"{name} {part.component or len(parts)}"
-        channels.append(replace(part.channel, name=name, heading=name))
-        notes.append(f'"{name}": {part.note}')
+    for channel, component, note in parts:
+        name = channel.name
+        if name in [other.name for other in channels]:
+            name = f"{name} {component or len(parts)}"
+        channels.append(replace(channel, name=name, heading=name))
+        notes.append(f'"{name}": {note}')
     timed, start = on_one_zero(channels)  # a damaged header may lack its zone
     return Recording(path, "cosmos", timed, start, tuple(notes), (*told, *warnings))
 
@@ -145,7 +140,7 @@ def _part(
     times = even_times(values.size, step)
     quantity, unit = data["quantity"].casefold(), spelled(data["unit"])
     channel = RecordedChannel(quantity, unit, values, times, start=_start(texts))
-    return Part(channel, component, f"{points} points, step {step:g} s, {component} (line {line})")
+    return channel, component, f"{points} points, step {step:g} s, {component} (line {line})"
 
 
 def _start(texts: list[str]) -> datetime | None:
