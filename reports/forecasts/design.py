@@ -15,7 +15,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.restitution.identify import identify_restitution
 from colonnade.identification.restitution.pooling import Pooled, pool
-from colonnade.readers.ground_motions.el_centro import el_centro
+from colonnade.readers.motion import el_centro
 
 HEIGHTS = (0.3, 0.456, 0.6, 1.5)
 """Of the prisms, m."""

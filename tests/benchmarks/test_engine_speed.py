@@ -13,6 +13,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import paper_schemes as schemes
+from colonnade.dynamics.plane.harmonic.march import Watch, run
+from colonnade.dynamics.plane.harmonic.nonlinear import empty_series
 from colonnade.dynamics.plane.nonlinear import by_series
 from colonnade.dynamics.plane.sampled_march import propagate
 from colonnade.dynamics.plane.sides import sides_of
@@ -152,3 +154,90 @@ def test_the_exact_engine_beside_a_bare_pass_over_the_samples(capsys):
             )
         print()
     assert costs[1.5] / bare < 200
+
+
+class Heyoka:
+    """heyoka's Taylor integrator of the same nonlinear block under a sine, landings by terminal events."""
+
+    def __init__(self, heyoka, tolerance):
+        angle, velocity = heyoka.make_vars("angle", "velocity")
+        side, level, omega, end = (heyoka.par[k] for k in range(4))
+        lean = ALPHA * side - angle
+        turning = -(heyoka.sin(lean) + level * heyoka.sin(omega * heyoka.time) * heyoka.cos(lean))
+        events = [
+            heyoka.t_event(angle, callback=lambda integrator, _: self._land(integrator)),
+            heyoka.t_event(side * angle - end),
+        ]
+        self.integrator = heyoka.taylor_adaptive(
+            [(angle, velocity), (velocity, turning)], [0.0, 0.0], pars=[0.0] * 4, t_events=events, tol=tolerance
+        )
+
+    def _land(self, integrator):
+        side = -integrator.pars[0]
+        self.impacts.append((integrator.time, integrator.state[1]))
+        velocity = RESTITUTION * integrator.state[1]
+        integrator.pars[0], integrator.state[1] = side, velocity
+        base = integrator.pars[1] * math.sin(integrator.pars[2] * integrator.time)
+        holding = math.sin(ALPHA) + side * base * math.cos(ALPHA)
+        return not (holding >= 0 and velocity**2 / 2 <= REST * ALPHA * holding)
+
+    def run(self, omega, level, end):
+        """Times (1/p) and velocities (p) of the impacts from rest to `end`, to rest, or past return."""
+        integrator, self.impacts = self.integrator, []
+        integrator.reset_cooldowns()
+        uplift = math.asin(math.tan(ALPHA) / level) / omega
+        # It needs to be off θ = 0: just after uplift θ = −b' x³/6, b' the rate of the moment.
+        x, rate = 1e-5, math.sqrt(level**2 - math.tan(ALPHA) ** 2) * omega * math.cos(ALPHA)
+        integrator.time = uplift + x
+        integrator.state[:] = -rate * x**3 / 6, -rate * x**2 / 2
+        integrator.pars[:] = -1.0, level, omega, ALPHA + math.atan(level)
+        integrator.propagate_until(end)
+        return np.array(self.impacts).reshape(-1, 2)
+
+
+def _harmonic(omega, level, end, impacts):
+    edges = np.array([0.0, end / P, end / P])
+    watch = Watch(0.0, 1e-3, 1.0, np.empty((0, 2)), impacts)
+    _, _, count = run((omega * P, 0.0, level), edges, None, SIDES, watch, empty_series())
+    return impacts[:count] * [P, 1 / P]
+
+
+def _agreement(first, second, until):
+    count = min(len(first), len(second), until)
+    return np.abs(first[:count] - second[:count])[:, 1].max(initial=0.0) / ALPHA
+
+
+def test_the_nonlinear_engine_beside_heyoka(capsys):
+    heyoka = pytest.importorskip("heyoka", reason="the extra `bench` is not installed")
+    rng = np.random.default_rng(1)
+    points = list(zip(rng.uniform(1.1, 7.8, 300), rng.uniform(1.1, 4.0, 300) * math.tan(ALPHA), strict=True))
+    runs = [(omega, level, 40 * np.pi / omega) for omega, level in points]
+    impacts = np.empty((4096, 2))
+    exact = Heyoka(heyoka, 1e-15)
+    horizons, own_errors = [], []
+    for omega, level, end in runs:
+        mine = _harmonic(omega, level, end, impacts)
+        moved = _harmonic(omega, level * (1 + 1e-13), end, np.empty((4096, 2)))
+        count = min(len(mine), len(moved))
+        parted = np.abs(mine[:count] - moved[:count])[:, 1] > 1e-10 * ALPHA
+        horizons.append(int(np.argmax(parted)) if parted.any() else count)
+        own_errors.append(_agreement(mine, exact.run(omega, level, end), horizons[-1]))
+    own = _seconds(lambda: [_harmonic(*run, impacts) for run in runs], 5)
+    rows = []
+    for tolerance in (1e-10, 1e-12, 1e-14):
+        peer = Heyoka(heyoka, tolerance)
+        errors = [
+            _agreement(peer.run(*run), _harmonic(*run, impacts), horizon)
+            for run, horizon in zip(runs, horizons, strict=True)
+        ]
+        rows.append((tolerance, max(errors), _seconds(lambda peer=peer: [peer.run(*run) for run in runs], 2)))
+    with capsys.disabled():
+        print(
+            f"\nnonlinear harmonic: {len(runs) / own:,.0f} trajectories/s, largest error before the horizon "
+            f"{max(own_errors):.0e} α, median {np.median(own_errors):.0e}; {np.mean(horizons):.1f} impacts on average"
+        )
+        for tolerance, error, seconds in rows:
+            print(f"heyoka at {tolerance:g}: {len(runs) / seconds:,.0f}/s, {error:.0e} α; ratio {seconds / own:.1f}")
+    assert max(own_errors) < 1e-9
+    accurate = min(seconds for _, error, seconds in rows if error < 1e-9)
+    assert accurate / own >= 2

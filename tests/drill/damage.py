@@ -120,9 +120,19 @@ def _replaced(data: bytearray, chance: random.Random, texts: tuple[bytes, ...], 
     return data
 
 
+def zeros(data: bytearray, chance: random.Random) -> bytearray:
+    """Zeros from a place on, as a power failure leaves them."""
+    return data[: chance.randrange(len(data))] + bytearray(chance.randint(1, 3000))
+
+
+def noise(data: bytearray, chance: random.Random) -> bytearray:
+    """Any bytes, behind the marks that a file starts with or in their place."""
+    return data[: chance.choice((0, 60))] + bytearray(chance.randbytes(chance.randint(0, 3000)))
+
+
 KINDS: dict[str, Kind] = {
     kind.__name__: kind
-    for kind in (flips, head, truncation, deletion, repetition, junk, lines, delimiters, numbers, huge)
+    for kind in (zeros, noise, flips, head, truncation, deletion, repetition, junk, lines, delimiters, numbers, huge)
 }
 
 

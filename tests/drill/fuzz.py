@@ -70,7 +70,7 @@ def seed(whole: Path, corpus: Path, format: str) -> list[Path]:
 def target(format: Any, path: Path) -> Callable[[bytes], None]:
     """Build what is fuzzed: a file is recognised and read."""
     from colonnade.errors import ReadError
-    from colonnade.readers.bounded.recordings import recording_of
+    from colonnade.readers.bounded.messages import recording_of
     from colonnade.readers.registry import read_here
 
     warnings.simplefilter("ignore")

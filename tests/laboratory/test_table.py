@@ -7,7 +7,7 @@ import pytest
 
 from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.table import TableMotion, ramped_sine, recorded, still
-from colonnade.readers.ground_motions.el_centro import el_centro
+from colonnade.readers.motion import el_centro
 
 RECORD_STEP = 0.02 / 20**0.5
 START = 100 * RECORD_STEP

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-import pytest
 import scipy.io
 import xlwt
 from nptdms import ChannelObject, TdmsWriter
@@ -17,6 +16,8 @@ from nptdms import ChannelObject, TdmsWriter
 from colonnade.errors import ReadError
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import read
+from damage import KINDS, damaged
+from every import every
 
 TIME = np.arange(60) * 0.01
 TABLE = np.random.default_rng(5).random((60, 3))
@@ -102,30 +103,6 @@ WRITERS = {
 }
 
 
-def damage(content: bytes, chance: random.Random) -> bytes:
-    kind = chance.choice(["flips", "head", "truncation", "deletion", "insertion", "zeros", "ones"])
-    place = chance.randrange(len(content))
-    damaged = bytearray(content)
-    if kind == "flips":
-        for _ in range(chance.randint(1, 30)):
-            damaged[chance.randrange(len(damaged))] ^= 1 << chance.randrange(8)
-    elif kind == "head":
-        for _ in range(chance.randint(1, 6)):
-            damaged[chance.randrange(min(len(damaged), 1500))] = chance.choice([0, 1, 127, 255])
-    elif kind == "truncation":
-        del damaged[place:]
-    elif kind == "deletion":
-        del damaged[place : place + chance.randint(1, 100)]
-    elif kind == "insertion":
-        damaged[place:place] = chance.randbytes(chance.randint(1, 50))
-    elif kind == "zeros":
-        damaged[place : place + 200] = bytes(len(damaged[place : place + 200]))
-    else:
-        place -= place % 4
-        damaged[place : place + 8] = b"\xff" * len(damaged[place : place + 8])
-    return bytes(damaged)
-
-
 def read_or_refusal(path: Path) -> Recording | ReadError:
     try:
         return read(path)
@@ -133,7 +110,7 @@ def read_or_refusal(path: Path) -> Recording | ReadError:
         return error
 
 
-@pytest.mark.parametrize("name", list(WRITERS))
+@every("name", list(WRITERS))
 def test_a_damaged_file_is_read_or_refused(tmp_path: Path, name: str) -> None:
     writer: Callable[[Path], None]
     writer, suffix = WRITERS[name]
@@ -145,7 +122,7 @@ def test_a_damaged_file_is_read_or_refused(tmp_path: Path, name: str) -> None:
     samples = sum(channel.values.size for channel in whole.channels)
     seen: Counter[str] = Counter()
     for seed in range(MUTATIONS):
-        path.write_bytes(damage(content, random.Random(f"{name} {seed}")))
+        path.write_bytes(damaged(content, list(KINDS)[seed % len(KINDS)], random.Random(f"{name} {seed}")))
         recording = read_or_refusal(path)
         if isinstance(recording, ReadError):
             assert path.name in str(recording)
@@ -157,7 +134,7 @@ def test_a_damaged_file_is_read_or_refused(tmp_path: Path, name: str) -> None:
     assert min(seen["read"], seen["refused"]) > 0
 
 
-@pytest.mark.parametrize("name", list(WRITERS))
+@every("name", list(WRITERS))
 def test_a_file_that_ends_anywhere_is_refused_or_warned_of(tmp_path: Path, name: str) -> None:
     writer, suffix = WRITERS[name]
     path = tmp_path / f"cut{suffix}"

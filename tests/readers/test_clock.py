@@ -1,7 +1,8 @@
-"""Clocks of text files that are called otherwise, or not at all."""
+"""Clocks of text files that are called otherwise, or not at all; and those of vectors in structs."""
 
 from __future__ import annotations
 
+from datetime import datetime
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as some
 
 from colonnade.errors import ReadError
-from colonnade.readers.clock import equal_step, given_clock, may_be_clock, rising_share
+from colonnade.readers.clock import equal_step, find_vector_clocks, given_clock, may_be_clock, rising_share
 from colonnade.readers.recording import RecordedChannel, Recording
 from colonnade.readers.registry import read
+from every import every
 
 
 def recorded(folder: Path, text: str) -> Recording:
@@ -35,10 +37,8 @@ def test_the_time_of_a_graph_that_labview_exported_is_the_clock(tmp_path: Path) 
     assert recording.channel("Amplitude [g] - Plot 1") is second
 
 
-@pytest.mark.parametrize("head", ["", "\ttop\tbottom\n"], ids=["no names at all", "no name above it"])
-@pytest.mark.parametrize(
-    ("rate", "form"), [(200.0, "{:.4f}"), (600.0, "{:.3f}")], ids=["exact times", "times rounded to milliseconds"]
-)
+@every("head", ["", "\ttop\tbottom\n"])
+@every(("rate", "form"), [(200.0, "{:.4f}"), (600.0, "{:.3f}")])
 def test_a_first_column_without_a_name_that_rises_in_equal_steps_is_the_clock(
     tmp_path: Path, head: str, rate: float, form: str
 ) -> None:
@@ -110,7 +110,7 @@ def test_times_in_equal_steps_have_a_step_within_their_rounding(
         assert equal_step(late, 1e-3) is None
 
 
-@pytest.mark.parametrize("values", [[], [1.0], [0, 1, np.nan], [0, 1, 1], [0, 2, 1], [0, 1, np.inf]], ids=str)
+@every("values", [[], [1.0], [0, 1, np.nan], [0, 1, 1], [0, 2, 1], [0, 1, np.inf]])
 def test_what_does_not_rise_in_equal_steps_has_no_step(values: list[float]) -> None:
     assert equal_step(np.array(values), 0.1) is None
 
@@ -118,3 +118,65 @@ def test_what_does_not_rise_in_equal_steps_has_no_step(values: list[float]) -> N
 def test_a_column_that_may_be_a_clock_is_hinted_at() -> None:
     assert 'set time = "x" if that is one: it rises in equal steps of 2' in may_be_clock("x", np.arange(9) * 2.0)
     assert may_be_clock("x", np.arange(9.0) ** 2) == ""
+
+
+RISING = np.arange(20) / 10
+SIGNAL = np.sin(np.arange(20.0))
+
+
+def vectors(**values: np.ndarray) -> list[RecordedChannel]:
+    """Vectors by their paths, with double lines for points; each is in the structs that its path names."""
+    paths = {name.replace("__", "."): each for name, each in values.items()}
+    return [
+        RecordedChannel("", None, each, heading=path, scope=tuple(path.split(".")[:-1])) for path, each in paths.items()
+    ]
+
+
+@every("name", ["t", "Time", "tMeas", "time_vec", "t_s", "simtime", "xTime"])
+def test_a_rising_vector_with_a_name_of_times_is_the_clock(name: str) -> None:
+    clocks = find_vector_clocks(vectors(**{name: RISING, "top": SIGNAL}), {})
+    assert clocks.columns == {0}
+    np.testing.assert_allclose(clocks.times[1], RISING)
+
+
+@every(("name", "unit", "factor"), [("t_ms", None, 1e-3), ("t", "ms", 1e-3), ("t", None, 1.0)])
+def test_its_unit_is_given_or_at_the_end_of_its_name(name: str, unit: str | None, factor: float) -> None:
+    clocks = find_vector_clocks(vectors(**{name: RISING, "top": SIGNAL}), {}, unit)
+    np.testing.assert_allclose(clocks.times[1], factor * RISING)
+
+
+def test_each_struct_goes_by_its_own_clock_else_by_that_around_it() -> None:
+    structs = vectors(t=RISING, a__top=SIGNAL, b__t=2 * RISING, b__top=SIGNAL, b__c__top=SIGNAL)
+    found = find_vector_clocks(structs, {})
+    last = [None if time is None else float(time[-1]) for time in found.times]
+    assert last == [1.9, 1.9, 3.8, 3.8, 3.8]
+
+
+def test_a_clock_that_goes_back_is_not_used_and_that_is_said() -> None:
+    clocks = find_vector_clocks(vectors(t=SIGNAL, top=SIGNAL), {})
+    assert clocks.columns == frozenset()
+    assert clocks.warnings[0].startswith('"t" looks like a clock, but only')
+    assert clocks.times == (None, None)
+
+
+def test_days_of_matlabs_calendar_are_a_date() -> None:
+    noon = 735_350.5  # 2013-04-26 12:00
+    clocks = find_vector_clocks(vectors(t=noon + RISING / 86400, top=SIGNAL), {})
+    assert clocks.start == datetime(2013, 4, 26, 12)
+    np.testing.assert_allclose(clocks.times[1], RISING, atol=1e-4)
+
+
+@every("scalars", [{"dt": 0.1}, {"run.Fs": 10.0}, {"sample_rate": 10.0}, {"dt": 0.1, "fs": 10.0}])
+def test_without_a_vector_a_constant_step_is_taken_by_its_name(scalars: dict[str, float]) -> None:
+    (time,) = find_vector_clocks(vectors(top=SIGNAL), scalars).times
+    np.testing.assert_allclose(time, RISING, atol=1e-12)
+
+
+def test_steps_that_contradict_each_other_are_not_used() -> None:
+    clocks = find_vector_clocks(vectors(top=SIGNAL), {"dt": 0.1, "fs": 200.0})
+    assert clocks.times == (None,)
+    assert clocks.notes == ("no clock: the step is not clear (dt says 0.1 s, fs says 0.005 s); give sampling_rate",)
+
+
+def test_a_vector_that_rises_evenly_by_another_name_is_hinted_at() -> None:
+    assert 'set time = "x" if that is one' in find_vector_clocks(vectors(top=SIGNAL, x=RISING), {}).notes[0]

@@ -9,6 +9,7 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import companions, read
+from every import every
 
 
 def test_the_values_of_a_diadem_header_are_found_and_named_where_they_are_missing(
@@ -39,7 +40,7 @@ def test_values_that_are_a_link_out_of_the_campaign_are_refused(written: Callabl
     assert read(path, within=tmp_path).channels
 
 
-@pytest.mark.parametrize("format", ["tdms", "famos", "catman", "delimited"])
+@every("format", ["tdms", "famos", "catman", "delimited"])
 def test_a_file_that_is_whole_has_no_companions(written: Callable[..., Path], format: str, tmp_path: Path) -> None:
     path = tmp_path / "r.csv"
     path.write_text("a,b\n1,2\n3,4\n")

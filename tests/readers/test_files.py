@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from colonnade.errors import ReadError
-from colonnade.readers.files import in_one_line, irregular, refusing, sha256_of, unreachable
+from colonnade.readers.files import in_one_line, irregular, refusing, sha256_of
+from every import every
 
 
 def test_folders_pipes_and_devices_are_named(tmp_path: Path) -> None:
@@ -48,7 +49,7 @@ def test_a_pipe_is_not_opened(tmp_path: Path) -> None:
 PATH = Path("raw/free-01.tdms")
 
 
-@pytest.mark.parametrize(
+@every(
     ("error", "told"),
     [
         (
@@ -61,7 +62,6 @@ PATH = Path("raw/free-01.tdms")
         (PermissionError(errno.EACCES, os.strerror(errno.EACCES)), "Check its permissions and that its disk is"),
         (FileNotFoundError(errno.ENOENT, "x"), "there is no such file"),
     ],
-    ids=["a message", "none", "of the parser", "a place before the start", "of the machine", "missing"],
 )
 def test_what_a_parser_raises_becomes_a_message_of_what_to_do(error: Exception, told: str) -> None:
     with pytest.raises(ReadError) as refused, refusing(PATH, '"tdms"'):
@@ -72,7 +72,7 @@ def test_what_a_parser_raises_becomes_a_message_of_what_to_do(error: Exception, 
     assert isinstance(refused.value.__cause__, OSError) == of_the_machine  # such a file is tried again
 
 
-@pytest.mark.parametrize("error", [ReadError("a.csv: no"), MemoryError(), KeyboardInterrupt()], ids=repr)
+@every("error", [ReadError("a.csv: no"), MemoryError(), KeyboardInterrupt()])
 def test_a_refusal_and_what_is_not_the_files_fault_pass(error: BaseException) -> None:
     with pytest.raises(type(error)) as raised, refusing(PATH, "SAC"):
         raise error
@@ -81,10 +81,3 @@ def test_a_refusal_and_what_is_not_the_files_fault_pass(error: BaseException) ->
 
 def test_a_long_message_is_cut() -> None:
     assert len(in_one_line(ValueError("x" * 5000))) < 250
-
-
-def test_a_missing_file_is_told_with_the_nearest_name(tmp_path: Path) -> None:
-    (tmp_path / "free-01.csv").touch()
-    error = FileNotFoundError(errno.ENOENT, "x")
-    assert 'Did you mean "free-01.csv"?' in unreachable(tmp_path / "free-10.csv", error)
-    assert "as there is no folder" in unreachable(tmp_path / "raw" / "free-01.csv", error)

@@ -15,8 +15,7 @@ import pytest
 import xlwt
 
 from colonnade.errors import ReadError
-from colonnade.readers.binary.diadem import stored_channels
-from colonnade.readers.binary.stored_numbers import beside
+from colonnade.readers.binary.diadem import bytes_beside, described_channels
 from colonnade.readers.clock import even_times
 from colonnade.readers.registry import read
 from every import every
@@ -36,7 +35,7 @@ def test_a_damaged_class_of_a_dimension_scale_does_not_end_the_process(tmp_path:
     assert told.returncode == 0, told.stderr
 
 
-@pytest.mark.parametrize("block", [b"|Cb,", b"|CC,"])
+@every("block", [b"|Cb,", b"|CC,"])
 def test_a_channel_without_its_last_blocks_is_told(written: Callable[..., Path], block: bytes) -> None:
     path = written("famos")
     content = path.read_bytes()
@@ -46,7 +45,7 @@ def test_a_channel_without_its_last_blocks_is_told(written: Callable[..., Path],
     assert "was cut off" in " ".join(recording.warnings)
 
 
-@pytest.mark.parametrize(
+@every(
     ("name", "begin", "kept"),
     [
         ("cosmos", "Corrected acceleration", 40),
@@ -64,13 +63,12 @@ def test_a_file_that_ends_within_the_first_line_of_a_channel_says_so(
     assert "cut off" in " ".join(recording.warnings)
 
 
-@pytest.mark.parametrize(
+@every(
     ("name", "count", "damaged"),
     [
         ("cosmos", r"(?i)(follow on\s+)\d+(\s+lines)", r"\g<1>99999999999999999999\g<2>"),
         ("cosmos", r"(?i)(with\s+)\d+(\s+text lines)", r"\g<1>99999999999999999999\g<2>"),
     ],
-    ids=["COSMOS lines of values", "COSMOS lines of text"],
 )
 def test_a_number_in_a_header_that_is_none_is_a_refusal(
     written: Callable[..., Path], name: str, count: str, damaged: str
@@ -83,7 +81,7 @@ def test_a_number_in_a_header_that_is_none_is_a_refusal(
         read(path, name)
 
 
-@pytest.mark.parametrize(("step", "begin"), [(np.inf, 0.0), (1e308, 0.0), (0.005, np.inf), (np.nan, 0.0)])
+@every(("step", "begin"), [(np.inf, 0.0), (1e308, 0.0), (0.005, np.inf), (np.nan, 0.0)])
 def test_a_damaged_step_gives_no_infinite_times(step: float, begin: float) -> None:
     assert np.isnan(even_times(4, step, begin)).all()
 
@@ -130,7 +128,7 @@ def test_a_stray_cell_of_an_old_workbook_leaves_the_others_as_they_are(tmp_path:
 
 def test_a_name_that_is_too_long_for_a_file_is_a_file_that_is_not_there(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match="which is not in its folder") as refused:
-        beside(tmp_path / "header.dat", "a" * 5000)
+        bytes_beside(tmp_path / "header.dat", "a" * 5000)
     assert len(str(refused.value)) < 300
 
 
@@ -138,4 +136,4 @@ def test_a_header_in_an_encoding_that_there_is_not_is_refused(tmp_path: Path) ->
     path = tmp_path / "a.tdm"
     path.write_bytes(b'<?xml version="1.0" encoding="UTF-6"?><usi:tdm xmlns:usi="http://www.ni.com/Schemas/USI/1_0"/>')
     with pytest.raises(ReadError, match="unknown encoding"):
-        stored_channels(path)
+        described_channels(path)

@@ -34,7 +34,7 @@ def made_up() -> Format:
     return Format("made-up", "A format of this test.", (".x",), lambda path: Recognition(False, "never"), read)
 
 
-@pytest.mark.parametrize("options", [Options, Spaced])
+@every("options", [Options, Spaced])
 def test_an_option_that_does_not_exist_is_refused(options):
     with pytest.raises(ValidationError, match="colour"):
         options(colour="red")
@@ -85,18 +85,12 @@ def test_the_modules_that_a_format_loads_late_exist(name):
     assert [module for module in formats()[name].modules if find_spec(module) is None] == []
 
 
-@pytest.mark.parametrize("content", [b"\0", RANDOM, b"PK\x03\x04", b"\x89HDF\r\n\x1a\n"], ids=len)
-@pytest.mark.parametrize("name", NAMES)
+@every("content", [b"\0", RANDOM, b"PK\x03\x04", b"\x89HDF\r\n\x1a\n"])
+@every("name", NAMES)
 def test_a_format_gives_its_reason_for_a_file_of_whatever_it_is(tmp_path, name, content):
     path = tmp_path / "record.bin"
     path.write_bytes(content)
     found = formats()[name].recognise(path)
     assert found.reason.strip() == found.reason != ""
     assert not (found.yes and found.is_known)
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_no_format_takes_bytes_of_no_format(tmp_path, name):
-    path = tmp_path / "record.bin"
-    path.write_bytes(RANDOM)
-    assert not formats()[name].recognise(path).yes
+    assert not (found.yes and content == RANDOM)

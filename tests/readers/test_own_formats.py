@@ -7,19 +7,19 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import formats, read
+from damage import KINDS, damaged
+from every import every
 
 OWN = ("catman", "cosmos", "diadem", "famos", "lvm", "mts", "peer", "uff")
 BY_PACKAGES = ("waveform",)
-KINDS = ("flips", "truncation", "deletion", "repetition", "zeros", "noise behind the head")
 TIMES = 40 * np.arange(40) / 200
 
 
-@pytest.mark.parametrize("name", OWN + BY_PACKAGES)
+@every("name", OWN + BY_PACKAGES)
 def test_what_was_written_is_recognised_and_read_back(written: Callable[..., Path], name: str) -> None:
     recording = read(written(name))
     assert recording.format == name
@@ -35,29 +35,11 @@ def test_what_was_written_is_recognised_and_read_back(written: Callable[..., Pat
         assert top.unit == (None if name == "waveform" else "mm")
 
 
-@pytest.mark.parametrize("name", OWN + BY_PACKAGES)
+@every("name", OWN + BY_PACKAGES)
 def test_a_format_refuses_the_files_of_all_others(written: Callable[..., Path], name: str) -> None:
     path = written(name)
     took = [other for other, format in formats().items() if format.recognise(path).yes and other != "delimited"]
     assert took == [name]
-
-
-def damaged(content: bytes, kind: str, chance: random.Random) -> bytes:
-    place = chance.randrange(len(content))
-    if kind == "flips":
-        flipped = bytearray(content)
-        for _ in range(chance.randint(1, 30)):
-            flipped[chance.randrange(len(flipped))] ^= 1 << chance.randrange(8)
-        return bytes(flipped)
-    if kind == "truncation":
-        return content[:place]
-    if kind == "deletion":
-        return content[:place] + content[place + chance.randint(1, 60) :]
-    if kind == "repetition":
-        return content[:place] + content[max(0, place - 200) :]
-    if kind == "zeros":
-        return content[:place] + bytes(chance.randint(1, 900))
-    return content[:60] + bytes(chance.randrange(256) for _ in range(chance.randint(0, 1500)))
 
 
 def read_or_refusal(name: str, path: Path) -> Recording | ReadError:
@@ -68,8 +50,8 @@ def read_or_refusal(name: str, path: Path) -> Recording | ReadError:
         return error
 
 
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("name", OWN)
+@every("name", OWN)
+@every("kind", KINDS)
 def test_a_damaged_file_is_read_or_refused_by_its_format(written: Callable[..., Path], name: str, kind: str) -> None:
     path = written(name)
     content = path.read_bytes()
@@ -84,11 +66,11 @@ def test_a_damaged_file_is_read_or_refused_by_its_format(written: Callable[..., 
         for channel in outcome.channels:
             assert not np.isinf(channel.values).any()
             assert channel.values.size < 100_000
-    assert recordings > 0 or kind == "noise behind the head" or name == "diadem"  # XML is whole or none
+    assert recordings > 0 or kind == "noise" or name == "diadem"  # XML is whole or none
 
 
-@pytest.mark.parametrize("name", OWN)
-@pytest.mark.parametrize("share", [0.6, 0.9])
+@every("name", OWN)
+@every("share", [0.6, 0.9])
 def test_a_file_that_was_cut_off_says_so(written: Callable[..., Path], name: str, share: float) -> None:
     path = written(name)
     cut = path.with_suffix(".tdx") if name == "diadem" else path
@@ -100,7 +82,7 @@ def test_a_file_that_was_cut_off_says_so(written: Callable[..., Path], name: str
     assert any(words in told for words in ("end", "cut off", "too few cells")), told or "nothing was told"
 
 
-@pytest.mark.parametrize("name", OWN)
+@every("name", OWN)
 def test_the_bytes_of_a_file_decide_not_its_name(written: Callable[..., Path], name: str) -> None:
     path = written(name)
     renamed = path.rename(path.with_name("record.csv"))

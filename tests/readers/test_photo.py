@@ -15,6 +15,7 @@ from PIL import Image
 from colonnade.errors import ReadError
 from colonnade.readers import photo
 from colonnade.readers.photo import LARGEST_SIDE, decode_here, read_photo
+from every import every
 
 RED, BLUE = (200, 20, 20), (20, 20, 200)
 
@@ -46,7 +47,7 @@ def near(pixel, colour):
     return np.abs(pixel.astype(int) - colour).max() < 30
 
 
-@pytest.mark.parametrize(("kind", "name"), [("JPEG", "a.jpg"), ("PNG", "a.png")])
+@every(("kind", "name"), [("JPEG", "a.jpg"), ("PNG", "a.png")])
 def test_a_photo_is_read_in_the_bounded_process(tmp_path, kind, name):
     pixels = read_photo(saved(tmp_path / name, two_halves(), kind), within=tmp_path.resolve())
     assert (pixels.shape, pixels.dtype) == ((200, 400, 3), np.uint8)
@@ -55,7 +56,7 @@ def test_a_photo_is_read_in_the_bounded_process(tmp_path, kind, name):
 
 
 # The orientation of EXIF, and where the left half of the file is when it is upright.
-@pytest.mark.parametrize(("orientation", "red"), [(1, "left"), (2, "right"), (3, "right"), (6, "top"), (8, "bottom")])
+@every(("orientation", "red"), [(1, "left"), (2, "right"), (3, "right"), (6, "top"), (8, "bottom")])
 def test_a_photo_is_turned_upright(tmp_path, orientation, red):
     exif = Image.Exif()
     exif[0x0112] = orientation
@@ -78,7 +79,7 @@ def test_no_side_is_longer_than_a_page_needs(tmp_path_factory, width, height):
     )
 
 
-@pytest.mark.parametrize("mode", ["L", "LA", "RGBA", "P", "CMYK", "I;16", "1"])
+@every("mode", ["L", "LA", "RGBA", "P", "CMYK", "I;16", "1"])
 def test_every_kind_of_pixel_becomes_red_green_and_blue(tmp_path, mode):
     image = Image.new("RGBA", (20, 10), (0, 0, 0, 0)) if mode in ("LA", "RGBA") else Image.new("L", (20, 10), 255)
     kind = "JPEG" if mode == "CMYK" else "PNG"
@@ -88,7 +89,7 @@ def test_every_kind_of_pixel_becomes_red_green_and_blue(tmp_path, mode):
     assert pixels.min() > 250, "what can be seen through is white"
 
 
-@pytest.mark.parametrize(
+@every(
     ("content", "told"),
     [
         (bomb(60_000), "60000 × 60000 pixels are too many"),
@@ -97,7 +98,6 @@ def test_every_kind_of_pixel_becomes_red_green_and_blue(tmp_path, mode):
         (b"<svg onload='alert(1)'/>", "neither JPEG nor PNG"),
         (bomb(2000)[:-60], "damaged"),
     ],
-    ids=["bomb", "GIF", "empty", "SVG", "cut off"],
 )
 def test_what_is_no_photo_is_refused(tmp_path, content, told):
     path = tmp_path / "a.jpg"

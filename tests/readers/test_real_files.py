@@ -12,8 +12,6 @@ from colonnade.errors import ReadError
 from colonnade.readers.motion import read_motion
 from colonnade.readers.registry import read
 
-STANDARD_GRAVITY = 9.80665
-
 
 class Known(NamedTuple):
     """

@@ -9,6 +9,7 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.recording import RecordedChannel, Recording
+from every import every
 
 VALUES = np.array([1.0, 2.0])
 RECORDING = Recording(
@@ -24,17 +25,17 @@ RECORDING = Recording(
 )
 
 
-@pytest.mark.parametrize("column", ["ACC", "acc", " Acc ", 4])
+@every("column", ["ACC", "acc", " Acc ", 4])
 def test_a_channel_is_found_by_name_and_number(column: str | int) -> None:
     assert RECORDING.channel(column) is RECORDING.channels[3]
 
 
-@pytest.mark.parametrize(("column", "index"), [("LVDT 1 [mm]", 1), ("lvdt1[V]", 2), ("Time", 0), ("time [s]", 0)])
+@every(("column", "index"), [("LVDT 1 [mm]", 1), ("lvdt1[V]", 2), ("Time", 0), ("time [s]", 0)])
 def test_a_channel_is_found_with_and_without_its_unit(column: str, index: int) -> None:
     assert RECORDING.channel(column) is RECORDING.channels[index]
 
 
-@pytest.mark.parametrize(
+@every(
     ("column", "message"),
     [
         ("AC", r'free-01.csv: no column is called "AC"; it has 5 columns. Did you mean "ACC"\?'),
@@ -61,7 +62,7 @@ def test_times_have_to_be_as_many_as_values() -> None:
         RecordedChannel("a", None, VALUES, VALUES[:1])
 
 
-@pytest.mark.parametrize(
+@every(
     ("channel", "unit", "times", "how"),
     [
         (RecordedChannel("t", "ms", VALUES), None, [0.001, 0.002], "in ms"),
@@ -70,7 +71,6 @@ def test_times_have_to_be_as_many_as_values() -> None:
         (RecordedChannel("t", "mm", VALUES), None, [1, 2], "in mm"),
         (RecordedChannel("t", "ms", VALUES, 5 * VALUES, is_clock=True), None, [5, 10], "timestamps"),
     ],
-    ids=["its unit", "a unit that is given", "no unit", "no unit of time", "a clock"],
 )
 def test_values_are_times_in_the_unit_that_is_known(
     channel: RecordedChannel, unit: str | None, times: list[float], how: str

@@ -11,6 +11,7 @@ from colonnade.campaign.draft import draft
 from colonnade.errors import CampaignError, ReadError
 from colonnade.readers.motion import read_motion
 from colonnade.readers.registry import read
+from every import every
 
 VALUES = np.cumsum(np.random.default_rng(4).standard_normal(800)) / 9
 
@@ -98,7 +99,7 @@ def written(folder: Path, name: str) -> Path:
     return path
 
 
-@pytest.mark.parametrize("name", HEADS)
+@every("name", HEADS)
 def test_it_is_refused_by_its_formats_name(tmp_path: Path, name: str) -> None:
     path = written(tmp_path, name)
     for reading in (read, read_motion, lambda path: read(path, "delimited")):
@@ -108,7 +109,7 @@ def test_it_is_refused_by_its_formats_name(tmp_path: Path, name: str) -> None:
             reading(path)
 
 
-@pytest.mark.parametrize(
+@every(
     ("start", "told"),
     [
         (b"MDF     4.10    ", "an ASAM MDF file, which is not read here. Export it as CSV or MATLAB"),
@@ -116,7 +117,6 @@ def test_it_is_refused_by_its_formats_name(tmp_path: Path, name: str) -> None:
         ("DIAEXTENDED  {@:ENGLISH\r\n".encode("utf-16"), "a DIAdem .DAT header, which is .* Save .* as .TDM or .TDMS"),
         (b"DIAEXTENDED  {@:ENGLISH\r\n", "a DIAdem .DAT header, which is not read here. Save .* as .TDM or .TDMS"),
     ],
-    ids=["MDF", "MDF that was not closed", "DIAdem in UTF-16", "DIAdem in ASCII"],
 )
 def test_a_recorders_file_is_refused_with_the_export_to_make(tmp_path: Path, start: bytes, told: str) -> None:
     path = tmp_path / "record.csv"
@@ -131,7 +131,7 @@ def test_a_format_that_was_read_once_is_refused_with_the_export_to_make(tmp_path
         read(tmp_path / "record.mf4", "mdf")
 
 
-@pytest.mark.parametrize("name", HEADS)
+@every("name", HEADS)
 def test_what_to_do_instead_is_said(tmp_path: Path, name: str) -> None:
     with pytest.raises(ReadError, match=r"Download volume 1 or 2|export it as text with a column of times"):
         read(written(tmp_path, name))
@@ -154,7 +154,7 @@ def test_a_draft_leaves_it_out_with_the_reason(tmp_path: Path) -> None:
         draft(tmp_path)
 
 
-@pytest.mark.parametrize(
+@every(
     "head",
     ["1 velocity", "# corrected accelerogram of the table", "response spectrum analyser", "*", "Accelerogram 3, GNS"],
 )

@@ -20,7 +20,7 @@ from colonnade.assessment.prototype import MOST_DRAWS, Limits, Prototype, draw
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.models.nonlinear import NONLINEAR
 from colonnade.dynamics.motion import Motion
-from colonnade.validation import described, instance, number, samples, whole
+from colonnade.validation import described, instance, number, samples, text, whole
 
 DRAWS = 8
 """Columns that are drawn besides the one with nothing varied."""
@@ -259,7 +259,7 @@ def _left_out(kept: Sequence[str], reasons: Mapping[tuple[str, str], str]) -> di
 
 
 def _corrected(motion: Motion, baseline: str) -> Motion:
-    if baseline == NONE:
+    if text("baseline", baseline, "the name of a correction") == NONE:
         return motion
     correct = correction_of(baseline)
     others = (None if part is None else correct(part, motion.dt) for part in (motion.vertical, motion.transverse))

@@ -26,7 +26,7 @@ from colonnade.laboratory.experiment import MAIN, Plan, Recorder, Setup, Specime
 from colonnade.laboratory.files import COMMAS, GERMAN, TABS, FileFormat, Matlab, Tdms
 from colonnade.laboratory.instruments import Transducer
 from colonnade.laboratory.table import ramped_sine, recorded
-from colonnade.readers.ground_motions.el_centro import EL_CENTRO, el_centro
+from colonnade.readers.motion import EL_CENTRO, el_centro
 from colonnade.units import format_percent
 
 LENGTH_SCALE = 20

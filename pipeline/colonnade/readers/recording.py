@@ -53,6 +53,10 @@ class RecordedChannel:
         The head of the column as written, `LVDT 1 [mm]`; the name if nothing else is known.
     is_clock : bool
         Whether the column holds times; `time` is then its own values in seconds.
+    scope : tuple of str
+        Structs or groups of the file that contain it, outermost first.
+    start : datetime or None
+        When its time is zero, where the file says it of each channel.
     """
 
     name: str
@@ -61,6 +65,8 @@ class RecordedChannel:
     time: Array | None = None
     heading: str = ""
     is_clock: bool = False
+    scope: tuple[str, ...] = ()
+    start: datetime | None = None
 
     def __post_init__(self) -> None:
         if not self.heading:

@@ -13,9 +13,8 @@ from typing import Any
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from colonnade.errors import ReadError, nearest, quoted
-from colonnade.readers.bounded.messages import Arrays
+from colonnade.readers.bounded.messages import Arrays, recording_of, told
 from colonnade.readers.bounded.process import Taken, run_bounded
-from colonnade.readers.bounded.recordings import recording_of, told
 from colonnade.readers.files import in_one_line, irregular, refusing, unreachable
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import Head, from_head, head_of

@@ -11,11 +11,12 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
+from every import every
 
 TOP = 10 * np.sin(np.arange(40) / 5)
 
 
-@pytest.mark.parametrize(("kind", "tolerance"), [(0, 1e-12), (1, 1e-6), (2, 20 / 32767)], ids=["8", "4", "2"])
+@every(("kind", "tolerance"), [(0, 1e-12), (1, 1e-6), (2, 20 / 32767)])
 def test_values_of_every_precision_are_read(written: Callable[..., Path], kind: int, tolerance: float) -> None:
     recording = read(written("catman", ("top", "mm", TOP), kind=kind))
     np.testing.assert_allclose(recording.channel("top").values, TOP, atol=tolerance)

@@ -13,9 +13,10 @@ from hypothesis import strategies as some
 
 from colonnade.errors import ReadError
 from colonnade.readers.binary import diadem
-from colonnade.readers.binary.diadem import stored_channels
-from colonnade.readers.binary.stored_numbers import StoredNumbers
+from colonnade.readers.binary.diadem import Described, described_channels
+from colonnade.readers.binary.numbers import StoredNumbers
 from colonnade.readers.registry import read, read_here
+from every import every
 
 HEADER = """<?xml version="1.0"?>
 <usi:tdm xmlns:usi="x">
@@ -42,12 +43,12 @@ def header(path: Path, kind: str = "explicit_external", parameters: str = "", bl
 
 
 def test_a_channel_is_found_by_way_of_its_references(tmp_path: Path) -> None:
-    (stored,), warnings = stored_channels(header(tmp_path / "a.tdm"))
+    (stored,), warnings = described_channels(header(tmp_path / "a.tdm"))
     assert warnings == []
-    assert stored == StoredNumbers("top", "mm", "a.tdx", "<i2", 16, 10, 2, step=0.01)
+    assert stored == Described("mm", "a.tdx", StoredNumbers("top", "<i2", 16, 10, 2), step=0.01, begin=0.0)
 
 
-@pytest.mark.parametrize(
+@every(
     ("kind", "parameters", "expected"),
     [
         ("raw_linear_external", "1.5 0.25", (1.5, 0.25, "a.tdx", 10)),
@@ -58,24 +59,18 @@ def test_a_channel_is_found_by_way_of_its_references(tmp_path: Path) -> None:
 def test_a_channel_is_scaled_or_made_up_as_its_column_says(
     tmp_path: Path, kind: str, parameters: str, expected: tuple[float, float, str, int]
 ) -> None:
-    (stored,), _ = stored_channels(header(tmp_path / "a.tdm", kind, parameters))
-    assert (stored.offset, stored.factor, stored.file, stored.count) == expected
+    (stored,), _ = described_channels(header(tmp_path / "a.tdm", kind, parameters))
+    assert (stored.numbers.offset, stored.numbers.factor, stored.file, stored.numbers.count) == expected
 
 
-def test_numbers_in_blocks_have_a_stride(tmp_path: Path) -> None:
-    (stored,), _ = stored_channels(header(tmp_path / "a.tdm", block='blockSize="6" blockOffset="4"'))
-    assert (stored.first, stored.stride) == (20, 6)
-
-
-@pytest.mark.parametrize(
+@every(
     ("change", "told"),
     [(("usi2", "usi9"), "no column"), (('"inc0"/', '"inc9"/'), "inc9"), (("explicit_external", "odd"), '"odd"')],
-    ids=["reference", "block", "kind"],
 )
 def test_a_channel_that_cannot_be_found_says_why(tmp_path: Path, change: tuple[str, str], told: str) -> None:
     path = header(tmp_path / "a.tdm")
     path.write_text(path.read_text(encoding="utf-8").replace(change[0], change[1], 1), encoding="utf-8")
-    stored, (warning,) = stored_channels(path)
+    stored, (warning,) = described_channels(path)
     assert stored == []
     assert told in warning
 
@@ -84,11 +79,11 @@ def test_a_packed_header_is_read_and_a_damaged_one_refused(tmp_path: Path) -> No
     plain, packed = header(tmp_path / "plain.tdm"), tmp_path / "packed.tdm"
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.write(plain, "header.xml")
-    assert stored_channels(packed) == stored_channels(plain)
+    assert described_channels(packed) == described_channels(plain)
     content = packed.read_bytes()
     packed.write_bytes(content.replace(content[60:70], bytes(10), 1))
     with pytest.raises(ReadError, match=r"packed.tdm: .*(damaged|is not complete XML)"):
-        stored_channels(packed)
+        described_channels(packed)
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=40, deadline=None)
@@ -100,11 +95,11 @@ def test_a_header_with_other_bytes_in_it_is_refused_or_describes_channels(
     content = path.read_bytes()
     path.write_bytes(content[:place] + wrong + content[place + len(wrong) :])
     try:
-        channels, _ = stored_channels(path)
+        channels, _ = described_channels(path)
     except ReadError as error:
         assert "a.tdm" in str(error)  # noqa: PT017 - either outcome is right
         return
-    assert all(channel.count >= 0 for channel in channels)
+    assert all(channel.numbers.count >= 0 for channel in channels)
 
 
 TDM = """<?xml version="1.0" encoding="UTF-8"?><usi:tdm xmlns:usi="http://www.ni.com/Schemas/USI/1_0" version="1.0">
@@ -148,8 +143,8 @@ def tdm(
     return path
 
 
-@pytest.mark.parametrize("packed", [False, True], ids=["plain", "packed"])
-@pytest.mark.parametrize("order", ["littleEndian", "bigEndian"])
+@every("packed", [False, True])
+@every("order", ["littleEndian", "bigEndian"])
 def test_a_tdm_header_tells_scaling_interleaving_and_clock(tmp_path: Path, packed: bool, order: str) -> None:
     recording = read(tdm(tmp_path, packed=packed, order=order))
     top = recording.channel("top")
@@ -193,8 +188,8 @@ def test_values_that_are_cut_off_are_told(written: Callable[..., Path]) -> None:
     assert recording.warnings == ('"table": record.tdx ends after 30 of its 40 values',)
 
 
-def test_a_header_without_its_values_says_which_file_is_lacking(written: Callable[..., Path]) -> None:
+def test_a_file_of_values_without_bytes_has_none(written: Callable[..., Path]) -> None:
     path = written("diadem")
-    path.with_suffix(".tdx").unlink()
-    with pytest.raises(ReadError, match=r'its values are in the file "record.tdx", which is not in its folder'):
+    path.with_suffix(".tdx").write_bytes(b"")
+    with pytest.raises(ReadError, match=r'"table": record.tdx ends after 0 of its 40 values'):
         read(path)

@@ -124,7 +124,7 @@ def xls(path: Path, rows: Sequence[Sequence[Any]]) -> Path:
     return path
 
 
-@pytest.mark.parametrize("kind", ["xlsx", "xls", "ods"])
+@every("kind", ["xlsx", "xls", "ods"])
 def test_names_units_and_clock_are_found_above_and_among_the_rows_of_numbers(tmp_path: Path, kind: str) -> None:
     path = tmp_path / f"a.{kind}"
     if kind == "xlsx":

@@ -11,10 +11,23 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
+from every import every
 
 
 def test_start_is_that_of_the_trigger_and_the_blocks_offset(written: Callable[..., Path]) -> None:
     recording = read(written("famos"))
+    assert recording.start == datetime(2013, 4, 26, 10, 15, 0, 250000)
+
+
+def test_channels_that_were_triggered_at_different_times_count_from_the_first(written: Callable[..., Path]) -> None:
+    path = written("famos")
+    content = path.read_bytes()
+    second = content.rindex(b"26,4,2013,10,15,0.25")
+    path.write_bytes(content[:second] + b"26,4,2013,10,15,1.75" + content[second + 20 :])
+    recording = read(path)
+    top, table = (channel.time for channel in recording.channels)
+    np.testing.assert_allclose(top, np.arange(40) / 200)
+    np.testing.assert_allclose(table, 1.5 + np.arange(40) / 200)
     assert recording.start == datetime(2013, 4, 26, 10, 15, 0, 250000)
 
 
@@ -43,11 +56,11 @@ def whole_numbers(path: Path, kind: int, form: str, *, order: int = 1, packing: 
     return path
 
 
-@pytest.mark.parametrize(
+@every(
     ("kind", "form"),
     [(1, "u1"), (2, "i1"), (3, "u2"), (4, "i2"), (5, "u4"), (6, "i4"), (7, "f4"), (8, "f8"), (12, "u8"), (14, "i8")],
 )
-@pytest.mark.parametrize("order", [1, 2], ids=["Intel", "Motorola"])
+@every("order", [1, 2])
 def test_numbers_of_every_kind_are_scaled(tmp_path: Path, kind: int, form: str, order: int) -> None:
     recording = read(whole_numbers(tmp_path / "record.raw", kind, form, order=order))
     third = 2 if form[0] == "u" else -2
@@ -58,7 +71,7 @@ def test_numbers_of_every_kind_are_scaled(tmp_path: Path, kind: int, form: str, 
     assert channel.unit == "mm"
 
 
-@pytest.mark.parametrize(("kind", "packing"), [(4, "0,0,1,6"), (4, "255,0,1,0"), (9, "0,0,1,0")])
+@every(("kind", "packing"), [(4, "0,0,1,6"), (4, "255,0,1,0"), (9, "0,0,1,0")])
 def test_numbers_that_are_packed_in_another_way_are_refused(tmp_path: Path, kind: int, packing: str) -> None:
     with pytest.raises(ReadError, match="interleaved or of an unknown kind"):
         read(whole_numbers(tmp_path / "record.raw", kind, "i2", packing=packing))
@@ -87,8 +100,8 @@ def digital_word(path: Path, names: dict[int, str], *, kind: int = 11, bits: int
     return path
 
 
-@pytest.mark.parametrize("bits", [16, 4], ids=["a whole word", "a word of which four bits are used"])
-@pytest.mark.parametrize("scaled", [False, True])
+@every("bits", [16, 4])
+@every("scaled", [False, True])
 def test_digital_channels_of_one_word_are_channels_of_their_own(tmp_path: Path, bits: int, scaled: bool) -> None:
     names = {1: "release", 2: "door", 3: "pump", 16: "sync"}
     recording = read(digital_word(tmp_path / "record.raw", names, bits=bits, scaled=scaled))

@@ -31,15 +31,6 @@ def test_variables_come_with_their_groups_and_attributes(tmp_path: Path) -> None
     assert content.left_out == {}
 
 
-def test_a_table_gives_a_variable_a_column_of_numbers(tmp_path: Path) -> None:
-    path = tmp_path / "a.h5"
-    with h5py.File(path, "w") as file:
-        file["log"] = np.array([(1, 2.5, b"x")] * 3, dtype=[("n", "i4"), ("v", "f8"), ("s", "S1")])
-    content = read_hdf5(path)
-    assert [each.path for each in content.variables] == ["log/n", "log/v"]
-    assert content.left_out == {"log/s": "it holds no numbers"}
-
-
 def test_what_is_not_read_is_left_out_with_its_reason(tmp_path: Path) -> None:
     path = tmp_path / "a.h5"
     with h5py.File(path, "w") as file:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ import scipy.io
 from colonnade.errors import ReadError
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import read
+from every import every
 
 TIME = np.arange(60) * 0.005
 TOP = np.sin(TIME * 20)
@@ -129,14 +129,13 @@ def test_names_of_columns_beside_a_matrix_are_taken(tmp_path: Path) -> None:
     assert recording.channel("LVDT 1").unit == "mm"
 
 
-@pytest.mark.parametrize(
+@every(
     ("scalars", "evidence"),
     [
         ({"dt": 0.005}, "by the number dt"),
         ({"Fs": 200.0}, "by the number Fs"),
         ({"Ts": 0.005, "fs": 200}, "by the number Ts"),
     ],
-    ids=["step", "rate", "both, which agree"],
 )
 def test_a_single_number_gives_the_step_where_no_vector_is_a_clock(
     tmp_path: Path, scalars: dict[str, float], evidence: str
@@ -144,12 +143,6 @@ def test_a_single_number_gives_the_step_where_no_vector_is_a_clock(
     recording = read(saved(tmp_path / "a.mat", {"top": TOP, **scalars}))
     column(recording, "top")
     assert any(evidence in note for note in recording.notes)
-
-
-def test_two_steps_that_contradict_each_other_are_not_believed(tmp_path: Path) -> None:
-    recording = read(saved(tmp_path / "a.mat", {"top": TOP, "dt": 0.005, "fs": 100.0}))
-    assert recording.channel("top").time is None
-    assert any("the step is not clear" in note for note in recording.notes)
 
 
 def test_the_time_that_was_given_is_taken_and_a_likely_one_hinted_at(tmp_path: Path) -> None:
@@ -160,22 +153,6 @@ def test_the_time_that_was_given_is_taken_and_a_likely_one_hinted_at(tmp_path: P
     column(read(path, options={"time": "n", "time_unit": "ms"}), "top")
     with pytest.raises(ReadError, match='no column is called "m"'):
         read(path, options={"time": "m"})
-
-
-def test_a_unit_at_the_end_of_the_name_is_taken(tmp_path: Path) -> None:
-    column(read(saved(tmp_path / "a.mat", {"time_ms": TIME * 1e3, "top": TOP})), "top")
-
-
-def test_days_of_matlabs_calendar_are_a_clock_with_a_start(tmp_path: Path) -> None:
-    recording = read(saved(tmp_path / "a.mat", {"t": 735350.5 + TIME / 86400, "top": TOP}))  # datenum(2013,4,26,12,0,0)
-    np.testing.assert_allclose(recording.channel("top").time, TIME, atol=2e-5)
-    assert recording.start == datetime(2013, 4, 26, 12)
-
-
-def test_what_looks_like_a_clock_but_goes_back_is_none(tmp_path: Path) -> None:
-    recording = read(saved(tmp_path / "a.mat", {"t": TOP, "top": TOP}))
-    assert recording.channel("top").time is None
-    assert any("looks like a clock, but only" in warning for warning in recording.warnings)
 
 
 def test_only_the_variables_that_were_asked_for_are_read(tmp_path: Path) -> None:
@@ -217,7 +194,7 @@ def test_bristols_other_layout_warns_of_channels_that_are_not_there(tmp_path: Pa
     np.testing.assert_array_equal(column(matrix, "output[2]"), -TOP)
 
 
-@pytest.mark.parametrize(
+@every(
     ("content", "reason"),
     [
         (b"version https://git-lfs.github.com/spec/v1\noid sha256:0", "pointer of git-lfs"),
@@ -229,7 +206,6 @@ def test_bristols_other_layout_warns_of_channels_that_are_not_there(tmp_path: Pa
         (b"\x80\x04\x95\x1b\x00", "a Python pickle, a program that runs when it is opened: never read"),
         (bytes([0, 0, 0, 0, 1, 0, 0, 0, 60, 0, 0, 0]), "if it is one of version 4, open it in MATLAB"),
     ],
-    ids=["git-lfs pointer", "web page", "empty", "zeros", "cut off within the header", "NumPy", "pickle", "version 4"],
 )
 def test_a_file_that_is_none_is_refused_with_what_it_is(tmp_path: Path, content: bytes, reason: str) -> None:
     path = tmp_path / "a.mat"
@@ -259,7 +235,7 @@ def test_a_damper_test_of_version_5(shared_data: Path) -> None:
     np.testing.assert_array_equal(force.values, recording.channel("x_F[3]").values)
 
 
-@pytest.mark.parametrize("name", ["shaketable/grashorn_testingData.mat", "matlab/labcontrol_ensaio1.mat"])
+@every("name", ["shaketable/grashorn_testingData.mat", "matlab/labcontrol_ensaio1.mat"])
 def test_the_numbers_are_those_that_scipy_reads(shared_data: Path, name: str) -> None:
     recording = read(shared_data / name)
     for variable, values in scipy.io.loadmat(shared_data / name).items():

@@ -13,6 +13,7 @@ import scipy.io
 from colonnade.errors import ReadError
 from colonnade.readers.binary.matlab_5 import read_v5
 from colonnade.readers.registry import read
+from every import every
 
 HEADER = b"MATLAB 5.0 MAT-file, Platform: TEST".ljust(124) + struct.pack("<H", 0x0100) + b"IM"
 
@@ -41,14 +42,13 @@ def put(path: Path, *variables: bytes) -> Path:
     return path
 
 
-@pytest.mark.parametrize(
+@every(
     ("variable", "reason"),
     [
         (matrix(16, ONE), "x is left out: it is a function; nothing in a recording is executed"),
         (opaque(b"x", b"timetable"), "x is left out: it is an object of MATLAB's class timetable.*timetable2table"),
         (matrix(5, *SPARSE), "x is left out: it is a sparse matrix"),
     ],
-    ids=["a function handle", "a timetable", "a sparse matrix"],
 )
 def test_what_is_no_data_is_left_out_with_the_reason(tmp_path: Path, variable: bytes, reason: str) -> None:
     recording = read(put(tmp_path / "a.mat", variable, NUMBERS))
@@ -80,7 +80,7 @@ def test_a_wrong_check_sum_is_damage(tmp_path: Path) -> None:
         read(path)
 
 
-@pytest.mark.parametrize("compressed", [False, True], ids=["plain", "compressed"])
+@every("compressed", [False, True])
 def test_a_file_that_was_cut_off_says_in_which_variable(tmp_path: Path, compressed: bool) -> None:
     path = tmp_path / "a.mat"
     chance = np.random.default_rng(7)

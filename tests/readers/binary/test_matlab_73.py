@@ -6,10 +6,9 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-import pytest
 
-from colonnade.errors import ReadError
 from colonnade.readers.registry import read
+from every import every
 
 
 def v73(path: Path, fill: object) -> Path:
@@ -57,7 +56,7 @@ def sparse(file: h5py.File) -> None:
     file.create_group("x").attrs["MATLAB_sparse"] = np.uint64(3)
 
 
-@pytest.mark.parametrize(
+@every(
     ("fill", "reason"),
     [
         (object_of_a_class, "it is an object of MATLAB's class timetable, which only MATLAB can open"),
@@ -68,7 +67,6 @@ def sparse(file: h5py.File) -> None:
         (virtual_numbers, "its numbers are in another file"),
         (sparse, "it is a sparse matrix"),
     ],
-    ids=lambda value: value.__name__ if callable(value) else "",
 )
 def test_what_is_no_data_of_this_file_is_left_out_with_the_reason(tmp_path: Path, fill: object, reason: str) -> None:
     recording = read(v73(tmp_path / "a.mat", fill))
@@ -100,11 +98,3 @@ def test_an_array_of_structs_is_numbered_as_in_version_5(tmp_path: Path) -> None
         group.create_dataset("a", data=np.array([[part.ref for part in parts]], dtype=h5py.ref_dtype))
 
     assert read(v73(tmp_path / "a.mat", structs)).channel("run(2).a").values.tolist() == [1.0] * 5
-
-
-def test_a_file_that_was_cut_off_says_how_much_is_there(tmp_path: Path) -> None:
-    path = v73(tmp_path / "a.mat", sparse)
-    whole = path.read_bytes()
-    path.write_bytes(whole[: len(whole) // 2])
-    with pytest.raises(ReadError, match=rf"ends after {len(whole) // 2} of \d+ bytes: a copy or a recording"):
-        read(path)

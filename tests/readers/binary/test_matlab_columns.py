@@ -3,43 +3,40 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as some
 
 from colonnade.readers.binary.matlab_columns import (
     MOST_COLUMNS,
     find_columns,
-    lacking_channels,
     numbered_channels,
     object_reason,
 )
-from colonnade.readers.binary.vectors import Column
+from every import every
 
 VECTOR = np.arange(50.0).reshape(-1, 1)
 
 
 def test_vectors_in_structs_and_cells_have_the_path_that_matlab_would_write() -> None:
     found = find_columns({"x": VECTOR, "run": {"top": VECTOR, "inner": {"t": VECTOR}}, "c": [VECTOR, "text", VECTOR]})
-    assert [column.path for column in found.columns] == ["x", "run.top", "run.inner.t", "c{1}", "c{3}"]
+    assert [column.heading for column in found.columns] == ["x", "run.top", "run.inner.t", "c{1}", "c{3}"]
     assert [column.scope for column in found.columns][1:3] == [("run",), ("run", "run.inner")]
 
 
 def test_an_array_of_structs_is_counted_in_round_brackets() -> None:
     found = find_columns({"s": [{"v": VECTOR}, {"v": VECTOR}]})
-    assert [column.path for column in found.columns] == ["s(1).v", "s(2).v"]
+    assert [column.heading for column in found.columns] == ["s(1).v", "s(2).v"]
 
 
-@pytest.mark.parametrize(
+@every(
     ("shape", "beside", "count"),
     [((50, 3), True, 3), ((3, 50), True, 3), ((40, 60), False, 40), ((60, 40), False, 40), ((50, 60), True, 60)],
-    ids=["columns", "rows", "wide", "tall", "as long as the vector"],
 )
 def test_a_matrix_has_its_samples_along_the_vector_else_along_its_longer_side(
     shape: tuple[int, int], beside: bool, count: int
 ) -> None:
     variables = {"m": np.zeros(shape), **({"t": VECTOR} if beside else {})}
-    columns = [column for column in find_columns(variables).columns if column.path.startswith("m[")]
+    columns = [column for column in find_columns(variables).columns if column.heading.startswith("m[")]
     assert len(columns) == count
     assert {column.values.size for column in columns} == {max(shape) if not beside else 50}
 
@@ -75,7 +72,7 @@ NODES = some.recursive(
 def test_any_nest_of_variables_gives_columns_of_several_numbers(variables: dict[str, object]) -> None:
     found = find_columns(variables)  # type: ignore[arg-type]
     assert all(column.values.ndim == 1 and column.values.size > 0 for column in found.columns)
-    paths = [column.path for column in found.columns]
+    paths = [column.heading for column in found.columns]
     assert len(set(paths)) == len(paths)
 
 
@@ -92,25 +89,7 @@ def layout(first: np.ndarray, rate: object = "200") -> dict[str, object]:
     }
 
 
-def test_channels_have_the_names_and_units_of_their_headers() -> None:
-    others, columns, scalars, notes = numbered_channels(layout(SINE))  # type: ignore[arg-type]
-    assert [(column.name, column.unit, column.values.shape) for column in columns] == [
-        ("LVDT 1", "mm", (20,)),
-        (None, None, (20,)),
-    ]
-    assert others == {"comment": "kept"}
-    assert scalars == {"File_Header.SampleFrequency": 200.0}
-    assert notes
-
-
-def test_a_first_channel_that_rises_is_the_clock() -> None:
-    _, columns, scalars, notes = numbered_channels(layout(RISING))  # type: ignore[arg-type]
-    assert columns[0].name == "time"
-    assert scalars == {}
-    assert "Channel_1_Data rises: it is the clock" in notes
-
-
-@pytest.mark.parametrize("rate", ["", "fast", -5, np.empty((0, 0)), {}], ids=str)
+@every("rate", ["", "fast", -5, np.empty((0, 0)), {}])
 def test_a_rate_that_is_none_is_none(rate: object) -> None:
     assert numbered_channels(layout(SINE, rate))[2] == {}  # type: ignore[arg-type]
 
@@ -120,16 +99,7 @@ def test_a_file_of_another_layout_is_left_as_it_is() -> None:
     assert numbered_channels(variables) == (variables, [], {}, [])
 
 
-def test_channels_that_are_missing_are_counted() -> None:
-    columns = [Column(f"chan{number}", (), SINE.ravel()) for number in (1, 2)]
-    assert lacking_channels({"No_Channels": np.array([[3]])}, columns) == [
-        "No_Channels says 3, but 2 channels are in the file"
-    ]
-    assert lacking_channels({"No_Channels": np.array([[2]])}, columns) == []
-    assert lacking_channels({}, columns) == []
-
-
-@pytest.mark.parametrize(("name", "told"), [("timetable", "timetable2table(x)"), ("odd", "as plain arrays")])
+@every(("name", "told"), [("timetable", "timetable2table(x)"), ("odd", "as plain arrays")])
 def test_an_object_is_refused_with_what_to_do(name: str, told: str) -> None:
     reason = object_reason(name)
     assert f"MATLAB's class {name}, which only MATLAB can open" in reason

@@ -13,6 +13,7 @@ import xarray as xr
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
+from every import every
 
 TIME = np.arange(40) * 0.005
 TOP = np.sin(TIME * 20)
@@ -28,7 +29,7 @@ def saved(path: Path, form: str, times: Any = TIME, encoding: Any = None, **attr
     return path
 
 
-@pytest.mark.parametrize("form", FORMATS)
+@every("form", FORMATS)
 def test_a_variable_goes_by_the_coordinate_of_its_dimension(tmp_path: Path, form: str) -> None:
     recording = read(saved(tmp_path / "a.nc", form, TIME * 1e3, units="ms"))
     assert recording.format == "netcdf"
@@ -41,14 +42,13 @@ def test_a_variable_goes_by_the_coordinate_of_its_dimension(tmp_path: Path, form
     assert recording.channel("elapsed").is_clock
 
 
-@pytest.mark.parametrize(
+@every(
     ("units", "factor", "start"),
     [
         ("seconds since 2013-04-26T10:15:00Z", 1.0, datetime(2013, 4, 26, 10, 15, tzinfo=UTC)),
         ("milliseconds since 2013-04-26 10:15:00", 1e-3, datetime(2013, 4, 26, 10, 15, tzinfo=UTC)),
         ("days since 2013-04-26 12:15:00 +02:00", 86400.0, datetime(2013, 4, 26, 10, 15, tzinfo=UTC)),
     ],
-    ids=["seconds", "milliseconds", "days, of another zone"],
 )
 def test_times_since_a_moment_count_from_the_first_sample(
     tmp_path: Path, units: str, factor: float, start: datetime
@@ -64,7 +64,7 @@ def test_times_since_a_moment_count_from_the_first_sample(
     assert recording.start == start
 
 
-@pytest.mark.parametrize("form", ["NETCDF3_CLASSIC", "NETCDF4"])
+@every("form", ["NETCDF3_CLASSIC", "NETCDF4"])
 def test_packed_numbers_are_unpacked_and_missing_ones_missing(tmp_path: Path, form: str) -> None:
     values = np.array([1.5, np.nan, -2.0, 4.25])
     packing = {"dtype": "int16", "scale_factor": 0.25, "add_offset": 1.0, "_FillValue": -999}
@@ -111,34 +111,3 @@ def test_the_clock_that_was_given_is_taken(tmp_path: Path) -> None:
     np.testing.assert_allclose(
         read(tmp_path / "a.h5", options={"time": "n", "time_unit": "ms"}).channel("top").time, TIME, atol=1e-12
     )
-
-
-def test_only_the_file_itself_is_read(tmp_path: Path) -> None:
-    with h5py.File(tmp_path / "a.h5", "w") as file:
-        file["top"] = TOP
-        file["other"] = h5py.ExternalLink("b.h5", "top")
-        file.create_dataset("raw", shape=(5,), dtype="u1", external=[("/etc/hostname", 0, 5)])
-        file.create_dataset("bomb", shape=(1 << 40,), dtype="f8", chunks=(1 << 16,), compression="gzip")
-        file.create_group("loop")["loop"] = file["/"]
-    recording = read(tmp_path / "a.h5")
-    assert [channel.heading for channel in recording.channels] == ["top"]
-    told = " ".join(recording.notes)
-    assert "other is left out: it is a link" in told
-    assert "raw is left out: its numbers are in another file" in told
-    assert "bomb is damaged, or cannot be unpacked here" in " ".join(recording.warnings)
-    assert "loop/loop is left out: it contains itself" in told
-
-
-@pytest.mark.parametrize("form", ["NETCDF3_CLASSIC", "NETCDF4"])
-def test_a_file_that_was_cut_off_is_refused(tmp_path: Path, form: str) -> None:
-    path = saved(tmp_path / "a.nc", form, units="s")
-    whole = path.read_bytes()
-    path.write_bytes(whole[: len(whole) // 2])
-    with pytest.raises(ReadError, match=r"cut off|ends after"):
-        read(path)
-
-
-def test_the_variant_that_is_not_read_says_what_to_do(tmp_path: Path) -> None:
-    (tmp_path / "a.nc").write_bytes(b"CDF\x05" + bytes(100))
-    with pytest.raises(ReadError, match="nccopy -k nc4"):
-        read(tmp_path / "a.nc")

@@ -15,9 +15,10 @@ from nptdms import ChannelObject, GroupObject, RootObject, TdmsFile, TdmsWriter
 
 from colonnade.errors import ReadError
 from colonnade.readers.binary import tdms
-from colonnade.readers.binary.tdms import UNFINISHED, Ending, missing_samples, walk
+from colonnade.readers.binary.tdms import Ending, missing_samples, walk
 from colonnade.readers.recording import Window
 from colonnade.readers.registry import read
+from every import every
 
 SEGMENTS = 3
 
@@ -55,32 +56,6 @@ def test_a_file_that_was_cut_off_lacks_what_is_behind_the_cut(path: Path, share:
         assert ending.declared >= ending.size
         assert ending.present <= ending.expected
         assert ending.declared - ending.size == ending.expected - ending.present
-
-
-def test_what_is_missing_is_counted_by_channels(path: Path) -> None:
-    whole = path.stat().st_size
-    path.write_bytes(path.read_bytes()[:-40])
-    (told,) = missing_samples(walk(path), TdmsFile.read(path))
-    assert told.startswith(f"it ends after {whole - 40} of {whole} bytes: a recording or a copy was interrupted")
-    assert 'of 30 samples of "' in told
-
-
-def test_a_segment_that_the_recorder_did_not_finish_is_told(path: Path) -> None:
-    content = bytearray(path.read_bytes())
-    last = content.rfind(b"TDSm")
-    struct.pack_into("<Q", content, last + 12, UNFINISHED)
-    path.write_bytes(content)
-    ending = walk(path)
-    assert ending.declared is None
-    assert missing_samples(ending, TdmsFile.read(path))[0].startswith("the recorder did not finish the last segment")
-
-
-def test_a_segment_that_does_not_start_where_it_should_is_damage(path: Path) -> None:
-    content = path.read_bytes()
-    second = content.find(b"TDSm", 4)
-    path.write_bytes(content[:second] + b"????" + content[second + 4 :])
-    with pytest.raises(ReadError, match=rf"a.tdms: at byte {second} of {len(content)} .* b'\?\?\?\?' was found"):
-        walk(path)
 
 
 START = np.datetime64("2013-04-26T10:15:00.250000")
@@ -169,14 +144,6 @@ def test_a_channel_of_times_is_the_clock_where_the_properties_give_none(tmp_path
     assert recording.channel("Time").is_clock
 
 
-def test_a_channel_of_times_is_believed_over_a_step_that_labview_did_not_know(tmp_path: Path) -> None:
-    time = np.arange(30) * 0.004
-    channels = [ChannelObject("g", name, time, waveform(1.0, None)) for name in ("Time", "top")]
-    recording = read(written(tmp_path / "default.tdms", channels))
-    np.testing.assert_allclose(recording.channel("top").time, time, atol=1e-12)
-    assert any("exactly 1 s" in warning for warning in recording.warnings)
-
-
 def test_timestamps_are_a_clock_and_give_the_start(tmp_path: Path) -> None:
     stamps = START + np.arange(40) * np.timedelta64(2500, "us")
     path = written(
@@ -235,7 +202,7 @@ def test_a_stale_index_file_beside_it_is_not_looked_at(tmp_path: Path) -> None:
         read(tmp_path / "a.tdms_index")
 
 
-@pytest.mark.parametrize("cut", [8, 800, 1000], ids=lambda cut: f"{cut} bytes less")
+@every("cut", [8, 800, 1000])
 def test_a_file_that_was_cut_off_says_how_many_samples_are_there(tmp_path: Path, cut: int) -> None:
     path = written(
         tmp_path / "cut.tdms",
@@ -340,7 +307,7 @@ def two_channels(path: Path, step: float = 0.005) -> Path:
     return written(path, *segments)
 
 
-@pytest.mark.parametrize("window", [(2.0, 3.0), (0.0, 0.5), (9.0, 30.0), (0.05, 0.06)])
+@every("window", [(2.0, 3.0), (0.0, 0.5), (9.0, 30.0), (0.05, 0.06)])
 def test_a_window_of_a_long_file_is_what_the_whole_file_holds_there(
     tmp_path: Path, window: tuple[float, float]
 ) -> None:

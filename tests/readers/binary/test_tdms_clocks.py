@@ -10,24 +10,24 @@ import pytest
 
 from colonnade.readers.binary.tdms_clocks import Column, beginnings, on_clocks, waveform
 from colonnade.readers.recording import RecordedChannel
+from every import every
 
 START = np.datetime64("2013-04-26T10:15:00", "us")
 
 
 def column(name: str, values: np.ndarray, group: str = "g", **properties: Any) -> Column:
-    return Column(group, RecordedChannel(name, None, values, heading=f"{group}/{name}"), waveform(properties))
+    channel = RecordedChannel(name, None, values, heading=f"{group}/{name}", scope=(group,))
+    return Column(channel, waveform(properties))
 
 
-@pytest.mark.parametrize(
-    "properties",
-    [{}, {"wf_increment": 0}, {"wf_increment": -1.0}, {"wf_increment": np.nan}, {"wf_increment": "fast"}],
-    ids=str,
+@every(
+    "properties", [{}, {"wf_increment": 0}, {"wf_increment": -1.0}, {"wf_increment": np.nan}, {"wf_increment": "fast"}]
 )
 def test_a_step_that_is_none_gives_no_clock(properties: dict[str, Any]) -> None:
     assert waveform(properties) is None
 
 
-@pytest.mark.parametrize("start", [np.datetime64("1904-01-01", "us"), np.datetime64("NaT"), "yesterday", None], ids=str)
+@every("start", [np.datetime64("1904-01-01", "us"), np.datetime64("NaT"), "yesterday", None])
 def test_a_start_that_is_not_known_is_none(start: object) -> None:
     found = waveform({"wf_increment": 0.5, "wf_start_time": start})
     assert found is not None
@@ -70,10 +70,3 @@ def test_a_step_of_one_second_that_nobody_gave_yields_to_a_channel_of_times() ->
     recording = on_clocks(Path("a.tdms"), columns, None, None)
     np.testing.assert_array_equal(recording.channels[1].time, times)
     assert any('"g/top" uses the channel of times' in warning for warning in recording.warnings)
-
-
-def test_the_channel_that_is_given_is_the_clock_of_those_as_long_as_it() -> None:
-    columns = [column("x", np.arange(3.0)), column("a", np.zeros(3)), column("b", np.zeros(2), wf_increment=0.5)]
-    _, first, second = on_clocks(Path("a.tdms"), columns, "x", "ms").channels
-    np.testing.assert_allclose(first.time, [0, 0.001, 0.002])
-    np.testing.assert_allclose(second.time, [0, 0.5])

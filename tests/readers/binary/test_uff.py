@@ -10,9 +10,10 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
+from every import every
 
 
-@pytest.mark.parametrize("is_binary", [False, True], ids=["text", "binary"])
+@every("is_binary", [False, True])
 def test_functions_are_read_with_name_unit_and_clock(written: Callable[..., Path], is_binary: bool) -> None:
     recording = read(written("uff", is_binary=is_binary))
     top, table = recording.channels
@@ -43,7 +44,7 @@ def test_what_is_no_function_of_time_is_left_out(written: Callable[..., Path]) -
     assert any("data set 164" in note for note in recording.notes)
 
 
-@pytest.mark.parametrize("is_binary", [False, True], ids=["text", "binary"])
+@every("is_binary", [False, True])
 def test_numbers_that_are_cut_off_are_told(written: Callable[..., Path], is_binary: bool) -> None:
     path = written("uff", ("top", "mm", np.arange(40.0)), is_binary=is_binary)
     content = path.read_bytes()
@@ -59,7 +60,7 @@ def test_a_file_without_functions_of_time_is_refused(tmp_path: Path) -> None:
         read(path)
 
 
-@pytest.mark.parametrize("line_end", ["\n", "\r\n"])
+@every("line_end", ["\n", "\r\n"])
 def test_a_universal_file_without_functions_is_refused_as_such(tmp_path: Path, line_end: str) -> None:
     nodes = [f"{node:10d}{0:10d}{0:10d}{0:10d}{0.1 * node:13.5E}{0:13.5E}{0:13.5E}" for node in range(1, 40)]
     lines = ["    -1", "   151", "model", "    -1", "    -1", "    15", *nodes, "    -1", ""]
@@ -75,7 +76,7 @@ def test_a_column_of_numbers_that_starts_as_a_data_set_would_stays_a_column(tmp_
     assert read(path).format == "delimited"
 
 
-@pytest.mark.parametrize("encoding", ["utf-8", "cp1252"])
+@every("encoding", ["utf-8", "cp1252"])
 def test_units_may_be_written_in_utf_8(written: Callable[..., Path], encoding: str) -> None:
     path = written("uff", ("top", "m/s2", np.arange(40.0)))
     path.write_bytes(path.read_text().replace("m/s2", "m/s²").encode(encoding))

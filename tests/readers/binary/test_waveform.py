@@ -65,7 +65,7 @@ def test_pieces_that_lie_years_apart_are_not_filled_up(tmp_path: Path) -> None:
     assert "far apart" in recording.warnings[0]
 
 
-@pytest.mark.parametrize(("first", "second"), [(200, 160), (200, 100), (50, 200)])
+@every(("first", "second"), [(200, 160), (200, 100), (50, 200)])
 def test_pieces_of_different_rates_keep_their_own_times(tmp_path: Path, first: float, second: float) -> None:
     rng, times = np.random.default_rng(1), (np.arange(400) / first, 400 / first + np.arange(300) / second)
     values = [np.sin(12 * each) + rng.normal(0, 1e-3, each.size) for each in times]

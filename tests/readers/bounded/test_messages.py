@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from colonnade.readers.bounded import messages, recordings
+from colonnade.readers.bounded import messages
 from colonnade.readers.recording import RecordedChannel, Recording
 from every import every
 
 
-@pytest.mark.parametrize(
+@every(
     "answer",
     [
         b"",
@@ -39,7 +39,7 @@ def test_an_answer_that_is_none_is_refused(tmp_path: Path, answer: bytes) -> Non
 
 
 HEADER = {"format": "odd", "start": None, "notes": [], "warnings": [], "hint": "", "left_out": []}
-COLUMN = {"name": "a", "unit": None, "heading": "a", "is_clock": False, "values": 0, "time": 1}
+COLUMN = ["a", None, "a", False, 0, 1]
 
 
 @every(
@@ -49,14 +49,14 @@ COLUMN = {"name": "a", "unit": None, "heading": "a", "is_clock": False, "values"
         ({**HEADER, "columns": [COLUMN]}, [np.zeros(2), np.zeros(3)]),
         ({**HEADER, "columns": [COLUMN]}, [np.zeros((2, 1)), np.zeros((2, 1))]),
         ({**HEADER, "columns": [COLUMN]}, [np.zeros(2, dtype=np.uint8)] * 2),
-        ({**HEADER, "columns": [{**COLUMN, "name": 1}]}, [np.zeros(2)] * 2),
+        ({**HEADER, "columns": [[1, *COLUMN[1:]]]}, [np.zeros(2)] * 2),
         (HEADER, []),
         (None, []),
     ],
 )
 def test_a_recording_whose_parts_do_not_fit_is_refused(header: Any, arrays: list[np.ndarray]) -> None:
     with pytest.raises(ValueError, match=r"\w"):
-        recordings.recording_of(Path("r"), header, arrays)
+        messages.recording_of(Path("r"), header, arrays)
 
 
 def test_all_that_a_recording_holds_comes_through() -> None:
@@ -70,11 +70,11 @@ def test_all_that_a_recording_holds_comes_through() -> None:
     start = datetime(2013, 4, 26, 10, 15, 0, 250000, UTC)
     whole = Recording(Path("r"), "odd", channels, start, ("a",), ("b",), hint="c", left_out=(("d", "e"),))
     with TemporaryFile() as stream:
-        header, arrays = recordings.told(whole)
+        header, arrays = messages.told(whole)
         messages.send(stream, arrays, header=header)
         stream.seek(0)
         answer, received = messages.receive(stream, 1000)
-    back = recordings.recording_of(Path("r"), answer.header, received)
+    back = messages.recording_of(Path("r"), answer.header, received)
     for field in fields(Recording):
         if field.name != "channels":
             assert getattr(back, field.name) == getattr(whole, field.name)

@@ -11,7 +11,7 @@ import pytest
 
 from colonnade.readers import registry
 from colonnade.readers.bounded import messages, server
-from colonnade.readers.bounded.enclosure import bounds_of
+from colonnade.readers.bounded.enclosure import OUT_OF_MEMORY, bounds_of
 from colonnade.readers.bounded.messages import Answer, Request
 
 
@@ -45,7 +45,7 @@ def answers(*requests: Request) -> list[Answer]:
 def test_each_request_has_its_answer_in_order(table: Path) -> None:
     read, missing, again = answers(request(table), request(table.with_name("b.csv")), request(table))
     assert isinstance(read.header, dict)
-    assert [column["name"] for column in read.header["columns"]] == ["t", "top"]
+    assert [name for name, *_ in read.header["columns"]] == ["t", "top"]
     assert "there is no such file" in missing.refusal
     assert missing.error_number == 2
     assert again == read
@@ -55,7 +55,7 @@ def test_a_refusal_without_an_error_of_the_machine_is_the_files_own(table: Path)
     table.write_text("words\n", encoding="ascii")
     (refused,) = answers(request(table))
     assert refused.refusal.startswith("a.csv: no rows of numbers were found")
-    assert (refused.error_number, refused.out_of_memory) == (None, False)
+    assert (refused.error_number, refused.exit_code) == (None, None)
 
 
 def test_what_swells_says_so(table: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -64,7 +64,7 @@ def test_what_swells_says_so(table: Path, monkeypatch: pytest.MonkeyPatch) -> No
 
     swelling = replace(registry.formats()["delimited"], read=swell)
     monkeypatch.setattr(registry, "formats", lambda: {"delimited": swelling})
-    assert answers(request(table))[0].out_of_memory
+    assert answers(request(table))[0].exit_code == OUT_OF_MEMORY
 
 
 def test_what_a_format_needs_is_imported_before_its_file_is_opened(

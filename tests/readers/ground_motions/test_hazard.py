@@ -9,6 +9,7 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.ground_motions.hazard import read_hazard
+from every import every
 
 
 def read(tmp_path, text, measure="pgv", unit="m/s"):
@@ -17,7 +18,7 @@ def read(tmp_path, text, measure="pgv", unit="m/s"):
     return read_hazard(path, measure=measure, unit=unit)
 
 
-@pytest.mark.parametrize(
+@every(
     ("text", "measure", "unit", "factor"),
     [
         ("pgv [cm/s],rate [1/year]\n1,0.1\n2,0.01\n", "pgv", "m/s", 0.01),
@@ -32,7 +33,7 @@ def test_intensity_comes_in_si(tmp_path, text, measure, unit, factor):
     np.testing.assert_allclose(hazard.rate, [0.1, 0.01])
 
 
-@pytest.mark.parametrize(
+@every(
     ("text", "message"),
     [
         ("pga [g],rate\n1,2\n2,1\n", 'given for "pga" and the fragility for "pgv"'),

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from colonnade.errors import ReadError
 from colonnade.readers.ground_motions.listed import COLUMNS, Entry, inside, read_list
+from every import every
 
 MANY = settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 PARTS = [*COLUMNS, "[s]", "[", "]", "x", "../x", "/x", "1", "nan", "\0", '"', "é"]
@@ -82,7 +83,7 @@ def test_a_path_in_the_folder_is_found(tmp_path):
     assert inside(tmp_path, "a/../b\\c.csv") == Path(tmp_path, "b/c.csv")
 
 
-@pytest.mark.parametrize(
+@every(
     ("text", "message"),
     [
         ("", "the file is empty"),

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 
-import pytest
-
 from colonnade.readers.text.cells import WHITESPACE, Dialect, decimals_of, kind_of, looks_like_numbers
+from every import every
 
 POINT, COMMA = Dialect("utf-8", ";", "."), Dialect("utf-8", ";", ",")
 
 
-@pytest.mark.parametrize(
+@every(
     ("text", "dialect", "value"),
     [
         ("1.5", POINT, 1.5),
@@ -27,14 +26,12 @@ def test_a_number_is_read(text: str, dialect: Dialect, value: float) -> None:
     assert kind_of(text, dialect) == "number"
 
 
-@pytest.mark.parametrize(("text", "dialect"), [("1.234", COMMA), ("1,5", POINT), ("1_000", POINT), ("0x1F", POINT)])
+@every(("text", "dialect"), [("1.234", COMMA), ("1,5", POINT), ("1_000", POINT), ("0x1F", POINT)])
 def test_what_is_not_a_number_or_could_be_read_in_two_ways_is_missing(text: str, dialect: Dialect) -> None:
     assert math.isnan(dialect.number(text))
 
 
-@pytest.mark.parametrize(
-    ("text", "kind"), [("OVL", "missing"), ("10:15:00.5", "time"), ("26.04.2013 10:15", "time"), ("on", "text")]
-)
+@every(("text", "kind"), [("OVL", "missing"), ("10:15:00.5", "time"), ("26.04.2013 10:15", "time"), ("on", "text")])
 def test_a_cell_is_named_by_what_it_holds(text: str, kind: str) -> None:
     assert kind_of(text, POINT) == kind
 

@@ -6,9 +6,9 @@ from datetime import datetime, timedelta, timezone
 
 import numpy as np
 import pandas as pd
-import pytest
 
 from colonnade.readers.text.columns import Timestamps, past_midnight
+from every import every
 
 
 def test_pieces_count_on_from_the_first_timestamp() -> None:
@@ -27,9 +27,7 @@ def test_times_of_day_go_on_after_midnight() -> None:
     np.testing.assert_array_equal(past_midnight(np.array([86399.0, np.nan, 1.0])), [86399, np.nan, 86401])
 
 
-@pytest.mark.parametrize(
-    ("zone", "hours"), [("Z", 0), ("+02:00", 2), ("-0330", -3.5), (" +05:45", 5.75), ("+00:00", 0)]
-)
+@every(("zone", "hours"), [("Z", 0), ("+02:00", 2), ("-0330", -3.5), (" +05:45", 5.75), ("+00:00", 0)])
 def test_the_first_timestamp_keeps_its_zone(zone, hours) -> None:
     column = Timestamps()
     written = [f"2013-04-26T23:15:{second}{zone}" for second in ("00.5", "01.0")]

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
+from colonnade.readers.registry import read
 from delimited_text import recorded, values
+from every import every
 
 ROWS = "".join(f"{row};{row},5;-0,{row}\n" for row in range(1, 10))
 
@@ -26,7 +28,7 @@ def test_a_point_among_decimal_commas_is_missing_rather_than_guessed(tmp_path: P
     assert recording.warnings == ('"force": 1 cell holds no number (on line 4: "1.234"); missing',)
 
 
-@pytest.mark.parametrize(("thousands", "text"), [(".", "1.234"), ("'", "1'234"), (" ", "1 234")])
+@every(("thousands", "text"), [(".", "1.234"), ("'", "1'234"), (" ", "1 234")])
 def test_thousands_that_were_declared_are_read(tmp_path: Path, thousands: str, text: str) -> None:
     recording = recorded(tmp_path, f"n;force\n1;0,5\n2;{text}\n3;0,6\n4;0,7\n", thousands=thousands, decimal=",")
     assert values(recording, "force") == [0.5, 1234.0, 0.6, 0.7]
@@ -61,7 +63,7 @@ def test_fortran_exponents_and_the_printed_minus_are_numbers(tmp_path: Path) -> 
     assert values(recorded(tmp_path, "1.0D-03;\N{MINUS SIGN}2.5\n2.0D-03;3.5\n4.0D+00;4.5\n"), 2) == [-2.5, 3.5, 4.5]
 
 
-@pytest.mark.parametrize("text", ["NaN", "OVERFLOW", "-", "--", "#DIV/0!", "1.#INF", "inf", "", " ", "sensor off"])
+@every("text", ["NaN", "OVERFLOW", "-", "--", "#DIV/0!", "1.#INF", "inf", "", " ", "sensor off"])
 def test_what_recorders_write_for_no_number_is_missing_and_told(tmp_path: Path, text: str) -> None:
     recording = recorded(tmp_path, f"t;a;b\n0;1;2\n1;{text};2\n2;3;2\n3;{text};2\n")
     assert np.isnan(recording.channel("a").values).tolist() == [False, True, False, True]
@@ -73,18 +75,6 @@ def test_a_number_that_stands_for_missing_can_be_told(tmp_path: Path) -> None:
     text = "t;a\n0;1\n1;-999.0\n2;3\n"
     assert np.isnan(values(recorded(tmp_path, text, missing=("-999",)), "a")[1])
     assert values(recorded(tmp_path, text), "a")[1] == -999.0
-
-
-def test_a_row_with_too_many_cells_is_missing_and_keeps_its_place(tmp_path: Path) -> None:
-    recording = recorded(tmp_path, "t;a;b\n0;1;2\n1;1;2\n2;9;9;9;9;9\n3;1;2\n")
-    assert np.isnan(values(recording, "b")).tolist() == [False, False, True, False]
-    assert recording.warnings == ('line 4: counted as missing: more than 3 cells ("2;9;9;9;9;9")',)
-
-
-def test_a_last_line_that_was_cut_is_left_out(tmp_path: Path) -> None:
-    recording = recorded(tmp_path, "t;a;b\n0;1;2\n1;1;2\n2;1;2\n3;1")
-    assert values(recording, "t") == [0, 1, 2]
-    assert recording.warnings[0].startswith("line 5: left out: the file ends here, before all 3 cells")
 
 
 def test_a_last_number_with_lost_decimals_is_missing(tmp_path: Path) -> None:
@@ -103,13 +93,6 @@ def test_columns_that_end_earlier_keep_their_values(tmp_path: Path) -> None:
     assert values(recording, "a") == list(range(30))
     assert np.isfinite(recording.channel("b").values).sum() == 20
     assert any("the last columns are shorter" in note for note in recording.notes)
-
-
-def test_comments_and_repeated_headings_among_samples_are_left_out(tmp_path: Path) -> None:
-    recording = recorded(tmp_path, "t;a\n0;1\n1;2\n# event 1\n2;3\nt;a\n3;4\n4;5\n")
-    assert values(recording, "a") == [1, 2, 3, 4, 5]
-    assert recording.warnings == ('line 6: left out: text without a number ("t;a")',)
-    assert any("line 4: left out as a comment" in note for note in recording.notes)
 
 
 def test_a_sample_behind_a_comment_sign_is_missing_and_keeps_its_place(tmp_path: Path) -> None:
@@ -152,13 +135,14 @@ def test_a_file_without_samples_is_refused(tmp_path: Path, text: str, message: s
         recorded(tmp_path, text)
 
 
-@pytest.mark.parametrize(
+@every(
     ("options", "message"),
     [
         ({"delimeter": ";"}, r'no option "delimeter". Did you mean "delimiter"'),
         ({"decimal": "point"}, 'option "decimal" .* is "point"'),
         ({"encoding": "utf-9"}, r"unknown encoding"),
         ({"delimiter": "ab"}, r"one character was expected"),
+        ({"delimiter": "1"}, r"one character was expected"),
         ({"time": 1, "time_unit": "mm"}, r"a unit of time was expected"),
         ({"decimal": ",", "thousands": ","}, r"decimal and thousands are both"),
         ({"time": 4}, r"column 4 is missing; it has columns 1 to 3"),
@@ -179,9 +163,9 @@ def noisy_decay(peak: float) -> list[int]:
 MARKS = [".", ",", "'", "\N{RIGHT SINGLE QUOTATION MARK}", " ", "\N{NO-BREAK SPACE}", "\N{NARROW NO-BREAK SPACE}"]
 
 
-@pytest.mark.parametrize("peak", [1100, 2200, 250_000, 3_000_000], ids=lambda peak: f"up to {peak}")
-@pytest.mark.parametrize("decimal", [".", ","])
-@pytest.mark.parametrize("mark", MARKS, ids=ascii)
+@every("peak", [1100, 2200, 250_000, 3_000_000])
+@every("decimal", [".", ","])
+@every("mark", MARKS)
 def test_whole_numbers_keep_their_size_with_a_mark_between_thousands(
     tmp_path: Path, mark: str, decimal: str, peak: int
 ) -> None:
@@ -199,7 +183,7 @@ def test_whole_numbers_keep_their_size_with_a_mark_between_thousands(
     assert any("thousands" in note for note in recording.notes) is (mark in ".,")
 
 
-@pytest.mark.parametrize("written", ["{:.3f}", "{:.6g}"], ids=["always three decimals", "zeros at the end left out"])
+@every("written", ["{:.3f}", "{:.6g}"])
 def test_decimals_are_not_taken_for_thousands(tmp_path: Path, written: str) -> None:
     numbers = [float(written.format(550 + number / 3000)) for number in noisy_decay(1_000_000)]
     text = "".join(f"{row / 500};{written.format(number)}\n" for row, number in enumerate(numbers))
@@ -213,3 +197,36 @@ def test_a_decimal_sign_that_is_given_is_no_mark_between_thousands(tmp_path: Pat
     text = "time;top\n" + "".join(f"{row / 500};{number}\n" for row, number in enumerate([997, 998, 999, "1.012"] * 9))
     assert max(values(recorded(tmp_path, text), "top")) == 1012
     assert max(values(recorded(tmp_path, text, decimal="."), "top")) == 999
+
+
+def test_a_shake_table_recording_with_names_and_units_rows(shared_data: Path) -> None:
+    recording = read(shared_data / "shaketable" / "thadhaines_01.csv")
+    assert len(recording.channels) == 33
+    assert recording.warnings == ()
+    table = recording.channel("Table accel XXXX")
+    assert table.unit == "g's"
+    assert recording.channel("LED Light").unit is None
+    assert table.time is not None
+    assert table.time[[0, -1]].tolist() == [0.0, 8.999]  # 1000 Hz, 9 s
+    assert np.allclose(np.diff(table.time), 1e-3, atol=1e-9)
+    assert np.ptp(table.values) / 2 == pytest.approx(0.35, abs=0.03)  # table ±0.35 g, with noise
+    drive = recording.channel("Output To Table")
+    assert drive.unit == "Volts"
+    assert np.abs(drive.values).max() == pytest.approx(1.0, abs=0.05)  # 2 Hz sine ±1 V
+    light = recording.channel("LED Light").values < 2
+    assert table.time[light][[0, -1]] == pytest.approx([3.731, 6.189], abs=0.002)
+    assert recording.channel("Block accel 26430").values.std() == pytest.approx(0.006, abs=0.001)
+
+
+@every(("name", "rows"), [("earthquake-test1.csv", 4092), ("sinewave-test1.csv", 1400)])
+def test_recordings_without_header_and_clock(shared_data: Path, name: str, rows: int) -> None:
+    recording = read(shared_data / "shaketable" / name)
+    assert [channel.name for channel in recording.channels] == ["column 1", "column 2", "column 3"]
+    assert all(channel.values.size == rows and np.isfinite(channel.values).all() for channel in recording.channels)
+    assert all(channel.time is None and channel.unit is None for channel in recording.channels)
+    assert recording.warnings == ()
+
+
+def test_the_first_samples_of_a_file_without_header_are_kept(shared_data: Path) -> None:
+    recording = read(shared_data / "shaketable" / "sinewave-test1.csv")
+    assert recording.channel(2).values[:3].tolist() == [0.009, 0.0262, 0.0434]

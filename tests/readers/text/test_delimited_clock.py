@@ -14,11 +14,10 @@ from colonnade.readers.registry import read
 from colonnade.readers.text import delimited
 from colonnade.readers.text.delimited_header import DelimitedOptions
 from delimited_text import recorded
+from every import every
 
-ROWS = "".join(f"{row};{row},5;-0,{row}\n" for row in range(1, 10))
 
-
-@pytest.mark.parametrize(
+@every(
     ("heading", "factor"),
     [
         ("Time [s]", 1.0),
@@ -34,7 +33,7 @@ def test_a_clock_is_known_by_its_name_and_unit(tmp_path: Path, heading: str, fac
     np.testing.assert_allclose(recording.channel("a").time, np.array([0.0, 5.0, 10.0]) * factor)
 
 
-@pytest.mark.parametrize("heading", ["T [°C]", "Temperature", "X", "Time constant", "T [V]"])
+@every("heading", ["T [°C]", "Temperature", "X", "Time constant", "T [V]"])
 def test_a_rising_column_of_another_name_or_unit_is_no_clock(tmp_path: Path, heading: str) -> None:
     assert recorded(tmp_path, f"{heading};a\n0;1\n5;2\n10;0\n").channel("a").time is None
 
@@ -68,7 +67,7 @@ def test_a_clock_that_was_given_leaves_the_other_clocks_to_be_chosen(tmp_path: P
     assert recording.on_clock("a", "X").time.tolist() == [5, 6, 7]
 
 
-@pytest.mark.parametrize(
+@every(
     ("stamps", "start"),
     [
         (
@@ -89,7 +88,6 @@ def test_a_clock_that_was_given_leaves_the_other_clocks_to_be_chosen(tmp_path: P
         ),
         (["23:59:59.5", "00:00:00.0", "00:00:00.5"], None),
     ],
-    ids=["ISO", "slashes", "dotted with comma", "zone", "time of day past midnight"],
 )
 def test_timestamps_are_seconds_from_the_first(tmp_path: Path, stamps: list[str], start: datetime | None) -> None:
     recording = recorded(tmp_path, "timestamp;a\n" + "".join(f"{stamp};{row}\n" for row, stamp in enumerate(stamps)))
@@ -110,16 +108,16 @@ def long(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return path
 
 
-@pytest.mark.parametrize("window", [(20.0, 20.7), (0.0, 1.0), (44.5, 90.0), (-5.0, 900.0)])
+@every("window", [(20.0, 20.7), (0.0, 1.0), (44.5, 90.0), (-5.0, 900.0)])
 def test_a_window_of_a_long_file_is_what_the_whole_file_holds_there(long: Path, window: tuple[float, float]) -> None:
     whole = read(long)
     part = delimited.read(long, DelimitedOptions(), Window(*window))
-    for every, some in zip(whole.channels, part.channels, strict=True):
-        assert every.time is not None
+    for all_of_it, some in zip(whole.channels, part.channels, strict=True):
+        assert all_of_it.time is not None
         assert some.time is not None
-        inside, there = ((time >= window[0]) & (time <= window[1]) for time in (every.time, some.time))
-        np.testing.assert_array_equal(some.time[there], every.time[inside])
-        np.testing.assert_array_equal(some.values[there], every.values[inside])
+        inside, there = ((time >= window[0]) & (time <= window[1]) for time in (all_of_it.time, some.time))
+        np.testing.assert_array_equal(some.time[there], all_of_it.time[inside])
+        np.testing.assert_array_equal(some.values[there], all_of_it.values[inside])
 
 
 def test_lines_keep_their_numbers_in_a_window(long: Path) -> None:

@@ -7,11 +7,12 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
-from pydantic import ValidationError
 
 from colonnade.errors import ReadError
-from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
+from colonnade.readers.text.delimited_header import DelimitedOptions, Header, TableOptions, read_header
 from colonnade.readers.text.encoding import text_of
+from colonnade.readers.text.heading import HeadingLines
+from every import every
 
 ROWS = "".join(f"{number},0;{number},25;{-number},5\n" for number in range(30))
 
@@ -43,7 +44,7 @@ def test_words_between_single_blanks_may_be_a_sentence(tmp_path: Path) -> None:
     assert header(tmp_path / "a.txt", rows).is_named is False
 
 
-@pytest.mark.parametrize(
+@every(
     ("text", "options", "told"),
     [
         ("\n \n", {}, "the file is empty"),
@@ -51,7 +52,6 @@ def test_words_between_single_blanks_may_be_a_sentence(tmp_path: Path) -> None:
         ("only words\n" * 5, {}, "no rows of numbers were found in the first 5 lines"),
         ("a b\n1 2\n", {"delimiter": ";", "decimal": ","}, "with delimiter = ';', decimal = ','"),
     ],
-    ids=["empty", "binary", "words", "as given"],
 )
 def test_a_text_without_rows_is_refused_with_the_reason(
     tmp_path: Path, text: str, options: dict[str, object], told: str
@@ -66,17 +66,7 @@ def test_text_in_another_encoding_than_given_is_refused(tmp_path: Path) -> None:
         read_header(text_of(tmp_path / "a.csv", "utf-32"), DelimitedOptions(encoding="utf-32"))
 
 
-@pytest.mark.parametrize(
-    "options",
-    [{"delimiter": "ab"}, {"delimiter": "1"}, {"decimal": ".", "thousands": "."}, {"encoding": "utf-99"}, {"x": 1}],
-    ids=str,
-)
-def test_an_option_that_cannot_be_is_refused(options: dict[str, object]) -> None:
-    with pytest.raises(ValidationError):
-        DelimitedOptions.model_validate(options)
-
-
-@pytest.mark.parametrize(("word", "sign"), [("tab", "\t"), ("Semicolon", ";"), ("spaces", " "), ("|", "|")])
+@every(("word", "sign"), [("tab", "\t"), ("Semicolon", ";"), ("spaces", " "), ("|", "|")])
 def test_a_delimiter_may_be_a_word(word: str, sign: str) -> None:
     assert DelimitedOptions(delimiter=word).delimiter == sign
 
@@ -94,3 +84,38 @@ def test_whatever_is_above_the_rows_these_are_found(
     found = header(tmp_path / "a.csv", "\n".join([*above, *rows, ""]))
     assert len(found.form.kinds) == width
     assert found.heading.first <= len(above) + 1
+
+
+FOUND = HeadingLines(2, 3)
+
+
+@every(
+    ("options", "names", "units"),
+    [
+        ({}, 2, 3),
+        ({"names_row": 1}, 0, 3),
+        ({"names_row": 4}, 3, None),
+        ({"units_row": 3}, None, 2),
+        ({"names_row": 0, "units_row": 0}, None, None),
+    ],
+)
+def test_lines_of_names_and_units_are_as_given_else_as_found(
+    options: dict[str, int], names: int | None, units: int | None
+) -> None:
+    assert TableOptions(**options).heading_lines(FOUND) == HeadingLines(names, units)
+
+
+@every(
+    ("kinds", "options", "kind"),
+    [
+        (("number", "number"), TableOptions(layout="running"), "running"),
+        (("time", "number"), TableOptions(), "columns"),
+        (("number", "number"), TableOptions(time=1), "columns"),
+        (("number", "number"), TableOptions(), None),
+    ],
+)
+def test_the_layout_is_as_given_or_as_the_columns_kinds_leave_it(
+    kinds: tuple[str, ...], options: TableOptions, kind: str | None
+) -> None:
+    layout = options.given_layout(kinds)
+    assert (None if layout is None else layout.kind) == kind

@@ -7,29 +7,13 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.recording import Recording
 from colonnade.readers.registry import read
+from damage import KINDS, damaged
+from every import every
 
-INSERTED = [
-    '"',
-    ";",
-    ";;;;",
-    "OVERFLOW",
-    "\0\0\0\0",
-    "\r",
-    "\n\n",
-    "1.234,5",
-    "\N{GREEK SMALL LETTER THETA}",
-    "#",
-    "nan",
-    "--",
-    "\x1a",
-    "e",
-    "- 5",
-]
 ROWS = 400
 
 
@@ -41,26 +25,6 @@ def undamaged(separator: str, decimal: str, encoding: str) -> bytes:
     return ("\r\n".join(lines) + "\r\n").encode(encoding)
 
 
-def damage(content: bytes, kind: str, chance: random.Random) -> bytes:
-    place = chance.randrange(len(content))
-    if kind == "flips":
-        flipped = bytearray(content)
-        for _ in range(chance.randint(1, 40)):
-            flipped[chance.randrange(len(flipped))] ^= 1 << chance.randrange(8)
-        return bytes(flipped)
-    if kind == "truncation":
-        return content[:place]
-    if kind == "deletion":
-        return content[:place] + content[place + chance.randint(1, 200) :]
-    if kind == "insertion":
-        return content[:place] + chance.choice(INSERTED).encode() + content[place:]
-    if kind == "repetition":
-        return content[:place] + content[max(0, place - 300) :]
-    if kind == "zeros":
-        return content[:place] + bytes(chance.randint(1, 3000))
-    return bytes(chance.randrange(256) for _ in range(chance.randint(0, 3000)))
-
-
 def read_or_refusal(path: Path) -> Recording | ReadError:
     try:
         return read(path)
@@ -68,10 +32,8 @@ def read_or_refusal(path: Path) -> Recording | ReadError:
         return error
 
 
-@pytest.mark.parametrize("kind", ["flips", "truncation", "deletion", "insertion", "repetition", "zeros", "noise"])
-@pytest.mark.parametrize(
-    ("separator", "decimal", "encoding"), [(";", ",", "latin-1"), (",", ".", "utf-16"), ("\t", ".", "utf-8")]
-)
+@every(("separator", "decimal", "encoding"), [(";", ",", "latin-1"), (",", ".", "utf-16"), ("\t", ".", "utf-8")])
+@every("kind", KINDS)
 def test_a_damaged_file_is_read_or_refused(
     tmp_path: Path, kind: str, separator: str, decimal: str, encoding: str
 ) -> None:
@@ -79,7 +41,7 @@ def test_a_damaged_file_is_read_or_refused(
     path = tmp_path / "damaged.csv"
     seen: Counter[str] = Counter()
     for seed in range(25):
-        path.write_bytes(damage(content, kind, random.Random(f"{kind} {encoding} {seed}")))
+        path.write_bytes(damaged(content, kind, random.Random(f"{kind} {encoding} {seed}")))
         outcome = read_or_refusal(path)
         if isinstance(outcome, ReadError):
             assert "damaged.csv" in str(outcome)
@@ -94,7 +56,7 @@ def test_a_damaged_file_is_read_or_refused(
     assert seen["refused"] == 25 if kind == "noise" else seen["refused"] < 25
 
 
-@pytest.mark.parametrize("removed", ["0,5000", ";", ";0,5000", "0,5000;"])
+@every("removed", ["0,5000", ";", ";0,5000", "0,5000;"])
 def test_a_lost_cell_or_delimiter_never_moves_values_to_another_column(tmp_path: Path, removed: str) -> None:
     rows = [f"{row};0,5000;{row + 100}" for row in range(50)]
     rows[20] = rows[20].replace(removed, "", 1)

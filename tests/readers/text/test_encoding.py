@@ -17,11 +17,12 @@ from colonnade.readers.text.encoding import (
     pieces_of_text,
     text_of,
 )
+from every import every
 
 TEXT = "Weg [µm];Kraft\r\n1;2\r\n3;4\r\n"
 
 
-@pytest.mark.parametrize(
+@every(
     ("written_as", "found"),
     [
         ("utf-8", "utf-8"),

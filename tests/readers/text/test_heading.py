@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import pytest
-
 from colonnade.readers.text.cells import Dialect
 from colonnade.readers.text.heading import HeadingLines, describe_columns, looks_like_unit, take_apart
 from every import every
 
 
-@pytest.mark.parametrize(
+@every(
     ("heading", "name", "unit"),
     [
         ("LVDT 1 [mm]", "LVDT 1", "mm"),
@@ -25,9 +23,7 @@ def test_a_unit_is_split_off(heading: str, name: str, unit: str | None) -> None:
     assert take_apart(heading) == (name, unit)
 
 
-@pytest.mark.parametrize(
-    "heading", ["Accel (top)", "LVDT [3]", "Table accel XXXX", "input/output", "[mm]", "distance in front"]
-)
+@every("heading", ["Accel (top)", "LVDT [3]", "Table accel XXXX", "input/output", "[mm]", "distance in front"])
 def test_what_is_no_unit_stays_with_the_name(heading: str) -> None:
     assert take_apart(heading) == (heading, None)
 
@@ -51,7 +47,7 @@ def test_the_unit_in_front_of_a_graphs_name_is_found() -> None:
     assert take_apart("Table [North] - Plot 0") == ("Table [North] - Plot 0", None)
 
 
-@pytest.mark.parametrize(
+@every(
     ("heads", "units"),
     [
         (("Acc (V)", "Acc (H)"), (None, None)),

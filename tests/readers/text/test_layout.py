@@ -118,10 +118,6 @@ def test_what_the_file_does_not_declare_has_to_be_said(tmp_path: Path, head: str
     assert read_motion(path, unit="g", dt=0.02, layout="running").acceleration.size == table.size
 
 
-def test_three_phones_that_feel_the_same_are_three_channels(shared_data: Path) -> None:
-    assert len(read(shared_data / "shaketable" / "earthquake-test1.csv").channels) == 3
-
-
 def test_a_column_that_ends_earlier_is_no_series_that_runs_on(tmp_path: Path) -> None:
     table = components()
     text = "".join(
@@ -184,13 +180,3 @@ def test_a_line_that_does_not_continue_the_block_is_refused(tmp_path: Path, text
 )
 def test_a_claim_is_found_in_its_words(text: str, claim: str, value: object) -> None:
     assert getattr(header_claims(text), claim) == value
-
-
-def test_a_claimed_interval_gives_times() -> None:
-    claims = header_claims("equal spacing of 0.02 sec")
-    times = claims.times(3)
-    assert times is not None
-    assert times.tolist() == [0, 0.02, 0.04]
-    assert claims.clock_note == "clock: 0.02 s, as the header says"
-    assert header_claims("").times(3) is None
-    assert header_claims("").clock_note == "no clock"

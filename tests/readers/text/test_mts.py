@@ -5,11 +5,11 @@ from __future__ import annotations
 from datetime import datetime
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.registry import read
+from every import every
 
 
 def written(tmp_path: Path, *lines: str) -> Path:
@@ -24,30 +24,17 @@ def block(delimiter: str, decimal: str, first: float, title: str) -> list[str]:
     return [title, delimiter.join(["Running Time", "Axial Displacement", "Axial Force"]), "s   mm   kN", *numbers, ""]
 
 
-@pytest.mark.parametrize(
-    ("declared", "delimiter", "decimal", "title", "date"),
+@every(
+    ("declared", "delimiter", "decimal", "title"),
     [
-        ("ENU|1|2|.|/|:|1|0|0|A", "\t", ".", "Data Acquisition\tTime:\t10.0\tSec\t4/26/2013 1:54:32 PM", (13, 54, 22)),
-        ("DEU|1|2|,|.|:|49|1|1|A", "\t", ",", "Datenerfassung\tZeit:\t10,0\ts\t26.04.2013 13:54:32", (13, 54, 22)),
-        (
-            "ENU|1|1|.|/|:|1|0|0|A",
-            ",",
-            ".",
-            '"Data Acquisition","Time:",10.0,"Sec","4/26/2013 1:54:32 PM"',
-            (13, 54, 22),
-        ),
-        (
-            "ENU|1|0|.|/|:|1|0|0|A",
-            "   ",
-            ".",
-            "Data Acquisition   Time:   10.0   Sec   4/26/2013 1:54:32 PM",
-            (13, 54, 22),
-        ),
+        ("ENU|1|2|.|/|:|1|0|0|A", "\t", ".", "Data Acquisition\tTime:\t10.0\tSec\t4/26/2013 1:54:32 PM"),
+        ("DEU|1|2|,|.|:|49|1|1|A", "\t", ",", "Datenerfassung\tZeit:\t10,0\ts\t26.04.2013 13:54:32"),
+        ("ENU|1|1|.|/|:|1|0|0|A", ",", ".", '"Data Acquisition","Time:",10.0,"Sec","4/26/2013 1:54:32 PM"'),
+        ("ENU|1|0|.|/|:|1|0|0|A", "   ", ".", "Data Acquisition   Time:   10.0   Sec   4/26/2013 1:54:32 PM"),
     ],
-    ids=["Excel, English", "Excel, German", "Lotus", "plain"],
 )
 def test_the_first_line_declares_delimiter_and_decimal_sign(
-    tmp_path: Path, declared: str, delimiter: str, decimal: str, title: str, date: tuple[int, int, int]
+    tmp_path: Path, declared: str, delimiter: str, decimal: str, title: str
 ) -> None:
     lines = block(delimiter, decimal, 2.0, title)
     lines[2] = delimiter.join(["s", "mm", "kN"])
@@ -62,7 +49,7 @@ def test_the_first_line_declares_delimiter_and_decimal_sign(
     assert force.values.tolist() == [0, -1, -2]
     assert force.time is not None
     assert force.time.tolist() == [2.0, 2.5, 3.0]
-    assert recording.start == datetime(2013, 4, 26, *date) + (datetime(2013, 1, 1, 0, 0, 2) - datetime(2013, 1, 1))
+    assert recording.start == datetime(2013, 4, 26, 13, 54, 24)  # 2 s after the zero of the time, 10 s before the date
     assert recording.warnings == ()
 
 
@@ -97,14 +84,6 @@ def test_notes_of_the_operator_are_no_block(tmp_path: Path) -> None:
 def test_a_first_line_that_declares_nothing_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match=r'line 1 is "MTS793\|MPT\|ENU"; .* was expected'):
         read(written(tmp_path, "MTS793|MPT|ENU", "1\t2"))
-
-
-def test_a_row_that_is_too_short_counts_as_missing(tmp_path: Path) -> None:
-    lines = block("\t", ".", 0.0, "Data Acquisition\tTime:\t10.0\tSec\t4/26/2013 1:54:32 PM")
-    lines[2], lines[4] = "s\tmm\tkN", "0.5000\t11.5000"
-    recording = read(written(tmp_path, "MTS793|MPT|ENU|1|2|.|/|:|1|0|0|A", *lines))
-    np.testing.assert_array_equal(recording.channel("Axial Displacement").values, [10.5, np.nan, 12.5])
-    assert recording.warnings == ('line 6: counted as missing: fewer than 3 cells ("0.5000 11.5000")',)
 
 
 def test_the_longest_block_is_the_default_and_the_reader_says_so(tmp_path: Path) -> None:

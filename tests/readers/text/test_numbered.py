@@ -9,6 +9,7 @@ import pytest
 
 from colonnade.errors import ReadError
 from colonnade.readers.text.numbered import LONGEST_LINE, NumberedLines, read_running
+from every import every
 
 
 def written(tmp_path: Path, content: bytes) -> Path:
@@ -31,7 +32,7 @@ def test_a_line_longer_than_any_texts_is_refused(tmp_path: Path) -> None:
         list(lines.rest())
 
 
-@pytest.mark.parametrize(
+@every(
     ("line", "width"),
     [
         (" 1.5 -0.25  3.0E+01", None),
@@ -40,7 +41,6 @@ def test_a_line_longer_than_any_texts_is_refused(tmp_path: Path) -> None:
         (" 1.50-0.25 30.0", 5),
         ("  1.5-0.25   30", 5),
     ],
-    ids=["free", "touching", "Fortran exponent", "fields of five", "fields with blanks"],
 )
 def test_numbers_are_told_apart(line: str, width: int | None) -> None:
     values, warnings = read_running([(1, line)], width=width)
@@ -48,7 +48,7 @@ def test_numbers_are_told_apart(line: str, width: int | None) -> None:
     assert warnings == []
 
 
-@pytest.mark.parametrize("odd", ["####", "1.2.3", "nan", "1e999", "--", "0x1F"])
+@every("odd", ["####", "1.2.3", "nan", "1e999", "--", "0x1F"])
 def test_what_is_no_number_is_missing_and_told(odd: str) -> None:
     values, warnings = read_running([(7, "1.0 2.0"), (8, f"3.0 {odd}"), (9, "")])
     np.testing.assert_array_equal(values, [1, 2, 3, np.nan])

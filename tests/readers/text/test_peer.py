@@ -11,9 +11,10 @@ from colonnade.errors import ReadError
 from colonnade.readers.motion import read_motion
 from colonnade.readers.registry import read
 from colonnade.readers.text.peer import spelled
+from every import every
 
 
-@pytest.mark.parametrize(
+@every(
     ("written", "usual"),
     [("CM/S/S", "cm/s^2"), ("cm/sec", "cm/s"), ("G", "g"), ("g/10", "g/10"), ("Furlong", "furlong")],
 )
@@ -32,7 +33,7 @@ def record(tmp_path: Path, sizes: str, quantity: str = "ACCELERATION TIME SERIES
     return path
 
 
-@pytest.mark.parametrize(
+@every(
     "sizes",
     [
         "NPTS=  6, DT= .01000 SEC",
@@ -40,7 +41,6 @@ def record(tmp_path: Path, sizes: str, quantity: str = "ACCELERATION TIME SERIES
         "6    0.0100    NPTS, DT",
         "NPTS=6, DT= 1.0E-02 SEC",
     ],
-    ids=["NGA", "NGA-West2", "first database", "with exponent"],
 )
 def test_every_spelling_of_points_and_step_is_read(tmp_path: Path, sizes: str) -> None:
     recording = read(record(tmp_path, sizes))
@@ -52,7 +52,7 @@ def test_every_spelling_of_points_and_step_is_read(tmp_path: Path, sizes: str) -
     assert recording.warnings == ()
 
 
-@pytest.mark.parametrize(
+@every(
     ("told", "name", "unit"),
     [
         ("VELOCITY TIME SERIES IN UNITS OF CM/S", "velocity", "cm/s"),

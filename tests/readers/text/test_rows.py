@@ -80,7 +80,7 @@ def test_columns_and_lines_come_out_whatever_the_size_of_the_pieces(
     ]
 
 
-@pytest.mark.parametrize(
+@every(
     ("odd", "told"),
     [
         ("7", 'line 12: counted as missing: fewer than 2 cells ("7")'),
@@ -110,7 +110,7 @@ def test_remarks_beyond_the_columns_are_not_looked_at() -> None:
     assert result.warnings == ()
 
 
-@pytest.mark.parametrize(
+@every(
     ("last", "size", "told"),
     [
         ("3.25", 2, "line 13: left out: the file ends here"),

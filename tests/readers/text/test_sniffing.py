@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import pytest
-
 from colonnade.readers.text.cells import Dialect, is_sample
 from colonnade.readers.text.sniffing import Sniffed, column_kinds, find_first_sample, sniff
+from every import every
 
 GIVEN = Dialect("utf-8", ",", ".")
 
@@ -14,7 +13,7 @@ def sniffed(*lines: str, delimiter: str | None = None, decimal: str | None = Non
     return sniff(list(lines), GIVEN, delimiter=delimiter, decimal=decimal, thousands=None)
 
 
-@pytest.mark.parametrize(
+@every(
     ("lines", "delimiter", "decimal", "columns"),
     [
         (["1,5;2,5", "3,5;4,5"], ";", ",", 2),
@@ -41,10 +40,6 @@ def test_signs_between_thousands_are_found() -> None:
     found = sniffed("1;1.234,5", "2;2.345,5")
     assert found.dialect.thousands == "."
     assert 'between thousands (as in "1.234,5")' in found.notes[-1]
-
-
-def test_whole_numbers_around_commas_are_warned_of() -> None:
-    assert "could also be one column with decimal commas" in sniffed("1,5", "2,6", "3,7").warnings[0]
 
 
 def test_text_has_no_columns_of_numbers() -> None:

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterator
-from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.binary.stored_numbers import Bytes, StoredNumbers, values_at
+from colonnade.readers.binary.numbers import Bytes, StoredNumbers, values_at
 from colonnade.readers.clock import RISING_SHARE, TIME_NAME, even_times, moment_after, rising_share
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, from_head
@@ -30,19 +28,6 @@ EXPORT_FORMAT = 140
 """Place of the export format in a channel's extended header, which starts with its date and its step in ms."""
 TWO_BYTE_STEPS = 32767
 """Steps between the smallest and the largest value of a channel in two bytes."""
-
-
-@dataclass(frozen=True)
-class ChannelHeader:
-    """The header of a channel; `step` in s, 0 if it is not given."""
-
-    name: str
-    unit: str
-    length: int
-    is_numeric: bool
-    began: datetime | None
-    step: float
-    precision: str
 
 
 class _Fields:
@@ -102,23 +87,43 @@ def read(path: Path, options: Options) -> Recording:
         raise ReadError(
             f"{path.name}: its values should start at byte {offset}, but it has {content.size} bytes: it was cut off."
         )
-    numeric = [header for header in headers if header.is_numeric and header.length]
     channels: list[RecordedChannel] = []
     warnings: list[str] = []
-    for header, stored in zip(numeric, _stored(numeric, content, offset), strict=True):
+    numeric = [header for header in headers if header.is_numeric and header.length]
+    place = offset
+    for header in numeric:
+        stored, place = _stored(header, content, place)
         values, told = values_at(content, stored)
-        warnings += told + _without_overflows(header.name, values)
+        over = values == OVERFLOW
+        values[over] = np.nan
+        count = f"{int(over.sum())} of {values.size}"
+        overflow = f'"{header.name}": {count} values are catman\'s sign of an overflow or an open input; missing'
+        warnings += [*told, *([overflow] if over.any() else [])]
         channels.append(_on_clock(header, values, channels))
     sizes = ", ".join(sorted({header.precision[-1] for header in numeric}))
-    notes = [f"catman version {version}, values of {sizes} bytes"]
     clocks = [f'clock: "{channel.name}"' for channel in channels if channel.is_clock]
-    notes += clocks or ["clock: the step in each channel's header"]
+    notes = [
+        f"catman version {version}, values of {sizes} bytes",
+        *(clocks or ["clock: the step in each channel's header"]),
+    ]
     notes += [f'no numbers in "{header.name}": left out' for header in headers if not header.is_numeric]
-    start = numeric[0].began if numeric else None
+    start = moment_after(DAY_ZERO, 86400 * numeric[0].date) if numeric and numeric[0].date > 1 else None
     return Recording(path, "catman", tuple(channels), start, tuple(notes), tuple(warnings))
 
 
-def _headers(fields: _Fields) -> tuple[int, int, list[ChannelHeader]]:
+class _Header(NamedTuple):
+    """The header of a channel; `date` in days, `step` in s, each 0 if it is not given."""
+
+    name: str
+    unit: str
+    length: int
+    is_numeric: bool
+    date: float
+    step: float
+    precision: str
+
+
+def _headers(fields: _Fields) -> tuple[int, int, list[_Header]]:
     """Read the file's header and that of each channel."""
     version, offset = fields.take("hi")
     for _ in range(1 + RESERVED_TEXTS):
@@ -129,7 +134,7 @@ def _headers(fields: _Fields) -> tuple[int, int, list[ChannelHeader]]:
     return version, offset, [_header(fields) for _ in range(count)]
 
 
-def _header(fields: _Fields) -> ChannelHeader:
+def _header(fields: _Fields) -> _Header:
     """Read a channel's header."""
     _, length = fields.take("hi")  # the first is its number
     if length < 0:
@@ -145,58 +150,33 @@ def _header(fields: _Fields) -> ChannelHeader:
     fields.take("h")  # kind of thermocouple
     fields.text()  # formula
     fields.text("i")  # sensor
-    return ChannelHeader(
-        name,
-        unit,
-        length,
-        kind == 0,
-        moment_after(DAY_ZERO, 86400 * date) if date > 1 else None,
-        milliseconds / 1000 if 0 < milliseconds < 1e9 else 0.0,
-        PRECISIONS.get(export, "<f8"),
-    )
+    step = milliseconds / 1000 if 0 < milliseconds < 1e9 else 0.0
+    return _Header(name, unit, length, kind == 0, date, step, PRECISIONS.get(export, "<f8"))
 
 
-def _stored(headers: list[ChannelHeader], content: Bytes, place: int) -> Iterator[StoredNumbers]:
-    """Find the channels' values, which follow one another from a byte on."""
-    for header in headers:
-        size, low, factor = int(header.precision[-1]), 0.0, 1.0
-        if size == 2:  # steps between the smallest and the largest value, which stand before them
-            if place + 16 <= content.size:
-                low, high = struct.unpack_from("<2d", content.data, place)
-                factor = (high - low) / TWO_BYTE_STEPS
-            place += 16
-        yield StoredNumbers(header.name, header.unit, "", header.precision, place, header.length, size, low, factor)
-        place += header.length * size
+def _stored(header: _Header, content: Bytes, place: int) -> tuple[StoredNumbers, int]:
+    """Where a channel's values are, from a byte on, and the byte behind them."""
+    size, low, factor = int(header.precision[-1]), 0.0, 1.0
+    if size == 2:  # steps between the smallest and the largest value, which stand before them
+        if place + 16 <= content.size:
+            low, high = struct.unpack_from("<2d", content.data, place)
+            factor = (high - low) / TWO_BYTE_STEPS
+        place += 16
+    stored = StoredNumbers(header.name, header.precision, place, header.length, size, low, factor)
+    return stored, place + header.length * size
 
 
-def _without_overflows(name: str, values: Array) -> list[str]:
-    """Take out catman's sign of an overflow, and warn of it."""
-    over = values == OVERFLOW
-    values[over] = np.nan
-    count = f"{int(over.sum())} of {values.size}"
-    told = f'"{name}": {count} values are catman\'s sign of an overflow or an open input; missing'
-    return [told] if over.any() else []
-
-
-def _on_clock(header: ChannelHeader, values: Array, above: list[RecordedChannel]) -> RecordedChannel:
+def _on_clock(header: _Header, values: Array, above: list[RecordedChannel]) -> RecordedChannel:
     """Give a channel the times of the nearest time channel above it, where that is as long, else its header's step."""
-    if _is_clock(header, values):
-        time: Array | None = values * TIME_UNITS[header.unit.casefold()]
-        return RecordedChannel(header.name, header.unit, values, time, is_clock=True)
+    factor = TIME_UNITS.get(header.unit.casefold())
+    # The time since the start of its group, not the amplifier's own absolute clock.
+    is_named = TIME_NAME.match(header.name.casefold()) is not None
+    if factor and is_named and (values.size == 1 or rising_share(values) >= RISING_SHARE):
+        return RecordedChannel(header.name, header.unit, values, values * factor, is_clock=True)
     clock = next((channel.time for channel in reversed(above) if channel.is_clock), None)
-    if clock is not None and clock.size == values.size:
-        time = clock
-    else:
-        time = even_times(values.size, header.step) if header.step else None
-    return RecordedChannel(header.name, header.unit or None, values, time)
-
-
-def _is_clock(header: ChannelHeader, values: Array) -> bool:
-    """Whether a channel is the time since the start of its group, not the amplifier's own absolute clock."""
-    if header.unit.casefold() not in TIME_UNITS or not values.size:
-        return False
-    named = TIME_NAME.match(header.name.casefold()) is not None
-    return named and (values.size == 1 or rising_share(values) >= RISING_SHARE)
+    if clock is None or clock.size != values.size:
+        clock = even_times(values.size, header.step) if header.step else None
+    return RecordedChannel(header.name, header.unit or None, values, clock)
 
 
 FORMAT = Format(

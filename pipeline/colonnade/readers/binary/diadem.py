@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 import zipfile
 import zlib
-from dataclasses import replace
-from pathlib import Path
+from dataclasses import dataclass, replace
+from pathlib import Path, PureWindowsPath
 from xml.etree import ElementTree
 
+import numpy as np
+
 from colonnade.errors import ReadError
-from colonnade.readers.binary.stored_numbers import StoredNumbers, beside, name_beside, read_stored
+from colonnade.readers.binary.numbers import Bytes, StoredNumbers, values_at
 from colonnade.readers.clock import even_times, find_clocks
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import ZIP, Head, from_head, head_of
@@ -25,9 +27,35 @@ EXPLICIT, SCALED = ("explicit", "explicit_external"), ("raw_linear", "raw_linear
 """How values of a file of their own are stored: as they are, or to be scaled."""
 LARGEST_HEADER = 256 << 20
 """Bytes of XML; a header that would unpack to more is not unpacked."""
+LONGEST_NAME = 80
+"""Characters of another file's name that are shown."""
 REFERENCE = re.compile(r'id\("([^"]+)"\)')
 
 Objects = dict[str, ElementTree.Element]
+
+
+@dataclass(frozen=True)
+class Described:
+    """
+    A channel as the header describes it.
+
+    Attributes
+    ----------
+    unit : str
+        Empty if it is not given.
+    file : str
+        Name of the file with its numbers; empty for a channel whose values follow from the numbers of their rows, from
+        0, and are not stored.
+    numbers : StoredNumbers
+    step, begin : float
+        Time step, s, 0 where the channel has none of its own, and time of the first value.
+    """
+
+    unit: str
+    file: str
+    numbers: StoredNumbers
+    step: float
+    begin: float
 
 
 @from_head
@@ -53,35 +81,63 @@ def read(path: Path, options: Options) -> Recording:
     ReadError
         If the header is damaged, or a file with the values is not in its folder.
     """
-    described, warnings = stored_channels(path)
+    described, warnings = described_channels(path)
     if not described and not warnings:
         raise ReadError(f"{path.name}: the header describes no channel: it was cut off, or nothing was recorded.")
+    files = {each.file: bytes_beside(path, each.file) for each in described if each.file}
+    stored = [(each.numbers, files[each.file][1].size) for each in described if each.file]
+    longest = max((min(numbers.count, size // numbers.stride) for numbers, size in stored), default=0)
     channels = []
-    longest = _longest(path, described)
-    for stored in described:
-        values, told = read_stored(path, stored, longest=longest)
-        warnings += told
-        time = even_times(values.size, stored.step, stored.begin) if stored.step else None
-        channels.append(RecordedChannel(stored.name, stored.unit or None, values, time))
+    for each in described:
+        numbers = each.numbers
+        if each.file:
+            name, content = files[each.file]
+            values, told = values_at(content, numbers, name)
+            warnings += told
+        else:
+            values = even_times(min(numbers.count, longest), numbers.factor, numbers.offset)
+        time = even_times(values.size, each.step, each.begin) if each.step else None
+        channels.append(RecordedChannel(numbers.name, each.unit or None, values, time))
     notes = ["header .TDM"]
     if is_clocked := any(channel.time is not None for channel in channels):
         notes.append("clock: each channel's own increment")
     recording = Recording(path, "diadem", tuple(channels), notes=tuple(notes), warnings=tuple(warnings))
     if is_clocked or not channels:
         return recording
-    clocks = find_clocks(recording.channels, ("number",) * len(channels))
-    each = zip(clocks.times, channels, strict=True)
-    times = tuple(time if time is None or time.size == channel.values.size else None for time, channel in each)
+    clocks = find_clocks(recording.channels)
+    each_time = zip(clocks.times, channels, strict=True)
+    times = tuple(time if time is None or time.size == channel.values.size else None for time, channel in each_time)
     return replace(clocks, times=times).applied(recording)
 
 
 def companions(path: Path, options: Options) -> tuple[str, ...]:
     """Names of the files with the values, all next to the header."""
-    described, _ = stored_channels(path)
-    return tuple(dict.fromkeys(name_beside(path, stored.file) for stored in described if stored.file))
+    described, _ = described_channels(path)
+    return tuple(dict.fromkeys(_beside(path, each.file)[0] for each in described if each.file))
 
 
-def stored_channels(path: Path) -> tuple[list[StoredNumbers], list[str]]:
+def _beside(header: Path, name: str) -> tuple[str, bool]:
+    """Name of a file of the header's folder, whatever its case, and whether it is there; no path out is followed."""
+    bare = PureWindowsPath(name).name
+    alike = [entry for entry in header.parent.iterdir() if entry.name.casefold() == bare.casefold()]
+    names = [entry.name for entry in alike if entry.is_file()]
+    return bare if bare in names or not names else names[0], bool(names)
+
+
+def bytes_beside(header: Path, name: str) -> tuple[str, Bytes]:
+    """Name and content of a file with values; ReadError if it is missing."""
+    found, is_there = _beside(header, name)
+    if not is_there:
+        named = found if len(found) <= LONGEST_NAME else f"{found[:LONGEST_NAME]}…"
+        raise ReadError(
+            f'{header.name}: its values are in the file "{named}", which is not in its folder. Copy that file next '
+            "to it."
+        )
+    path = header.with_name(found)
+    return found, np.memmap(path, dtype=np.uint8, mode="r") if path.stat().st_size else np.empty(0, dtype=np.uint8)
+
+
+def described_channels(path: Path) -> tuple[list[Described], list[str]]:
     """
     Find where the header says that its channels' numbers are, with a warning for each entry that cannot be used.
 
@@ -111,12 +167,6 @@ def stored_channels(path: Path) -> tuple[list[StoredNumbers], list[str]]:
     return stored, warnings
 
 
-def _longest(path: Path, described: list[StoredNumbers]) -> int:
-    """Count the values of the longest channel whose bytes are there."""
-    stored = [each for each in described if each.file]
-    return max((min(each.count, beside(path, each.file).stat().st_size // each.stride) for each in stored), default=0)
-
-
 def _content(path: Path) -> bytes:
     """Bytes of the XML, unpacked if it is in an archive."""
     if not zipfile.is_zipfile(path):
@@ -131,15 +181,7 @@ def _content(path: Path) -> bytes:
                     raise ReadError(f"{path.name}: it would unpack to {member.file_size} bytes; it is not unpacked.")
                 with archive.open(member) as stream:
                     content = stream.read(LARGEST_HEADER)
-        except (
-            zipfile.BadZipFile,
-            IndexError,
-            NotImplementedError,
-            RuntimeError,
-            EOFError,
-            OSError,
-            zlib.error,
-        ) as error:
+        except (zipfile.BadZipFile, zlib.error, IndexError, RuntimeError, EOFError, OSError) as error:
             raise ReadError(f"{path.name}: the archive with its header is damaged ({error}). Copy it again.") from error
     if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
         raise ReadError(f"{path.name}: its header defines its own entities, which DIAdem never does; not read.")
@@ -161,7 +203,7 @@ def _stored(
     channel: ElementTree.Element,
     objects: Objects,
     blocks: dict[str, tuple[str, str, ElementTree.Element]],
-) -> StoredNumbers:
+) -> Described:
     """Say where a channel's numbers stand; ValueError or KeyError where that cannot be told."""
     unit = (channel.findtext("unit_string") or "").strip("[] ")
     column = _referred(channel.findtext("local_columns"), objects, "column")
@@ -171,12 +213,13 @@ def _stored(
     if kind.startswith("implicit"):
         matrix = _referred(column.findtext("submatrix"), objects, "submatrix")
         count = int(matrix.findtext("number_of_rows") or 0)
-        return StoredNumbers(name, unit, "", "<f8", 0, count, 8, offset, factor, step, begin)
+        return Described(unit, "", StoredNumbers(name, "<f8", 0, count, 8, offset, factor), step, begin)
     values = _referred(column.findtext("values"), objects, "values").find("values")
     external = None if values is None else values.get("external")
     if external is None:
         raise ValueError("its values are not in a separate file")
-    return StoredNumbers(name, unit, *_place(*blocks[external]), offset, factor, step, begin)
+    file, order, block = blocks[external]
+    return Described(unit, file, StoredNumbers(name, *_place(order, block), offset, factor), step, begin)
 
 
 def _scaling(kind: str, parameters: str) -> tuple[float, float]:
@@ -191,8 +234,8 @@ def _scaling(kind: str, parameters: str) -> tuple[float, float]:
     raise ValueError(f'its values are "{kind}"')
 
 
-def _place(file: str, order: str, block: ElementTree.Element) -> tuple[str, str, int, int, int]:
-    """File, form, first byte, count and stride of a block of another file."""
+def _place(order: str, block: ElementTree.Element) -> tuple[str, int, int, int]:
+    """Form, first byte, count and stride of a block of another file."""
     form = order + FORMS[block.get("valueType", "")]
     size = int(form[-1])
     count, first, stride = int(block.get("length", "0")), int(block.get("byteOffset", "0")), size
@@ -201,7 +244,7 @@ def _place(file: str, order: str, block: ElementTree.Element) -> tuple[str, str,
         first += int(block.get("blockOffset", "0"))
     if count < 0 or first < 0 or stride < size:
         raise ValueError(f"{count} values from byte {first} on, every {stride} bytes")
-    return file, form, first, count, stride
+    return form, first, count, stride
 
 
 def _referred(reference: str | None, objects: Objects, what: str) -> ElementTree.Element:

@@ -19,9 +19,8 @@ from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import OLE, ZIP, Head, from_head
 from colonnade.readers.recording import Recording
 from colonnade.readers.text.delimited import read_text
-from colonnade.readers.text.delimited_header import DelimitedOptions
+from colonnade.readers.text.delimited_header import DelimitedOptions, TableOptions
 from colonnade.readers.text.encoding import Encoding, Text
-from colonnade.readers.text.table import TableOptions
 
 if TYPE_CHECKING:
     from python_calamine import CalamineSheet

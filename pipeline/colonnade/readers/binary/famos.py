@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from colonnade.arrays import Array
-from colonnade.readers.binary.stored_numbers import Bytes, StoredNumbers, values_at
-from colonnade.readers.clock import even_times, moment_after
+from colonnade.readers.binary.numbers import Bytes, StoredNumbers, values_at
+from colonnade.readers.clock import even_times, moment_after, on_one_zero
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, by_mark, from_head
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
@@ -19,83 +20,38 @@ from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 SIGNATURE = b"|CF,"
 NUMBERS = {1: "u1", 2: "i1", 3: "u2", 4: "i2", 5: "u4", 6: "i4", 7: "f4", 8: "f8", 11: "u2", 12: "u8", 14: "i8"}
 """Kinds of numbers, by the block CP."""
-BYTE_ORDERS = {"1": "<", "2": ">"}
+BYTE_ORDERS = {1: "<", 2: ">"}
 """Of the block CF: Intel, Motorola."""
 LARGEST_BLOCK_HEAD = 40
 WIDEST = 32
 """Bits of a word that may be digital channels; their numbers are exact in what they are read as."""
+PARAMETERS = {
+    "CF": "w",  # byte order
+    "CG": "-w",  # 1: one component, its x even
+    "CC": "",
+    "CD": "n-t",  # step and unit of x
+    "NT": "wwwwwn",  # day, month, year, hour, minute, second
+    "CP": "-wwww--w",  # bytes of a number, its kind, its bits, mask, bytes from one to the next
+    "Cb": "---ww-ww-nn",  # its block CS, first byte, shift of it, bytes that are filled, first x, time added
+    "CR": "wnn-t",  # 1: scaled by factor and offset; unit
+    "CN": "--wt",  # bit, from 1 for the lowest, of a digital channel; name
+}
+"""Of the blocks that are read, each parameter: a whole number, a number, a text behind its length, or one to skip."""
 
-
-@dataclass
-class _Component:
-    """What the blocks say of one channel, as they come."""
-
-    step: float = 0.0
-    x_unit: str = ""
-    is_plain: bool = True
-    noted: datetime | None = None
-    name: str = ""
-    unit: str = ""
-    factor: float = 1.0
-    offset: float = 0.0
-    number: str | None = None
-    is_packed: bool = False
-    is_partly_used: bool = False
-    bytes_index: int = 0
-    bytes_from: int = 0
-    bytes_filled: int | None = None
-    x0: float = 0.0
-    added: float = 0.0
-    digital: list[tuple[int, str]] = field(default_factory=list)
-    """Channels that are single bits of the numbers: bit, from 1 for the lowest, and name."""
-
-    @property
-    def title(self) -> str:
-        """What it is called in a warning."""
-        return self.name or ", ".join(name for _, name in self.digital[:3])
+_Said = dict[str, Any]
+"""The parameters of the blocks that describe one channel, by their keys; of CN those of each."""
 
 
 @dataclass
 class _File:
-    """All components, where the bytes of each block CS stand, and what the blocks that come now belong to."""
+    """All channels, where the bytes of each block CS stand, and what the blocks that come now belong to."""
 
     order: str = "<"
-    data_set: _Component = field(default_factory=_Component)
-    current: _Component = field(default_factory=_Component)
-    components: list[_Component] = field(default_factory=list)
+    data_set: _Said = field(default_factory=dict)
+    current: _Said = field(default_factory=dict)
+    components: list[_Said] = field(default_factory=list)
     bytes_at: dict[int, tuple[int, int]] = field(default_factory=dict)
-    awaits_channel: bool = False
     warnings: list[str] = field(default_factory=list)
-
-
-class _Parameters:
-    """The parameters of a block, one after the other; texts are preceded by their length."""
-
-    def __init__(self, content: bytes) -> None:
-        self._content, self._place = content, 0
-
-    def text(self) -> str:
-        end = self._content.find(b",", self._place)
-        end = len(self._content) if end < 0 else end
-        found = self._content[self._place : end].decode("cp1252", "replace").strip()
-        self._place = end + 1
-        return found
-
-    def whole(self) -> int:
-        return int(self.text() or 0)
-
-    def number(self) -> float:
-        return float(self.text() or 0)
-
-    def counted(self) -> str:
-        length = self.whole()
-        found = self._content[self._place : self._place + max(length, 0)].decode("cp1252", "replace")
-        self._place += max(length, 0) + 1
-        return found
-
-    def skip(self, count: int) -> None:
-        for _ in range(count):
-            self.text()
 
 
 @from_head
@@ -112,62 +68,43 @@ def read(path: Path, options: Options) -> Recording:
         try:
             _take(file, key, block)
         except (ValueError, OverflowError):
-            file.warnings.append(f'the block {key} at byte {place} is damaged ("{_shown(block)}"); it is left out')
-    if file.awaits_channel:
+            shown = "".join(character if character.isprintable() else " " for character in block[:30].decode("latin-1"))
+            file.warnings.append(f'the block {key} at byte {place} is damaged ("{shown}"); it is left out')
+    if "CG" in file.current and file.current is file.data_set:
         file.warnings.append("the last data set has no channel: the file was cut off")
-    channels, starts = _channels(content, file)
-    notes = ["clock: each channel's own start and step" if starts else "no clock: x is not a time"]
-    if not all(component.is_plain for component in file.components):
-        notes.append("a data set of pairs (x, y): both are channels, neither is used as a clock")
-    return Recording(path, "famos", tuple(channels), starts[0] if starts else None, tuple(notes), tuple(file.warnings))
-
-
-def _channels(content: Bytes, file: _File) -> tuple[list[RecordedChannel], list[datetime | None]]:
-    """Take the values of all components, and the moments at which those with a clock start."""
     channels: list[RecordedChannel] = []
-    starts: list[datetime | None] = []
-    for component in file.components:
-        if reason := _refusal(component, file):
-            file.warnings.append(f'"{component.title}": {reason}')
-            continue
-        values, told = values_at(content, _stored(component, file))
-        file.warnings += told
-        if not values.size:
-            continue
-        time, start = _clock(component, values.size)
-        starts += [] if time is None else [start]
-        name = component.name or f"channel {len(channels) + 1}"
-        if component.digital:
-            channels += _bits(component, name, values, time, file.warnings)
-        else:
-            channels.append(RecordedChannel(name, component.unit or None, values, time))
-    return channels, starts
+    for said in file.components:
+        found = _values(content, file, said)
+        if found.size:
+            channels += _named(said, found, len(channels) + 1, file.warnings)
+    timed, start = on_one_zero(channels)
+    has_clock = any(channel.time is not None for channel in timed)
+    notes = ["clock: each channel's own start and step" if has_clock else "no clock: x is not a time"]
+    if not all(map(_is_plain, file.components)):
+        notes.append("a data set of pairs (x, y): both are channels, neither is used as a clock")
+    return Recording(path, "famos", timed, start, tuple(notes), tuple(file.warnings))
 
 
 def _blocks(content: Bytes, file: _File) -> Iterator[tuple[int, str, bytes]]:
-    """Go from block to block; of the block of bytes, CS, only its index is given."""
+    """Go from block to block; of a block of bytes, CS, only its place is noted."""
     place, size = 0, content.size
     while place < size:
         gap = content[place : place + 4096].tobytes()
         skipped = len(gap) - len(gap.lstrip(b" \t\r\n\0"))
-        if skipped == len(gap):
-            place += skipped
-            continue
         place += skipped
-        head = content[place : place + LARGEST_BLOCK_HEAD].tobytes()
-        parts = head.split(b",", 3)
-        if head[:1] != b"|" or len(parts) < 4 or not parts[1].strip().isdigit() or not parts[2].strip().isdigit():
+        if skipped == len(gap):
+            continue
+        parts = content[place : place + LARGEST_BLOCK_HEAD].tobytes().split(b",", 4)
+        if parts[0][:1] != b"|" or len(parts) < 4 or not parts[1].strip().isdigit() or not parts[2].strip().isdigit():
             file.warnings.append(f"a block was expected at byte {place}: what follows is damaged and not read")
             return
         key, length = parts[0][1:].decode("latin-1"), int(parts[2])
         begin = place + sum(len(part) + 1 for part in parts[:3])
         if key == "CS":
-            index = content[begin : begin + 20].tobytes().split(b",", 1)
-            if len(index) < 2 or not index[0].strip().isdigit():
+            if len(parts) < 5 or not parts[3].strip().isdigit():
                 file.warnings.append(f"the block CS at byte {place} is damaged: what follows is not read")
                 return
-            first = begin + len(index[0]) + 1
-            file.bytes_at[int(index[0])] = (first, min(begin + length, size))
+            file.bytes_at[int(parts[3])] = (begin + len(parts[3]) + 1, min(begin + length, size))
         else:
             yield place, key, content[begin : begin + length].tobytes()
         if begin + length > size:
@@ -177,118 +114,112 @@ def _blocks(content: Bytes, file: _File) -> Iterator[tuple[int, str, bytes]]:
 
 def _take(file: _File, key: str, block: bytes) -> None:
     """Add what a block says to the data set or the channel that it belongs to."""
-    told = _Parameters(block)
+    if key not in PARAMETERS:
+        return
+    told = _parameters(block, PARAMETERS[key])
     if key == "CF":
-        file.order = BYTE_ORDERS.get(told.text(), "<")
+        file.order = BYTE_ORDERS.get(told[0], "<")
     elif key == "CG":
-        told.skip(1)
-        file.awaits_channel = True
-        file.data_set = file.current = _Component(is_plain=told.whole() == 1)
+        file.data_set = file.current = {key: told}
     elif key == "CC":
-        file.awaits_channel = False
-        file.current = replace(file.data_set, digital=[])
+        file.current = {**file.data_set}
         file.components.append(file.current)
-    else:
-        _describe(file.current, key, told)
-
-
-def _describe(component: _Component, key: str, told: _Parameters) -> None:
-    if key == "CD":
-        component.step = told.number()
-        told.skip(1)
-        component.x_unit = told.counted()
-    elif key == "NT":
-        day, month, year, hour, minute = (told.whole() for _ in range(5))
-        component.noted = datetime(year, month, day, hour, minute) + timedelta(seconds=told.number())
-    elif key == "CP":
-        told.skip(1)
-        size, kind, bits, mask = (told.whole() for _ in range(4))
-        told.skip(2)
-        number = NUMBERS.get(kind)
-        component.number = number if number is not None and int(number[1]) == size else None
-        component.is_packed = told.whole() != 0 or mask != 0
-        component.is_partly_used = bits != 8 * size
-    elif key == "Cb":
-        told.skip(3)
-        component.bytes_index, component.bytes_from = told.whole(), told.whole()
-        told.skip(1)
-        component.bytes_from += told.whole()
-        component.bytes_filled = told.whole()
-        told.skip(1)
-        component.x0, component.added = told.number(), told.number()
-    elif key == "CR":
-        transforms = told.whole() == 1
-        factor, offset = told.number(), told.number()
-        told.skip(1)
-        component.unit = told.counted()
-        if transforms:
-            component.factor, component.offset = factor, offset
     elif key == "CN":
-        told.skip(2)
-        bit, name = told.whole(), told.counted()
-        if bit > 0:
-            component.digital.append((bit, name))
-        else:
-            component.name = component.name or name
+        file.current[key] = [*file.current.get(key, ()), told]
+    elif key == "NT":
+        day, month, year, hour, minute, seconds = told
+        file.current[key] = datetime(year, month, day, hour, minute) + timedelta(seconds=seconds)
+    else:
+        file.current[key] = told
 
 
-def _refusal(component: _Component, file: _File) -> str:
-    """Say why a channel's values cannot be read; empty if they can."""
-    if component.digital and (component.number or "f")[0] == "f":
-        return "digital channels have to be whole numbers, and these are not; left out"
-    if component.bytes_filled is None:
-        return "the block that says where its values are is missing: the file was cut off"
+def _parameters(block: bytes, kinds: str) -> list[Any]:
+    """Take the parameters of a block, one after the other, up to the last that is read."""
+    found: list[Any] = []
+    for kind in kinds:
+        text, _, block = block.partition(b",")
+        if kind == "t":
+            length = max(int(text.strip() or 0), 0)
+            text, block = block[:length], block[length + 1 :]
+            found.append(text.decode("cp1252", "replace"))
+        elif kind != "-":
+            found.append((int if kind == "w" else float)(text.strip() or 0))
+    return found
+
+
+def _is_plain(said: _Said) -> bool:
+    """Whether its x is even, and it is not one of a pair."""
+    return "CG" not in said or said["CG"][0] == 1
+
+
+def _name(said: _Said) -> str:
+    """What a channel itself is called; empty of digital ones."""
+    return next((name for bit, name in said.get("CN", ()) if bit <= 0 and name), "")
+
+
+def _digital(said: _Said) -> list[tuple[int, str]]:
+    """Channels that are single bits of the numbers."""
+    return [(bit, name) for bit, name in said.get("CN", ()) if bit > 0]
+
+
+def _values(content: Bytes, file: _File, said: _Said) -> Array:
+    """Take a channel's values, scaled; none, with a warning, where that cannot be done."""
+    digital = _digital(said)
+    title = _name(said) or ", ".join(name for _, name in digital[:3])
+    size, kind, bits, mask, apart = said.get("CP", (0, 0, 0, 0, 0))
+    form = NUMBERS.get(kind, "")
+    is_known = bool(form) and int(form[1]) == size
     # Of a word of digital channels some bits may be unused.
-    is_whole = bool(component.digital) or not component.is_partly_used
-    if component.bytes_filled and (component.number is None or component.is_packed or not is_whole):
-        return "its numbers are interleaved or of an unknown kind; left out"
-    if component.bytes_filled and component.bytes_index not in file.bytes_at:
-        return "the block with its values is missing: the file was cut off"
-    return ""
-
-
-def _stored(component: _Component, file: _File) -> StoredNumbers:
-    """Where the values are; of a channel without any, nowhere."""
-    first, end = file.bytes_at.get(component.bytes_index, (0, 0))
-    form = np.dtype(file.order + (component.number or "u1"))
-    return StoredNumbers(
-        component.title,
-        component.unit,
-        "",
-        form.str,
-        first + component.bytes_from,
-        (component.bytes_filled or 0) // form.itemsize,
-        form.itemsize,
-        0.0 if component.digital else component.offset,
-        1.0 if component.digital else component.factor,
-        end=end,
+    is_whole = is_known and mask == apart == 0 and (bool(digital) or bits == 8 * size)
+    index, first, shift, filled, *_ = said.get("Cb", (0, 0, 0, None))
+    reason = ""
+    if digital and (not is_known or form[0] == "f"):
+        reason = "digital channels have to be whole numbers, and these are not; left out"
+    elif filled is None:
+        reason = "the block that says where its values are is missing: the file is damaged or was cut off"
+    elif filled and not is_whole:
+        reason = "its numbers are interleaved or of an unknown kind; left out"
+    elif filled and index not in file.bytes_at:
+        reason = "the block with its values is missing: the file was cut off"
+    if reason or not filled:
+        file.warnings += [f'"{title}": {reason}'] if reason else []
+        return np.empty(0)
+    begin, end = file.bytes_at[index]
+    is_scaled, factor, offset, _ = said.get("CR", (0, 1.0, 0.0, ""))
+    factor, offset = (factor, offset) if is_scaled == 1 and not digital else (1.0, 0.0)
+    stored = StoredNumbers(
+        title, file.order + form, begin + first + shift, filled // size, size, offset, factor, end=end
     )
+    values, told = values_at(content, stored)
+    file.warnings += told
+    return values
 
 
-def _clock(component: _Component, count: int) -> tuple[Array | None, datetime | None]:
-    """Times of a channel whose x is time, and the moment of the first."""
-    scale = TIME_UNITS.get(component.x_unit.casefold())
-    if component.step <= 0 or scale is None or not component.is_plain:
+def _clock(said: _Said, count: int) -> tuple[Array | None, datetime | None]:
+    """Times of a channel whose x is time, and the moment of their zero."""
+    step, unit = said.get("CD", (0.0, ""))
+    scale = TIME_UNITS.get(unit.casefold())
+    if step <= 0 or scale is None or not _is_plain(said):
         return None, None
-    begin = component.x0 * scale
-    return even_times(count, component.step * scale, begin), moment_after(component.noted, component.added + begin)
+    *_, x0, added = said["Cb"]
+    return even_times(count, step * scale, x0 * scale), moment_after(said.get("NT"), added)
 
 
-def _bits(
-    component: _Component, name: str, values: Array, time: Array | None, warnings: list[str]
-) -> Iterator[RecordedChannel]:
-    """Channels that are single bits of a word."""
+def _named(said: _Said, values: Array, number: int, warnings: list[str]) -> Iterator[RecordedChannel]:
+    """Make a channel of values, or one of each bit of words that has a name."""
+    name = _name(said) or f"channel {number}"
+    time, start = _clock(said, values.size)
+    digital = _digital(said)
+    if not digital:
+        yield RecordedChannel(name, said["CR"][-1] or None if "CR" in said else None, values, time, start=start)
+        return
     words = values.astype(np.int64)
-    for bit, own in component.digital:
+    for bit, own in digital:
         if bit > WIDEST:
             warnings.append(f'"{own}": it is bit {bit} of a word, which has at most {WIDEST}; left out')
             continue
         is_set = (words >> (bit - 1) & 1).astype(np.float64)
-        yield RecordedChannel(own or f"{name} bit {bit}", None, is_set, time)
-
-
-def _shown(block: bytes) -> str:
-    return "".join(character if character.isprintable() else " " for character in block[:30].decode("latin-1"))
+        yield RecordedChannel(own or f"{name} bit {bit}", None, is_set, time, start=start)
 
 
 FORMAT = Format(

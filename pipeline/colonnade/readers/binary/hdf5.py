@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from colonnade.errors import ReadError
-from colonnade.readers.binary.vectors import UnreadableError
+from colonnade.readers.binary.numbers import UnreadableError
 
 if TYPE_CHECKING:
     import h5py

@@ -11,8 +11,8 @@ from colonnade.errors import ReadError, nearest
 from colonnade.readers.binary.matlab_5 import read_v5
 from colonnade.readers.binary.matlab_73 import read_v73
 from colonnade.readers.binary.matlab_columns import Node, Tree, find_columns, lacking_channels, numbered_channels
-from colonnade.readers.binary.vectors import ClockOptions, find_clocks, named, recorded
-from colonnade.readers.clock import given_clock
+from colonnade.readers.binary.numbers import ClockOptions, recorded
+from colonnade.readers.clock import find_vector_clocks, given_clock
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import HDF5, Head, from_head
 from colonnade.readers.recording import Recording
@@ -59,17 +59,17 @@ def read(path: Path, options: MatlabOptions) -> Recording:
     chosen = _chosen(path, tree, options.variables)
     others, columns, scalars, notes = numbered_channels(chosen)
     found = find_columns(others)
-    columns = named([*columns, *found.columns])
+    columns = [*columns, *found.columns]
     left_out = [f"{place} is left out: {why}" for place, why in {**tree.left_out, **found.left_out}.items()]
     if not columns:
         raise ReadError(_nothing(path, tree, left_out))
     warnings = [*tree.warnings, *lacking_channels(chosen, columns)]
-    recording, infinite = recorded(path, "matlab", columns)
+    recording = recorded(path, "matlab", columns)
     if options.time is None:
-        clocks = find_clocks(columns, {**found.scalars, **scalars}, options.time_unit)
+        clocks = find_vector_clocks(recording.channels, {**found.scalars, **scalars}, options.time_unit)
     else:
         clocks = given_clock(recording, options.time, options.time_unit)
-    recording = clocks.applied(replace(recording, notes=tuple(notes), warnings=(*warnings, *infinite)))
+    recording = clocks.applied(replace(recording, notes=tuple(notes), warnings=(*warnings, *recording.warnings)))
     return replace(recording, notes=(*recording.notes, *left_out))
 
 

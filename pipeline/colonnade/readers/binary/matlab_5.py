@@ -14,7 +14,7 @@ import numpy as np
 
 from colonnade.errors import ReadError
 from colonnade.readers.binary.matlab_columns import FUNCTION, Node, Tree, object_reason
-from colonnade.readers.binary.vectors import UnreadableError
+from colonnade.readers.binary.numbers import UnreadableError
 
 HEADER = 128
 MATRIX, COMPRESSED = 14, 15

@@ -9,7 +9,7 @@ import numpy as np
 
 from colonnade.readers.binary.hdf5 import MOST_PARTS, Walk, open_hdf5
 from colonnade.readers.binary.matlab_columns import FUNCTION, Node, Numbers, Tree, object_reason
-from colonnade.readers.binary.vectors import UnreadableError
+from colonnade.readers.binary.numbers import UnreadableError
 
 if TYPE_CHECKING:
     import h5py

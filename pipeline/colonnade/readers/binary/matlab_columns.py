@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colonnade.readers.binary.vectors import Column
 from colonnade.readers.clock import RISING_SHARE, rising_share
+from colonnade.readers.recording import RecordedChannel
 from colonnade.readers.text.heading import take_apart
 
 Numbers = NDArray[Any]
@@ -72,14 +72,14 @@ class Found:
 
     Attributes
     ----------
-    columns : list of Column
+    columns : list of RecordedChannel
     scalars : dict of str to float
         Single numbers, by path.
     left_out : dict of str to str
         Path -> why it is not a column.
     """
 
-    columns: list[Column] = field(default_factory=list)
+    columns: list[RecordedChannel] = field(default_factory=list)
     scalars: dict[str, float] = field(default_factory=dict)
     left_out: dict[str, str] = field(default_factory=dict)
 
@@ -140,7 +140,7 @@ def _numbers(
     name = _text(told, NAME_FIELDS) if is_value else None
     unit = _text(told, UNIT_FIELDS) if is_value else None
     if numbers.ndim == 1:
-        found.columns.append(Column(path, scope, numbers, name, unit))
+        found.columns.append(RecordedChannel(name or "", unit, numbers, heading=path, scope=scope))
         return
     if numbers.ndim > 2:
         found.left_out[path] = f"it has {numbers.ndim} dimensions; vectors and matrices are read"
@@ -156,7 +156,8 @@ def _numbers(
     names = _list_of_names(told, numbers.shape[1])
     for number in range(numbers.shape[1]):
         own, own_unit = take_apart(names[number]) if names else (f"{name}[{number + 1}]" if name else None, unit)
-        found.columns.append(Column(f"{path}[{number + 1}]", scope, numbers[:, number], own, own_unit))
+        place, part = f"{path}[{number + 1}]", numbers[:, number]
+        found.columns.append(RecordedChannel(own or "", own_unit, part, heading=place, scope=scope))
 
 
 def _text(told: dict[str, Node], keys: frozenset[str]) -> str | None:
@@ -178,7 +179,9 @@ def _list_of_names(told: dict[str, Node], count: int) -> list[str]:
 BRISTOL_DATA = re.compile(r"Channel_(\d+)_Data")
 
 
-def numbered_channels(variables: dict[str, Node]) -> tuple[dict[str, Node], list[Column], dict[str, float], list[str]]:
+def numbered_channels(
+    variables: dict[str, Node],
+) -> tuple[dict[str, Node], list[RecordedChannel], dict[str, float], list[str]]:
     """
     Take the channels of the layout `File_Header`, `Channel_i_Header`, `Channel_i_Data`.
 
@@ -191,7 +194,7 @@ def numbered_channels(variables: dict[str, Node]) -> tuple[dict[str, Node], list
     -------
     others : dict of str to Node
         Variables that are not part of the layout.
-    columns : list of Column
+    columns : list of RecordedChannel
         With names and units by the headers; the first one is called `time` where it rises, as that is the clock.
     scalars : dict of str to float
         `File_Header.SampleFrequency`, Hz, if the first channel is not a clock.
@@ -200,7 +203,7 @@ def numbered_channels(variables: dict[str, Node]) -> tuple[dict[str, Node], list
     """
     numbers = sorted(int(match[1]) for name in variables if (match := BRISTOL_DATA.fullmatch(name)))
     arrays = {number: variables[f"Channel_{number}_Data"] for number in numbers}
-    columns: list[Column] = []
+    columns: list[RecordedChannel] = []
     for number, values in arrays.items():
         if not isinstance(values, np.ndarray) or values.size < 2 or values.size != max(values.shape):
             continue
@@ -208,7 +211,7 @@ def numbered_channels(variables: dict[str, Node]) -> tuple[dict[str, Node], list
         name, unit = _told(header, "SignalName"), _told(header, "Unit")
         if number == 1 and rising_share(values.ravel().astype(np.float64)) >= RISING_SHARE:
             name = "time"
-        columns.append(Column(f"Channel_{number}_Data", (), values.ravel(), name, unit))
+        columns.append(RecordedChannel(name or "", unit, values.ravel(), heading=f"Channel_{number}_Data"))
     if not columns:
         return variables, [], {}, []
     others = {
@@ -223,12 +226,12 @@ def numbered_channels(variables: dict[str, Node]) -> tuple[dict[str, Node], list
     return others, columns, {"File_Header.SampleFrequency": rate} if rate else {}, notes
 
 
-def lacking_channels(variables: dict[str, Node], columns: list[Column]) -> list[str]:
+def lacking_channels(variables: dict[str, Node], columns: list[RecordedChannel]) -> list[str]:
     """Warn where the layout `t`, `chan1` … `chann`, `No_Channels` has fewer channels than it says."""
     said = variables.get("No_Channels")
     if not isinstance(said, np.ndarray) or said.size != 1:
         return []
-    there = sum(re.fullmatch(r"chan\d+|output\[\d+\]", column.path) is not None for column in columns)
+    there = sum(re.fullmatch(r"chan\d+|output\[\d+\]", column.heading) is not None for column in columns)
     if there == 0 or there == int(said.ravel()[0]):
         return []
     return [f"No_Channels says {int(said.ravel()[0])}, but {there} channels are in the file"]

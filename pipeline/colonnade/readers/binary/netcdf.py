@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -16,11 +16,11 @@ from pydantic import Field
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
 from colonnade.readers.binary.hdf5 import Walk, open_hdf5
-from colonnade.readers.binary.vectors import ClockOptions, Column, UnreadableError, find_clocks, named, recorded
-from colonnade.readers.clock import Clocks, given_clock
+from colonnade.readers.binary.numbers import ClockOptions, UnreadableError, recorded
+from colonnade.readers.clock import Clocks, find_vector_clocks, given_clock
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import HDF5, NETCDF, Head, by_mark, from_head
-from colonnade.readers.recording import TIME_UNITS, Recording
+from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 
 if TYPE_CHECKING:
     import h5py
@@ -210,19 +210,20 @@ def read(path: Path, options: NetcdfOptions) -> Recording:
     if not columns:
         where = "in it" if options.group is None else f'in group "{options.group}"'
         raise ReadError("\n  ".join([f"{path.name}: no column of numbers {where}.", *content.warnings, *left_out]))
-    recording, infinite = recorded(path, "netcdf", named(columns))
+    recording = recorded(path, "netcdf", columns)
     if options.time is None:
-        clocks = find_clocks(columns, _scalars(variables, content.attributes), options.time_unit)
-        clocks = _by_coordinates(columns, variables, clocks, options.time_unit)
+        scalars = _scalars(variables, content.attributes)
+        clocks = find_vector_clocks(recording.channels, scalars, options.time_unit)
+        clocks = _by_coordinates(recording.channels, variables, clocks, options.time_unit)
     else:
         clocks = given_clock(recording, options.time, options.time_unit)
-    recording = clocks.applied(replace(recording, warnings=(*content.warnings, *infinite)))
+    recording = clocks.applied(replace(recording, warnings=(*content.warnings, *recording.warnings)))
     return replace(recording, notes=(*recording.notes, *left_out))
 
 
-def _columns(variables: list[Variable]) -> tuple[list[Column], list[str]]:
+def _columns(variables: list[Variable]) -> tuple[list[RecordedChannel], list[str]]:
     """Take variables apart into columns along their first dimension, and say which are left out."""
-    columns: list[Column] = []
+    columns: list[RecordedChannel] = []
     left_out: list[str] = []
     for variable in variables:
         shape = variable.values.shape
@@ -239,9 +240,9 @@ def _columns(variables: list[Variable]) -> tuple[list[Column], list[str]]:
         parts = {variable.path: table}
         if table.ndim == 2:
             parts = {f"{variable.path}[{number}]": part for number, part in enumerate(table.T, 1)}
-        columns += [
-            Column(place, variable.groups, part, place.rpartition("/")[2], unit) for place, part in parts.items()
-        ]
+        for place, part in parts.items():
+            name = place.rpartition("/")[2]
+            columns.append(RecordedChannel(name, unit, part, heading=place, scope=variable.groups))
     return columns, left_out
 
 
@@ -272,7 +273,9 @@ def _scalars(variables: list[Variable], attributes: dict[str, Any]) -> dict[str,
     return found
 
 
-def _by_coordinates(columns: list[Column], variables: list[Variable], found: Clocks, unit: str | None) -> Clocks:
+def _by_coordinates(
+    columns: Sequence[RecordedChannel], variables: list[Variable], found: Clocks, unit: str | None
+) -> Clocks:
     """Let columns go by the coordinate of their first dimension if that is of times; else by the clocks found."""
     coordinates = _coordinates(columns, variables)
     times, start, notes = list(found.times), found.start, []
@@ -284,7 +287,7 @@ def _by_coordinates(columns: list[Column], variables: list[Variable], found: Clo
         seconds, moment, how = understood
         start = moment or start
         used.add(coordinate)
-        notes.append(f"clock: {columns[coordinate].path}, the coordinate of a dimension ({how})")
+        notes.append(f"clock: {columns[coordinate].heading}, the coordinate of a dimension ({how})")
         for number, column in enumerate(columns):
             if coordinates[number] == coordinate and column.values.size == seconds.size:
                 times[number] = seconds
@@ -294,14 +297,14 @@ def _by_coordinates(columns: list[Column], variables: list[Variable], found: Clo
     return replace(found, columns=found.columns | used, times=tuple(times), notes=(*notes, *others), start=start)
 
 
-def _coordinates(columns: list[Column], variables: list[Variable]) -> list[int]:
+def _coordinates(columns: Sequence[RecordedChannel], variables: list[Variable]) -> list[int]:
     """Of each column the number of the one that is the coordinate of its first dimension; -1 where none is."""
-    numbers = {column.path: number for number, column in enumerate(columns)}
+    numbers = {column.heading: number for number, column in enumerate(columns)}
     dimensions = {each.path: each.dimensions[0] or "" for each in variables if each.dimensions}
-    return [numbers.get(dimensions.get(column.path.partition("[")[0], ""), -1) for column in columns]
+    return [numbers.get(dimensions.get(column.heading.partition("[")[0], ""), -1) for column in columns]
 
 
-def _as_times(column: Column, unit: str | None) -> tuple[Array, datetime | None, str] | None:
+def _as_times(column: RecordedChannel, unit: str | None) -> tuple[Array, datetime | None, str] | None:
     """Understand a coordinate as times: `seconds since …`, or a unit of time; None if it is neither."""
     values = np.asarray(column.values, dtype=np.float64)
     told = unit or column.unit or ""

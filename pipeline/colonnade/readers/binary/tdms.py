@@ -14,8 +14,8 @@ import numpy as np
 from pydantic import Field
 
 from colonnade.errors import ReadError, nearest
+from colonnade.readers.binary.numbers import ClockOptions, as_values
 from colonnade.readers.binary.tdms_clocks import NO_TIMING, Column, beginnings, on_clocks, waveform
-from colonnade.readers.binary.vectors import ClockOptions, as_values
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import Head, by_mark, from_head
 from colonnade.readers.recording import RecordedChannel, Recording, Window
@@ -292,7 +292,7 @@ def _properties(channel: TdmsChannel) -> dict[str, Any]:
 
 def _column(channel: TdmsChannel, file: TdmsFile, part: slice, *, unique: bool) -> tuple[Column, str]:
     """Return a channel with its unit and warnings; it has the short name if no other channel has it."""
-    written = f"{channel.group_name}/{channel.name}"
+    written, scope = f"{channel.group_name}/{channel.name}", (channel.group_name,)
     name, unit_in_name = take_apart(channel.name)
     name = name if unique else written
     properties = _properties(channel)
@@ -300,21 +300,20 @@ def _column(channel: TdmsChannel, file: TdmsFile, part: slice, *, unique: bool) 
         moments = channel[:]
         known = ~np.isnat(moments)
         if not known.any():
-            return Column(
-                channel.group_name, RecordedChannel(name, None, np.full(moments.shape, np.nan), heading=written)
-            ), ""
+            return Column(RecordedChannel(name, None, np.full(moments.shape, np.nan), None, written, scope=scope)), ""
         first = moments[np.argmax(known)]
         values = np.where(known, (moments - first) / np.timedelta64(1, "us") / 1e6, np.nan)
-        return Column(channel.group_name, RecordedChannel(name, None, values, heading=written), first=first), ""
+        stamps = RecordedChannel(name, None, values, values, written, is_clock=True, scope=scope)
+        return Column(stamps, first=first), ""
     numbers, unscaled = _numbers(channel, file, part)
     values, infinite = as_values(numbers)
     unit = next((str(properties[key]).strip() for key in UNIT_PROPERTIES if properties.get(key)), "") or unit_in_name
-    recorded = RecordedChannel(name, unit, values, heading=written)
+    recorded = RecordedChannel(name, unit, values, None, written, scope=scope)
     warning = "; ".join(part for part in (unscaled, infinite) if part)
     clock = waveform(properties)
     if clock is not None and part.start:
         clock = replace(clock, first=part.start)
-    return Column(channel.group_name, recorded, clock), warning
+    return Column(recorded, clock), warning
 
 
 def _numbers(channel: TdmsChannel, file: TdmsFile, part: slice) -> tuple[Any, str]:

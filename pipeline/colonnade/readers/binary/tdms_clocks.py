@@ -49,15 +49,14 @@ class Column:
 
     Attributes
     ----------
-    group : str
     channel : RecordedChannel
+        Within its group; one of timestamps is a clock.
     waveform : Waveform or None
         None if its properties give no step.
     first : datetime64 or None
         The first of its values, where these are timestamps.
     """
 
-    group: str
     channel: RecordedChannel
     waveform: Waveform | None = None
     first: np.datetime64 | None = None
@@ -173,17 +172,15 @@ def _first_sample(columns: list[Column], times: list[Array | None]) -> datetime 
 
 def _channels_of_times(columns: list[Column], times: list[Array | None]) -> Clocks:
     """Let channels without a clock of their own go by a channel of times in their group."""
-    bundles: dict[tuple[str, int], list[int]] = {}
+    bundles: dict[tuple[object, ...], list[int]] = {}
     for number, column in enumerate(columns):
-        bundles.setdefault((column.group, column.channel.values.size), []).append(number)
+        bundles.setdefault((*column.channel.scope, column.channel.values.size), []).append(number)
     clocks: set[int] = set()
     chosen = list(times)
     notes: list[str] = []
     warnings: list[str] = []
-    for (group, _), members in bundles.items():
-        channels = tuple(columns[number].channel for number in members)
-        kinds = tuple("number" if columns[number].first is None else "time" for number in members)
-        found = find_clocks(channels, kinds)
+    for (group, *_), members in bundles.items():
+        found = find_clocks([columns[number].channel for number in members])
         if not found.columns and all(times[number] is not None for number in members):
             continue
         clocks |= {members[index] for index in found.columns}

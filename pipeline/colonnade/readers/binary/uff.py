@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from pathlib import Path
 from typing import BinaryIO
 
@@ -19,7 +18,7 @@ from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording
 from colonnade.readers.text.numbered import read_running
 
-MARK = "-1"
+MARK = b"-1"
 HEADER_LINES = 11
 TIME = 17
 """Kind of abscissa, among the data characteristics."""
@@ -40,22 +39,6 @@ DIRECTIONS = {
     **{1: "+X", -1: "-X", 2: "+Y", -2: "-Y", 3: "+Z", -3: "-Z"},
     **{4: "+RX", -4: "-RX", 5: "+RY", -5: "-RY", 6: "+RZ", -6: "-RZ"},
 }
-
-
-@dataclass(frozen=True)
-class Function:
-    """What the eleven lines of a data set 58 say (records 6 to 9 of its definition)."""
-
-    name: str
-    unit: str
-    function: int
-    kind: int
-    points: int
-    is_even: bool
-    begin: float
-    step: float
-    is_time: bool
-    time_unit: str
 
 
 @from_head
@@ -95,12 +78,9 @@ def read(path: Path, options: Options) -> Recording:
                 continue
             functions += 1
             try:
-                channel = _function(stream, fields, warnings, notes, place)
+                channels += _function(stream, fields, warnings, notes, place)
             except (ValueError, IndexError, OverflowError) as error:
                 warnings.append(f"the data set 58 at byte {place} is damaged or was cut off ({error}); left out")
-                continue
-            if channel is not None:
-                channels.append(channel)
     if not functions:
         held = ", ".join(others) or "of no kind"
         raise ReadError(
@@ -108,8 +88,7 @@ def read(path: Path, options: Options) -> Recording:
             'data set 58, the one with recorded histories. Export the time histories ("functions at '
             'nodal DOF", data set 58).'
         )
-    names = [channel.name for channel in channels]
-    if len(set(names)) < len(names):
+    if len({channel.name for channel in channels}) < len(channels):
         notes.append("several functions have the same name: refer to them by number")
     if any(channel.time is not None for channel in channels):
         notes.append("clock: each function's own abscissa")
@@ -119,64 +98,56 @@ def read(path: Path, options: Options) -> Recording:
 def _data_sets(stream: BinaryIO) -> Iterator[tuple[int, str]]:
     """Find the data sets; each is left to the caller to read from the line below its number on."""
     while line := stream.readline(LONGEST_LINE):
-        if line.strip() == MARK.encode():
+        if line.strip() == MARK:
             header = MARK
             while header == MARK:  # the mark that closes one set and the one that opens the next
                 place = stream.tell()
-                header = stream.readline(LONGEST_LINE).decode("latin-1").strip()
+                header = stream.readline(LONGEST_LINE).strip()
             if header:
-                yield place, header
+                yield place, header.decode("latin-1")
 
 
 def _function(
     stream: BinaryIO, fields: list[str], warnings: list[str], notes: list[str], place: int
-) -> RecordedChannel | None:
-    """Read a data set 58; raises ValueError or IndexError if it is incomplete."""
-    head = _head([_decoded(stream.readline(LONGEST_LINE)).rstrip("\r\n") for _ in range(HEADER_LINES)])
-    if head.kind not in REAL_KINDS or not (head.is_time or head.function == TIME_RESPONSE):
-        notes.append(f'"{head.name}": not a real function of time (kind {head.function}); left out')
-        return None
-    if fields[0] == "58b":
-        numbers = _binary(stream, fields, head)
-    else:
-        numbers, told = _text(stream, head)
-        warnings += [f'"{head.name}", the data set at byte {place}: {text}' for text in told]
-    wanted = head.points if head.is_even else 2 * head.points
-    if numbers.size < wanted:
-        warnings.append(f'"{head.name}": the data set should have {wanted} numbers but has {numbers.size}: cut off')
-    numbers = numbers[:wanted]
-    values = numbers if head.is_even else numbers[1::2]
-    time: Array | None
-    if head.is_even:
-        time = even_times(values.size, head.step, head.begin) if head.step > 0 else None
-    else:
-        time = numbers[0::2][: values.size].copy()
-    if time is not None:
-        time *= TIME_UNITS.get(head.time_unit.casefold(), 1.0)
-    return RecordedChannel(head.name, head.unit or None, values, time)
-
-
-def _head(lines: list[str]) -> Function:
-    """Take the eleven lines apart, by their columns."""
-    kinds, sizes, abscissa, ordinate = lines[5], lines[6].split(), lines[7], lines[8]
-    points = int(sizes[1])
-    if points < 0:
-        raise ValueError(f"{points} points")
+) -> Iterator[RecordedChannel]:
+    """Read a data set 58, its eleven lines by their columns; ValueError or IndexError if it is incomplete."""
+    title, *_, kinds, form, abscissa, ordinate, _, _ = (
+        _decoded(stream.readline(LONGEST_LINE)).rstrip("\r\n") for _ in range(HEADER_LINES)
+    )
     direction = DIRECTIONS.get(int(kinds[51:55] or 0), "")
     node = f"{kinds[31:41].strip()} {kinds[41:51].strip()} {direction}".replace("NONE", "").strip()
-    title = lines[0].strip()
-    return Function(
-        name=title if title and title.upper() != "NONE" else f"node {node}",
-        unit=_label(ordinate[46:66]),
-        function=int(kinds[:5]),
-        kind=int(sizes[0]),
-        points=points,
-        is_even=int(sizes[2]) == 1,
-        begin=float(sizes[3]),
-        step=float(sizes[4]),
-        is_time=int(abscissa[:10]) == TIME,
-        time_unit=_label(abscissa[46:66]) or "s",
-    )
+    name = _label(title) or f"node {node}"
+    if len(form.split()) < 5:
+        raise ValueError("its header is not whole")
+    number, points, spacing, start, interval, *_ = form.split()
+    function, kind, size, begin, step = int(kinds[:5]), int(number), int(points), float(start), float(interval)
+    is_even, is_time = int(spacing) == 1, int(abscissa[:10]) == TIME
+    if size < 0:
+        raise ValueError(f"{size} points")
+    if kind not in REAL_KINDS or not (is_time or function == TIME_RESPONSE):
+        notes.append(f'"{name}": not a real function of time (kind {function}); left out')
+        return
+    if fields[0] == "58b":
+        numbers = _binary(stream, fields, kind, is_even=is_even)
+    else:
+        lines = enumerate(
+            takewhile(lambda line: line.strip() != MARK, iter(lambda: stream.readline(LONGEST_LINE), b"")), 1
+        )
+        numbers, told = read_running((number, line.decode("latin-1")) for number, line in lines)
+        warnings += [f'"{name}", the data set at byte {place}: {text}' for text in told]
+    wanted = size if is_even else 2 * size
+    if numbers.size < wanted:
+        warnings.append(f'"{name}": the data set should have {wanted} numbers but has {numbers.size}: cut off')
+    numbers = numbers[:wanted]
+    time: Array | None
+    if is_even:
+        values, time = numbers, even_times(numbers.size, step, begin) if step > 0 else None
+    else:
+        values = numbers[1::2]
+        time = numbers[0::2][: values.size].copy()
+    if time is not None:
+        time *= TIME_UNITS.get(_label(abscissa[46:66]).casefold(), 1.0)
+    yield RecordedChannel(name, _label(ordinate[46:66]) or None, values, time)
 
 
 def _decoded(line: bytes) -> str:
@@ -192,34 +163,16 @@ def _label(text: str) -> str:
     return "" if bare.upper() == "NONE" else bare
 
 
-def _text(stream: BinaryIO, head: Function) -> tuple[Array, list[str]]:
-    """Read the numbers of a text, up to the line that closes the data set."""
-
-    def lines() -> Iterator[tuple[int, str]]:
-        number = 0
-        while line := stream.readline(LONGEST_LINE):
-            number += 1
-            if line.strip() == MARK.encode():
-                return
-            yield number, line.decode("latin-1")
-
-    return read_running(lines())
-
-
-def _binary(stream: BinaryIO, fields: list[str], head: Function) -> Array:
+def _binary(stream: BinaryIO, fields: list[str], kind: int, *, is_even: bool) -> Array:
     """Read binary numbers; uneven abscissae are in single precision."""
     order, size = BYTE_ORDERS.get(fields[1]), int(fields[4])
     if order is None or fields[2] != IEEE or size < 0:
         raise ValueError(f"byte order {fields[1]}, floating point {fields[2]}")
+    ordinate = [("y", order + REAL_KINDS[kind])]
+    form = np.dtype(ordinate if is_even else [("x", order + "f4"), *ordinate])
     content = stream.read(size)
-    kind = np.dtype(order + REAL_KINDS[head.kind])
-    if head.is_even:
-        return np.frombuffer(content[: len(content) // kind.itemsize * kind.itemsize], kind).astype(np.float64)
-    pair = np.dtype([("x", order + "f4"), ("y", kind)])
-    pairs = np.frombuffer(content[: len(content) // pair.itemsize * pair.itemsize], pair)
-    numbers = np.empty(2 * pairs.size)
-    numbers[0::2], numbers[1::2] = pairs["x"], pairs["y"]
-    return numbers
+    found = np.frombuffer(content[: len(content) // form.itemsize * form.itemsize], form)
+    return np.column_stack([found[each].astype(np.float64) for each in form.names or ()]).ravel()
 
 
 FORMAT = Format(

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass
+from datetime import datetime
 from math import prod
+from pathlib import Path
 from typing import IO, Any, Literal
 
 import numpy as np
@@ -17,6 +19,7 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, JsonValue, NonNegativeInt
 
 from colonnade.readers.bounded.enclosure import Bounds
+from colonnade.readers.recording import RecordedChannel, Recording
 
 Arrays = list[NDArray[Any]]
 LONGEST_LINE = 64_000_000
@@ -90,9 +93,8 @@ class Answer(BaseModel):
         Why the file cannot be read; empty if it was.
     error_number : int or None
         The system's own number of what went wrong, where it did.
-    out_of_memory : bool
     exit_code : int or None
-        How the copy of the process that was to read it ended, where it did so without an answer.
+        How the copy of the process that was to read it ended, or would have, where there is no answer.
     header : JSON
     arrays : tuple of Form
     """
@@ -101,7 +103,6 @@ class Answer(BaseModel):
 
     refusal: str = ""
     error_number: int | None = None
-    out_of_memory: bool = False
     exit_code: int | None = None
     header: JsonValue = None
     arrays: tuple[Form, ...] = ()
@@ -156,3 +157,69 @@ def receive(stream: IO[bytes], largest: int) -> tuple[Answer, Arrays]:
             raise EndedError
         arrays.append(content.view(form.dtype).reshape(form.shape))
     return answer, arrays
+
+
+SAME = ("format", "notes", "warnings", "hint", "left_out")
+"""What a header and a recording both have, in the same form."""
+
+
+class Header(BaseModel):
+    """
+    All of a recording but its path and its numbers.
+
+    Of each channel `columns` has name, unit, heading, whether it is a clock, and where among the arrays its values and
+    its times are.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    format: str
+    start: datetime | None
+    notes: tuple[str, ...]
+    warnings: tuple[str, ...]
+    hint: str
+    left_out: tuple[tuple[str, str], ...]
+    columns: tuple[tuple[str, str | None, str, bool, NonNegativeInt, NonNegativeInt | None], ...]
+
+
+def told(recording: Recording) -> tuple[dict[str, Any], Arrays]:
+    """Take a recording apart; an array that several channels share is sent once."""
+    arrays: Arrays = []
+    numbers: dict[int, int] = {}
+
+    def number(array: NDArray[Any] | None) -> int | None:
+        if array is None:
+            return None
+        if id(array) not in numbers:
+            numbers[id(array)] = len(arrays)
+            arrays.append(array)
+        return numbers[id(array)]
+
+    columns = [
+        (channel.name, channel.unit, channel.heading, channel.is_clock, number(channel.values), number(channel.time))
+        for channel in recording.channels
+    ]
+    start = None if recording.start is None else recording.start.isoformat()
+    return {**{name: getattr(recording, name) for name in SAME}, "start": start, "columns": columns}, arrays
+
+
+def recording_of(path: Path, header: Any, arrays: Arrays) -> Recording:
+    """
+    Put a recording together again.
+
+    Raises
+    ------
+    ValueError
+        If a part is missing or of another form, or a channel names an array that is missing or has another length.
+    """
+    found = Header.model_validate(header)
+    if any(array.dtype != np.float64 or array.ndim != 1 for array in arrays):
+        raise ValueError("channels of numbers were expected")
+    try:
+        channels = tuple(
+            RecordedChannel(name, unit, arrays[values], None if time is None else arrays[time], heading, is_clock)
+            for name, unit, heading, is_clock, values, time in found.columns
+        )
+    except IndexError:
+        raise ValueError("a channel names an array that is missing") from None
+    return Recording(path, channels=channels, start=found.start, **{name: getattr(found, name) for name in SAME})

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, TypeVar
@@ -79,15 +79,13 @@ def run_bounded(
     request = Request(function, str(path.absolute()), folder, options, kind, modules, bounds_of(path, *others))
     answer, arrays = _ask(request)
     if answer.exit_code is not None:
-        raise _failure(request, answer.exit_code, [])
-    if answer.out_of_memory:
-        raise _swollen(request)
+        raise _failure(request, answer.exit_code)
     if answer.refusal:
         raise _refusal(answer.refusal, answer.error_number)
     try:
         return take(answer.header, arrays)
     except ValueError:
-        raise _crash(request, 0) from None
+        raise _failure(request) from None
 
 
 class _Reader:
@@ -130,7 +128,7 @@ class _Reader:
             self.kill()  # what is still to come would be taken for the next answer
             self.end()
             if isinstance(error, BrokenAnswerError):
-                raise _crash(request, 0) from None
+                raise _failure(request) from None
             raise
         code = self.end()
         raise _failure(request, code, late) if begun else _no_start(request)
@@ -205,39 +203,27 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_forget)
 
 
-def _failure(request: Request, code: int, late: list[float]) -> ReadError:
-    """What to say of a file that had no answer."""
-    if late:
-        return _stopped(request, f"took more than {late[0]:.0f} s", errno.ETIMEDOUT)
-    if code == OUT_OF_TIME:
-        return _stopped(request, f"took more than {request.bounds.processor} s of processor time")
-    if code == OUT_OF_MEMORY:
-        return _swollen(request)
-    if code == STOPPED:
+def _failure(request: Request, code: int = 0, late: Sequence[float] = ()) -> ReadError:
+    """What to say of a file that had no answer, or one that cannot be trusted."""
+    name = Path(request.path).name
+    if code == STOPPED and not late:
         return _refusal(
-            f"{Path(request.path).name}: the system stopped the process that read it, most often because memory ran "
-            "out. Run again with less else open, or with fewer workers.",
+            f"{name}: the system stopped the process that read it, most often because memory ran out. Run again with "
+            "less else open, or with fewer workers.",
             errno.ENOMEM,
         )
-    return _crash(request, code)
-
-
-def _swollen(request: Request) -> ReadError:
-    return _stopped(request, f"took more than {request.bounds.memory // MEGABYTE} MB of memory")
-
-
-def _crash(request: Request, code: int) -> ReadError:
-    signals = {128 + each: each.name for each in signal.Signals}
-    return _stopped(request, f"crashed the library that does it{f' ({signals[code]})' if code in signals else ''}")
-
-
-def _stopped(request: Request, how: str, number: int | None = None) -> ReadError:
-    """What to say of a file that one of its size and kind does not explain."""
+    signals = {128 + each: f" ({each.name})" for each in signal.Signals}
+    known = {
+        OUT_OF_TIME: f"took more than {request.bounds.processor} s of processor time",
+        OUT_OF_MEMORY: f"took more than {request.bounds.memory // MEGABYTE} MB of memory",
+    }
+    how = known.get(code, f"crashed the library that does it{signals.get(code, '')}")
+    how = f"took more than {late[0]:.0f} s" if late else how
     stray = "holds a cell far outside its table" if request.kind == "excel" else "was made to cause this"
     return _refusal(
-        f'{Path(request.path).name}: reading it as "{request.kind}" {how}. The file is damaged, was cut off, or '
-        f"{stray}. Nothing else was affected. Copy it from the recorder again, or export it as text.",
-        number,
+        f'{name}: reading it as "{request.kind}" {how}. The file is damaged, was cut off, or {stray}. Nothing else was '
+        "affected. Copy it from the recorder again, or export it as text.",
+        errno.ETIMEDOUT if late else None,
     )
 
 

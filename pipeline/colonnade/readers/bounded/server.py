@@ -14,7 +14,7 @@ from typing import IO, Any
 
 from colonnade.errors import ReadError
 from colonnade.readers.bounded import messages
-from colonnade.readers.bounded.enclosure import enclose, limit, own_folders, watch, watched_memory
+from colonnade.readers.bounded.enclosure import OUT_OF_MEMORY, enclose, limit, own_folders, watch, watched_memory
 from colonnade.readers.bounded.messages import Arrays, Request
 
 BACKSTOP = 5.0
@@ -97,7 +97,7 @@ def _answer(request: Request) -> tuple[Arrays, dict[str, Any]]:
         cause: Any = error.__cause__
         return [], {"refusal": str(error), "error_number": cause.errno if isinstance(cause, OSError) else None}
     except MemoryError:
-        return [], {"out_of_memory": True}
+        return [], {"exit_code": OUT_OF_MEMORY}
 
 
 def _expect_end(copy: int, ended: int, requests: IO[bytes], answers: IO[bytes]) -> None:

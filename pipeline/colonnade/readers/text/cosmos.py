@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import UTC, datetime
 from itertools import islice
 from pathlib import Path
@@ -13,7 +13,7 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
-from colonnade.readers.clock import even_times, moment_after
+from colonnade.readers.clock import even_times, moment_after, on_one_zero
 from colonnade.readers.format import Format, Options, Recognition
 from colonnade.readers.head import Head, from_head
 from colonnade.readers.recording import RecordedChannel, Recording
@@ -43,14 +43,8 @@ START = re.compile(
 COMPONENT = re.compile(r"^Sta\s+Cha\w*[\s:]*(?P<name>.*?)\s*(?:\(Rcrdr|Location|$)", re.IGNORECASE)
 
 
-@dataclass(frozen=True)
-class Part:
-    """A record within a file: one channel, as far as it is there, its component, a note, and when it starts."""
-
-    channel: RecordedChannel
-    component: str
-    note: str
-    start: datetime | None
+Part = tuple[RecordedChannel, str, str]
+"""A record within a file: one channel, as far as it is there, its component, and a note."""
 
 
 @from_head
@@ -74,22 +68,17 @@ def read(path: Path, options: Options) -> Recording:
         strays: list[str] = []
         warnings: list[str] = []
         parts = list(_parts(path, lines, strays, warnings))
-    starts = [part.start for part in parts if part.start is not None]
-    # A damaged header may lack its zone.
-    start = min(starts) if len({moment.tzinfo for moment in starts}) == 1 else None
     channels: list[RecordedChannel] = []
     notes: list[str] = []
     told = [f"{stray} does not belong to a channel: the file may have been cut off there" for stray in strays[:1]]
-    for part in parts:
-        name = part.channel.name
-        if name in [channel.name for channel in channels]:
-            name = f"{name} {part.component or len(parts)}"
-        time = part.channel.time
-        if time is not None and part.start is not None and start is not None:
-            time = time + (part.start - start).total_seconds()
-        channels.append(replace(part.channel, name=name, heading=name, time=time))
-        notes.append(f'"{name}": {part.note}')
-    return Recording(path, "cosmos", tuple(channels), start, tuple(notes), (*told, *warnings))
+    for channel, component, note in parts:
+        name = channel.name
+        if name in [other.name for other in channels]:
+            name = f"{name} {component or len(parts)}"
+        channels.append(replace(channel, name=name, heading=name))
+        notes.append(f'"{name}": {note}')
+    timed, start = on_one_zero(channels)  # a damaged header may lack its zone
+    return Recording(path, "cosmos", timed, start, tuple(notes), (*told, *warnings))
 
 
 def _parts(path: Path, lines: NumberedLines, strays: list[str], warnings: list[str]) -> Iterator[Part]:
@@ -149,8 +138,9 @@ def _part(
     component = next((found["name"] for text in texts if (found := COMPONENT.match(text))), "")
     component = " ".join(component.split())
     times = even_times(values.size, step)
-    channel = RecordedChannel(data["quantity"].casefold(), spelled(data["unit"]), values, times)
-    return Part(channel, component, f"{points} points, step {step:g} s, {component} (line {line})", _start(texts))
+    quantity, unit = data["quantity"].casefold(), spelled(data["unit"])
+    channel = RecordedChannel(quantity, unit, values, times, start=_start(texts))
+    return channel, component, f"{points} points, step {step:g} s, {component} (line {line})"
 
 
 def _start(texts: list[str]) -> datetime | None:

@@ -9,18 +9,18 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.errors import ReadError
+from colonnade.readers.clock import find_clocks, given_clock
 from colonnade.readers.format import Format, Recognition
 from colonnade.readers.head import Head, from_head, head_of
-from colonnade.readers.recording import TIME_UNITS, Recording, Window
+from colonnade.readers.recording import TIME_UNITS, RecordedChannel, Recording, Window
 from colonnade.readers.refused import foreign_format
 from colonnade.readers.text.cells import WHITESPACE
 from colonnade.readers.text.columns import past_midnight
 from colonnade.readers.text.damage import mend
 from colonnade.readers.text.delimited_header import DelimitedOptions, Header, read_header
 from colonnade.readers.text.encoding import Text, pieces_of_text, text_of
-from colonnade.readers.text.layout import Layout, declared_layout, read_block, series_of
+from colonnade.readers.text.layout import HeaderClaims, Layout, declared_layout, read_block, series_of
 from colonnade.readers.text.rows import Rows, Stretch, read_rows
-from colonnade.readers.text.table import Table
 
 
 @from_head
@@ -125,12 +125,32 @@ def _recording(header: Header, rows: Rows, options: DelimitedOptions) -> Recordi
     ]
     if not any(np.isfinite(column).any() for column in columns):
         raise ReadError(f"{path.name}: no cell from line {heading.first + 1} on holds a number.")
-    recording = Table(path, "delimited", heading, kinds, columns, rows.start).recording(options, header.claims)
+    each = zip(heading.names, heading.units, columns, heading.headings, kinds, strict=True)
+    channels = tuple(
+        RecordedChannel(name, unit, values, values if kind == "time" else None, head, kind == "time")
+        for name, unit, values, head, kind in each
+    )
+    recording = _on_clocks(Recording(path, "delimited", channels, rows.start), options, header.claims)
     return replace(
         recording,
         notes=(*header.notes, *heading.notes, *recording.notes, *mended.notes),
         warnings=(*header.warnings, *heading.warnings, *recording.warnings, *mended.warnings),
     )
+
+
+def _on_clocks(recording: Recording, options: DelimitedOptions, claims: HeaderClaims) -> Recording:
+    """Give channels the clock that was given, else those found; a lone column has unit and interval of the header."""
+    found = find_clocks(recording.channels)
+    if options.time is not None:
+        given = given_clock(recording, options.time, options.time_unit)
+        others = found.columns - given.columns
+        times = tuple((found if number in others else given).times[number] for number in range(len(given.times)))
+        return replace(given, columns=found.columns | given.columns, times=times).applied(recording)
+    if len(recording.channels) > 1 or found.columns:
+        return found.applied(recording)
+    (lone,) = recording.channels
+    lone = replace(lone, unit=lone.unit or claims.unit, time=claims.times(lone.values.size), is_clock=False)
+    return replace(recording, channels=(lone,), notes=(claims.clock_note,))
 
 
 def _stretch(header: Header, options: DelimitedOptions, window: Window) -> Stretch | None:

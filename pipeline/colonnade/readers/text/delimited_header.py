@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
 from colonnade.errors import ReadError
+from colonnade.readers.format import Options
+from colonnade.readers.recording import TimeUnit
 from colonnade.readers.text.cells import COMMENT_SIGNS, MISSING, WHITESPACE, Dialect
 from colonnade.readers.text.encoding import Text, TextOptions, head_lines, looks_binary
 from colonnade.readers.text.heading import Heading, HeadingLines, describe_columns, find_heading, unread_numbers
-from colonnade.readers.text.layout import HeaderClaims, header_claims, touching_fields
+from colonnade.readers.text.layout import HeaderClaims, Layout, header_claims, touching_fields
 from colonnade.readers.text.rows import RowForm
 from colonnade.readers.text.sniffing import column_kinds, find_first_sample, sniff
-from colonnade.readers.text.table import TableOptions
 
 DELIMITER_WORDS = {"comma": ",", "semicolon": ";", "tab": "\t", "\\t": "\t", "pipe": "|", "space": " ", "spaces": " "}
 
@@ -24,6 +26,46 @@ def _delimiter(text: str) -> str:
     if len(character) != 1 or character.isalnum() or character in '"+-.\r\n':
         raise ValueError('one character was expected, such as ";" or ",", or "tab" or "spaces"')
     return character
+
+
+class TableOptions(Options):
+    """What can be said about a table; all of it is found if it is not given."""
+
+    names_row: int | None = Field(
+        default=None, ge=0, description="Row or line with the columns' names, from 1; 0 if they have no names."
+    )
+    units_row: int | None = Field(
+        default=None, ge=0, description="Row or line with the columns' units, from 1; 0 if there are none."
+    )
+    time: str | int | None = Field(default=None, description="Name or number, from 1, of the column that is the clock.")
+    time_unit: TimeUnit | None = Field(default=None, description="Unit of that column.")
+    layout: Literal["columns", "running"] | None = Field(
+        default=None,
+        description='"columns" if each column is a channel, "running" if numbers run on from row to row.',
+    )
+
+    @model_validator(mode="after")
+    def _unit_has_column(self) -> Self:
+        if self.time_unit is not None and self.time is None:
+            raise ValueError("time_unit needs `time`: the column it belongs to")
+        return self
+
+    def given_layout(self, kinds: Sequence[str]) -> Layout | None:
+        """What the rows are, as given or as columns that are not all numbers have to be; None if neither says it."""
+        if self.layout is not None:
+            return Layout(self.layout, "as given")
+        return Layout("columns") if self.time is not None or set(kinds) != {"number"} else None
+
+    def heading_lines(self, found: HeadingLines) -> HeadingLines:
+        """Lines of names and units: as given, else as found; a line that is given as one is not found as the other."""
+        names, units = found.names, found.units
+        if self.names_row is not None:
+            names = self.names_row - 1 if self.names_row else None
+            units = None if units == self.names_row - 1 else units
+        if self.units_row is not None:
+            units = self.units_row - 1 if self.units_row else None
+            names = None if self.names_row is None and names == self.units_row - 1 else names
+        return HeadingLines(names, units)
 
 
 class DelimitedOptions(TextOptions, TableOptions):

@@ -187,10 +187,6 @@ SINCE_EPOCH = 1e9
 """Seconds: larger x-values count from LabVIEW's epoch, not from the start of the recording."""
 
 
-Piece = tuple[RecordedChannel, datetime | None]
-"""A column's samples in one segment, and when it began; their times, if x is a time, count from there."""
-
-
 @from_head
 def recognise(head: Head) -> Recognition:
     """Say whether the first line is that of a LabVIEW measurement file."""
@@ -215,11 +211,11 @@ def read(path: Path, options: TextOptions) -> Recording:
         segments, warnings = read_segments(path, lines, preamble)
     for segment in segments:
         warnings += _too_short(segment)
-    pieces: dict[tuple[int, str], list[Piece]] = {}
+    pieces: dict[tuple[int, str], list[RecordedChannel]] = {}
     for segment in segments:
         for column, piece in _columns(segment, preamble):
-            pieces.setdefault((column, piece[0].name), []).append(piece)
-    timed = ((piece.time, began) for same in pieces.values() for piece, began in same if piece.time is not None)
+            pieces.setdefault((column, piece.name), []).append(piece)
+    timed = ((piece.time, piece.start) for same in pieces.values() for piece in same if piece.time is not None)
     first, origin = next(timed, (np.empty(0), None))
     start = moment_after(origin, float(first[0])) if first.size else None
     channels = tuple(_joined(same, origin, preamble) for same in pieces.values())
@@ -240,8 +236,8 @@ def _too_short(segment: Segment) -> list[str]:
     return []
 
 
-def _columns(segment: Segment, preamble: Preamble) -> Iterator[tuple[int, Piece]]:
-    """Take a segment's columns apart, each with its number."""
+def _columns(segment: Segment, preamble: Preamble) -> Iterator[tuple[int, RecordedChannel]]:
+    """Take a segment's columns apart, each with its number; their times, if x is a time, count from their start."""
     clock = 0
     for column, name in enumerate(segment.names):
         is_clock = column == 0 or (preamble.clocks == "multi" and column % 2 == 0)
@@ -263,7 +259,7 @@ def _columns(segment: Segment, preamble: Preamble) -> Iterator[tuple[int, Piece]
                 began = moment_after(LABVIEW_EPOCH, float(times[0]))
                 times = times - times[0]
         unit = "s" if is_clock else segment.entry("Y_Unit_Label", column) or take_apart(name)[1]
-        yield column, (RecordedChannel(name, unit, values, times, is_clock=is_clock), began)
+        yield column, RecordedChannel(name, unit, values, times, is_clock=is_clock, start=began)
 
 
 def _even_times(segment: Segment, preamble: Preamble, column: int, count: int) -> Array | None:
@@ -273,20 +269,20 @@ def _even_times(segment: Segment, preamble: Preamble, column: int, count: int) -
     return even_times(count, step, begin) if step > 0 and np.isfinite(begin) else None
 
 
-def _joined(pieces: list[Piece], origin: datetime | None, preamble: Preamble) -> RecordedChannel:
+def _joined(pieces: list[RecordedChannel], origin: datetime | None, preamble: Preamble) -> RecordedChannel:
     """Join a channel's pieces, on the clock of the recording's first sample."""
-    first, _ = pieces[0]
-    values = np.concatenate([piece.values for piece, _ in pieces])
+    first = pieces[0]
+    values = np.concatenate([piece.values for piece in pieces])
     name = take_apart(first.name)[0]
     times: list[Array] = []
     shift, end = 0.0, np.inf
-    for piece, began in pieces:
+    for piece in pieces:
         if piece.time is None:
             return RecordedChannel(name, first.unit, values, heading=first.name)
         # x-values that go on where the segment before ended count from its beginning, not from this one's.
         goes_on = preamble.clocks != "no" and bool((piece.time[:1] > end).any())
-        if not goes_on and began is not None and origin is not None:
-            shift = (began - origin).total_seconds()
+        if not goes_on and piece.start is not None and origin is not None:
+            shift = (piece.start - origin).total_seconds()
         times.append(piece.time + shift)
         end = float(piece.time[-1]) if piece.time.size else np.inf
     return RecordedChannel(name, first.unit, values, np.concatenate(times), first.name, first.is_clock)

@@ -34,10 +34,10 @@ def spelled(unit: str) -> str:
 HEADER_LINES = 8
 """Lines among which the number of points and the time step are."""
 
-_NUMBER = r"(\d*\.?\d+(?:[eE][-+]?\d+)?)"
+_POINTS, _STEP = r"(?P<points>\d{1,12})", r"(?P<step>\d*\.?\d+(?:[eE][-+]?\d+)?)"
 SIZES = (
-    re.compile(rf"NPTS\s*=\s*(?P<points>\d+)\s*,?\s*DT\s*=\s*{_NUMBER.replace('(', '(?P<step>', 1)}", re.IGNORECASE),
-    re.compile(rf"^\s*(?P<points>\d+)\s+{_NUMBER.replace('(', '(?P<step>', 1)}\s+NPTS\s*,\s*DT\b", re.IGNORECASE),
+    re.compile(rf"NPTS\s*=\s*{_POINTS}\s*,?\s*DT\s*=\s*{_STEP}", re.IGNORECASE),
+    re.compile(rf"^\s*{_POINTS}\s+{_STEP}\s+NPTS\s*,\s*DT\b", re.IGNORECASE),
 )
 """`NPTS=  2999, DT= .01000 SEC` of NGA and NGA-West2, `4096    0.0100    NPTS, DT` of the first database."""
 UNITS = re.compile(

@@ -14,7 +14,7 @@ from colonnade.campaign import Campaign
 from colonnade.errors import ReadError
 from colonnade.findings import Finding, warning
 from colonnade.readers.files import sha256_of
-from colonnade.readers.ground_motions import el_centro
+from colonnade.readers.motion import EL_CENTRO, el_centro, is_installed
 from colonnade.readers.registry import companions
 from colonnade.signals.named_motion import Series
 
@@ -57,8 +57,8 @@ def reference_files(campaign: Campaign) -> dict[str, ReferenceMotionFile]:
         )
         for name, motion in campaign.motions.items()
     }
-    if el_centro.EL_CENTRO not in found and el_centro.is_installed():
-        found[el_centro.EL_CENTRO] = ReferenceMotionFile(path=None, digest="")
+    if EL_CENTRO not in found and is_installed():
+        found[EL_CENTRO] = ReferenceMotionFile(path=None, digest="")
     return found
 
 
@@ -70,7 +70,7 @@ def load(known: Mapping[str, ReferenceMotionFile], warnings: list[Finding]) -> d
     for name, source in known.items():
         try:
             if source.path is None:
-                motion = el_centro.el_centro()
+                motion = el_centro()
             else:
                 motion = read_motion(
                     source.path, unit="m/s^2", dt=source.interval, column=source.column, layout=source.layout
