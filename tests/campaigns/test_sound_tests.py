@@ -26,6 +26,7 @@ def _doubted(folder, seeds):
     return said
 
 
+@pytest.mark.whole
 def test_one_campaign_of_each_rig_is_sound(tmp_path):
     # 60: rocking alone would blame an accelerometer that agrees with the displacement; 9: noise in a displacement.
     seeds = (60, 1, 2, 3, 9)

@@ -77,6 +77,7 @@ def test_what_cannot_be_drawn_is_said_and_nothing_is_written(colonnade, small, t
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.whole
 def test_the_animation_is_a_gif_that_moves(colonnade, small, tmp_path):
     from PIL import Image
 

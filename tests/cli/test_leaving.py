@@ -91,7 +91,7 @@ def test_a_console_without_greek_letters_gets_question_marks(process, campaign):
 @pytest.mark.parametrize(
     ("send", "sent"),
     [
-        pytest.param("killpg", signal.SIGINT, id="Ctrl-C reaches the workers too"),
+        pytest.param("killpg", signal.SIGINT, id="Ctrl-C reaches the workers too", marks=pytest.mark.whole),
         pytest.param("kill", signal.SIGTERM, id="a polite kill reaches the parent alone", marks=pytest.mark.whole),
         pytest.param(
             "killpg",

@@ -21,7 +21,7 @@ from every import every
 
 TIME = np.arange(60) * 0.01
 TABLE = np.random.default_rng(5).random((60, 3))
-MUTATIONS = 60
+MUTATIONS = 36
 
 
 def tdms(path: Path) -> None:
@@ -141,7 +141,7 @@ def test_a_file_that_ends_anywhere_is_refused_or_warned_of(tmp_path: Path, name:
     writer(path)
     content = path.read_bytes()
     whole = sum(channel.values.size for channel in read(path).channels)
-    for length in range(0, len(content), max(len(content) // 40, 1)):
+    for length in range(0, len(content), max(len(content) // 25, 1)):
         path.write_bytes(content[:length])
         recording = read_or_refusal(path)
         if isinstance(recording, ReadError):

@@ -56,7 +56,7 @@ def test_a_damaged_file_is_read_or_refused_by_its_format(written: Callable[..., 
     path = written(name)
     content = path.read_bytes()
     recordings = 0
-    for seed in range(40):
+    for seed in range(20):
         path.write_bytes(damaged(content, kind, random.Random(f"{name} {kind} {seed}")))
         outcome = read_or_refusal(name, path)
         if isinstance(outcome, ReadError):

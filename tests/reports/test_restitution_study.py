@@ -36,6 +36,7 @@ def whole():
     return json.loads((REPORTS / "restitution-study.json").read_text(encoding="utf-8"))
 
 
+@pytest.mark.whole
 def test_a_short_study_keeps_the_goals_as_far_as_sixty_records_can_tell(short):
     everything = short["levels"][0]
     assert everything["records"] == 60
@@ -49,6 +50,7 @@ def test_a_short_study_keeps_the_goals_as_far_as_sixty_records_can_tell(short):
     assert steady["margin"] > 10
 
 
+@pytest.mark.whole
 def test_the_short_studys_page_names_what_misses_a_goal(short):
     text = page(short, "figure.svg")
     assert "| scatter of e | 0.002–0.005 |" in text

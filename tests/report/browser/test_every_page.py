@@ -84,6 +84,7 @@ def test_dark_pages_are_readable(report_folder, visit):
         assert violations(page, CONTRAST) == [], address
 
 
+@pytest.mark.smoke
 def test_what_people_wrote_is_shown_as_text(visit):
     page = visit("tests/span-2.5.html")
     assert "<script>alert('title')</script>" in page.locator("header").inner_text()

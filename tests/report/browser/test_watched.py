@@ -70,7 +70,6 @@ def says(page, text: str) -> None:
     page.wait_for_function("text => document.querySelector('.watched').textContent.includes(text)", arg=text)
 
 
-@pytest.mark.smoke
 def test_an_open_page_follows_the_report_and_stays_as_it_was(visit, folder, tell):
     tell(line="free-01: rocking, peak 0.52 α")
     page, overview = visit(TEST, folder=folder), visit("index.html", folder=folder)

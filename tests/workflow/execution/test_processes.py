@@ -49,6 +49,7 @@ PATIENCE = 60.0
 """Seconds within which workers have to be gone; joblib's own would wait for work for 300."""
 
 
+@pytest.mark.whole
 def test_two_processes_give_what_one_gives(untouched, undisturbed):
     assert not untouched.run(workers=2).failed
     assert untouched.contents() == undisturbed.contents()

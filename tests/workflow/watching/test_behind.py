@@ -84,6 +84,7 @@ def wait_until(condition: Any) -> None:
         time.sleep(0.05)
 
 
+@pytest.mark.whole
 @pytest.mark.skipif(os.name != "posix", reason="a process is killed as only POSIX does")
 def test_it_ends_in_order_when_the_watch_is_killed(small: Any) -> None:
     toml = small.folder / "campaign.toml"
