@@ -43,7 +43,6 @@ def test_the_names_of_models_and_meshes_are_those_of_their_registries():
     ("arguments", "told"),
     [
         (("map", "--model", "liner"), "'liner' is not one of 'linear', 'nonlinear', 'contact'"),
-        (("calibrate", "--mesh", "x"), "'x' is not one of 'rigid', 'coarse', 'medium', 'fine'"),
         (("run", "--workers", "0"), "x>=1"),
     ],
 )
