@@ -13,7 +13,8 @@ from colonnade.arrays import Array
 from colonnade.dynamics.spectra.response import DAMPING
 from colonnade.figures.histories import draw_limit, largest_of, scale_symmetric, time_limits
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.panels.layout import BOTTOM, TOP, add_panel, legend_above, margins
+from colonnade.figures.panels.layout import BOTTOM, TOP, legend_above, margins
+from colonnade.figures.panels.lean import add_panel
 from colonnade.figures.panels.long import draw_curve
 from colonnade.figures.style import FAINT, FIT, LIMIT, MEASURED, LineStyle, is_narrow, styled, width
 from colonnade.units import format_percent

@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
 from colonnade.figures.panels.curve import Curve, envelope
-from colonnade.figures.panels.layout import BOTTOM, TOP, add_panel, hide_numbers, legend_above, margins
+from colonnade.figures.panels.layout import BOTTOM, TOP, borrow_grid, legend_above, margins
+from colonnade.figures.panels.lean import add_panel
 from colonnade.figures.panels.long import draw_curve
 from colonnade.figures.style import FAINT, INK, LIMIT, MEASURED, SOFT, styled, width
 from colonnade.signals.spectra import Density
@@ -130,7 +131,7 @@ def channels_as_recorded(channels: Sequence[Channel], spikes: Sequence[Spike] = 
         _draw_spectrum(over_frequency, channel)
     for panels, name in ((histories, "time (s)"), (spectra, "frequency (Hz)")):
         for one in panels[:-1]:
-            hide_numbers(one)
+            borrow_grid(one, panels[-1])
         panels[-1].set_xlabel(name)
     ends = [(channel.curve.time[0], channel.curve.time[-1]) for channel in channels if channel.curve.time.size]
     if ends:

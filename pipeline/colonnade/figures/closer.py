@@ -13,7 +13,8 @@ from matplotlib.ticker import MaxNLocator
 from colonnade.arrays import Array
 from colonnade.figures.histories import ANGLE_LABEL, LARGEST_RATIO, scale_symmetric
 from colonnade.figures.panels.curve import Curve
-from colonnade.figures.panels.layout import BOTTOM, TOP, add_panel, legend_above, margins
+from colonnade.figures.panels.layout import BOTTOM, TOP, legend_above, margins
+from colonnade.figures.panels.lean import add_panel
 from colonnade.figures.style import LIMIT, MEASURED, SOFT, LineStyle, is_narrow, model_style, styled, width
 
 HEIGHT, APART = 2.5, 0.75
