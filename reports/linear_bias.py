@@ -33,7 +33,7 @@ NOISE = 1e-4
 SEEDS = 3
 
 NAIVE, LINEAR = "Housner's line", "history-linear"
-ESTIMATORS = ("peaks", "half-periods", "impact-by-impact", LINEAR, "history-nonlinear", "history-scatter", NAIVE)
+ESTIMATORS = ("peaks", "impact-by-impact", LINEAR, "history-nonlinear", "history-scatter", NAIVE)
 
 
 @dataclass(frozen=True)

@@ -251,7 +251,7 @@ CALLS = {
         colonnade.stability_map,
         {"block": PRISM, "frequency_ratio": [2.0, 3.0, 4.0, 5.0], "amplitude_ratio": [0.5, 0.6, 0.7, 0.8]},
         {"block": "object", "frequency_ratio": "array", "amplitude_ratio": "array", "restitution": "e"}
-        | {"cycles": "cycles", "ramp": "cycles", "phase": "number", "ramp_shape": "name", "model": "name"}
+        | {"cycles": "cycles", "ramp": "cycles", "phase": "number", "model": "name"}
         | {"width": "fine", "edge": "fine", "motion": "object or none", "threads": "whole"}
         | {"motion_frequency": "positive"},
     ),

@@ -106,7 +106,7 @@ def page(found: dict[str, Any], figure: str) -> str:
             "",
             "## Each estimator on its own",
             "",
-            "Wherever it gives a value, recommended or not. `half-periods` and the histories `linear` and `nonlinear`",
+            "Wherever it gives a value, recommended or not. The histories `linear` and `nonlinear`",
             "take one e for all impacts, and the linear one has a bias of its own on a nonlinear truth.",
             "",
             *_table(found["estimators"]),

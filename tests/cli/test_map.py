@@ -43,7 +43,7 @@ def test_each_model_has_its_own_map_and_json_tells_where(colonnade, campaign):
 
 def test_several_models_and_their_responses_are_written_with_a_picture_together(colonnade, campaign):
     models = ("--model", "linear", "--model", "nonlinear")
-    told = colonnade("map", *SMALL, *models, "--ramp", "1", "--ramp-shape", "cosine", "--responses")
+    told = colonnade("map", *SMALL, *models, "--ramp", "1", "--responses")
     assert (told.returncode, told.stderr) == (0, "")
     maps = campaign / "processed" / "maps"
     written = {path.name for path in maps.iterdir()}
@@ -51,8 +51,8 @@ def test_several_models_and_their_responses_are_written_with_a_picture_together(
             (".nc", ".svg", "-response.nc", "-response.svg")}  # fmt: skip
     assert written == each | {"prism-linear+nonlinear.svg"}
     assert f"together: {maps / 'prism-linear+nonlinear.svg'}" in told.stdout
-    assert "cosine ramps of 1" in (maps / "prism-linear.svg").read_text(encoding="utf-8")
-    made = json.loads(colonnade("map", *SMALL, *models, "--ramp", "1", "--ramp-shape", "cosine", "--json").stdout)
+    assert "linear ramps of 1" in (maps / "prism-linear.svg").read_text(encoding="utf-8")
+    made = json.loads(colonnade("map", *SMALL, *models, "--ramp", "1", "--json").stdout)
     assert [(each["model"], each["action"], each["responses"]) for each in made] == [
         ("linear", "up-to-date", None),
         ("nonlinear", "up-to-date", None),

@@ -16,15 +16,10 @@ BODY = 'mass = "26.10 kg"}'
 GIVEN = 'mass = "26.10 kg", restitution = 0.93}'
 
 
-def test_other_bodies_are_shown_and_the_settings_own_is_stored(in_space):
-    own, coarse = calibrate(in_space.folder, meshes=("rigid", "coarse"), workers=1)
+def test_the_law_of_the_settings_is_stored(in_space):
+    (own,) = calibrate(in_space.folder, workers=1)
     assert (own.mesh, own.path, own.reason) == ("rigid", in_space.layout.stage("prism", "contact"), "")
     assert own.restitution == float(files.read(own.path)["contact_restitution"])
-    assert (coarse.mesh, coarse.path) == ("coarse", None)
-    assert "1224 degrees of freedom" in coarse.body
-    # The same damping at each node damps the meshed body, whose nodes carry little of its mass, less.
-    assert coarse.effective_damping < 0.5 * own.effective_damping
-    assert coarse.restitution > own.restitution
 
 
 def test_a_restitution_is_needed(untouched):
@@ -48,13 +43,12 @@ def test_a_given_restitution_is_known_without_any_run_and_a_stored_law_is_not_fo
     assert (again.path, again.restitution) == (made.path, made.restitution)
 
 
-def test_a_law_that_cannot_be_found_says_why_and_leaves_the_others(untouched):
-    untouched.edit("[setups.frame.channels]", COARSE)
+def test_a_law_that_cannot_be_found_says_why(untouched):
+    untouched.edit("[setups.frame.channels]", COARSE.replace("100 us", "1 ms"))
     untouched.edit(BODY, GIVEN)
-    refused, found = calibrate(untouched.folder, steps=(1e-3, 5e-5), workers=1)
+    (refused,) = calibrate(untouched.folder, workers=1)
     assert "Use a shorter step or a softer contact" in refused.reason
-    assert (refused.restitution, refused.source, refused.step, refused.path) == (None, "", 1e-3, None)
-    assert (found.reason, found.target) == ("", 0.93)
+    assert (refused.restitution, refused.source, refused.step, refused.path) == (None, "", None, None)
 
 
 MAP = Wanted(frequency_ratio=(3.0, 4.0), amplitude_ratio=(0.5, 1.5), points=(2, 3), cycles=2.0)

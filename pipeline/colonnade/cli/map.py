@@ -68,14 +68,7 @@ if TYPE_CHECKING:
 )
 @click.option("--cycles", type=float, default=20.0, show_default=True, help="Cycles at full amplitude.")
 @click.option("--phase", type=float, default=0.0, show_default=True, help="Phase of the sine at its start, in degrees.")
-@click.option("--ramp", type=float, default=0.0, show_default=True, help="Cycles of the rise, and of the fall.")
-@click.option(
-    "--ramp-shape",
-    type=click.Choice(("linear", "cosine")),
-    default="linear",
-    show_default=True,
-    help="Rise and fall: linear in time, or smooth as half a cosine.",
-)
+@click.option("--ramp", type=float, default=0.0, show_default=True, help="Cycles of the linear rise, and of the fall.")
 @click.option("--motion", metavar="TEST", help="Use the recorded table motion of this sine test instead of a sine.")
 @click.option(
     "--responses", is_flag=True, help="Also compute the orders and amplitudes of the steady responses, with curves."

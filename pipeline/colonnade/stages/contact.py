@@ -41,14 +41,14 @@ class ContactInputs(Inputs):
     lowest_amplitude: float
 
     @classmethod
-    def of(cls, campaign: Campaign, specimen: str, settings: ContactSettings | None = None) -> ContactInputs:
-        """Gather what `contact` reads for one specimen; `settings` instead of the campaign's own."""
+    def of(cls, campaign: Campaign, specimen: str) -> ContactInputs:
+        """Gather what `contact` reads for one specimen."""
         entry = campaign.specimens[specimen]
         return cls(
             block=entry.block(campaign.gravity),
             shape=entry.shape,
             sizes=tuple(sorted(entry.sizes().items())),
-            settings=settings or campaign.processing.predict.contact,
+            settings=campaign.processing.predict.contact,
             lowest_amplitude=campaign.processing.restitution.lowest_amplitude,
         )
 

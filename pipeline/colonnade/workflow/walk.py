@@ -93,7 +93,7 @@ class Walk:
         if self._asks_for("restitution"):
             self.pool()
         if self._asks_for("predict"):
-            self._calibrate(tests)
+            self.calibrate(self._in_space(tests))
             self._predict(tests)
 
     def _measuring(self, name: str) -> list[Step]:
@@ -139,15 +139,18 @@ class Walk:
         steps = [self.graph.pooling(name, paths) for name, paths in identified.items()]
         self._walk_specimens(steps, workers=1)  # faster here than in a worker
 
-    def _calibrate(self, tests: Sequence[str]) -> None:
-        """Bring the laws of contact up to date, for specimens whose tests use a model that needs one."""
-        asked = {
+    def calibrate(self, specimens: Collection[str]) -> None:
+        """Bring the laws of contact of specimens up to date."""
+        wanted = [name for name in self._campaign.specimens if name in specimens and name not in self.failed_specimens]
+        self._walk_specimens(map(self.graph.calibrating, wanted), self.workers)
+
+    def _in_space(self, tests: Sequence[str]) -> set[str]:
+        """Specimens whose tests use a model that needs a law of contact."""
+        return {
             test.specimen
             for test in map(self._test, tests)
             if any(MODELS[model].in_space for model in models_of(self._campaign, test))
         }
-        wanted = [name for name in self._campaign.specimens if name in asked and name not in self.failed_specimens]
-        self._walk_specimens(map(self.graph.calibrating, wanted), self.workers)
 
     def _predict(self, tests: Sequence[str]) -> None:
         layout, ready = self.graph.layout, []

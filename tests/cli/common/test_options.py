@@ -7,9 +7,8 @@ import sys
 
 import pytest
 
-from colonnade.campaign.settings import MESHES
 from colonnade.cli.app import app
-from colonnade.cli.common.options import meshes, models
+from colonnade.cli.common.options import models
 from colonnade.dynamics.models.registry import MODELS
 
 
@@ -34,16 +33,14 @@ def test_an_option_has_the_same_help_everywhere():
     assert all(len(texts) == 1 for texts in said.values())
 
 
-def test_the_names_of_models_and_meshes_are_those_of_their_registries():
+def test_the_names_of_models_are_those_of_their_registry():
     assert list(models()) == list(MODELS)
-    assert tuple(meshes()) == MESHES
 
 
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
         (("map", "--model", "liner"), "'liner' is not one of 'linear', 'nonlinear', 'contact'"),
-        (("calibrate", "--mesh", "x"), "'x' is not one of 'rigid', 'coarse', 'medium', 'fine'"),
         (("run", "--workers", "0"), "x>=1"),
     ],
 )

@@ -91,7 +91,7 @@ def test_all_that_limits_depend_on_is_in_the_result():
     chart = stability_map(
         PRISM, restitution=(0.9, 0.95), frequency_ratio=[5.0], amplitude_ratio=[1.0, 1.5], cycles=7, phase=7.0, ramp=3
     )
-    expected = {"model": "linear", "base_motion": "sine", "cycles": 7.0, "ramp": 3.0, "ramp_shape": "linear"}
+    expected = {"model": "linear", "base_motion": "sine", "cycles": 7.0, "ramp": 3.0}
     expected |= {"restitution_negative": 0.9, "restitution_positive": 0.95, "width": 0.01, "edge": 1e-4}
     assert expected.items() <= chart.options.items()
     assert chart.options["phase"] == pytest.approx(7.0 - 2 * math.pi)
@@ -110,13 +110,6 @@ def test_a_law_of_e_over_speed_gives_its_own_map_and_stands_in_the_result(model)
     falling = stability_map(PRISM, restitution=lambda speed: 1.0 / (1.0 + 0.2 * speed), **options)
     assert not np.array_equal(falling.outcome, lossy.outcome)
     json.dumps(falling.options)
-
-
-def test_a_smooth_ramp_is_part_of_the_result_and_moves_the_limits():
-    options = {"restitution": 0.976, "frequency_ratio": [6.0], "amplitude_ratio": np.linspace(1.0, 30.0, 59), "ramp": 2}
-    linear, smooth = (stability_map(PRISM, width=0.1, ramp_shape=shape, **options) for shape in ("linear", "cosine"))
-    assert (linear.options["ramp_shape"], smooth.options["ramp_shape"]) == ("linear", "cosine")
-    assert abs(linear.lower[0] - smooth.lower[0]) > 0.01
 
 
 def test_a_ramp_raises_the_upper_limit():
@@ -170,7 +163,6 @@ def test_a_model_without_kernels_is_run_under_a_sampled_sine(monkeypatch):
         ({"restitution": 1.1}, "restitution is 1.1"),
         ({"cycles": 0.5}, "at least one cycle"),
         ({"ramp": -1}, "ramp is -1"),
-        ({"ramp_shape": "line"}, 'Unknown ramp shape "line"'),
         ({"phase": math.inf}, "phase is inf"),
         ({"width": 1e-5}, "edge is 0.0001 and width 1e-05"),
         ({"model": "contact"}, "The contact model needs `space`"),

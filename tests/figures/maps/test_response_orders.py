@@ -10,7 +10,7 @@ from colonnade.figures.maps.response_orders import REGIONS, response_orders
 from colonnade.identification.response.boundaries import MapPoint
 
 OMEGAS, LEVELS = np.linspace(2.0, 8.0, 7), np.linspace(0.8, 3.0, 5)
-OPTIONS = {"model": "linear", "settling": 400, "ramp": 2.0, "ramp_shape": "cosine", "phase": 0.0}
+OPTIONS = {"model": "linear", "settling": 400, "ramp": 2.0, "phase": 0.0}
 OPTIONS |= {"restitution_negative": 0.9, "restitution_positive": 0.9}
 
 
@@ -63,7 +63,7 @@ def test_measured_points_carry_their_sub_harmonic_order():
 
 def test_what_the_responses_depend_on_stands_above():
     title = response_orders(response(), [], OPTIONS).axes[0].get_title(loc="left")
-    assert title == "linear model; e = 0.9; cosine ramps of 2, phase 0.00 rad, 400 cycles to settle"
+    assert title == "linear model; e = 0.9; linear ramps of 2, phase 0.00 rad, 400 cycles to settle"
 
 
 def test_a_single_column_is_no_map():

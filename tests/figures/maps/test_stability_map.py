@@ -51,9 +51,9 @@ def test_what_the_limits_depend_on_stands_above(charts):
 
 def test_ramps_and_a_law_of_e_are_told_above():
     law = RestitutionLaw.table([0.0, 2.0], [0.95, 0.85])
-    chart = computed(PRISM, **(OPTIONS | {"restitution": law, "ramp": 2, "ramp_shape": "cosine"}))
+    chart = computed(PRISM, **(OPTIONS | {"restitution": law, "ramp": 2}))
     title = stability_map(chart).axes[0].get_title(loc="left")
-    assert "cosine ramps of 2" in title
+    assert "linear ramps of 2" in title
     assert "e = 0.95 … 0.85 over the speed of the impact" in title
 
 

@@ -29,7 +29,7 @@ from colonnade.figures.style import MEASURED, model_style
 from colonnade.identification.restitution.arcs.energy import angle_of_energy
 from prism import PRISM
 
-NOTHING = EstimateRow("half-periods", np.nan, np.nan, np.nan, remark="too few impacts")
+NOTHING = EstimateRow("impact by impact", np.nan, np.nan, np.nan, remark="too few impacts")
 
 
 def test_estimates_stand_side_by_side_with_their_intervals():
@@ -64,7 +64,7 @@ def test_one_estimate_far_off_is_an_arrow_at_the_edge():
 def test_a_refusal_by_all_estimators_has_no_scale():
     axes = estimators_side_by_side([EstimateGroup("", [NOTHING])], rigid=0.95).axes[0]
     assert axes.get_xticks().size == 0
-    assert [text.get_text() for text in axes.texts] == ["half-periods", "too few impacts"]
+    assert [text.get_text() for text in axes.texts] == ["impact by impact", "too few impacts"]
 
 
 def impacts(title="free-01", *, count=20, error=1e-3, used=True):

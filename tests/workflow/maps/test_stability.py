@@ -190,7 +190,6 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
         (Wanted(motion="pulse-99"), (), 'no test "pulse-99"'),
         (Wanted(motion="pulse-01"), (), "pulse-01: its table motion cannot be stretched"),
         (Wanted(motion="pulse-01", responses=True), (), "Leave out the recorded motion"),
-        (Wanted(ramp_shape="round"), (), 'Unknown ramp shape "round"'),
     ],
     ids=[
         "an unknown specimen",
@@ -199,7 +198,6 @@ def test_sine_tests_of_the_summary_stand_on_the_map_and_widen_it(small):
         "an unknown test",
         "a test that is no sine",
         "responses to a recorded motion",
-        "an unknown ramp",
     ],
 )
 def test_what_cannot_be_mapped_is_told(small, wanted, specimens, found):

@@ -48,13 +48,6 @@ def _shapes() -> Iterable[str]:
     return SIZED
 
 
-def meshes() -> Iterable[str]:
-    """Names of the contact model's bodies."""
-    from colonnade.campaign.settings import MESHES
-
-    return MESHES
-
-
 campaign_argument = click.argument("campaign", type=click.Path(path_type=Path), default=Path(), metavar="[CAMPAIGN]")
 """The argument of most commands."""
 

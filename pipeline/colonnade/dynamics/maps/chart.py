@@ -19,7 +19,6 @@ from colonnade.dynamics.maps.limits import islands_of
 from colonnade.dynamics.maps.plan import EDGE, WIDTH, MapPlan, plan_map
 from colonnade.dynamics.models.registry import DEFAULT
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic.motion import RAMP_SHAPES
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.validation import whole
 
@@ -45,7 +44,7 @@ class StabilityMap(Digested):
     interval_frequency_ratio, interval_start, interval_end : ndarray, shape (k,)
         Every interval of A that overturns, islands included, by its Ω.
     options : dict
-        All that the limits depend on: model, cycles, phase, ramp and its shape, scan step, width, edge,
+        All that the limits depend on: model, cycles, phase, ramp, scan step, width, edge,
         restitution, rest rule.
 
     Examples
@@ -105,7 +104,6 @@ def stability_map(
     cycles: float = 20,
     phase: float = 0.0,
     ramp: float = 0,
-    ramp_shape: str = RAMP_SHAPES[0],
     model: str = DEFAULT,
     width: float = WIDTH,
     edge: float = EDGE,
@@ -129,8 +127,6 @@ def stability_map(
         rad: the base acceleration is a sin(ω t + phase).
     ramp : float, optional
         Number of cycles over which the amplitude rises before, and falls after.
-    ramp_shape : {"linear", "cosine"}
-        How it rises and falls: in proportion to time, or as half a cosine.
     model : str, optional
         A plane one.
     width : float, optional
@@ -169,7 +165,6 @@ def stability_map(
         cycles=cycles,
         phase=phase,
         ramp=ramp,
-        ramp_shape=ramp_shape,
         model=model,
         width=width,
         edge=edge,

@@ -75,9 +75,7 @@ def _runs(plan: MapPlan, frequency_ratio: float) -> Runs:
         unit = motion.acceleration * (block.uplift_acceleration / motion.peak)
         return _sampled(plan, unit, dt)
 
-    harmonic = Harmonic.cycles(
-        frequency_ratio * block.p, plan.cycles, phase=plan.phase, ramp=plan.ramp, ramp_shape=plan.ramp_shape
-    )
+    harmonic = Harmonic.cycles(frequency_ratio * block.p, plan.cycles, phase=plan.phase, ramp=plan.ramp)
 
     if plan.model not in PLANE_MODELS:
         from colonnade.dynamics.maps.space import sampled

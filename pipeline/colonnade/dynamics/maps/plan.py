@@ -15,7 +15,7 @@ from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.models.registry import DEFAULT, model_of
 from colonnade.dynamics.motion import Motion
-from colonnade.dynamics.plane.harmonic.motion import RAMP_SHAPES, Restitution, check_ramp_shape, restitution_up_to
+from colonnade.dynamics.plane.harmonic.motion import Restitution, restitution_up_to
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
 from colonnade.validation import instance, number, samples
@@ -61,8 +61,6 @@ class MapPlan:
         Ω, shape (n,), and A, shape (m,), both increasing.
     cycles, phase, ramp : float
         Cycles at full amplitude; phase of their beginning, rad; cycles of the rise before and fall after them.
-    ramp_shape : str
-        Of rise and fall, one of `harmonic_run.RAMP_SHAPES`.
     width, edge : float
         In A, see `WIDTH` and `EDGE`.
     motion : Motion, optional
@@ -81,7 +79,6 @@ class MapPlan:
     cycles: float
     phase: float
     ramp: float
-    ramp_shape: str
     width: float
     edge: float
     motion: Motion | None
@@ -115,7 +112,7 @@ class MapPlan:
         """Everything else that the result depends on, apart from block and axes, by name."""
         forcing: dict[str, Any]
         if self.motion is None:
-            forcing = {"cycles": self.cycles, "phase": self.phase, "ramp": self.ramp, "ramp_shape": self.ramp_shape}
+            forcing = {"cycles": self.cycles, "phase": self.phase, "ramp": self.ramp}
         else:
             forcing = {"motion_frequency": self.motion_frequency, "motion_samples": self.motion.acceleration.size}
         e: dict[str, Any]
@@ -151,7 +148,6 @@ def plan_map(
     cycles: float = 20,
     phase: float = 0.0,
     ramp: float = 0,
-    ramp_shape: str = RAMP_SHAPES[0],
     model: str = DEFAULT,
     width: float = WIDTH,
     edge: float = EDGE,
@@ -170,7 +166,6 @@ def plan_map(
     instance("block", block, Block)
     if space is None and model_of(model).in_space:
         raise ValueError(f"The {model} model needs `space`; a model in the plane was expected without it")
-    check_ramp_shape(ramp_shape)
     frequencies = _axis("frequency_ratio", frequency_ratio, 1)
     amplitudes = _axis("amplitude_ratio", amplitude_ratio, 2)
     cells = frequencies.size * amplitudes.size
@@ -191,7 +186,6 @@ def plan_map(
         cycles,
         phase % (2 * pi),
         ramp,
-        ramp_shape,
         width,
         edge,
         motion,

@@ -91,6 +91,4 @@ def sampled(harmonic: Harmonic) -> tuple[Array, float]:
         share = np.minimum(share, time / rise)
     if end > full:
         share = np.minimum(share, (end - time) / (end - full))
-    if harmonic.ramp_shape == "cosine":
-        share = 0.5 * (1.0 - np.cos(pi * share))
     return np.append(share * np.sin(harmonic.omega * time + harmonic.phase), 0.0), dt

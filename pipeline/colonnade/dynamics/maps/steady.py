@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from colonnade.arrays import Array
 from colonnade.dynamics.block import Block, Sided
 from colonnade.dynamics.models.registry import DEFAULT
-from colonnade.dynamics.plane.harmonic.motion import RAMP_SHAPES, Harmonic, harmonic_run, restitution_up_to
+from colonnade.dynamics.plane.harmonic.motion import Harmonic, harmonic_run, restitution_up_to
 from colonnade.dynamics.restitution_law import RestitutionLaw
 
 AT_REST, IRREGULAR, OVERTURNED = 0, -1, -2
@@ -61,7 +61,6 @@ def steady_response(
     settling: int = 400,
     phase: float = 0.0,
     ramp: float = 0.0,
-    ramp_shape: str = RAMP_SHAPES[0],
     model: str = DEFAULT,
 ) -> SteadyResponse:
     """
@@ -81,8 +80,6 @@ def steady_response(
         rad.
     ramp : float, optional
         Cycles over which the amplitude rises at first.
-    ramp_shape : {"linear", "cosine"}
-        How it rises: in proportion to time, or as half a cosine.
     model : str, optional
         A plane one.
 
@@ -109,7 +106,7 @@ def steady_response(
         cycle = 2 * pi / omega
         first = round(ramp) + settling
         edges = (ramp * cycle, (first + watched) * cycle, (first + watched) * cycle)
-        motion = Harmonic(omega, phase, edges, ramp_shape)
+        motion = Harmonic(omega, phase, edges)
         for column, level in enumerate(amplitudes):
             run = harmonic_run(
                 block,

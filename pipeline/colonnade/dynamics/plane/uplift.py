@@ -7,11 +7,19 @@ from math import asin, pi, sin, tan
 import numpy as np
 
 from colonnade.dynamics.kernel import kernel
-from colonnade.dynamics.plane.harmonic.envelope import Piece, level_at
 from colonnade.dynamics.plane.sides import Pair
+
+Piece = tuple[float, float]
+"""Level of a harmonic motion where a part of it begins, and its slope."""
 
 HALVINGS = 60
 """Of an interval: down to rounding."""
+
+
+@kernel
+def level_at(piece: Piece, since: float) -> float:
+    """Level at a time since the part began."""
+    return piece[0] + piece[1] * since
 
 
 @kernel
@@ -69,13 +77,13 @@ def harmonic_uplift(
     The base acceleration over gravity is l(t − begin) sin(ω t + phase), l ≥ 0; the block uplifts to θ < 0 where that
     passes `negative`, to θ > 0 where its opposite passes `positive`.
     """
-    angle, level = omega * start + phase, level_at(piece, start - begin)[0]
+    angle, level = omega * start + phase, level_at(piece, start - begin)
     now = level * sin(angle)
     if now > negative or -now > positive:
         return start, -1.0 if now > 0.0 else 1.0
-    if omega == 0.0 or max(level, level_at(piece, end - begin)[0]) <= min(negative, positive):
+    if omega == 0.0 or max(level, level_at(piece, end - begin)) <= min(negative, positive):
         return np.inf, 0.0
-    if piece[1] == 0.0 and piece[2] == 0.0:
+    if piece[1] == 0.0:
         # A constant level: the sine's own inverse.
         first, second = np.inf, np.inf
         if level > negative:
@@ -105,15 +113,14 @@ def _first_above(
     top, right = low, high
     for _ in range(HALVINGS):
         middle = 0.5 * (top + right)
-        level, slope = level_at(piece, middle - begin)
-        growing = slope + level * omega / tan(omega * middle + phase) > 0.0
+        growing = piece[1] + level_at(piece, middle - begin) * omega / tan(omega * middle + phase) > 0.0
         top, right = (middle, right) if growing else (top, middle)
-    if not level_at(piece, top - begin)[0] * abs(sin(omega * top + phase)) > threshold:
+    if not level_at(piece, top - begin) * abs(sin(omega * top + phase)) > threshold:
         return np.inf
     # It rises from the beginning of the half wave to its top.
     bottom = low
     for _ in range(HALVINGS):
         middle = 0.5 * (bottom + top)
-        above = level_at(piece, middle - begin)[0] * abs(sin(omega * middle + phase)) > threshold
+        above = level_at(piece, middle - begin) * abs(sin(omega * middle + phase)) > threshold
         bottom, top = (bottom, middle) if above else (middle, top)
     return top

@@ -20,7 +20,6 @@ from xml.etree import ElementTree
 from matplotlib.figure import Figure
 from PIL import Image
 
-from colonnade.figures.files.canvas import BACKEND
 from colonnade.figures.files.polyline import shorter
 from colonnade.figures.files.table import Columns, columns_of
 from colonnade.figures.style import styled
@@ -182,7 +181,7 @@ def to_svg(figure: Figure, *, identity: str, title: str, description: str) -> st
     if not _IDENTITY.fullmatch(identity):
         raise ValueError(f"{identity!r} cannot be an id; a letter, then letters, digits, '.', '_' or '-' were expected")
     nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
-    root = ElementTree.fromstring(_written(figure, "svg", metadata=nothing, backend=BACKEND))
+    root = ElementTree.fromstring(_written(figure, "svg", metadata=nothing))
     _drop(root, {f"{{{NAMESPACE}}}metadata", f"{{{NAMESPACE}}}style"})
     _rename(root, identity)
     _shorten(root)

@@ -67,7 +67,7 @@ def response_orders(response: SteadyResponse, points: Sequence[MapPoint], option
     points : sequence of MapPoint
         Measured sine tests; of a sub-harmonic response with its order.
     options : mapping
-        What the responses depend on: `model`, `settling`, `ramp`, `ramp_shape`, `phase`, and e as in the options of a
+        What the responses depend on: `model`, `settling`, `ramp`, `phase`, and e as in the options of a
         stability map.
 
     Returns

@@ -163,7 +163,7 @@ def _words(charts: Sequence[StabilityMap]) -> str:
 
 def words_of_sine(options: Mapping[str, Any]) -> str:
     """Return in words the ramps and the phase of the sine of a map or of steady responses."""
-    ramp = f"{options['ramp_shape']} ramps of {options['ramp']:g}" if options["ramp"] else "no ramp"
+    ramp = f"linear ramps of {options['ramp']:g}" if options["ramp"] else "no ramp"
     return f"{ramp}, phase {options['phase']:.2f} rad"
 
 

@@ -63,7 +63,7 @@ def identify_restitution(
         Cut-off of the zero-phase low-pass (Butterworth, order 4, both ways) that the record went through, Hz; default:
         found from the residuals of the fit.
     free : tuple of {"critical_angle", "p"}, optional
-        What the whole histories, and for p the half-periods, identify with e: worn edges, an uncertain inertia.
+        What the whole histories identify with e: worn edges, an uncertain inertia.
     out_of_plane, slide, uplift : array_like, shape (n,), optional
         Rotation about x (rad), displacement of the pole and height of the base (m), if measured: departures from
         plane rocking are then seen directly.

@@ -27,7 +27,7 @@ class Estimate:
 
     Attributes
     ----------
-    name : {"peaks", "half-periods", "impact-by-impact", "history-linear", "history-nonlinear"}
+    name : {"peaks", "impact-by-impact", "history-linear", "history-nonlinear", "history-scatter"}
     value, low, high, standard_error : float or None
         e, its interval of confidence at `level` and its standard error; None if refused.
     level : float

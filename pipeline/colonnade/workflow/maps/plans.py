@@ -47,7 +47,7 @@ class Wanted:
         First and last Ω and A; by default they include the specimen's sine tests.
     points : pair of int or None
         How many of each; by default the `map_points` of the model.
-    cycles, phase, ramp, ramp_shape : float, str
+    cycles, phase, ramp : float
         Of the sine, see `dynamics.maps.chart.stability_map`.
     motion : str or None
         Id of a sine test whose recorded table motion is used instead, stretched to Ω and scaled to A.
@@ -62,7 +62,6 @@ class Wanted:
     cycles: float = 20.0
     phase: float = 0.0
     ramp: float = 0.0
-    ramp_shape: str = "linear"
     motion: str | None = None
     responses: bool = False
 
@@ -146,7 +145,6 @@ def plan_of(
             cycles=wanted.cycles,
             phase=wanted.phase,
             ramp=wanted.ramp,
-            ramp_shape=wanted.ramp_shape,
             model=model,
             motion=motion,
             motion_frequency=frequency,

@@ -84,7 +84,7 @@ def as_response(stored: xr.Dataset) -> SteadyResponse:
 
 def _settings(plan: MapPlan) -> dict[str, Any]:
     """All that the responses depend on apart from block and axes, by the names of a map's options."""
-    kept = ("model", "phase", "ramp", "ramp_shape", "rest_angle", "critical_angle", "p")
+    kept = ("model", "phase", "ramp", "rest_angle", "critical_angle", "p")
     options = plan.options
     return {name: options[name] for name in options if name in kept or name.startswith("restitution_")} | {
         "settling": SETTLING
@@ -100,7 +100,6 @@ def _columns(plan: MapPlan, indices: range) -> dict[str, NDArray[Any]]:
         settling=SETTLING,
         phase=plan.phase,
         ramp=plan.ramp,
-        ramp_shape=plan.ramp_shape,
         model=plan.model,
         frequency_ratio=plan.frequency_ratio[indices.start : indices.stop],
         amplitude_ratio=plan.amplitude_ratio,

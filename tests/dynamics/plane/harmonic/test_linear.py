@@ -9,55 +9,49 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from colonnade.dynamics.plane import landing
-from colonnade.dynamics.plane.harmonic import envelope
 from colonnade.dynamics.plane.harmonic import linear as harmonic_linear
 from colonnade.dynamics.plane.harmonic.linear import LONGEST_STEP, closed_arc
 
 ALPHA, P, OMEGA = 0.2, 4.0, 11.0
-STEADY = 0.3, 0.0, 0.0, 0.0
-RISING = 0.1, 0.8, 0.0, 0.0
-"""Level of a/g at the start of a piece and its slope, 1/s."""
-SMOOTH = 0.2, 0.0, 0.1, 3.0
-"""Level c + b cos(r t) of a ramp that is half a cosine: c, b and r, rad/s."""
+STEADY = 0.3, 0.0
+RISING = 0.1, 0.8
+"""Level of a/g where an arc begins and its slope, 1/s."""
 
 
 @pytest.fixture(autouse=True)
 def as_python(interpreted):
-    interpreted(envelope, harmonic_linear, landing)
+    interpreted(harmonic_linear, landing)
 
 
-def arc(height, rate, *, side=1.0, angle=0.4, piece=STEADY, since=0.05, remaining=0.5, top=False, smooth=None):
+def arc(height, rate, *, side=1.0, angle=0.4, level=STEADY, remaining=0.5, top=False):
     state = height, rate, sin(angle), cos(angle)
-    return closed_arc(state, side, ALPHA, P, OMEGA, piece, since, smooth, remaining, top)
+    return closed_arc(state, side, ALPHA, P, OMEGA, *level, remaining, top)
 
 
-def integrated(height, rate, x, *, side=1.0, angle=0.4, piece=STEADY, since=0.05, times=None):
+def integrated(height, rate, x, *, side=1.0, angle=0.4, level=STEADY, times=None):
     """h'' = h − α − q sin φ by SciPy, h and h' in x = p t."""
 
     def rates(x, state):
-        time = since + x / P
-        level = side * (piece[0] + piece[1] * time + piece[2] * cos(piece[3] * time))
-        return [state[1], state[0] - ALPHA - level * sin(angle + OMEGA / P * x)]
+        q = side * (level[0] + level[1] * x / P)
+        return [state[1], state[0] - ALPHA - q * sin(angle + OMEGA / P * x)]
 
     found = solve_ivp(rates, (0.0, x), [height, rate], method="DOP853", rtol=1e-13, atol=1e-16, t_eval=times)
     return found.y if times is not None else found.y[:, -1]
 
 
-@pytest.mark.parametrize(
-    ("piece", "smooth"), [(STEADY, None), (RISING, None), (SMOOTH, True)], ids=["steady", "rising", "half a cosine"]
-)
+@pytest.mark.parametrize("level", [STEADY, RISING], ids=["steady", "rising"])
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 @pytest.mark.parametrize(("height", "rate"), [(0.15, 0.0), (0.1, 0.05), (0.0, 0.1)])
-def test_an_arc_is_that_of_another_integrator(piece, smooth, side, height, rate):
-    landed, x, _, (last, speed, sine, cosine) = arc(height, rate, side=side, piece=piece, smooth=smooth)
-    np.testing.assert_allclose((last, speed), integrated(height, rate, x, side=side, piece=piece), atol=1e-12)
+def test_an_arc_is_that_of_another_integrator(level, side, height, rate):
+    landed, x, _, (last, speed, sine, cosine) = arc(height, rate, side=side, level=level)
+    np.testing.assert_allclose((last, speed), integrated(height, rate, x, side=side, level=level), atol=1e-12)
     assert landed == (last == 0.0)
     assert (sine, cosine) == pytest.approx((sin(0.4 + OMEGA / P * x), cos(0.4 + OMEGA / P * x)), abs=1e-13)
 
 
 def test_on_a_table_at_rest_an_arc_is_that_of_hyperbolic_functions():
     """h = α + (h₀ − α) cosh x + h₀' sinh x."""
-    _, x, _, (last, speed, *_) = arc(0.15, 0.02, piece=(0.0, 0.0, 0.0, 0.0), remaining=0.4)
+    _, x, _, (last, speed, *_) = arc(0.15, 0.02, level=(0.0, 0.0), remaining=0.4)
     away = 0.15 - ALPHA
     assert last == pytest.approx(ALPHA + away * cosh(x) + 0.02 * sinh(x), rel=1e-14)
     assert speed == pytest.approx(away * sinh(x) + 0.02 * cosh(x), rel=1e-12)

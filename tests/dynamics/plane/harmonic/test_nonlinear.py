@@ -1,4 +1,4 @@
-"""The nonlinear march through a sine, and its envelope."""
+"""One arc of the full equation under a sine against SciPy's DOP853, and the march through a sine."""
 
 from __future__ import annotations
 
@@ -10,51 +10,48 @@ from scipy.integrate import solve_ivp
 
 from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.plane import landing
-from colonnade.dynamics.plane.harmonic import envelope
 from colonnade.dynamics.plane.harmonic import nonlinear as harmonic_nonlinear
-from colonnade.dynamics.plane.harmonic.envelope import level_at, piece_between
 from colonnade.dynamics.plane.harmonic.motion import Harmonic, harmonic_outcomes, harmonic_run
 from colonnade.dynamics.plane.harmonic.nonlinear import empty_series
 from colonnade.dynamics.rock import rock
 from prism import PRISM
 
 ALPHA, P, OMEGA = 0.2, 4.0, 11.0
-STEADY = 0.3, 0.0, 0.0, 0.0
-RISING = 0.1, 0.8, 0.0, 0.0
-"""Level of a/g at the start of a piece and its slope, 1/s."""
+STEADY = 0.3, 0.0
+RISING = 0.1, 0.8
+"""Level of a/g where an arc begins and its slope, 1/s."""
 
 
 @pytest.fixture
 def as_python(interpreted):
-    interpreted(envelope, harmonic_nonlinear, landing)
+    interpreted(harmonic_nonlinear, landing)
 
 
-def arc(height, rate, *, side=1.0, angle=0.4, piece=STEADY, since=0.05, remaining=0.5, top=False):
-    work = empty_series()
+def arc(height, rate, *, side=1.0, angle=0.4, level=STEADY, remaining=0.5, top=False):
     return harmonic_nonlinear.series_arc(
-        height, rate, side, ALPHA, P, OMEGA, angle, piece, since, None, remaining, top, work
+        height, rate, side, ALPHA, P, OMEGA, angle, *level, remaining, top, empty_series()
     )
 
 
-def integrated(height, rate, x, *, side=1.0, angle=0.4, piece=STEADY, since=0.05, times=None):
+def integrated(height, rate, x, *, side=1.0, angle=0.4, level=STEADY, times=None):
     """u'' = sin u + q sin φ cos u by SciPy, as h = α − u and its rate in x = p t."""
 
     def rates(x, state):
-        level = side * (piece[0] + piece[1] * (since + x / P))
+        q = side * (level[0] + level[1] * x / P)
         lean = ALPHA - state[0]
-        return [state[1], -sin(lean) - level * sin(angle + OMEGA / P * x) * cos(lean)]
+        return [state[1], -sin(lean) - q * sin(angle + OMEGA / P * x) * cos(lean)]
 
     found = solve_ivp(rates, (0.0, x), [height, rate], method="DOP853", rtol=1e-13, atol=1e-16, t_eval=times)
     return found.y if times is not None else found.y[:, -1]
 
 
 @pytest.mark.usefixtures("as_python")
-@pytest.mark.parametrize("piece", [STEADY, RISING], ids=["steady", "rising"])
+@pytest.mark.parametrize("level", [STEADY, RISING], ids=["steady", "rising"])
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 @pytest.mark.parametrize(("height", "rate"), [(0.15, 0.0), (0.1, 0.05), (0.0, 0.1)])
-def test_an_arc_is_that_of_another_integrator(piece, side, height, rate):
-    landed, x, _, last, speed = arc(height, rate, side=side, piece=piece)
-    np.testing.assert_allclose((last, speed), integrated(height, rate, x, side=side, piece=piece), atol=1e-12)
+def test_an_arc_is_that_of_another_integrator(level, side, height, rate):
+    landed, x, _, last, speed = arc(height, rate, side=side, level=level)
+    np.testing.assert_allclose((last, speed), integrated(height, rate, x, side=side, level=level), atol=1e-12)
     assert landed == (last == 0.0)
     assert 0.0 < x <= 0.5
 
@@ -86,32 +83,6 @@ def test_the_top_inside_an_arc_is_given_where_it_is_asked_for():
     assert arc(0.1, 0.05, **given)[2] == last < top
 
 
-@pytest.mark.usefixtures("as_python")
-def test_the_ramp_of_half_a_cosine_adds_its_two_sines():
-    """level(t) = c + b cos(r t): its product with sin φ is two more sines; against the same by differences."""
-    work, step = empty_series(), 1e-3
-    piece = 0.0, 0.0, 0.4, 3.0
-    since, phase = 0.2, 0.7
-    harmonic_nonlinear._swing(True, work.forcing, 1.0, P, piece, since, OMEGA / P, phase)
-    series = sum(work.forcing[k] * step**k for k in range(5))
-    later = 0.4 * cos(3.0 * (since + step / P)) * sin(phase + OMEGA / P * step)
-    assert work.forcing[0] == pytest.approx(0.4 * cos(3.0 * since) * sin(phase))
-    assert series == pytest.approx(later, rel=1e-13)
-
-
-@pytest.mark.usefixtures("as_python")
-@pytest.mark.parametrize(("smooth", "middle", "slope"), [(None, 1.0, 0.5), (True, 1.0, 0.785398)])
-def test_a_ramp_goes_from_level_to_level(smooth, middle, slope):
-    ramp = piece_between(0.0, 2.0, 4.0, smooth)
-    assert [level_at(ramp, since)[0] for since in (0.0, 2.0, 4.0)] == pytest.approx([0.0, middle, 2.0])
-    assert level_at(ramp, 2.0)[1] == pytest.approx(slope, rel=1e-6)
-
-
-@pytest.mark.usefixtures("as_python")
-def test_a_constant_level_has_no_slope():
-    assert level_at(piece_between(2.0, 2.0, 4.0, True), 1.0) == (2.0, 0.0)
-
-
 @pytest.mark.parametrize("model", ["linear", "nonlinear"])
 def test_a_harmonic_run_is_that_of_the_sampled_motion(model):
     motion = Harmonic.cycles(4.0 * PRISM.p, 5.0)
@@ -125,7 +96,7 @@ def test_a_harmonic_run_is_that_of_the_sampled_motion(model):
 
 @pytest.mark.parametrize("model", ["linear", "nonlinear"])
 def test_outcomes_of_many_amplitudes_are_those_of_single_runs(model):
-    motion = Harmonic.cycles(3.0 * PRISM.p, 4.0, ramp=1.0, ramp_shape="cosine")
+    motion = Harmonic.cycles(3.0 * PRISM.p, 4.0, ramp=1.0)
     amplitudes = np.linspace(0.5, 6.0, 12)
     codes = harmonic_outcomes(PRISM, motion, amplitudes, (0.9, 0.9), model)
     single = [harmonic_run(PRISM, motion, float(a), 0.9, model=model).outcome for a in amplitudes]

@@ -18,7 +18,6 @@ from colonnade.identification.restitution.arcs.rocking_arc import (
     half_duration,
     kinetic,
     peak_of,
-    peak_of_duration,
 )
 from colonnade.identification.restitution.arcs.series import arc_series
 from every import every
@@ -80,17 +79,6 @@ def test_a_block_that_overturns_after_an_impact_has_no_further_arcs():
     critical = np.array([0.05, 0.2])
     peaks, _, _ = free_arcs(np.full(2, 0.95), 0.15, 0.0, 1, critical, np.full(2, P), 3, False)
     assert np.isfinite(peaks).tolist() == [True, False, False]
-
-
-@pytest.mark.parametrize("share", [1e-5, 0.02, 0.5, 0.98])
-def test_the_peak_of_a_duration_is_that_whose_arc_lasts_so_long(share):
-    phase = half_duration(share * 0.2, 0.2, False)
-    assert peak_of_duration(phase, 0.2, 2e-7, 0.1998) == pytest.approx(share * 0.2, rel=1e-9)
-
-
-def test_durations_beyond_the_bounds_have_the_bounds_as_peaks():
-    assert peak_of_duration(1e-9, 0.2, 0.01, 0.19) == pytest.approx(0.01)
-    assert peak_of_duration(99.0, 0.2, 0.01, 0.19) == pytest.approx(0.19)
 
 
 BLOCK = Block.measured(mass=80.0, pole_distance=0.61, critical_angle=(0.21, 0.24), inertia=41.2)

@@ -2,25 +2,22 @@
 The linear model under a harmonic base motion, in closed form over whole arcs.
 
 While the block rocks on side s = sgn θ its height h = s θ obeys, with x = p t and the base acceleration over gravity
-a/g = l sin φ, φ = Ω x + ψ, the level l constant or on a ramp, which is linear in x or half a cosine, and q = s l,
+a/g = l sin φ, φ = Ω x + ψ, the level l constant or linear in x, and q = s l,
 
     h'' = h − α − q sin φ,      h = α + y + w,      w = C cosh x + D sinh x,
-    y = q sin φ/(1 + Ω²) + 2 q' Ω cos φ/(1 + Ω²)²                                               where q is linear,
-    y = q₀ sin φ/(1 + Ω²) + b/2 [sin(φ + χ)/(1 + (Ω + ν)²) + sin(φ − χ)/(1 + (Ω − ν)²)]    where q = q₀ + b cos χ.
+    y = q sin φ/(1 + Ω²) + 2 q' Ω cos φ/(1 + Ω²)².
 
-The latter, with χ' = ν, is three sines, taken as (g₀ + g cos χ) sin φ + m sin χ cos φ; only motions with such ramps pay
-for them, since for the others the kernels are compiled with None in their place. Nothing is integrated: only impacts
-are searched. Between two points h is passed over where a bound on its higher derivatives excludes an impact, and solved
-for where it shows that there is exactly one; the rest is halved. With G = (h − α) + h' is G' = G − q sin φ, so that
-from G > max |q| still to come on, h never returns to 0: the block has overturned.
+Nothing is integrated: only impacts are searched. Between two points h is passed over where a bound on its higher
+derivatives excludes an impact, and solved for where it shows that there is exactly one; the rest is halved. With
+G = (h − α) + h' is G' = G − q sin φ, so that from G > max |q| still to come on, h never returns to 0: the block has
+overturned.
 """
 
 from __future__ import annotations
 
-from math import cos, factorial, sin
+from math import factorial
 
 from colonnade.dynamics.kernel import kernel
-from colonnade.dynamics.plane.harmonic.envelope import Piece
 from colonnade.dynamics.plane.landing import FRESH, SHORTEST_STEP, verdict
 
 State = tuple[float, float, float, float]
@@ -29,8 +26,6 @@ Point = tuple[float, float, float, float, float, float]
 """h, h', sin φ, cos φ, w, w'."""
 Wave = tuple[float, float, float, float, float]
 """α, Ω, gain, growth and lag of a step, with y = (gain + growth x) sin φ + lag cos φ."""
-Swing = tuple[float, float, float, float, float, float, float]
-"""What half a cosine adds: ν, b, g and m; sin χ and cos χ where the step begins; a bound of its fourth derivative."""
 
 ODD = tuple(1.0 / factorial(2 * k + 1) for k in range(10))
 EVEN = tuple(1.0 / factorial(2 * k + 2) for k in range(10))
@@ -56,18 +51,6 @@ def _odd_even(z: float) -> tuple[float, float]:
 
 
 @kernel
-def _swing(smooth: bool | None, side: float, p: float, piece: Piece, since: float, ratio: float) -> Swing | None:
-    """Set up what half a cosine adds to a step; None if no ramp of the motion is one."""
-    if smooth is None:
-        return None
-    turning, amplitude, angle = piece[3] / p, 0.5 * side * piece[2], piece[3] * since
-    above, below = (ratio + turning) ** 2, (ratio - turning) ** 2
-    upper, lower = amplitude / (1.0 + above), amplitude / (1.0 + below)
-    fourth = abs(upper) * above * above + abs(lower) * below * below
-    return turning, 2.0 * amplitude, upper + lower, upper - lower, sin(angle), cos(angle), fourth
-
-
-@kernel
 def _begin(
     critical: float,
     ratio: float,
@@ -77,17 +60,12 @@ def _begin(
     rate: float,
     sine: float,
     cosine: float,
-    swing: Swing | None,
 ) -> tuple[Wave, Point]:
-    """Begin a step of h'' = h − α − (q + change x + b cos χ) sin φ at a state: its y, and the state with w and w'."""
+    """Begin a step of h'' = h − α − (q + change x) sin φ at a state: its y, and the state with w and w'."""
     inverse = 1.0 / (1.0 + ratio * ratio)
     gain, growth, lag = q * inverse, change * inverse, 2.0 * change * ratio * inverse * inverse
     free = height - critical - gain * sine - lag * cosine
     free_rate = rate - (growth - lag * ratio) * sine - gain * ratio * cosine
-    if swing is not None:
-        turning, _b, more, lead, across, along, _fourth = swing
-        free -= more * along * sine + lead * across * cosine
-        free_rate += (more * turning + lead * ratio) * across * sine - (more * ratio + lead * turning) * along * cosine
     return (critical, ratio, gain, growth, lag), (height, rate, sine, cosine, free, free_rate)
 
 
@@ -100,9 +78,9 @@ def _turned(turn: float, sine: float, cosine: float) -> tuple[float, float]:
 
 
 @kernel
-def _advance(x: float, point: Point, wave: Wave, swing: Swing | None) -> Point:
+def _advance(x: float, point: Point, wave: Wave) -> Point:
     """
-    State after x, at most `LONGEST_STEP` in x, in φ and in χ.
+    State after x, at most `LONGEST_STEP` in x and in φ.
 
     All is formed from differences to the point, so that short arcs keep their digits.
     """
@@ -116,60 +94,34 @@ def _advance(x: float, point: Point, wave: Wave, swing: Swing | None) -> Point:
     new_free_rate = free_rate + free * sinh + free_rate * rise
     new_height = height + free_rise + gain * sine_rise + growth * x * new_sine + lag * cosine_rise
     new_rate = new_free_rate + (growth - lag * ratio) * new_sine + new_gain * ratio * new_cosine
-    if swing is not None:
-        turning, _b, more, lead, across, along, _fourth = swing
-        across_rise, along_rise = _turned(turning * x, across, along)
-        new_height += more * (along * sine_rise + along_rise * new_sine)
-        new_height += lead * (across * cosine_rise + across_rise * new_cosine)
-        new_rate -= (more * turning + lead * ratio) * (across + across_rise) * new_sine
-        new_rate += (more * ratio + lead * turning) * (along + along_rise) * new_cosine
     return new_height, new_rate, new_sine, new_cosine, free + free_rise, new_free_rate
 
 
 @kernel
-def _bends(x: float, point: Point, wave: Wave, swing: Swing | None) -> tuple[float, float]:
+def _bends(x: float, point: Point, wave: Wave) -> tuple[float, float]:
     """Second and third derivative of h by x, at the point that is x from the step's beginning."""
     height, rate, sine, cosine, _free, _free_rate = point
     critical, ratio, gain, growth, _lag = wave
     square = 1.0 + ratio * ratio
     q, change = (gain + growth * x) * square, growth * square
-    if swing is not None:
-        turning, amplitude, _more, _lead, across, along, _fourth = swing
-        across_rise, along_rise = _turned(turning * x, across, along)
-        q += amplitude * (along + along_rise)
-        change -= amplitude * turning * (across + across_rise)
     return height - critical - q * sine, rate - change * sine - q * ratio * cosine
 
 
 @kernel
-def _quickest(wave: Wave, swing: Swing | None) -> float:
-    """Return what turns fastest by x: the hyperbolic functions, φ or χ."""
-    quickest = max(1.0, wave[1])
-    if swing is not None:
-        turning, _b, _more, _lead, _across, _along, _fourth = swing
-        quickest = max(quickest, turning)
-    return quickest
-
-
-@kernel
-def _verdict(x: float, start: Point, end: Point, wave: Wave, swing: Swing | None) -> int:
+def _verdict(x: float, start: Point, end: Point, wave: Wave) -> int:
     """Tell what happens between two points, see `landing.verdict`."""
-    bend, twist = _bends(0.0, start, wave, swing)
-    end_bend, end_twist = _bends(x, end, wave, swing)
+    bend, twist = _bends(0.0, start, wave)
+    end_bend, end_twist = _bends(x, end, wave)
     # w and w' are largest at an end, as w'' = w.
     _critical, ratio, gain, growth, lag = wave
     wavy = ratio**3 * (max(abs(gain), abs(gain + growth * x)) * ratio + 4.0 * abs(growth) + abs(lag) * ratio)
     fourth = max(abs(start[4]), abs(end[4])) + wavy
     fifth = max(abs(start[5]), abs(end[5])) + ratio * wavy + ratio**4 * abs(growth)
-    if swing is not None:
-        turning, _b, _more, _lead, _across, _along, added = swing
-        fourth += added
-        fifth += (ratio + turning) * added
     return verdict(x, (start[0], start[1], bend, twist), (end[0], end[1], end_bend, end_twist), fourth, fifth)
 
 
 @kernel
-def _landing(high: float, start: Point, end: Point, wave: Wave, swing: Swing | None) -> tuple[float, Point]:
+def _landing(high: float, start: Point, end: Point, wave: Wave) -> tuple[float, Point]:
     """
     Find the one x in [0, high] where h falls to 0, and the state there.
 
@@ -180,30 +132,30 @@ def _landing(high: float, start: Point, end: Point, wave: Wave, swing: Swing | N
         x, point = 0.0, start
     while True:
         height, rate, sine, cosine, _free, _free_rate = point
-        bend, twist = _bends(x, point, wave, swing)
+        bend, twist = _bends(x, point, wave)
         low, high = (x, high) if height > 0.0 else (low, x)
         below = 6.0 * rate**3 - 6.0 * height * rate * bend + height * height * twist
         step = -height * (6.0 * rate * rate - 3.0 * height * bend) / below if below != 0.0 else high - low
         tried += 1
         if not low <= x + step <= high or tried > 8:
             step = 0.5 * (low + high) - x
-        if abs(step) * (1.0 + _quickest(wave, swing)) <= 1e-5 or tried > 60:
+        if abs(step) * (1.0 + max(1.0, wave[1])) <= 1e-5 or tried > 60:
             turn = wave[1] * step
             arriving = rate + step * (bend + 0.5 * step * twist)
             sine_there = sine + turn * (cosine - 0.5 * turn * sine)
             cosine_there = cosine - turn * (sine + 0.5 * turn * cosine)
             return x + step, (0.0, arriving, sine_there, cosine_there, 0.0, 0.0)
         x += step
-        point = _advance(x, start, wave, swing)
+        point = _advance(x, start, wave)
 
 
 @kernel
-def _summit(high: float, start: Point, wave: Wave, swing: Swing | None) -> float:
+def _summit(high: float, start: Point, wave: Wave) -> float:
     """Largest height in [0, high] of a piece that rises at its start and falls at its end."""
     low, x, height = 0.0, 0.5 * high, start[0]
     for _ in range(60):
-        point = _advance(x, start, wave, swing)
-        bend, height = _bends(x, point, wave, swing)[0], max(height, point[0])
+        point = _advance(x, start, wave)
+        bend, height = _bends(x, point, wave)[0], max(height, point[0])
         low, high = (x, high) if point[1] > 0.0 else (low, x)
         following = x - point[1] / bend if bend < 0.0 else low
         if abs(following - x) <= 1e-9 * high:
@@ -219,9 +171,8 @@ def closed_arc(
     critical: float,
     p: float,
     omega: float,
-    piece: Piece,
-    since: float,
-    smooth: bool | None,
+    level: float,
+    slope: float,
     remaining: float,
     is_top_wanted: bool,
 ) -> tuple[bool, float, float, State]:
@@ -236,10 +187,8 @@ def closed_arc(
         ±1.
     critical, p, omega : float
         rad; rad/s.
-    piece, since : Piece, float
-        Envelope of the part and the time since it began, s.
-    smooth : True or None
-        As of `run`.
+    level, slope : float
+        l at the beginning, and its change, 1/s.
     remaining : float
         In x, at most.
     is_top_wanted : bool
@@ -251,20 +200,19 @@ def closed_arc(
         Whether the step ends in an impact; its length; the largest height at its end or, if wanted, inside; the state.
     """
     height, rate, sine, cosine = state
-    q, change, ratio = side * (piece[0] + piece[1] * since), side * piece[1] / p, omega / p
-    swing = _swing(smooth, side, p, piece, since, ratio)
-    wave, point = _begin(critical, ratio, q, change, height, rate, sine, cosine, swing)
+    q, change, ratio = side * level, side * slope / p, omega / p
+    wave, point = _begin(critical, ratio, q, change, height, rate, sine, cosine)
     landed, last = height <= 0.0 and rate < 0.0, point
-    x = 0.0 if landed else min(remaining, LONGEST_STEP / _quickest(wave, swing))
+    x = 0.0 if landed else min(remaining, LONGEST_STEP / max(1.0, ratio))
     while not landed:
-        last = _advance(x, point, wave, swing)
-        told = _verdict(x, point, last, wave, swing)
+        last = _advance(x, point, wave)
+        told = _verdict(x, point, last, wave)
         if told != 0 or x <= SHORTEST_STEP or (x <= FRESH and height == 0.0 and rate == 0.0):
             landed = last[0] < 0.0
             break
         x *= 0.5
     if landed and x > SHORTEST_STEP:
-        x, last = _landing(x, point, last, wave, swing)
+        x, last = _landing(x, point, last, wave)
     is_inside = is_top_wanted and point[1] >= 0.0 and last[1] < 0.0
-    top = _summit(x, point, wave, swing) if is_inside else last[0]
+    top = _summit(x, point, wave) if is_inside else last[0]
     return landed, x, top, (last[0], last[1], last[2], last[3])

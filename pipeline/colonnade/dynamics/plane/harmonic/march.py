@@ -9,12 +9,11 @@ import numpy as np
 
 from colonnade.arrays import Array, Codes
 from colonnade.dynamics.kernel import kernel
-from colonnade.dynamics.plane.harmonic.envelope import Piece, level_at, piece_between
 from colonnade.dynamics.plane.harmonic.linear import State, closed_arc
 from colonnade.dynamics.plane.harmonic.nonlinear import Series, series_arc
 from colonnade.dynamics.plane.impact import comes_to_rest, holding_moment, restitution_of, survives_free_rocking
 from colonnade.dynamics.plane.sides import Pair, Sides, of_side
-from colonnade.dynamics.plane.uplift import harmonic_uplift, uplift_threshold
+from colonnade.dynamics.plane.uplift import Piece, harmonic_uplift, level_at, uplift_threshold
 
 Triple = tuple[float, float, float]
 
@@ -79,7 +78,6 @@ class March(NamedTuple):
 def run(
     forcing: Triple,
     edges: Array,
-    smooth: bool | None,
     sides: Sides,
     watch: Watch,
     work: Series | None,
@@ -93,8 +91,6 @@ def run(
         ω, rad/s; ψ, rad; largest a/g.
     edges : ndarray, shape (3,)
         s: end of the rise, of the constant level and of the fall; equal ones leave a part out.
-    smooth : True or None
-        Rise and fall are half a cosine; linear with None.
     sides : Sides
     watch : Watch
     work : Series or None
@@ -114,9 +110,9 @@ def run(
         beginning = forcing[2] if number == 1 else reached
         reached = forcing[2] if number < 2 else 0.0
         if edges[number] > begin:
-            piece = piece_between(beginning, reached, edges[number] - begin, smooth)
+            piece = (beginning, (reached - beginning) / (edges[number] - begin))
             part = Part(begin, edges[number], piece, number == 2)
-            march = _through(march, part, forcing, smooth, sides, watch, work)
+            march = _through(march, part, forcing, sides, watch, work)
             begin = edges[number]
         if march.has_ended:
             break
@@ -128,9 +124,7 @@ def run(
 
 
 @kernel
-def _through(
-    march: March, part: Part, forcing: Triple, smooth: bool | None, sides: Sides, watch: Watch, work: Series | None
-) -> March:
+def _through(march: March, part: Part, forcing: Triple, sides: Sides, watch: Watch, work: Series | None) -> March:
     """Follow the block to the end of a part; arguments as for `run`."""
     height, rate, side, is_resting, is_past, has_ended, peak, count, taken = march
     here, now, linearised = 1 if side > 0.0 else 0, part.begin, work is None
@@ -151,7 +145,7 @@ def _through(
         begun, remaining = now, of_side(sides.p, here) * (stop - now)
         is_watched = now >= watch.since and not is_past
         is_top_wanted = is_watched and peak <= watch.floor
-        landed, x, top, state = _arc(state, side, sides, forcing, now, part, smooth, remaining, is_top_wanted, work)
+        landed, x, top, state = _arc(state, side, sides, forcing, now, part, remaining, is_top_wanted, work)
         if is_watched:
             peak = max(peak, top / of_side(sides.critical, here))
         now = stop if x == remaining else now + x / of_side(sides.p, here)
@@ -162,13 +156,13 @@ def _through(
                 watch.impacts[count, 0], watch.impacts[count, 1] = now, side * state[1] * of_side(sides.p, here)
             count += 1
             sine = state[2] if linearised else sin(forcing[0] * now + forcing[1])
-            pull = level_at(part.piece, now - part.begin)[0] * sine
+            pull = level_at(part.piece, now - part.begin) * sine
             rate, is_resting = _rebound(state[1], here, pull, sides, linearised)
             side, here, state = -side, 1 - here, (0.0, rate, state[2], state[3])
             continue
 
         # Past return, only its samples are left to be followed, until it lies.
-        most = level_at(part.piece, begun - part.begin)[0] if part.is_fall else forcing[2]
+        most = level_at(part.piece, begun - part.begin) if part.is_fall else forcing[2]
         is_past = is_past or _never_returns(state[0] - of_side(sides.critical, here), state[1], most, linearised)
         has_ended = is_past and (taken >= watch.samples.shape[0] or state[0] >= 0.5 * pi)
         if has_ended:
@@ -201,20 +195,19 @@ def _arc(
     forcing: Triple,
     now: float,
     part: Part,
-    smooth: bool | None,
     remaining: float,
     is_top_wanted: bool,
     work: Series | None,
 ) -> tuple[bool, float, float, State]:
     """Follow an arc by the model's own kernel; results as for `closed_arc`."""
-    here, since = 1 if side > 0.0 else 0, now - part.begin
+    here, level, slope = 1 if side > 0.0 else 0, level_at(part.piece, now - part.begin), part.piece[1]
     critical, p, omega = of_side(sides.critical, here), of_side(sides.p, here), forcing[0]
     if work is None:
-        return closed_arc(state, side, critical, p, omega, part.piece, since, smooth, remaining, is_top_wanted)
+        return closed_arc(state, side, critical, p, omega, level, slope, remaining, is_top_wanted)
     height, rate, sine, cosine = state
     angle = omega * now + forcing[1]
     landed, x, top, height, rate = series_arc(
-        height, rate, side, critical, p, omega, angle, part.piece, since, smooth, remaining, is_top_wanted, work
+        height, rate, side, critical, p, omega, angle, level, slope, remaining, is_top_wanted, work
     )
     return landed, x, top, (height, rate, sine, cosine)
 
@@ -242,7 +235,6 @@ def column(
     phase: float,
     levels: Array,
     edges: Array,
-    smooth: bool | None,
     sides: Sides,
     no_rocking: float,
     work: Series | None,
@@ -252,6 +244,6 @@ def column(
     watch = Watch(0.0, no_rocking, 1.0, np.empty((0, 2)), np.empty((0, 2)))
     for index in range(levels.size):
         forcing = (omega, phase, levels[index])
-        overturned, peak, _count = run(forcing, edges, smooth, sides, watch, work)
+        overturned, peak, _count = run(forcing, edges, sides, watch, work)
         outcomes[index] = OVERTURNED if overturned else ROCKING if peak > no_rocking else NO_ROCKING
     return outcomes

@@ -15,8 +15,7 @@ from colonnade.dynamics.history import NO_ROCKING_RATIO
 from colonnade.dynamics.models.registry import DEFAULT, plane_model_of
 from colonnade.dynamics.restitution_law import RestitutionLaw
 from colonnade.dynamics.rock import DEFAULT_REST_ANGLE
-from colonnade.errors import nearest
-from colonnade.validation import sided, text
+from colonnade.validation import sided
 
 if TYPE_CHECKING:
     from colonnade.dynamics.plane.harmonic.nonlinear import Series
@@ -27,9 +26,6 @@ Restitution = tuple[float, float] | RestitutionLaw
 
 OUTCOMES = ("no-rocking", "rocking", "overturned")
 """What the codes 0, 1 and 2 mean."""
-
-RAMP_SHAPES = ("linear", "cosine")
-"""How the amplitude rises and falls: in proportion to time, or as half a cosine, smooth at both ends."""
 
 
 @dataclass(frozen=True)
@@ -44,27 +40,19 @@ class Harmonic:
     phase : float
         rad.
     edges : tuple of float
-        s: end of the rise of l from 0 to 1, of its constant part, and of its fall; equal ones leave a part out.
-    ramp_shape : {"linear", "cosine"}
-        Of rise and fall: x, or (1 − cos πx)/2, over their part x of the ramp.
+        s: end of the linear rise of l from 0 to 1, of its constant part, and of its fall; equal ones leave a part out.
     """
 
     omega: float
     phase: float
     edges: tuple[float, float, float]
-    ramp_shape: str = RAMP_SHAPES[0]
-
-    def __post_init__(self) -> None:
-        check_ramp_shape(self.ramp_shape)
 
     @classmethod
-    def cycles(
-        cls, omega: float, cycles: float, *, phase: float = 0.0, ramp: float = 0.0, ramp_shape: str = RAMP_SHAPES[0]
-    ) -> Harmonic:
+    def cycles(cls, omega: float, cycles: float, *, phase: float = 0.0, ramp: float = 0.0) -> Harmonic:
         """Whole or broken cycles at full amplitude between a rise and a fall of `ramp` cycles each."""
         period = 2 * pi / omega
         edges = (ramp * period, (ramp + cycles) * period, (2 * ramp + cycles) * period)
-        return cls(omega, phase, edges, ramp_shape)
+        return cls(omega, phase, edges)
 
 
 @dataclass(frozen=True)
@@ -90,19 +78,6 @@ class HarmonicRun:
     angular_velocity: Array
     impact_times: Array
     impact_velocities: Array
-
-
-def check_ramp_shape(shape: str) -> None:
-    """
-    Refuse a ramp of an unknown shape.
-
-    Raises
-    ------
-    ValueError
-        Naming the nearest one.
-    """
-    if text("ramp_shape", shape, "the shape of a ramp") not in RAMP_SHAPES:
-        raise ValueError(f'Unknown ramp shape "{shape}".{nearest(shape, RAMP_SHAPES)}')
 
 
 def restitution_up_to(
@@ -191,10 +166,10 @@ def harmonic_run(
         raise ValueError(f"amplitude_ratio is {amplitude_ratio}; a positive number was expected")
     history, impacts = np.zeros((samples, 2)), np.zeros((largest_count, 2))
     e = restitution_up_to(block, restitution, amplitude_ratio)
-    edges, smooth, sides, work = _settings(block, motion, e, model)
+    edges, sides, work = _settings(block, motion, e, model)
     forcing = (motion.omega, motion.phase, amplitude_ratio * tan(block.critical_angle))
     watch = Watch(peaks_from, inf, interval, history, impacts)
-    overturned, peak, count = run(forcing, edges, smooth, sides, watch, work)
+    overturned, peak, count = run(forcing, edges, sides, watch, work)
     outcome = OUTCOMES[2 if overturned else 1 if peak > NO_ROCKING_RATIO else 0]
     kept = impacts[: min(count, largest_count)]
     return HarmonicRun(outcome, peak, history[:, 0], history[:, 1], kept[:, 0], kept[:, 1])
@@ -207,20 +182,19 @@ def harmonic_outcomes(
     from colonnade.dynamics.plane.harmonic.march import column
 
     levels = amplitude_ratio * tan(block.critical_angle)
-    edges, smooth, sides, work = _settings(block, motion, restitution, model)
-    return column(motion.omega, motion.phase, levels, edges, smooth, sides, NO_ROCKING_RATIO, work)
+    edges, sides, work = _settings(block, motion, restitution, model)
+    return column(motion.omega, motion.phase, levels, edges, sides, NO_ROCKING_RATIO, work)
 
 
 def _settings(
     block: Block, motion: Harmonic, restitution: Restitution, model: str
-) -> tuple[Array, bool | None, Sides, Series | None]:
+) -> tuple[Array, Sides, Series | None]:
     """Put what every run of a motion has in common into the form that the kernels take."""
     from colonnade.dynamics.plane.harmonic.nonlinear import empty_series
     from colonnade.dynamics.plane.sides import sides_of
 
     return (
         np.array(motion.edges),
-        True if motion.ramp_shape == "cosine" else None,
         sides_of(block, restitution, DEFAULT_REST_ANGLE),
         None if plane_model_of(model).is_linearised else empty_series(),
     )

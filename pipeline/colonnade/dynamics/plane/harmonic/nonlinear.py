@@ -2,7 +2,7 @@
 The nonlinear model under a harmonic base motion, by Taylor series with impacts located on the series themselves.
 
 While the block rocks on side s = sgn θ, u = α − s θ obeys, with x = p t and the base acceleration over gravity
-a/g = l sin φ, φ = Ω x + ψ, the level l constant or on a ramp, which is linear or half a cosine, and q = s l,
+a/g = l sin φ, φ = Ω x + ψ, the level l constant or linear in x, and q = s l,
 
     u'' = sin u + q sin φ cos u.
 
@@ -21,7 +21,6 @@ import numpy as np
 
 from colonnade.arrays import Array
 from colonnade.dynamics.kernel import kernel
-from colonnade.dynamics.plane.harmonic.envelope import Piece
 from colonnade.dynamics.plane.landing import FRESH, SHORTEST_STEP, Jet, verdict
 
 ORDER = 18
@@ -49,44 +48,24 @@ def empty_series() -> Series:
 
 
 @kernel
-def _swing(
-    smooth: bool | None, forcing: Array, side: float, p: float, piece: Piece, since: float, ratio: float, phase: float
-) -> None:
-    """Set the Taylor coefficients in x of what half a cosine adds to q sin φ: two more sines."""
-    for k in range(ORDER - 1):
-        forcing[k] = 0.0
-    if smooth is not None:
-        amplitude, turn = 0.5 * side * piece[2], piece[3]
-        for direction in (1.0, -1.0):
-            angle, speed = phase + direction * turn * since, ratio + direction * turn / p
-            even, odd = amplitude * sin(angle), amplitude * cos(angle)
-            forcing[0] += even
-            for k in range(1, ORDER - 1):
-                share = speed * RECIPROCAL[k]
-                even, odd = odd * share, -even * share
-                forcing[k] += even
-
-
-@kernel
 def _expand(work: Series, critical: float, ratio: float, q: float, change: float, phase: float) -> float:
     """
     Complete the Taylor coefficients of h about x = 0, of which the first two are given; return the step they allow.
 
-    `q` is the level at x = 0, `change` its slope. To the forcing that `work` holds, the series of (q + change x) sin φ
-    is added.
+    `q` is the level at x = 0, `change` its slope: the forcing is (q + change x) sin φ.
     """
     height, sine, cosine, forcing, turn = work
     angle = critical - height[0]
     sine[0], cosine[0] = sin(angle), cos(angle)
     even, odd, growth = sin(phase), cos(phase), 0.0
-    forcing[0] += q * even
+    forcing[0] = q * even
     turn[1], turn[2] = -height[1], sine[0] + forcing[0] * cosine[0]
     height[2] = -0.5 * turn[2]
     for k in range(1, ORDER - 1):
         # even: k-th Taylor coefficient of sin φ; growth: the one before.
         share = ratio * RECIPROCAL[k]
         even, odd, growth = odd * share, -even * share, even
-        forcing[k] += q * even + change * growth
+        forcing[k] = q * even + change * growth
         rising, falling, product = 0.0, 0.0, forcing[k] * cosine[0]
         for j in range(1, k + 1):
             rising += turn[j] * cosine[k - j]
@@ -197,9 +176,8 @@ def series_arc(
     p: float,
     omega: float,
     angle: float,
-    piece: Piece,
-    since: float,
-    smooth: bool | None,
+    level: float,
+    slope: float,
     remaining: float,
     is_top_wanted: bool,
     work: Series,
@@ -211,8 +189,7 @@ def series_arc(
     """
     series = work.height
     series[0], series[1] = height, rate
-    q, change, ratio = side * (piece[0] + piece[1] * since), side * piece[1] / p, omega / p
-    _swing(smooth, work.forcing, side, p, piece, since, ratio, angle)
+    q, change, ratio = side * level, side * slope / p, omega / p
     allowed = _expand(work, critical, ratio, q, change, angle)
     landed, x, last = _first_landing(series, min(remaining, allowed))
     is_inside = is_top_wanted and rate >= 0.0 and last[1] < 0.0

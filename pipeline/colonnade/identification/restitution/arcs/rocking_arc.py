@@ -126,19 +126,6 @@ def half_duration_of(peaks: Array, critical: Array, linearised: bool) -> Array:
 
 
 @kernel
-def peak_of_duration(phase: float, critical: float, lowest: float, highest: float) -> float:
-    """Return |θ| of the peak from which `half_duration` takes a phase p t, or the nearer of two bounds; rad."""
-    low, high = lowest, highest
-    while high - low > 1e-10 * high:
-        middle = 0.5 * (low + high)
-        if half_duration(middle, critical, False) < phase:
-            low = middle
-        else:
-            high = middle
-    return low
-
-
-@kernel
 def kinetic(peak: float, critical: float, linearised: bool) -> float:
     """Return (ω/p)²/2 just before the impact that ends an arc of this peak (|θ|, α, rad)."""
     if linearised:

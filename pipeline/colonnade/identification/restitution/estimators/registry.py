@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 from colonnade.identification.restitution.estimators.estimator import Estimator
-from colonnade.identification.restitution.estimators.half_periods import HalfPeriods
 from colonnade.identification.restitution.estimators.history import LinearHistory, NonlinearHistory
 from colonnade.identification.restitution.estimators.history_scatter import ScatteredHistory
 from colonnade.identification.restitution.estimators.impact_by_impact import ImpactByImpact
@@ -15,7 +14,6 @@ ESTIMATORS: dict[str, Estimator[Any]] = {
     each.name: each
     for each in (
         PeakDecay(),
-        HalfPeriods(),
         ImpactByImpact(),
         LinearHistory(),
         NonlinearHistory(),
