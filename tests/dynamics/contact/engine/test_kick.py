@@ -59,15 +59,20 @@ def test_one_corner_turns_the_body_by_its_lever(engine):
     np.testing.assert_allclose(state.total[3:6], lever, atol=1e-12)
 
 
-@pytest.mark.parametrize(("speed", "within"), [(0.05, 1e-2), (40.0, 1e-9)], ids=["sticks", "slides"])
-def test_what_the_body_loses_is_in_the_ledger(engine, speed, within):
+@pytest.mark.parametrize(
+    ("speed", "within", "elastic"),
+    [(0.05, 1e-2, {}), (40.0, 1e-9, {}), (40.0, 1e-9, {"frequency": 50.0})],
+    ids=["sticks", "slides", "slides and swings"],
+)
+def test_what_the_body_loses_is_in_the_ledger(engine, speed, within, elastic):
     """
     Kinetic energy and that of the slip, less the work of the normal springs, is what damping and friction took.
 
     Of a point that sticks to the order of the step: its slip grows by the velocity before the kick.
     """
-    made = engine(sunk=0.01, velocity=(speed, 0.3 * speed, -0.2), spin=(0.1, 0.2, -0.3))
+    made = engine(sunk=0.01, velocity=(speed, 0.3 * speed, -0.2), spin=(0.1, 0.2, -0.3), **elastic)
     made.state.touched[:] = 1
+    made.state.strain[1] = 0.3
     before = energy(made)
     state = kicked(made)
     load = made.near.load[:4]
