@@ -1,7 +1,5 @@
 """A plan of a virtual campaign and its file: loaded back as planned, whose specimen, and where its raw files are."""
 
-from __future__ import annotations
-
 import tomllib
 
 import pytest

@@ -1,7 +1,5 @@
 """TDMS and MATLAB files read back as they were written, and are the same bytes every time."""
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Transducers read what they should, with the errors that are stated and no others, and within their ranges."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Every step of the ladders keeps 1 % away from the boundaries of the map, which the steps enclose."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

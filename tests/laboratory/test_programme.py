@@ -1,7 +1,5 @@
 """What the virtual laboratory plans: records, kinds of test, the paper's programme and its file formats."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import replace
 from math import pi, sqrt

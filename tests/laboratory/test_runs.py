@@ -1,7 +1,5 @@
 """Virtual campaigns on disk: what each test writes, the campaign that reads back, and the truth next to it."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace

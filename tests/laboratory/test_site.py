@@ -1,7 +1,5 @@
 """The site of a virtual campaign: motions of known strength, columns and questions that load, a hazard that falls."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The table's acceleration and displacement belong together."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The virtual specimen against closed forms, step by step and whole: uplift, impacts, rest, catch, outcomes."""
 
-from __future__ import annotations
-
 import json
 from itertools import pairwise
 from math import acosh, cos, isnan, pi, sin, tan

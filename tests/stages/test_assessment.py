@@ -1,7 +1,5 @@
 """The answer of an assessment, and the real column that it is of."""
 
-from __future__ import annotations
-
 import json
 from math import sqrt
 

@@ -1,7 +1,5 @@
 """Measured and predicted histories that are written by hand, compared in numbers that are known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

@@ -1,7 +1,5 @@
 """The law of contact of a specimen, and the bands of its model."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

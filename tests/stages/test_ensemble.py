@@ -1,7 +1,5 @@
 """Bands about a prediction, and whether the measured angle lies within them."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

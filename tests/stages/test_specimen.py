@@ -1,7 +1,5 @@
 """The e of a specimen: pooled from its free vibrations, and the one rule for which e predictions use."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

@@ -1,7 +1,5 @@
 """A small campaign, run once; every test works on a copy of it."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """e and laws of contact on request: one rule for e, whoever asks."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.errors import CampaignError

@@ -1,7 +1,5 @@
 """Check: the problems and findings of each test as a run would have them, with nothing written."""
 
-from __future__ import annotations
-
 import shutil
 
 import pytest

@@ -1,7 +1,5 @@
 """A campaign whose numbers are at their bounds ends in results or in a refusal, never in an internal error."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.campaign.syntax.fields import BETWEEN, CONVERSION, SCALE

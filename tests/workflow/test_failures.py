@@ -1,7 +1,5 @@
 """A bad file, a missing file, a fault of colonnade, a full disk: that test fails alone, and why is told."""
 
-from __future__ import annotations
-
 import errno
 import os
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Only what is out of date is executed, and the reason is told."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from pathlib import Path

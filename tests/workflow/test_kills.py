@@ -1,7 +1,5 @@
 """Kills at random instants of an ingest: every file is whole, and the next run gives the undisturbed values."""
 
-from __future__ import annotations
-
 import os
 import random
 import shutil

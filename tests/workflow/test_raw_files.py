@@ -1,7 +1,5 @@
 """Raw files: hashed once, copies of each other, and in two parts."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The column that a command asks about: which it is, its size, and what must be said of its e."""
 
-from __future__ import annotations
-
 from math import atan, hypot
 
 import pytest

@@ -1,7 +1,5 @@
 """What a run does of what is asked for, what it takes, and what a slip of the pen is answered with."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

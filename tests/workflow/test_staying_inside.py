@@ -1,7 +1,5 @@
 """Nothing is written or removed through a link in the folders of results; `results` puts them on another disk."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from hashlib import sha256

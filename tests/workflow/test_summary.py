@@ -1,7 +1,5 @@
 """summary.json and summary.csv: the contract's form, and the results' own numbers."""
 
-from __future__ import annotations
-
 import csv
 
 import pytest

@@ -1,7 +1,5 @@
 """Channels on even clocks of their own, delays between recorders, and the one clock that a test is put on."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

@@ -1,7 +1,5 @@
 """What a free vibration's prediction starts from, what drives it, and what it is held against."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """What a stage reads of the campaign: its inputs as JSON, its channels sorted, the outline of each shape."""
 
-from __future__ import annotations
-
 import json
 import tomllib
 

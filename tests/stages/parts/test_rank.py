@@ -1,7 +1,5 @@
 """The measured angle among runs of a model that are written by hand."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

@@ -1,7 +1,5 @@
 """Advice on earthquakes: the Span whose outcome is least certain, by ensembles on the recorded table motion."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Advice in the report: only if a further test is asked for, and made again only for what changed."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

@@ -1,7 +1,5 @@
 """The advice of a campaign: by its last run, for its own specimens, with the tests that are still to come."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

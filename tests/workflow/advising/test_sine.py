@@ -1,7 +1,5 @@
 """Advice on sine tests: between the outcomes, within the risk, for tested and for planned frequencies."""
 
-from __future__ import annotations
-
 from math import pi, tan
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Histories in blocks: the same whatever the processes and interruptions; their key depends on all inputs."""
 
-from __future__ import annotations
-
 import os
 import pickle
 import random

@@ -1,7 +1,5 @@
 """Questions of one's own: options over the keys of a campaign, columns without one, refusals."""
 
-from __future__ import annotations
-
 import pytest
 
 from colonnade.campaign import load

@@ -1,7 +1,5 @@
 """Assessments in the graph: made once, made again for what changed, failing without stopping the rest."""
 
-from __future__ import annotations
-
 import json
 from html import unescape
 from pathlib import Path

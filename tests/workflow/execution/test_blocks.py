@@ -1,7 +1,5 @@
 """Blocks that are finished are not done again, damaged ones are, and the sum is the same whatever the workers."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

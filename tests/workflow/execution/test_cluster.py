@@ -1,7 +1,5 @@
 """A real Dask scheduler with two workers on loopback does what this process does; one that is not there is told."""
 
-from __future__ import annotations
-
 import os
 import signal
 import socket

@@ -1,7 +1,5 @@
 """One run at a time; a crash frees the lock and leaves nothing in the way."""
 
-from __future__ import annotations
-
 import shutil
 import signal
 import subprocess

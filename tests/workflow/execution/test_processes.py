@@ -1,7 +1,5 @@
 """Several processes give what one gives; Ctrl-C and a kill leave no half file and nobody writing."""
 
-from __future__ import annotations
-
 import os
 import re
 import signal

@@ -1,7 +1,5 @@
 """Which forecast counts, and its score after the test."""
 
-from __future__ import annotations
-
 import json
 from types import SimpleNamespace
 

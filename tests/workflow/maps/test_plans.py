@@ -1,7 +1,5 @@
 """What a map is asked to show, and the axes, base motion and rules that follow from it and from what was measured."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 

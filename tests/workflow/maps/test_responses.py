@@ -1,7 +1,5 @@
 """Steady responses of a campaign: those of the library, made once, drawn, with what they depend on."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """A campaign's maps: from what is known of a specimen, in blocks that outlast a kill, the same whatever the workers."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal

@@ -1,7 +1,5 @@
 """One figure by its name: what it is of, what it is drawn from, and why it cannot be drawn."""
 
-from __future__ import annotations
-
 import shutil
 
 import pytest

@@ -1,7 +1,5 @@
 """Photos in the report: bare copies, made once, and a warning instead of a failure where one cannot be shown."""
 
-from __future__ import annotations
-
 import pytest
 from PIL import Image
 

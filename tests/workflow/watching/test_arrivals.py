@@ -1,7 +1,5 @@
 """When a file has arrived, and the line on its test."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The run behind a watch: it does what a run does, gives way, and is tried again if it was refused."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal

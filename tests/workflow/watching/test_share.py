@@ -1,7 +1,5 @@
 """A watched folder: its bell, files copied from a share, and the command that is told of each."""
 
-from __future__ import annotations
-
 import json
 import sys
 import time

@@ -1,7 +1,5 @@
 """A watch handles what arrives, gives a line on each test, and leaves what a run would."""
 
-from __future__ import annotations
-
 import shutil
 import time
 from dataclasses import dataclass
