@@ -29,7 +29,7 @@ def as_earthquake(small: Any, change: str = "", *, setup: str = "") -> Any:
 EARTHQUAKE = 'id = "pulse-01"\nkind = "earthquake"\nmotion = "half a sine"\nspan = 1.0'
 
 
-def test_the_next_span_is_a_bounded_step_beyond_those_that_only_rocked(small: Any) -> None:
+def test_the_next_span_is_a_bounded_step_beyond_those_that_only_rocked(small):
     campaign, summary, advice = as_earthquake(small)
     assert advice.test.startswith("half a sine, Span ")
     assert 1.0 < advice.values["span"] <= STEP
@@ -40,7 +40,7 @@ def test_the_next_span_is_a_bounded_step_beyond_those_that_only_rocked(small: An
     )
 
 
-def test_the_tilt_of_the_table_counts_as_in_a_forecast(small: Any) -> None:
+def test_the_tilt_of_the_table_counts_as_in_a_forecast(small):
     """The advice and the forecast of one motion, on a table that leans, give one probability."""
     _, _, advice = as_earthquake(small, setup='table_tilt = "4 deg"')
     (made,) = foresee(small.folder, motion="pulse-01", levels=[f"{advice.values['span']!r}x"])

@@ -24,7 +24,7 @@ def mark(size: int) -> tuple[int, int, int]:
     return size, size, 1
 
 
-def test_a_file_that_grows_is_not_finished() -> None:
+def test_a_file_that_grows_is_not_finished():
     arrivals = Arrivals(settle=1.0)
     for step in range(10):
         assert not arrivals.look({FILE: mark(step)}, now=0.9 * step)
@@ -33,7 +33,7 @@ def test_a_file_that_grows_is_not_finished() -> None:
     assert not arrivals.is_waiting
 
 
-def test_a_file_written_again_is_finished_again() -> None:
+def test_a_file_written_again_is_finished_again():
     arrivals = Arrivals(settle=1.0)
     arrivals.know({FILE: mark(1)})
     assert not arrivals.look({FILE: mark(1)}, now=5.0)
@@ -41,7 +41,7 @@ def test_a_file_written_again_is_finished_again() -> None:
     assert arrivals.look({FILE: mark(2)}, now=7.0) == {FILE}
 
 
-def test_a_file_that_went_away_is_new_when_it_comes_back() -> None:
+def test_a_file_that_went_away_is_new_when_it_comes_back():
     arrivals = Arrivals(settle=1.0)
     arrivals.know({FILE: mark(1)})
     assert arrivals.look({}, now=0.0) == set()
@@ -51,7 +51,7 @@ def test_a_file_that_went_away_is_new_when_it_comes_back() -> None:
     assert arrivals.look({FILE: mark(1)}, now=3.0) == {FILE}
 
 
-def test_a_file_that_is_away_for_a_moment_is_as_it_was() -> None:
+def test_a_file_that_is_away_for_a_moment_is_as_it_was():
     arrivals = Arrivals(settle=1.0)
     arrivals.know({FILE: mark(1)})
     looks = [arrivals.look(marks, now) for now, marks in enumerate([{}, {FILE: mark(1)}, {FILE: mark(1)}])]
@@ -59,7 +59,7 @@ def test_a_file_that_is_away_for_a_moment_is_as_it_was() -> None:
 
 
 @given(st.lists(st.tuples(st.floats(0.01, 3.0), st.integers(0, 3)), max_size=40))
-def test_each_content_is_given_once_and_only_after_it_settled(steps: list[tuple[float, int]]) -> None:
+def test_each_content_is_given_once_and_only_after_it_settled(steps):
     arrivals, now, changed, last, given_out, written = Arrivals(settle=1.0), 0.0, 0.0, None, False, 0
     for pause, size in steps:
         now += pause
@@ -73,7 +73,7 @@ def test_each_content_is_given_once_and_only_after_it_settled(steps: list[tuple[
         assert given_out or now - changed < 1.0
 
 
-def test_the_last_change_is_that_of_the_newest_file(tmp_path: Path) -> None:
+def test_the_last_change_is_that_of_the_newest_file(tmp_path):
     (tmp_path / "a").write_text("a")
     (tmp_path / "b").write_text("b")
     paths = [tmp_path / name for name in "abc"]
@@ -88,7 +88,7 @@ def line(record: TestSummary, *, limits: dict[str, float] | None = None, changed
     return Line("sine-07", record, KNOWN, limits or {}, changed, 2.34)
 
 
-def test_a_sine_is_put_on_the_map() -> None:
+def test_a_sine_is_put_on_the_map():
     record = TestSummary(
         status="done",
         kind="sine",
@@ -107,7 +107,7 @@ def test_a_sine_is_put_on_the_map() -> None:
     assert "by the map" not in line(record).text()
 
 
-def test_a_free_vibration_says_its_e_and_that_of_all() -> None:
+def test_a_free_vibration_says_its_e_and_that_of_all():
     own = IdentifiedSummary(value=0.9755, low=0.9735, high=0.9775)
     record = TestSummary(status="done", kind="free-vibration", specimen="prism", outcome="rocking", restitution=own)
     said = line(record).text()
@@ -116,12 +116,12 @@ def test_a_free_vibration_says_its_e_and_that_of_all() -> None:
     assert "no e (too few peaks)" in line(refused).text()
 
 
-def test_a_failure_gives_its_reason() -> None:
+def test_a_failure_gives_its_reason():
     record = TestSummary(status="failed", reason="ingest: cut off", kind="sine", specimen="prism")
     assert line(record).text() == "sine-07: failed: ingest: cut off (2.3 s)"
 
 
-def test_what_changed_comes_before_other_findings_and_notes_are_left_out() -> None:
+def test_what_changed_comes_before_other_findings_and_notes_are_left_out():
     warnings = tuple(
         Warned(severity=severity, kind=kind, text=f"{kind}.", explained=explained)
         for severity, kind, explained in [
@@ -136,7 +136,7 @@ def test_what_changed_comes_before_other_findings_and_notes_are_left_out() -> No
     assert "serious: Channel top does not move; warning: clipped; and drift (" in said
 
 
-def test_programs_get_the_record_and_what_is_added() -> None:
+def test_programs_get_the_record_and_what_is_added():
     record = TestSummary(status="done", kind="sine", specimen="prism", outcome="overturned")
     said = json.loads(json.dumps(line(record, limits={"lower": 2.6}).as_json(), allow_nan=False))
     assert (said["test"], said["outcome"], said["map_limits"]) == ("sine-07", "overturned", {"lower": 2.6})

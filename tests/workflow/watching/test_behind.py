@@ -24,7 +24,7 @@ def ended(behind: Behind) -> Ended:
 
 
 @pytest.mark.whole
-def test_it_gives_way_and_then_says_what_failed_and_when_it_was_refused(small: Any) -> None:
+def test_it_gives_way_and_then_says_what_failed_and_when_it_was_refused(small):
     small.raw("pulse-02").write_text("nothing\n")
     behind = Behind(small.folder / "campaign.toml", None, 1)
     behind.start()
@@ -56,7 +56,7 @@ def test_the_line_that_says_what_happened_is_found(said, headline):
     assert Ended(1, (), was_refused=False, problem=said).headline == headline
 
 
-def test_a_run_that_is_killed_says_so(small: Any) -> None:
+def test_a_run_that_is_killed_says_so(small):
     behind = Behind(small.folder / "campaign.toml", None, 1)
     behind.start()
     assert behind._process is not None
@@ -84,7 +84,7 @@ def wait_until(condition: Any) -> None:
 
 @pytest.mark.whole
 @pytest.mark.skipif(os.name != "posix", reason="a process is killed as only POSIX does")
-def test_it_ends_in_order_when_the_watch_is_killed(small: Any) -> None:
+def test_it_ends_in_order_when_the_watch_is_killed(small):
     toml = small.folder / "campaign.toml"
     small.edit("members = 20", "members = 10000")  # a run of minutes
     holder = small.layout.lock_holder

@@ -3,7 +3,6 @@
 import shutil
 import time
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -19,9 +18,7 @@ from colonnade.workflow.watching.watch import watch
 
 
 @pytest.mark.whole
-def test_arriving_files_become_lines_and_the_rest_follows(
-    small: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_arriving_files_become_lines_and_the_rest_follows(small, tmp_path, monkeypatch):
     monkeypatch.setattr(module, "GRACE", 1.0)
     share = tmp_path / "share"
     share.mkdir()
@@ -89,7 +86,7 @@ def crashing(monkeypatch: pytest.MonkeyPatch) -> Crashing:
     return behind
 
 
-def test_a_crash_of_the_run_behind_is_said_once_and_waits_for_the_next_file(small: Any, crashing: Crashing) -> None:
+def test_a_crash_of_the_run_behind_is_said_once_and_waits_for_the_next_file(small, crashing):
     said: list[str] = []
     assert watch(small.folder, once=True, show=lambda line: None, say=said.append) == 1
     assert crashing.starts == 1
@@ -101,9 +98,7 @@ def test_a_crash_of_the_run_behind_is_said_once_and_waits_for_the_next_file(smal
     assert "Traceback" in small.layout.watch_log.read_text(encoding="utf-8")
 
 
-def test_a_run_behind_that_is_refused_is_tried_again(
-    small: Any, crashing: Crashing, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_run_behind_that_is_refused_is_tried_again(small, crashing, monkeypatch):
     monkeypatch.setattr(module, "AGAIN", 0.1)
     crashing.ends = [Ended(1, (), was_refused=True, problem=""), Ended(0, (), was_refused=False, problem="")]
     said: list[str] = []
@@ -112,9 +107,7 @@ def test_a_run_behind_that_is_refused_is_tried_again(
     assert len(said) == 1
 
 
-def test_a_watch_for_once_ends_if_results_cannot_be_written(
-    small: Any, crashing: Crashing, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_watch_for_once_ends_if_results_cannot_be_written(small, crashing, monkeypatch):
     def full(*_: Any) -> Line:
         raise StoreError("a.nc: the disk is full.")
 
@@ -125,7 +118,7 @@ def test_a_watch_for_once_ends_if_results_cannot_be_written(
     assert said[0] == "a.nc: the disk is full."
 
 
-def test_a_deleted_file_starts_the_run_behind(small: Any, crashing: Crashing, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_deleted_file_starts_the_run_behind(small, crashing, monkeypatch):
     crashing.ends = [Ended(0, (), was_refused=False, problem="")]
     starts: list[int] = []
 
@@ -144,9 +137,7 @@ def test_a_deleted_file_starts_the_run_behind(small: Any, crashing: Crashing, mo
     assert starts[:3] == [1, 1, 1]
 
 
-def test_advice_after_a_free_vibration_knows_those_just_before_it(
-    small: Any, crashing: Crashing, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_advice_after_a_free_vibration_knows_those_just_before_it(small, crashing, monkeypatch):
     small.layout.summary_json.unlink()  # the run behind has not come so far yet
     for test in ("free-01", "free-02"):
         shutil.rmtree(small.layout.test(test))
@@ -158,6 +149,6 @@ def test_advice_after_a_free_vibration_knows_those_just_before_it(
     assert "from 2" in lines[3]
 
 
-def test_a_second_watch_names_the_first(small: Any) -> None:
+def test_a_second_watch_names_the_first(small):
     with only_watch(small.layout), pytest.raises(StoreError, match=r"already being watched, by process \d+"):
         watch(small.folder, once=True, show=lambda line: None, say=lambda sentence: None)
