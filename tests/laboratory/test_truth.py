@@ -22,16 +22,8 @@ def still(instant: float) -> float:
     return 0.0
 
 
-def running(
-    angle: float,
-    velocity: float,
-    *,
-    block: Block = PRISM,
-    restitution: float = 0.9,
-    catch: float = pi / 2,
-    time: np.ndarray | None = None,
-) -> Integration:
-    run = Integration(block, np.array([5.0]) if time is None else time, restitution, catch, angle)
+def running(angle, velocity, *, block=PRISM, restitution=0.9, catch=pi / 2, time=(5.0,)) -> Integration:
+    run = Integration(block, np.array(time), restitution, catch, angle)
     run.release(angle, velocity)
     return run
 
@@ -49,8 +41,7 @@ def test_a_released_block_turns_about_the_edge_of_its_side(angle, velocity, side
 
 
 def test_time_passes_for_a_held_block_with_its_angle():
-    time = np.array([0.0, 0.5, 1.0, 1.5])
-    run = Integration(PRISM, time, 0.9, pi / 2, 0.1)
+    run = Integration(PRISM, np.array([0.0, 0.5, 1.0, 1.5]), 0.9, pi / 2, 0.1)
     run.angle = 0.05
     run.move_to(1.0)
     assert run.angles.tolist() == [0.05, 0.05, 0.05, 0.1]
@@ -61,14 +52,10 @@ def test_time_passes_for_a_held_block_with_its_angle():
 def test_each_side_lifts_at_g_tan_of_its_own_critical_angle(push, side):
     critical = {-1: 0.15, 1: 0.2}[side]
     instant = UNEVEN.gravity * tan(critical) / 3.0
-
-    def ramp(time: float) -> float:
-        return 3.0 * push * time
-
     before, after = running(0.0, 0.0, block=UNEVEN), running(0.0, 0.0, block=UNEVEN)
-    before.go(0.0, instant * (1 - 1e-9), ramp)
+    before.go(0.0, instant * (1 - 1e-9), lambda time: 3.0 * push * time)
     assert before.resting
-    after.go(0.0, instant + 0.02, ramp)
+    after.go(0.0, instant + 0.02, lambda time: 3.0 * push * time)
     assert (after.resting, after.side) == (False, side)
     # From uplift on θ̈ = p² cos α · 3 (t − t₀) / g to first order: θ = p² cos α · 3 (t − t₀)³ / 6 g.
     risen = UNEVEN.side_p(after.geometry) ** 2 * cos(critical) * 3.0 * 0.02**3 / (6 * UNEVEN.gravity)
@@ -79,16 +66,13 @@ def test_each_side_lifts_at_g_tan_of_its_own_critical_angle(push, side):
 def test_energy_and_work_of_a_constant_push_are_kept_in_an_arc(pushed):
     run = running(0.02, 0.7)
 
-    def constant(instant: float) -> float:
-        return pushed
-
     def energy() -> float:
         lean = ALPHA - run.angle
         return run.velocity**2 / 2 + P**2 * (cos(lean) - pushed / PRISM.gravity * sin(lean))
 
     first = energy()
     for stop in (0.05, 0.1):
-        run.go(run.now, stop, constant)
+        run.go(run.now, stop, lambda instant: pushed)
         assert not run.impact_times
         assert energy() == pytest.approx(first, rel=1e-10)
 
@@ -108,9 +92,8 @@ def test_a_mirrored_push_gives_a_mirrored_history():
     time = np.linspace(0.0, 2.0, 101)
     runs = []
     for sign in (1.0, -1.0):
-        run = running(sign * 0.3 * ALPHA, 0.0, time=time)
-        run.go(0.0, 2.0, lambda instant, sign=sign: sign * 1.2 * sin(8 * instant))
-        runs.append(run)
+        runs.append(running(sign * 0.3 * ALPHA, 0.0, time=time))
+        runs[-1].go(0.0, 2.0, lambda instant, sign=sign: sign * 1.2 * sin(8 * instant))
     assert runs[0].impact_times
     np.testing.assert_allclose(runs[1].angles, -runs[0].angles, atol=1e-12)
     np.testing.assert_allclose(runs[1].impact_velocities, -np.array(runs[0].impact_velocities), atol=1e-12)
@@ -197,13 +180,17 @@ SLENDER = Block.measured(mass=1.0, pole_distance=1.0, critical_angle=1e-4, inert
 
 def one_sine(ratio: float, block: Block, period: float) -> TableMotion:
     """One whole sine of amplitude `ratio` g tan α."""
-    amplitude = ratio * block.gravity * tan(block.critical_angle)
-    edges = np.linspace(0.0, period, 9)
 
     def wave(time: float) -> float:
-        return amplitude * sin(2 * pi * time / period)
+        return ratio * block.gravity * tan(block.critical_angle) * sin(2 * pi * time / period)
 
-    return TableMotion(tuple(Piece(*piece, wave) for piece in pairwise(edges)), np.zeros_like)
+    return TableMotion(tuple(Piece(*piece, wave) for piece in pairwise(np.linspace(0.0, period, 9))), np.zeros_like)
+
+
+def published(pole_distance: float) -> tuple[Block, float]:
+    """Block and e of Numerics-in-Motion/blocks: α = 0.2, e = 1 − 1.5 sin²α, g = 9.80665."""
+    sizes = {"pole_distance": pole_distance, "critical_angle": 0.2, "inertia": 4 / 3 * pole_distance**2}
+    return Block.measured(mass=1.0, gravity=9.80665, **sizes), 1 - 1.5 * sin(0.2) ** 2
 
 
 @pytest.mark.parametrize("amplitude", [0.1, 0.5, 0.9, 0.99])
@@ -224,17 +211,15 @@ def test_peaks_of_a_slender_block_follow_housner():
 
 
 def test_energy_is_kept_between_impacts_and_each_impact_leaves_e_squared_of_it():
-    alpha, released = PRISM.critical_angle, 0.6 * PRISM.critical_angle
-    truth = simulate(PRISM, [20.0], restitution=0.976, theta0=released)
-    first = PRISM.p * (2 * (cos(alpha - released) - cos(alpha))) ** 0.5
+    truth = simulate(PRISM, [20.0], restitution=0.976, theta0=0.6 * ALPHA)
+    first = P * (2 * (cos(0.4 * ALPHA) - cos(ALPHA))) ** 0.5
     assert abs(truth.impact_velocities[0]) == pytest.approx(first, rel=1e-11)
     speeds = np.abs(truth.impact_velocities)
     np.testing.assert_allclose(speeds[1:] / speeds[:-1], 0.976, rtol=1e-9)
 
 
 def test_a_block_of_two_sides_goes_on_with_the_velocity_that_the_impact_leaves():
-    block = Block.measured(mass=10.0, pole_distance=(0.3, 0.32), critical_angle=(0.15, 0.2), inertia=(1.2, 1.4))
-    truth = simulate(block, [10.0], restitution=0.9, theta0=-0.1)
+    truth = simulate(UNEVEN, [10.0], restitution=0.9, theta0=-0.1)
     np.testing.assert_allclose(np.abs(truth.impact_velocities[1:] / truth.impact_velocities[:-1]), 0.9, rtol=1e-9)
 
 
@@ -250,21 +235,17 @@ def test_free_rocking_ends_by_the_rest_rule():
     ("pole_distance", "limit"), [(0.25, 1.2618896), (0.5, 1.4584424), (1.0, 2.1637842), (2.0, 5.1549268)]
 )
 def test_one_sine_overturns_from_the_published_amplitude(pole_distance, limit):
-    # Numerics-in-Motion/blocks, ± 4.9e-6: T = 0.5 s, α = 0.2, e = 1 − 1.5 sin²α, g = 9.80665.
-    block = Block.measured(
-        mass=1.0, pole_distance=pole_distance, critical_angle=0.2, inertia=4 / 3 * pole_distance**2, gravity=9.80665
-    )
-    e = 1 - 1.5 * sin(0.2) ** 2
-    below, above = (
-        simulate(block, [12.0], one_sine(limit + step, block, 0.5), restitution=e) for step in (-6e-6, 6e-6)
-    )
-    assert below.outcome != "overturned"
-    assert above.outcome == "overturned"
+    # T = 0.5 s, ± 4.9e-6.
+    block, e = published(pole_distance)
+    outcomes = [
+        simulate(block, [12.0], one_sine(limit + step, block, 0.5), restitution=e).outcome for step in (-6e-6, 6e-6)
+    ]
+    assert outcomes[0] != outcomes[1] == "overturned"
 
 
 def test_no_amplitude_up_to_six_overturns_the_largest_block():
-    block = Block.measured(mass=1.0, pole_distance=4.0, critical_angle=0.2, inertia=4 / 3 * 16.0, gravity=9.80665)
-    truth = simulate(block, np.linspace(0.0, 12.0, 200), one_sine(6.0, block, 0.5), restitution=1 - 1.5 * sin(0.2) ** 2)
+    block, e = published(4.0)
+    truth = simulate(block, np.linspace(0.0, 12.0, 200), one_sine(6.0, block, 0.5), restitution=e)
     assert truth.outcome == "rocking"
 
 
@@ -273,11 +254,8 @@ def test_no_amplitude_up_to_six_overturns_the_largest_block():
     [(0.25, 2.6769386150), (0.5, 1.7110938843), (1.0, 0.9245234031), (2.0, 0.4769203393), (4.0, 0.2418237131)],
 )
 def test_one_sine_leaves_the_published_energy(pole_distance, energy):
-    # Numerics-in-Motion/blocks: A = 2, over the energy barrier, to 1e-8.
-    block = Block.measured(
-        mass=1.0, pole_distance=pole_distance, critical_angle=0.2, inertia=4 / 3 * pole_distance**2, gravity=9.80665
-    )
-    e = 1 - 1.5 * sin(0.2) ** 2
+    # A = 2, over the energy barrier, to 1e-8.
+    block, e = published(pole_distance)
     run = Integration(block, np.array([0.5]), e, pi / 2, 0.0)
     run.release(0.0, 0.0)
     for piece in one_sine(2.0, block, 0.5).pieces:
@@ -335,25 +313,13 @@ def test_impossible_blocks_are_refused(change, said):
         simulate(PRISM, [1.0], **{"restitution": 0.9, **change})
 
 
-TRUTH = {
-    "specimens": {"prism": {"restitution": 0.95}},
-    "tests": {"free-01": {"outcome": "rocking", "peak_ratio": 0.4, "release_ratio": 0.5}},
-}
-
-
 def test_each_number_has_its_truth_next_to_it(tmp_path):
+    true = {"outcome": "rocking", "peak_ratio": 0.4, "release_ratio": 0.5}
+    truth = {"specimens": {"prism": {"restitution": 0.95}}, "tests": {"free-01": true}}
     found = {"outcome": "overturned", "peak_ratio": None, "release_ratio": 0.49, "predicted": {"linear": {}}}
     summary = {"specimens": {"prism": {"restitution": {"value": 0.951}}}, "tests": {"free-01": found}}
     path = tmp_path / "summary.json"
     path.write_text(json.dumps(summary), encoding="utf-8")
-    compared = with_truth(TRUTH, path)
+    compared = with_truth(truth, path)
     assert compared["restitution"] == {"prism": {"true": 0.95, "value": 0.951}}
-    assert compared["tests"]["free-01"] == {
-        "true_outcome": "rocking",
-        "outcome": "overturned",
-        "true_peak_ratio": 0.4,
-        "peak_ratio": None,
-        "true_release_ratio": 0.5,
-        "release_ratio": 0.49,
-        "predicted": {"linear": {}},
-    }
+    assert compared["tests"]["free-01"] == found | {f"true_{name}": value for name, value in true.items()}

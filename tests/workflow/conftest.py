@@ -1,7 +1,12 @@
 """A small campaign, run once; every test works on a copy of it."""
 
+import os
 import shutil
+import signal
+import subprocess
+import sys
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -26,6 +31,24 @@ def untouched(undisturbed: Small, tmp_path: Path) -> Small:
     """Copy of it that was never run."""
     ignored = shutil.ignore_patterns("processed", "report")
     return Small(Path(shutil.copytree(undisturbed.folder, tmp_path / "small", ignore=ignored)))
+
+
+@pytest.fixture
+def start():
+    """Start a script in a session of its own, as from a terminal, and wait for a line; what is left is killed."""
+    processes = []
+
+    def started(script, *arguments, said, **options):
+        command = [sys.executable, "-c", script, *map(str, arguments)]
+        options |= {"stdout": subprocess.PIPE, "text": True, "start_new_session": True}
+        processes.append(subprocess.Popen(command, **options))
+        assert f"{said}\n" in processes[-1].stdout
+        return processes[-1]
+
+    yield started
+    for process in processes:
+        with suppress(ProcessLookupError), process:
+            os.killpg(process.pid, signal.SIGKILL)
 
 
 @pytest.fixture

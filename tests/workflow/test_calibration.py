@@ -8,10 +8,15 @@ from colonnade.workflow.calibration import calibrate
 from colonnade.workflow.maps.plans import Wanted
 from colonnade.workflow.maps.stability import make_maps
 
-CONTACT = 'contact = {step = "100 us", penetration = 1e-6, damping_fraction = 0.3}'
-COARSE = f"[processing.predict]\n{CONTACT}\n\n[setups.frame.channels]"
 BODY = 'mass = "26.10 kg"}'
 GIVEN = 'mass = "26.10 kg", restitution = 0.93}'
+
+
+def give(campaign):
+    """A law of contact that is found soon, and e."""
+    contact = 'contact = {step = "100 us", penetration = 1e-6, damping_fraction = 0.3}'
+    campaign.edit("[setups.frame.channels]", f"[processing.predict]\n{contact}\n\n[setups.frame.channels]")
+    campaign.edit(BODY, GIVEN)
 
 
 def test_other_bodies_are_shown_and_the_settings_own_is_stored(in_space):
@@ -37,8 +42,7 @@ def test_an_unknown_specimen_is_refused_with_the_nearest(untouched):
 
 
 def test_a_given_restitution_is_known_without_any_run_and_a_stored_law_is_not_found_again(untouched, monkeypatch):
-    untouched.edit("[setups.frame.channels]", COARSE)
-    untouched.edit(BODY, GIVEN)
+    give(untouched)
     (made,) = calibrate(untouched.folder, workers=1)
     assert made.target == 0.93
     monkeypatch.setattr("colonnade.stages.contact.contact", None)
@@ -47,8 +51,7 @@ def test_a_given_restitution_is_known_without_any_run_and_a_stored_law_is_not_fo
 
 
 def test_a_law_that_cannot_be_found_says_why_and_leaves_the_others(untouched):
-    untouched.edit("[setups.frame.channels]", COARSE)
-    untouched.edit(BODY, GIVEN)
+    give(untouched)
     refused, found = calibrate(untouched.folder, steps=(1e-3, 5e-5), workers=1)
     assert "Use a shorter step or a softer contact" in refused.reason
     assert (refused.restitution, refused.source, refused.step, refused.path) == (None, "", 1e-3, None)

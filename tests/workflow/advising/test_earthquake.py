@@ -11,15 +11,11 @@ from colonnade.workflow.advising.earthquake import STEP, advise_earthquakes
 from colonnade.workflow.forecasting.foresee import foresee
 
 
-def as_earthquake(small: Any, change: str = "", *, setup: str = "") -> Any:
+def as_earthquake(small: Any, setup: str = "") -> Any:
     """Call the first pulse of the small campaign an earthquake of Span 1, and give its one piece of advice."""
-    file = small.folder / "campaign.toml"
-    text = file.read_text(encoding="utf-8").replace('id = "pulse-01"\nkind = "pulse"', EARTHQUAKE)
-    if setup:
-        text = text.replace("[setups.frame.channels]", f"[setups.frame]\n{setup}\n[setups.frame.channels]")
-        assert setup in text
-    text = text.replace("members = 20", "members = 100")  # one of 20 is too large a risk
-    file.write_text(f"{text}\n{change}\n", encoding="utf-8")
+    small.edit('id = "pulse-01"\nkind = "pulse"', EARTHQUAKE)
+    small.edit("[setups.frame.channels]", f"[setups.frame]\n{setup}\n[setups.frame.channels]")
+    small.edit("members = 20", "members = 100")  # one of 20 is too large a risk
     campaign, summary = load(small.folder), read_summary(small.layout)
     assert summary is not None
     (advice,) = advise_earthquakes(campaign, small.layout, "prism", summary.tests)
@@ -35,9 +31,8 @@ def test_the_next_span_is_a_bounded_step_beyond_those_that_only_rocked(small):
     assert 1.0 < advice.values["span"] <= STEP
     assert advice.risk <= campaign.next.largest_risk
     assert "bit" not in advice.reason
-    assert advice.demand["acceleration"] == pytest.approx(
-        advice.values["span"] * summary.tests["pulse-01"].pga, rel=0.05
-    )
+    stronger = advice.values["span"] * summary.tests["pulse-01"].pga
+    assert advice.demand["acceleration"] == pytest.approx(stronger, rel=0.05)
 
 
 def test_the_tilt_of_the_table_counts_as_in_a_forecast(small):

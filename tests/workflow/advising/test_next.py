@@ -2,7 +2,9 @@
 
 import pytest
 
+from colonnade.campaign import load
 from colonnade.errors import CampaignError, StoreError
+from colonnade.store.records.summary import read_summary
 from colonnade.workflow.advising.next import advise, advise_after
 
 
@@ -30,9 +32,6 @@ def test_what_cannot_be_advised_is_refused(small):
 
 
 def test_after_a_test_only_its_own_kind_is_advised(undisturbed):
-    from colonnade.campaign import load
-    from colonnade.store.records.summary import read_summary
-
     campaign, summary = load(undisturbed.folder), read_summary(undisturbed.layout)
     assert summary is not None
     (free,) = advise_after(campaign, undisturbed.layout, "free-01", summary.tests)

@@ -11,6 +11,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.dynamics.rock import rock
 from colonnade.identification.response.boundaries import MapPoint
 from colonnade.workflow.advising.sine import Known, advise_sines
+from prism import entry
 
 OMEGA = 5.0
 
@@ -34,10 +35,8 @@ def test_the_advised_amplitude_is_between_the_outcomes(campaign):
     assert low < advice.values["boundary"] < high
     assert 0.3 < advice.risk < 0.7
     assert advice.left is None or advice.left > 0
-    block = campaign.block("prism")
-    assert advice.demand["acceleration"] == pytest.approx(
-        advice.values["amplitude_ratio"] * block.gravity * tan(block.critical_angle)
-    )
+    block, ratio = campaign.block("prism"), advice.values["amplitude_ratio"]
+    assert advice.demand["acceleration"] == pytest.approx(ratio * block.gravity * tan(block.critical_angle))
     assert advice.values["frequency"] == pytest.approx(OMEGA * block.p / (2 * pi))
 
 
@@ -47,8 +46,8 @@ def test_without_sine_tests_nothing_is_advised(campaign):
 
 def test_a_planned_frequency_is_advised_too(undisturbed, tmp_path):
     text = (undisturbed.folder / "campaign.toml").read_text(encoding="utf-8")
-    entry = '[[tests]]\nid = "s"\nkind = "sine"\nfrequency = "4 Hz"\nspecimen = "prism"\nsetup = "frame"\n'
-    (tmp_path / "campaign.toml").write_text(f'{text}{entry}file = "raw/s.csv"\nplanned = true\n', encoding="utf-8")
+    text += entry("s", "sine", 'frequency = "4 Hz"', "planned = true")
+    (tmp_path / "campaign.toml").write_text(text, encoding="utf-8")
     (advice,) = advise_sines(load(tmp_path), "prism", known())
     assert advice.values["frequency"] == pytest.approx(4.0)
     assert advice.test.startswith("4 Hz at ")

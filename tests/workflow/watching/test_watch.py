@@ -15,6 +15,7 @@ from colonnade.workflow.watching.behind import Ended
 from colonnade.workflow.watching.folders import Bell
 from colonnade.workflow.watching.line import Line
 from colonnade.workflow.watching.watch import watch
+from prism import entry
 
 
 @pytest.mark.whole
@@ -28,11 +29,8 @@ def test_arriving_files_become_lines_and_the_rest_follows(small, tmp_path, monke
         small.edit(f'id = "{test}"', f'id = "{test}"\nplanned = true')
     broken = share / "pulse-03.csv"
     broken.write_bytes(b"\x00\x01 nothing that can be read")
-    text = small.folder / "campaign.toml"
-    entry = (
-        '[[tests]]\nid = "pulse-03"\nkind = "pulse"\nspecimen = "prism"\nsetup = "frame"\nfile = "raw/pulse-03.csv"\n'
-    )
-    text.write_text(f"{text.read_text(encoding='utf-8')}\n{entry}planned = true\n", encoding="utf-8")
+    with (small.folder / "campaign.toml").open("a", encoding="utf-8") as campaign_file:
+        campaign_file.write(entry("pulse-03", "pulse", "planned = true"))
     shown: list[Line | Advice] = []
     said: list[str] = []
     code = watch(small.folder, share=share, once=True, workers=1, show=shown.append, say=said.append)
@@ -53,6 +51,12 @@ def test_arriving_files_become_lines_and_the_rest_follows(small, tmp_path, monke
     before = small.contents()
     assert watch(small.folder, once=True, workers=1, show=shown.append, say=said.append) == 1
     assert small.contents() == before
+
+
+def watched(small):
+    """Watch once; the exit code and what is said."""
+    said = []
+    return watch(small.folder, once=True, show=lambda line: None, say=said.append), said
 
 
 @dataclass
@@ -87,9 +91,8 @@ def crashing(monkeypatch: pytest.MonkeyPatch) -> Crashing:
 
 
 def test_a_crash_of_the_run_behind_is_said_once_and_waits_for_the_next_file(small, crashing):
-    said: list[str] = []
-    assert watch(small.folder, once=True, show=lambda line: None, say=said.append) == 1
-    assert crashing.starts == 1
+    code, said = watched(small)
+    assert (code, crashing.starts) == (1, 1)
     assert [sentence.splitlines()[0] for sentence in said] == [
         "No new file. Results and report are brought up to date.",
         "The run behind the watch failed: OSError: y",
@@ -101,10 +104,8 @@ def test_a_crash_of_the_run_behind_is_said_once_and_waits_for_the_next_file(smal
 def test_a_run_behind_that_is_refused_is_tried_again(small, crashing, monkeypatch):
     monkeypatch.setattr(module, "AGAIN", 0.1)
     crashing.ends = [Ended(1, (), was_refused=True, problem=""), Ended(0, (), was_refused=False, problem="")]
-    said: list[str] = []
-    assert watch(small.folder, once=True, show=lambda line: None, say=said.append) == 0
-    assert crashing.starts == 2
-    assert len(said) == 1
+    code, said = watched(small)
+    assert (code, crashing.starts, len(said)) == (0, 2, 1)
 
 
 def test_a_watch_for_once_ends_if_results_cannot_be_written(small, crashing, monkeypatch):
@@ -113,9 +114,8 @@ def test_a_watch_for_once_ends_if_results_cannot_be_written(small, crashing, mon
 
     monkeypatch.setattr(module, "measure", full)
     small.change_a_sample("pulse-02")
-    said: list[str] = []
-    assert watch(small.folder, once=True, show=lambda line: None, say=said.append) == 1
-    assert said[0] == "a.nc: the disk is full."
+    code, said = watched(small)
+    assert (code, said[0]) == (1, "a.nc: the disk is full.")
 
 
 def test_a_deleted_file_starts_the_run_behind(small, crashing, monkeypatch):
