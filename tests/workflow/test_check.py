@@ -72,7 +72,12 @@ def test_a_copy_of_a_raw_file_is_a_warning_of_the_campaign(untouched):
 def test_a_file_that_tests_share_is_read_once(untouched, monkeypatch):
     untouched.edit('file = "raw/pulse-02.csv"', 'file = "raw/pulse-01.csv"')
     seen, real = [], registry.read
-    monkeypatch.setattr(registry, "read", lambda path, *more: seen.append(path.stem) or real(path, *more))
+
+    def spy(path, *rest, **more):
+        seen.append(path.stem)
+        return real(path, *rest, **more)
+
+    monkeypatch.setattr(registry, "read", spy)
     checked(untouched)
     assert seen.count("pulse-01") == 1
 

@@ -28,6 +28,7 @@ from colonnade.workflow.walk import Walk
 
 distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
 pytestmark = pytest.mark.whole
+of_posix = pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
 
 
 def free_port() -> int:
@@ -77,18 +78,14 @@ def working(scheduler, *threads):
         end(processes)
 
 
-@pytest.fixture(scope="module")
-def scheduler():
-    """Address of a scheduler, without workers yet."""
+def _address():
     with scheduling() as (address, _):
         yield address
 
 
-@pytest.fixture(scope="module")
-def another_scheduler():
-    """The same, for workers that are stopped."""
-    with scheduling() as (address, _):
-        yield address
+scheduler = pytest.fixture(_address, scope="module", name="scheduler")
+another_scheduler = pytest.fixture(_address, scope="module", name="another_scheduler")
+"""Addresses of schedulers, without workers yet; workers of the second are stopped."""
 
 
 @pytest.fixture(scope="module")
@@ -106,8 +103,6 @@ def soon(monkeypatch):
 
 
 def whose(number: int) -> tuple[int, int]:
-    import time
-
     time.sleep(0.05)
     return number**2, os.getpid()
 
@@ -188,7 +183,7 @@ def test_a_map_made_on_the_cluster_is_that_of_one_process_bit_for_bit(cluster, u
     assert contents[0] == contents[1]
 
 
-@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+@of_posix
 @pytest.mark.parametrize("sent", [signal.SIGKILL, signal.SIGTERM], ids=lambda sent: sent.name)
 def test_a_run_whose_scheduler_ends_says_so_and_nobody_writes_after_it(untouched, undisturbed, soon, sent):
     with scheduling() as (address, process), working(address, "1"):
@@ -207,7 +202,7 @@ def test_a_run_whose_scheduler_ends_says_so_and_nobody_writes_after_it(untouched
     assert untouched.contents() == undisturbed.contents()
 
 
-@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+@of_posix
 def test_a_worker_of_the_cluster_that_is_stopped_is_named_and_its_work_is_done_by_another(soon, another_scheduler):
     told = []
     with working(another_scheduler, "1", "1") as (worker, _):
@@ -220,7 +215,7 @@ def test_a_worker_of_the_cluster_that_is_stopped_is_named_and_its_work_is_done_b
     assert f"this worker (process {worker.pid} on " in sentence
 
 
-@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are POSIX's")
+@of_posix
 def test_a_cluster_whose_workers_all_end_is_told_and_not_waited_for(soon, another_scheduler):
     with working(another_scheduler, "1") as (worker,):
         results = spread(whose, range(30), scheduler=another_scheduler)

@@ -12,9 +12,7 @@ from colonnade.workflow.maps.responses import SETTLING, as_response
 from colonnade.workflow.maps.stability import make_maps
 from prism import PRISM
 
-FEW = Wanted(
-    ("linear",), frequency_ratio=(2.0, 5.0), amplitude_ratio=(0.8, 2.0), points=(6, 10), cycles=5.0, responses=True
-)
+FEW = Wanted(("linear",), (2.0, 5.0), (0.8, 2.0), (6, 10), cycles=5.0, responses=True)
 
 
 def made(small, **changes):
