@@ -132,10 +132,10 @@ def test_a_sine_is_steady_while_it_says_so(plan, frequency):
     np.testing.assert_allclose(trial.table.acceleration(times), expected, atol=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("specimen", "suffixes"),
-    [("prism", (".csv", ".csv")), ("cylinder", (".tdms", ".csv")), ("cone", (".mat", ".tdms"))],
-)
+SUFFIXES = {"prism": (".csv", ".csv"), "cylinder": (".tdms", ".csv"), "cone": (".mat", ".tdms")}
+
+
+@pytest.mark.parametrize(("specimen", "suffixes"), SUFFIXES.items())
 def test_the_files_of_both_recorders_read_back(plan, specimen, suffixes, tmp_path):
     mine = [trial for trial in plan.trials if trial.specimen == specimen]
     chosen = (mine[0], next(trial for trial in mine if trial.kind == "sine"))

@@ -290,13 +290,10 @@ def test_a_campaign_of_ones_own_reads_back_in_si(tmp_path):
     assert np.abs(angle[-1]) == pytest.approx(0.4)
 
 
-@pytest.mark.parametrize(
-    ("there", "error", "said"),
-    [
-        ("campaign.toml", CampaignError, "was not written by the virtual laboratory"),
-        ("raw", StoreError, "cannot be written here"),
-    ],
-)
+FOREIGN = "campaign.toml", CampaignError, "was not written by the virtual laboratory"
+
+
+@pytest.mark.parametrize(("there", "error", "said"), [FOREIGN, ("raw", StoreError, "cannot be written here")])
 def test_a_folder_that_is_not_free_is_refused_and_left_alone(there, error, said, tmp_path):
     (tmp_path / there).write_text("schema = 1\n")
     before = tree(tmp_path)

@@ -12,6 +12,7 @@ from colonnade.dynamics.motion import Motion
 from colonnade.laboratory.runs import with_truth
 from colonnade.laboratory.table import Piece, TableMotion, ramped_sine, recorded
 from colonnade.laboratory.truth import REST_ANGLE, Integration, simulate
+from every import every
 from prism import PRISM
 
 ALPHA, P = PRISM.critical_angle, PRISM.p
@@ -28,10 +29,10 @@ def running(angle, velocity, *, block=PRISM, restitution=0.9, catch=pi / 2, time
     return run
 
 
-@pytest.mark.parametrize(
+# Held to the right and to the left, pushed to the right and to the left, upright.
+@every(
     ("angle", "velocity", "side", "resting"),
     [(0.1, 0.0, 1, False), (-0.1, 2.0, -1, False), (0.0, 0.3, 1, False), (0.0, -0.3, -1, False), (0.0, 0.0, 1, True)],
-    ids=["held to the right", "held to the left", "pushed to the right", "pushed to the left", "upright"],
 )
 def test_a_released_block_turns_about_the_edge_of_its_side(angle, velocity, side, resting):
     run = running(angle, velocity, block=UNEVEN)
@@ -231,9 +232,7 @@ def test_free_rocking_ends_by_the_rest_rule():
     assert not truth.angle[truth.time > truth.impact_times[-1]].any()
 
 
-@pytest.mark.parametrize(
-    ("pole_distance", "limit"), [(0.25, 1.2618896), (0.5, 1.4584424), (1.0, 2.1637842), (2.0, 5.1549268)]
-)
+@every(("pole_distance", "limit"), [(0.25, 1.2618896), (0.5, 1.4584424), (1.0, 2.1637842), (2.0, 5.1549268)])
 def test_one_sine_overturns_from_the_published_amplitude(pole_distance, limit):
     # T = 0.5 s, ± 4.9e-6.
     block, e = published(pole_distance)
@@ -249,7 +248,7 @@ def test_no_amplitude_up_to_six_overturns_the_largest_block():
     assert truth.outcome == "rocking"
 
 
-@pytest.mark.parametrize(
+@every(
     ("pole_distance", "energy"),
     [(0.25, 2.6769386150), (0.5, 1.7110938843), (1.0, 0.9245234031), (2.0, 0.4769203393), (4.0, 0.2418237131)],
 )

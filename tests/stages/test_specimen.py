@@ -8,6 +8,7 @@ from scipy import stats
 from colonnade.dynamics.block import Block
 from colonnade.findings import Severity
 from colonnade.stages.specimen import SpecimenInputs, restitution_spread, specimen, taken
+from every import every
 from prism import PRISM
 
 OTHER = Block.prism(width=0.086, depth=0.086, height=0.500, mass=26.10)
@@ -86,16 +87,14 @@ def test_a_given_e_comes_first_and_what_was_identified_is_kept(given_e, sides):
     assert found.attrs["warnings"] == []
 
 
-@pytest.mark.parametrize(
+REFUSED = {"b": refused("no arc"), "a": refused("no release")}
+
+
+@every(
     ("tests", "severity", "why", "reason"),
     [
         ({}, Severity.NOTE, "because it has no free vibration", "no free vibration of this specimen was identified"),
-        (
-            {"b": refused("no arc"), "a": refused("no release")},
-            Severity.WARNING,
-            "because none of its free vibrations gives one",
-            "a: no release; b: no arc",
-        ),
+        (REFUSED, Severity.WARNING, "because none of its free vibrations gives one", "a: no release; b: no arc"),
     ],
 )
 def test_else_the_rigid_body_gives_the_e_and_that_is_said(tests, severity, why, reason):
@@ -131,11 +130,7 @@ def without_method(stored):
     return stored.drop_attrs().assign_attrs(refused=[])
 
 
-@pytest.mark.parametrize(
-    "stored",
-    [None, specimen(STORED, inputs(block=OTHER)), without_method(specimen(STORED, inputs()))],
-    ids=["nothing", "of another block", "without a method"],
-)
+@every("stored", [None, specimen(STORED, inputs(block=OTHER)), without_method(specimen(STORED, inputs()))])
 def test_without_a_stored_result_of_this_block_the_rigid_body_gives_the_e(stored):
     found = taken(stored, inputs())
     assert found.attrs["restitution_source"] == "rigid-body"

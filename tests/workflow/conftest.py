@@ -52,6 +52,18 @@ def start():
 
 
 @pytest.fixture
+def resumes(untouched, undisturbed):
+    """Hold that a run that was stopped left whole results only, and that the next one gives the undisturbed values."""
+
+    def check():
+        assert untouched.contents().items() <= undisturbed.contents().items()
+        assert not untouched.run().failed
+        assert untouched.contents() == undisturbed.contents()
+
+    return check
+
+
+@pytest.fixture
 def in_space(small: Small, undrawn: None) -> Small:
     """Copy of it that is also predicted by the contact model, whose damping is given."""
     contact = 'contact = {step = "30 us", penetration = 1e-6, damping_fraction = 0.3}'

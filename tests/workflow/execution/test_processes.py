@@ -81,7 +81,7 @@ def test_a_worker_that_is_stopped_once_costs_nothing(untouched, undisturbed, kil
 
 @pytest.mark.whole
 def test_a_test_that_stops_its_worker_each_time_fails_alone_and_is_tried_again(
-    untouched, undisturbed, killer, tmp_path, monkeypatch
+    untouched, resumes, killer, tmp_path, monkeypatch
 ):
     killer("pulse-01", tmp_path, times=9)
     failed = [stage for stage in untouched.run(workers=2).stages if stage.action == "failed"]
@@ -89,19 +89,16 @@ def test_a_test_that_stops_its_worker_each_time_fails_alone_and_is_tried_again(
     assert "stopped the process that worked on this test" in untouched.summary()["tests"]["pulse-01"]["reason"]
     assert [test["status"] for test in untouched.summary()["tests"].values()] == ["done", "done", "failed", "done"]
     monkeypatch.undo()
-    assert not untouched.run(workers=2).failed
-    assert untouched.contents() == undisturbed.contents()
+    resumes()
 
 
-def test_an_interrupt_in_this_process_frees_the_lock_and_leaves_whole_files(untouched, undisturbed):
+def test_an_interrupt_in_this_process_frees_the_lock_and_leaves_whole_files(untouched, resumes):
     def interrupt(stage, done, total):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         untouched.run(progress=interrupt)
-    assert untouched.contents().items() <= undisturbed.contents().items()
-    assert not untouched.run().failed
-    assert untouched.contents() == undisturbed.contents()
+    resumes()
 
 
 def test_an_interrupt_whose_exception_was_dropped_ends_the_run_before_its_next_stage(untouched, monkeypatch):
@@ -154,14 +151,12 @@ def in_proc(test):
 
 @in_proc
 @pytest.mark.usefixtures("interruptible")
-def test_ctrl_c_ends_the_workers_quietly_and_the_next_run_goes_on(going, untouched, undisturbed):
+def test_ctrl_c_ends_the_workers_quietly_and_the_next_run_goes_on(going, resumes):
     os.killpg(going.pid, signal.SIGINT)
     assert going.wait(PATIENCE) == 130
     assert "Traceback" not in going.stderr.read()
     assert left_of(going.pid) == {}
-    assert untouched.contents().items() <= undisturbed.contents().items()
-    assert not untouched.run().failed
-    assert untouched.contents() == undisturbed.contents()
+    resumes()
 
 
 @in_proc
